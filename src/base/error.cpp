@@ -1,0 +1,98 @@
+#include "base/error.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+Error::Error(ErrorKind kind, std::string id, std::string message, std::string hint, Mark where)
+    : Error(kind, std::vector<Diagnostic>{{Severity::error, std::move(id), std::move(message),
+                                           std::move(where), std::move(hint)}}) {}
+
+Error::Error(ErrorKind kind, std::vector<Diagnostic> diagnostics)
+    : kind_(kind), diagnostics_(std::move(diagnostics)) {
+    for (const auto& d : diagnostics_) text_ += fmt::format("[{}] {}\n", d.id, d.message);
+    if (!text_.empty()) text_.pop_back();
+}
+
+Error& Error::at(const Mark& where) {
+    for (auto& d : diagnostics_)
+        if (!d.where.known()) d.where = where;
+    return *this;
+}
+
+void Problems::add(Mark where, std::string id, std::string message, std::string hint) {
+    all_.push_back({Severity::error, std::move(id), std::move(message), std::move(where), std::move(hint)});
+}
+
+void Problems::warn(Mark where, std::string id, std::string message, std::string hint) {
+    all_.push_back({Severity::warning, std::move(id), std::move(message), std::move(where), std::move(hint)});
+}
+
+void Problems::add(const Error& error) {
+    all_.insert(all_.end(), error.diagnostics().begin(), error.diagnostics().end());
+}
+
+bool Problems::any_errors() const {
+    return std::any_of(all_.begin(), all_.end(), [](const auto& d) { return d.severity == Severity::error; });
+}
+
+void Problems::throw_if_any(ErrorKind kind) const {
+    if (any_errors()) throw Error(kind, all_);
+}
+
+namespace {
+
+constexpr std::size_t widest_line = 160;
+
+/// The line of the source that the mark is in, without its end.
+std::string source_line(const Mark& mark) {
+    const std::string& text = mark.source->text;
+    std::size_t begin = 0;
+    for (int line = 1; line < mark.line; ++line) {
+        begin = text.find('\n', begin);
+        if (begin == std::string::npos) return {};
+        ++begin;
+    }
+    std::string line = text.substr(begin, text.find('\n', begin) - begin);
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return line;
+}
+
+/// How many characters (UTF-8) the first bytes hold.
+std::size_t characters(std::string_view text) {
+    return std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; });
+}
+
+/// The source line and a caret under the mark; long lines are cut around it.
+std::string excerpt(const Mark& mark) {
+    const std::string line = source_line(mark);
+    if (line.empty() || mark.column == 0) return {};
+    const auto column = static_cast<std::size_t>(mark.column - 1);
+    if (line.size() > widest_line) {
+        const std::size_t from = column > widest_line / 2 ? column - widest_line / 2 : 0;
+        std::string cut = line.substr(std::min(from, line.size()), widest_line);
+        return fmt::format("\n  {}\n  {}^", cut, std::string(std::min(column - from, cut.size()), ' '));
+    }
+    const std::size_t room = std::max<std::size_t>(1, characters(line) > column ? characters(line) - column : 1);
+    const std::size_t wide = std::clamp<std::size_t>(mark.length, 1, room);
+    std::string lead;
+    for (std::size_t i = 0; i < column; ++i) lead += i < line.size() && line[i] == '\t' ? '\t' : ' ';
+    return fmt::format("\n  {}\n  {}^{}", line, lead, std::string(wide - 1, '~'));
+}
+
+} // namespace
+
+std::string render(const Diagnostic& d, bool colour) {
+    const char* word = d.severity == Severity::error     ? "error"
+                       : d.severity == Severity::warning ? "warning"
+                                                         : "note";
+    const char* paint = !colour ? "" : d.severity == Severity::error ? "\033[1;31m" : "\033[1;35m";
+    std::string text = d.where.known() ? spelled(d.where) + ": " : "facetmill: ";
+    text += fmt::format("{}{}[{}]{}: {}", paint, word, d.id, colour ? "\033[0m" : "", d.message);
+    if (d.where.known() && d.where.line > 0) text += excerpt(d.where);
+    if (!d.hint.empty()) text += fmt::format("\n  hint: {}", d.hint);
+    return text;
+}
+
+} // namespace facetmill

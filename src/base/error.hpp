@@ -1,0 +1,72 @@
+#pragma once
+// What can go wrong, as data: a diagnostic has a stable id, a message, a place and a way out; an Error carries
+// one or several and an exit code. Library code throws, never prints and never exits.
+
+#include "base/mark.hpp"
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace facetmill {
+
+/// Who can mend it; the value is the process's exit code.
+enum class ErrorKind : int {
+    check = 1,     ///< a validate or ensure did not hold
+    usage = 2,     ///< the command line or the pipeline is wrong
+    missing = 3,   ///< an input is missing or not permitted
+    output = 4,    ///< an output cannot be written
+    stage = 5,     ///< a stage could not do its work on what it was given
+    malformed = 6, ///< an input is malformed
+    limit = 7,     ///< a limit or memory
+    bug = 70,      ///< a bug in facetmill
+};
+
+enum class Severity { error, warning, note };
+
+struct Diagnostic {
+    Severity severity = Severity::error;
+    std::string id;      ///< stable, documented: E-KEY, W-UNITS
+    std::string message; ///< one sentence without a full stop: what was expected and what was found
+    Mark where;          ///< may be unknown
+    std::string hint;    ///< the way out, or empty
+};
+
+/// One or more diagnostics and whose fault they are.
+class Error : public std::exception {
+  public:
+    Error(ErrorKind kind, std::string id, std::string message, std::string hint = {}, Mark where = {});
+    Error(ErrorKind kind, std::vector<Diagnostic> diagnostics);
+
+    ErrorKind kind() const { return kind_; }
+    const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+    /// Gives a place to the diagnostics that have none yet: the leaf says what, the layer that knows adds where.
+    Error& at(const Mark& where);
+    const char* what() const noexcept override { return text_.c_str(); }
+
+  private:
+    ErrorKind kind_;
+    std::vector<Diagnostic> diagnostics_;
+    std::string text_;
+};
+
+/// Collects diagnostics, so that all of them can be reported at once.
+class Problems {
+  public:
+    void add(Mark where, std::string id, std::string message, std::string hint = {});
+    void warn(Mark where, std::string id, std::string message, std::string hint = {});
+    void add(const Error& error);
+    bool any_errors() const;
+    std::size_t size() const { return all_.size(); }
+    const std::vector<Diagnostic>& all() const { return all_; }
+    /// Throws an Error of this kind with everything collected, when there is an error among it.
+    void throw_if_any(ErrorKind kind) const;
+
+  private:
+    std::vector<Diagnostic> all_;
+};
+
+/// The diagnostic as people read it: "file:line:col: error[ID]: message", the source line, a caret, the hint.
+std::string render(const Diagnostic& diagnostic, bool colour = false);
+
+} // namespace facetmill

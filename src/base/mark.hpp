@@ -1,0 +1,32 @@
+#pragma once
+// A place in a text that a person wrote: pipeline file, command line, or a text mesh.
+
+#include <memory>
+#include <string>
+
+namespace facetmill {
+
+/// A text and the name that people know it by.
+struct SourceText {
+    std::string name;
+    std::string text; ///< empty when only the name is known (binary files)
+};
+
+/// A place in a text. Lines and columns count from 1, columns in characters; line 0: the file as a whole.
+struct Mark {
+    std::shared_ptr<const SourceText> source;
+    int line = 0;
+    int column = 0;
+    int length = 1; ///< characters to underline
+
+    bool known() const { return source != nullptr; }
+};
+
+/// A mark that names a file, without a place in it.
+Mark file_mark(std::string name);
+/// A mark for a line of a file that is not kept in memory.
+Mark line_mark(std::string name, int line);
+/// "file:3:7", "file:3" or "file"; empty when unknown.
+std::string spelled(const Mark& mark);
+
+} // namespace facetmill

@@ -1,0 +1,37 @@
+#include "base/numbers.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace facetmill {
+
+namespace {
+std::string_view without_plus(std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
+    return text;
+}
+} // namespace
+
+std::optional<double> parse_real(std::string_view text) {
+    text = without_plus(text);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return {};
+    return value;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view text) {
+    text = without_plus(text);
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size()) return {};
+    return value;
+}
+
+std::string spelled(double value) {
+    char buffer[32];
+    const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return {buffer, result.ptr};
+}
+
+} // namespace facetmill

@@ -1,0 +1,18 @@
+#pragma once
+// Numbers to text and back, whatever the locale: std::from_chars and std::to_chars behind two calls.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace facetmill {
+
+/// The number that the whole text spells ("1", "-2.5e3", "+4"), or none. Neither nan nor inf, nor hex.
+std::optional<double> parse_real(std::string_view text);
+/// The decimal integer that the whole text spells, or none (also when out of range). "010" is ten.
+std::optional<std::int64_t> parse_integer(std::string_view text);
+/// The shortest spelling that reads back as the same double.
+std::string spelled(double value);
+
+} // namespace facetmill

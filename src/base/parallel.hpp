@@ -1,0 +1,94 @@
+#pragma once
+// Loops over fixed chunks: parallel, and with the same result for any number of threads. Chunk boundaries depend on
+// the size only, and reductions join the chunks in index order, so floating-point sums never change.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <tbb/parallel_for.h>
+#include <utility>
+#include <vector>
+
+namespace facetmill {
+
+/// Sets how many threads everything uses from now on; 0: all cores. Call it once, at the start.
+void set_threads(int count);
+int threads();
+
+inline constexpr std::size_t default_chunk = 8192;
+
+/// Calls body(begin, end) for chunks of [0, n). An Error thrown by a body ends the loop and is rethrown.
+template <class Body>
+void parallel_chunks(std::size_t n, Body&& body, std::size_t chunk = default_chunk) {
+    const std::size_t chunks = (n + chunk - 1) / chunk;
+    if (chunks <= 1) {
+        if (n > 0) body(std::size_t{0}, n);
+        return;
+    }
+    tbb::parallel_for(
+        std::size_t{0}, chunks, [&](std::size_t c) { body(c * chunk, std::min(n, (c + 1) * chunk)); },
+        tbb::simple_partitioner{});
+}
+
+/// Calls body(i) for i in [0, n).
+template <class Body>
+void parallel_for(std::size_t n, Body&& body, std::size_t chunk = default_chunk) {
+    parallel_chunks(
+        n,
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) body(i);
+        },
+        chunk);
+}
+
+/// map(begin, end) of every chunk, joined from left to right: join(join(first, second), third)...
+template <class T, class Map, class Join>
+T parallel_reduce(std::size_t n, T identity, Map&& map, Join&& join, std::size_t chunk = default_chunk) {
+    std::vector<T> parts((n + chunk - 1) / chunk, identity);
+    parallel_chunks(n, [&](std::size_t begin, std::size_t end) { parts[begin / chunk] = map(begin, end); }, chunk);
+    T all = std::move(identity);
+    for (auto& part : parts) all = join(std::move(all), std::move(part));
+    return all;
+}
+
+/// Replaces counts by their running sum from 0 and returns the total: {3, 1, 2} -> {0, 3, 4}, 6.
+template <class T>
+T exclusive_scan(std::vector<T>& counts) {
+    T sum = 0;
+    for (T& c : counts) c = std::exchange(sum, sum + c);
+    return sum;
+}
+
+/// Sorts items by a 64-bit key (key(item)), stable: parallel radix sort on the bits below key_bits.
+template <class T, class Key>
+void radix_sort(std::vector<T>& items, Key&& key, int key_bits = 64) {
+    constexpr int digit_bits = 11;
+    constexpr std::size_t buckets = std::size_t{1} << digit_bits, chunk = std::size_t{1} << 16;
+    const std::size_t n = items.size(), chunks = (n + chunk - 1) / chunk;
+    std::vector<T> other(n);
+    std::vector<std::size_t> counts(chunks * buckets);
+    for (int shift = 0; shift < key_bits; shift += digit_bits) {
+        const auto digit = [&](const T& item) { return (static_cast<std::uint64_t>(key(item)) >> shift) & (buckets - 1); };
+        std::fill(counts.begin(), counts.end(), 0);
+        parallel_chunks(
+            n,
+            [&](std::size_t begin, std::size_t end) {
+                std::size_t* mine = &counts[begin / chunk * buckets];
+                for (std::size_t i = begin; i < end; ++i) ++mine[digit(items[i])];
+            },
+            chunk);
+        std::size_t sum = 0;
+        for (std::size_t b = 0; b < buckets; ++b)
+            for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(counts[c * buckets + b], sum);
+        parallel_chunks(
+            n,
+            [&](std::size_t begin, std::size_t end) {
+                std::size_t* mine = &counts[begin / chunk * buckets];
+                for (std::size_t i = begin; i < end; ++i) other[mine[digit(items[i])]++] = items[i];
+            },
+            chunk);
+        items.swap(other);
+    }
+}
+
+} // namespace facetmill

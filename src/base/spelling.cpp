@@ -1,0 +1,44 @@
+#include "base/spelling.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const bool same = a[i - 1] == b[j - 1];
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        before = last;
+        last = row;
+    }
+    return last[b.size()];
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+    const std::size_t limit = std::min<std::size_t>(3, std::max<std::size_t>(1, word.size() / 2));
+    std::size_t best = limit + 1;
+    std::string found;
+    for (const auto& candidate : candidates) {
+        std::size_t distance = edit_distance(word, candidate);
+        const bool prefix = word.size() >= 3 && candidate.starts_with(word);
+        if (prefix) distance = std::min<std::size_t>(distance, 1);
+        if (distance < best) best = distance, found = candidate;
+    }
+    return found;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+    if (const std::string name = nearest(word, candidates); !name.empty())
+        return fmt::format("did you mean '{}'?", name);
+    return fmt::format("expected one of: {}", fmt::join(candidates, ", "));
+}
+
+} // namespace facetmill

@@ -1,0 +1,40 @@
+#pragma once
+// Bytes of inputs and outputs. Files are mapped when they can be, so a reader sees one contiguous span.
+
+#include "base/error.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace facetmill::io {
+
+using Bytes = std::vector<std::byte>;
+using Span = std::span<const std::byte>;
+
+inline std::string_view as_text(Span bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+
+/// An input, whole: a mapped regular file, or what a pipe or standard input gave. Immutable and shared.
+class Input {
+  public:
+    /// Opens a file, or standard input for "-". Throws missing (E-FILE, E-DIRECTORY, E-PERMISSION) or limit
+    /// (E-SIZE, when a stream goes beyond max_stream bytes). Gzip (.gz) is inflated, within the same limit.
+    static Input open(const std::filesystem::path& path, std::size_t max_stream = std::size_t{4} << 30);
+    static Input of(std::string name, Bytes bytes);
+
+    const std::string& name() const { return name_; }                ///< for messages and the report
+    const std::filesystem::path& path() const { return path_; }      ///< empty for streams
+    Span bytes() const { return bytes_; }
+
+  private:
+    std::string name_;
+    std::filesystem::path path_;
+    std::shared_ptr<const void> owner_;
+    Span bytes_;
+};
+
+} // namespace facetmill::io

@@ -1,0 +1,66 @@
+#pragma once
+// Named, typed arrays that go with the vertices, wedges or faces of a mesh.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace facetmill {
+
+enum class Domain { vertex, wedge, face };
+
+/// What the numbers mean, which decides how they are mixed.
+enum class Role {
+    generic,      ///< mixed linearly (integers: rounded; see Lineage)
+    normal,       ///< unit vector, 3 components; mixed, then renormalised
+    tangent,      ///< unit vector and a sign, 4 components; the sign is that of the first parent
+    uv,           ///< 2 components
+    colour,       ///< 3 or 4 components
+    joints,       ///< 4 integers, pairs with the weights of the same set
+    weights,      ///< 4 numbers summing to one over all sets
+    morph_vector, ///< a displacement (morph target of positions, normals or tangents), mixed linearly
+    index,        ///< an identifier: never mixed, the first parent's is taken (primitive, group, cut_id)
+};
+
+/// One array per component type; the array holds count * components numbers, element by element.
+using AttributeData = std::variant<std::vector<float>, std::vector<double>, std::vector<std::uint8_t>,
+                                   std::vector<std::int8_t>, std::vector<std::uint16_t>,
+                                   std::vector<std::int16_t>, std::vector<std::uint32_t>, std::vector<std::int32_t>>;
+
+/// An attribute of a mesh. Names follow glTF where glTF has one (NORMAL, TEXCOORD_0, COLOR_0, JOINTS_0,
+/// WEIGHTS_0, TANGENT), and are the file's own name (quality, confidence) elsewhere.
+struct Attribute {
+    std::string name;
+    Domain domain = Domain::wedge;
+    Role role = Role::generic;
+    int components = 1;
+    bool normalised = false; ///< integers stand for fractions of their type's maximum, as in glTF
+    AttributeData data;
+
+    /// Elements, that is numbers / components.
+    std::size_t size() const;
+    /// "float32", "uint8", ...
+    const char* type() const;
+    /// Component c of element i as a number: fractions when normalised.
+    double value(std::size_t i, int c) const;
+};
+
+/// The name of a domain as users see it.
+const char* spelled(Domain domain);
+
+/// What became of an attribute in a stage: an entry of the report's ledger.
+struct Fate {
+    enum class Kind { kept, interpolated, recomputed, dropped };
+    std::string attribute;
+    Domain domain = Domain::wedge;
+    Kind kind = Kind::kept;
+    std::string why; ///< empty for kept
+
+    bool operator==(const Fate&) const = default;
+};
+const char* spelled(Fate::Kind kind);
+using Fates = std::vector<Fate>;
+
+} // namespace facetmill

@@ -1,0 +1,111 @@
+#pragma once
+// The mesh that flows from stage to stage: a plain value of flat arrays with three index levels.
+//
+//   corner --corners[c]--> wedge --wedge_vertex[w]--> vertex --positions[v]--> point
+//   face f --face_offsets[f] .. face_offsets[f+1]--> its corners, in order
+//
+// Topology lives on vertices: two faces are neighbours when they share two vertices, whatever their wedges.
+// A wedge is one attribute tuple at a vertex (what glTF calls a vertex): a UV seam is a vertex with two wedges.
+// Open, non-manifold, flipped, degenerate and self-intersecting meshes are all representable; see
+// mesh/topology.hpp for what can be derived and mesh/invariants.hpp for what always holds.
+
+#include "base/vec.hpp"
+#include "mesh/attribute.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace facetmill {
+
+using Index = std::uint32_t;
+inline constexpr Index none = UINT32_MAX;
+
+/// An entry of the table that the face attribute "primitive" indexes: what glTF calls a primitive. Faces of one
+/// glTF mesh are merged for geometry and come apart again along these on writing.
+struct Primitive {
+    Index material = none;               ///< into Scene::materials
+    std::vector<std::string> attributes; ///< names of the wedge attributes it had; empty: all
+    std::string json;                    ///< the source's extras and extensions (a JSON object), or empty
+
+    bool operator==(const Primitive&) const = default;
+};
+
+/// See the head of this file. Moved, not shared; cheap to copy only when small.
+struct Mesh {
+    std::vector<Vec3> positions;      ///< [vertices]
+    std::vector<Index> wedge_vertex;  ///< [wedges] -> vertex; empty: wedge w is vertex w
+    std::vector<Index> corners;       ///< [corners] -> wedge, face by face
+    std::vector<Index> face_offsets;  ///< [faces + 1] into corners; empty: all faces are triangles
+    std::vector<Attribute> attributes;
+    std::vector<Primitive> primitives; ///< empty: one, with no material. Else face attribute "primitive" indexes it
+                                       ///< (absent: all faces are of primitive 0)
+
+    std::size_t vertex_count() const { return positions.size(); }
+    std::size_t wedge_count() const { return wedge_vertex.empty() ? positions.size() : wedge_vertex.size(); }
+    std::size_t corner_count() const { return corners.size(); }
+    std::size_t face_count() const { return face_offsets.empty() ? corners.size() / 3 : face_offsets.size() - 1; }
+    std::size_t count(Domain domain) const;
+
+    bool all_triangles() const { return face_offsets.empty(); }
+    bool has_seams() const { return !wedge_vertex.empty(); }
+
+    Index face_begin(Index f) const { return face_offsets.empty() ? 3 * f : face_offsets[f]; }
+    Index face_end(Index f) const { return face_offsets.empty() ? 3 * f + 3 : face_offsets[f + 1]; }
+    Index face_size(Index f) const { return face_end(f) - face_begin(f); }
+    /// The wedges of a face, in order.
+    std::span<const Index> face_wedges(Index f) const {
+        return {corners.data() + face_begin(f), corners.data() + face_end(f)};
+    }
+    Index vertex_of_wedge(Index w) const { return wedge_vertex.empty() ? w : wedge_vertex[w]; }
+    Index vertex(Index corner) const { return vertex_of_wedge(corners[corner]); }
+    const Vec3& point(Index corner) const { return positions[vertex(corner)]; }
+
+    const Attribute* find(std::string_view name, Domain domain) const;
+    Attribute* find(std::string_view name, Domain domain);
+    /// Removes the attribute; false when there was none.
+    bool drop(std::string_view name, Domain domain);
+    /// Index of the primitive of face f.
+    Index primitive_of(Index f) const;
+
+    Box bounds() const; ///< of the positions that finite faces and isolated vertices use: all of them
+};
+
+/// Name of the face attribute (Role::index, uint32, 1 component) that indexes Mesh::primitives.
+inline constexpr std::string_view primitive_attribute = "primitive";
+
+/// Appends a face given by its wedges; keeps face_offsets empty as long as all faces are triangles.
+void add_face(Mesh& mesh, std::span<const Index> wedges);
+
+/// Removes face_offsets when all faces are triangles (the canonical form of an all-triangle mesh).
+void normalise_offsets(Mesh& mesh);
+
+/// Drops vertices and wedges that no face uses. Attributes follow.
+void drop_unused(Mesh& mesh);
+
+/// Merges vertices at exactly the same position (-0 is 0); wedges stay apart, so attributes survive. Vertices keep
+/// the order of their first occurrence. Faces are kept, degenerate ones too. Returns how many vertices went.
+std::size_t weld_exact(Mesh& mesh);
+
+/// The mesh with every face of four or more corners cut into triangles: quads along the shorter diagonal (ties:
+/// the one at the first corner), larger ones as a fan when convex from some corner, else by clipping ears in the
+/// plane of the polygon's normal. Face attributes are copied, wedges untouched. Faces of fewer than three corners
+/// are dropped. The triangulate stage offers more.
+Mesh triangulated(const Mesh& mesh);
+
+/// Appends b to a: vertices, wedges, faces, primitives; attributes that only one has are filled with zeros.
+void append(Mesh& a, const Mesh& b);
+
+/// Sets wedge attribute NORMAL, if there is one, to the area-weighted normal over the faces that meet at the
+/// wedge's vertex and share its normal direction group: wedges that were apart by a normal seam stay apart.
+/// Returns the fate of the attribute, or none when the mesh has no normals.
+std::optional<Fate> recompute_normals(Mesh& mesh);
+
+/// Applies t to positions, normals, tangents and morph vectors; flips faces when t mirrors.
+void apply(Mesh& mesh, const Transform& t);
+
+} // namespace facetmill

@@ -1,0 +1,53 @@
+#pragma once
+// Adjacency, derived where it is needed and never kept in the mesh. All of it lives on vertices, not wedges.
+
+#include "mesh/mesh.hpp"
+
+namespace facetmill {
+
+/// The undirected edges of a mesh, sorted by (low vertex, high vertex), and the corners that run along each.
+/// Corner c of face f stands for the edge from its vertex to the next corner's vertex in f. Edges from a vertex to
+/// itself (degenerate faces) are left out.
+struct EdgeTable {
+    struct Edge {
+        Index low, high; ///< vertices, low < high
+    };
+    std::vector<Edge> edges;           ///< [edges]
+    std::vector<Index> corner_offsets; ///< [edges + 1] into edge_corners
+    std::vector<Index> edge_corners;   ///< corners along each edge, ascending
+    std::vector<Index> corner_edge;    ///< [corners] -> edge, or none for a self edge
+
+    std::size_t size() const { return edges.size(); }
+    std::span<const Index> corners_of(Index e) const {
+        return {edge_corners.data() + corner_offsets[e], edge_corners.data() + corner_offsets[e + 1]};
+    }
+};
+
+/// Builds the edge table; parallel radix sort, O(corners). The same for any number of threads.
+EdgeTable build_edges(const Mesh& mesh);
+
+/// The next corner around the face of corner c (face f).
+inline Index next_corner(const Mesh& mesh, Index f, Index c) { return c + 1 == mesh.face_end(f) ? mesh.face_begin(f) : c + 1; }
+
+/// The face of each corner.
+std::vector<Index> corner_faces(const Mesh& mesh);
+
+/// Lists per vertex in compressed form: items[offsets[v] .. offsets[v+1]].
+struct VertexLists {
+    std::vector<Index> offsets; ///< [vertices + 1]
+    std::vector<Index> items;
+    std::span<const Index> of(Index v) const { return {items.data() + offsets[v], items.data() + offsets[v + 1]}; }
+};
+
+/// The corners at each vertex, ascending.
+VertexLists corners_at_vertices(const Mesh& mesh);
+
+/// Component of each face (faces are connected when they share an edge or, with by_vertex, a vertex), numbered by
+/// first face; and their number.
+struct Components {
+    std::vector<Index> of_face;
+    std::size_t count = 0;
+};
+Components face_components(const Mesh& mesh, bool by_vertex = true);
+
+} // namespace facetmill

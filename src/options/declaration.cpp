@@ -1,0 +1,154 @@
+#include "options/declaration.hpp"
+
+#include "base/numbers.hpp"
+#include "base/spelling.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+bool Range::holds(double x) const {
+    if (min && (min_open ? !(x > *min) : !(x >= *min))) return false;
+    if (max && (max_open ? !(x < *max) : !(x <= *max))) return false;
+    return true;
+}
+
+std::string Range::spelled() const {
+    const auto number = [](double x) { return facetmill::spelled(x); };
+    if (min && max)
+        return fmt::format("{} {} x {} {}", number(*min), min_open ? "<" : "<=", max_open ? "<" : "<=", number(*max));
+    if (min) return fmt::format("x {} {}", min_open ? ">" : ">=", number(*min));
+    if (max) return fmt::format("x {} {}", max_open ? "<" : "<=", number(*max));
+    return {};
+}
+
+const Option* Declaration::find(std::string_view name) const {
+    const auto it = std::find_if(options.begin(), options.end(), [&](const auto& o) { return o.name == name; });
+    return it == options.end() ? nullptr : &*it;
+}
+
+const Option* Declaration::primary() const {
+    const auto it = std::find_if(options.begin(), options.end(), [](const auto& o) { return o.primary; });
+    return it == options.end() ? nullptr : &*it;
+}
+
+std::vector<std::string> Declaration::names() const {
+    std::vector<std::string> all;
+    for (const auto& o : options) all.push_back(o.name);
+    return all;
+}
+
+Json Declaration::schema() const {
+    Json object = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
+    Json required = Json::array();
+    for (const auto& o : options) {
+        Json property = o.schema;
+        property["description"] = o.help;
+        if (!o.default_text.empty()) property["x-default"] = o.default_text;
+        if (const auto text = o.range.spelled(); !text.empty()) property["x-range"] = text;
+        object["properties"][o.name] = std::move(property);
+        if (o.required) required.push_back(o.name);
+    }
+    if (!required.empty()) object["required"] = required;
+    Json forms = Json::array({object});
+    if (!shorthand_schema.is_null()) forms.push_back(shorthand_schema);
+    if (const Option* o = primary()) forms.push_back(o->schema);
+    return forms.size() == 1 ? object : Json{{"anyOf", forms}};
+}
+
+Json choice_schema(const std::vector<Choice>& choices) {
+    Json names = Json::array();
+    for (const auto& c : choices) names.push_back(c.name);
+    return {{"enum", names}};
+}
+
+std::optional<std::size_t> choice_index(const Option& option, const Value& value, Problems& problems) {
+    if (value.deferred) return 0;
+    std::vector<std::string> names;
+    for (const auto& c : option.choices) names.push_back(c.name);
+    if (value.is_scalar())
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (names[i] == value.text) return i;
+    const bool near = value.is_scalar() && !nearest(value.text, names).empty();
+    problems.add(value.mark, "E-CHOICE",
+                 fmt::format("'{}' is one of {}, found {}", option.name, fmt::join(names, ", "), value.described()),
+                 near ? suggestion(value.text, names) : "");
+    return {};
+}
+
+namespace {
+
+/// Reads one option and checks its range.
+bool parse_option(const Option& option, const Value& value, void* target, Problems& problems) {
+    if (!option.parse(option, value, target, problems)) return false;
+    const auto magnitude = option.magnitude ? option.magnitude(target) : std::nullopt;
+    if (value.deferred || !magnitude || option.range.holds(*magnitude)) return true;
+    problems.add(value.mark, "E-RANGE",
+                 fmt::format("'{}' must be in the range {}, found {}", option.name, option.range.spelled(),
+                             value.described()));
+    return false;
+}
+
+bool check_exclusion(const Exclusion& rule, const Value& map, std::string_view owner, Problems& problems) {
+    std::vector<std::string> given;
+    const Value::Entry* second = nullptr;
+    for (const auto& e : map.entries)
+        if (std::find(rule.names.begin(), rule.names.end(), e.key) != rule.names.end()) {
+            given.push_back(e.key);
+            if (given.size() == 2) second = &e;
+        }
+    if (given.size() > 1 && rule.rule != Exclusion::Rule::at_least_one) {
+        problems.add(second->key_mark, "E-EXCLUSIVE",
+                     fmt::format("{}: at most one of {} may be given, found {}", owner, fmt::join(rule.names, ", "),
+                                 fmt::join(given, " and ")));
+        return false;
+    }
+    if (given.empty() && rule.rule != Exclusion::Rule::at_most_one) {
+        problems.add(map.mark, "E-MISSING", fmt::format("{}: one of {} is needed", owner, fmt::join(rule.names, ", ")));
+        return false;
+    }
+    return true;
+}
+
+/// A bare value as the map that it is short for.
+Value as_map(const Option& option, const Value& value) {
+    return Value::map({{option.name, value.mark, value}}, value.mark);
+}
+
+} // namespace
+
+bool Declaration::parse(const Value& value, void* target, std::string_view owner, Problems& problems,
+                        const std::set<std::string>& also_known) const {
+    if (value.deferred) return true;
+    if (!value.is_map() && !value.is_null()) {
+        if (shorthand) return shorthand(value, target, problems);
+        if (const Option* o = primary()) return parse(as_map(*o, value), target, owner, problems, also_known);
+        problems.add(value.mark, "E-VALUE",
+                     fmt::format("{} takes no bare value, found {}", owner, value.described()),
+                     fmt::format("its options are: {}", fmt::join(names(), ", ")));
+        return false;
+    }
+    bool good = true;
+    for (const auto& entry : value.entries) {
+        if (also_known.contains(entry.key)) continue;
+        if (const Option* o = find(entry.key)) {
+            good &= parse_option(*o, entry.value, target, problems);
+            continue;
+        }
+        std::vector<std::string> known = names();
+        known.insert(known.end(), also_known.begin(), also_known.end());
+        problems.add(entry.key_mark, "E-KEY", fmt::format("{} has no option '{}'", owner, entry.key),
+                     suggestion(entry.key, known));
+        good = false;
+    }
+    for (const auto& o : options)
+        if (o.required && !value.find(o.name)) {
+            problems.add(value.mark, "E-MISSING", fmt::format("{}: '{}' is needed", owner, o.name), o.help);
+            good = false;
+        }
+    for (const auto& rule : exclusions) good &= check_exclusion(rule, value, owner, problems);
+    return good;
+}
+
+} // namespace facetmill

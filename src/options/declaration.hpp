@@ -1,0 +1,209 @@
+#pragma once
+// The one declaration of an option. A stage writes
+//
+//   struct RelaxOptions { std::int64_t iterations = 1; double factor = 1; Method method = Method::laplacian; };
+//   void declare(Declare<RelaxOptions>& d) {
+//       d.option("iterations", &RelaxOptions::iterations, "How many times ...").at_least(1).primary();
+//       d.option("factor", &RelaxOptions::factor, "How far ...").between(0, 1);
+//       d.choice("method", &RelaxOptions::method, {{"laplacian", Method::laplacian, "the note's"}, ...}, "Which ...");
+//       d.group("plane", &RelaxOptions::plane, "The plane ...", [](Declare<Plane>& p) { ... });
+//       d.at_most_one({"ratio", "faces"});
+//   }
+//
+// and parsing, the one-liner, help, man page, JSON Schema and the sweep test follow. Defaults are the members'
+// initialisers, so they are written once.
+
+#include "options/types.hpp"
+
+#include <functional>
+#include <set>
+
+namespace facetmill {
+
+struct Choice {
+    std::string name, help;
+};
+
+struct Declaration;
+
+/// All that is known of an option, for every consumer.
+struct Option {
+    std::string name;
+    std::string type;    ///< "integer", "length", "choice", "group", ...
+    Dimension dimension = Dimension::none;
+    std::string help;    ///< one or two sentences; says the unit when the number has one
+    std::string default_text; ///< the default's spelling; empty when unset
+    bool required = false;
+    bool primary = false; ///< a bare value sets it
+    bool repeatable = false; ///< takes a list
+    Range range;
+    std::vector<Choice> choices;
+    std::shared_ptr<const Declaration> fields; ///< of a group
+    Json schema;
+    /// Reads the value into this option's member of the struct at target. False after adding problems. The range
+    /// is checked by Declaration::parse.
+    std::function<bool(const Option&, const Value&, void* target, Problems&)> parse;
+    /// The number in the struct that the range limits, if there is one.
+    std::function<std::optional<double>(const void* target)> magnitude;
+};
+
+/// A rule over several options.
+struct Exclusion {
+    enum class Rule { at_most_one, exactly_one, at_least_one };
+    Rule rule;
+    std::vector<std::string> names;
+};
+
+/// The options of a stage (or of a nested group), type-erased.
+struct Declaration {
+    std::vector<Option> options;
+    std::vector<Exclusion> exclusions;
+    /// Reads a value that is no map (none: the primary option takes it). For groups with a short form, "z=0.2".
+    std::function<bool(const Value&, void* target, Problems&)> shorthand;
+    std::string shorthand_help;
+    Json shorthand_schema;
+
+    const Option* find(std::string_view name) const;
+    const Option* primary() const;
+    std::vector<std::string> names() const;
+    Json schema() const;
+
+    /// Reads a stage's value into the options struct at target: null takes the defaults, a map sets options by
+    /// name, anything else goes to the shorthand or the primary option. owner is for messages: "clip",
+    /// "clip: plane". Keys in also_known are skipped (the common keys). False after adding problems.
+    bool parse(const Value& value, void* target, std::string_view owner, Problems& problems,
+               const std::set<std::string>& also_known = {}) const;
+};
+
+/// Refines the option declared last.
+template <class T>
+class OptionRef {
+  public:
+    OptionRef(Declaration& owner, std::size_t index) : owner_(&owner), index_(index) {}
+    OptionRef& between(double min, double max) { return range().min = min, range().max = max, *this; }
+    OptionRef& at_least(double min) { return range().min = min, *this; }
+    OptionRef& at_most(double max) { return range().max = max, *this; }
+    OptionRef& above(double min) { return range().min = min, range().min_open = true, *this; }
+    OptionRef& below(double max) { return range().max = max, range().max_open = true, *this; }
+    OptionRef& required() { return option().required = true, option().default_text.clear(), *this; }
+    OptionRef& primary() { return option().primary = true, *this; }
+    /// For numbers whose type does not say it: a double that is a count, an integer that is bytes.
+    OptionRef& measures(Dimension dimension) { return option().dimension = dimension, *this; }
+    Option& option() { return owner_->options[index_]; }
+
+  private:
+    Range& range() { return option().range; }
+    Declaration* owner_;
+    std::size_t index_;
+};
+
+template <class E>
+struct NamedChoice {
+    std::string name;
+    E value;
+    std::string help;
+};
+
+Json choice_schema(const std::vector<Choice>& choices);
+/// Which of the option's choices the value spells (0 for a deferred value); none after adding a problem.
+std::optional<std::size_t> choice_index(const Option& option, const Value& value, Problems& problems);
+
+/// Fills a Declaration for the options struct S.
+template <class S>
+class Declare {
+  public:
+    Declaration declaration;
+
+    template <class T>
+    OptionRef<S> option(std::string name, T S::*member, std::string help) {
+        using Type = OptionType<T>;
+        Option o = start(std::move(name), Type::name, std::move(help));
+        o.dimension = Type::dimension;
+        o.default_text = Type::print(S{}.*member);
+        o.schema = Type::schema();
+        o.repeatable = std::string_view(Type::name) == "list";
+        o.parse = [member](const Option&, const Value& v, void* target, Problems& problems) {
+            return Type::parse(v, static_cast<S*>(target)->*member, problems);
+        };
+        o.magnitude = [member](const void* target) { return Type::magnitude(static_cast<const S*>(target)->*member); };
+        return push(std::move(o));
+    }
+
+    template <class E>
+    OptionRef<S> choice(std::string name, E S::*member, std::vector<NamedChoice<E>> choices, std::string help) {
+        Option o = start(std::move(name), "choice", std::move(help));
+        std::vector<E> values;
+        for (auto& c : choices) {
+            if (c.value == S{}.*member) o.default_text = c.name;
+            o.choices.push_back({c.name, c.help});
+            values.push_back(c.value);
+        }
+        o.schema = choice_schema(o.choices);
+        o.parse = [member, values](const Option& self, const Value& v, void* target, Problems& problems) {
+            const auto index = choice_index(self, v, problems);
+            if (index) static_cast<S*>(target)->*member = values[*index];
+            return index.has_value();
+        };
+        return push(std::move(o));
+    }
+
+    /// A nested struct G (or std::optional<G>), declared by fill(Declare<G>&).
+    template <class M, class Fill>
+    OptionRef<S> group(std::string name, M S::*member, std::string help, Fill fill) {
+        using G = typename Inner<M>::type;
+        Declare<G> nested;
+        fill(nested);
+        Option o = start(std::move(name), "group", std::move(help));
+        o.fields = std::make_shared<const Declaration>(std::move(nested.declaration));
+        o.schema = o.fields->schema();
+        o.parse = [member](const Option& self, const Value& v, void* target, Problems& problems) {
+            M& slot = static_cast<S*>(target)->*member;
+            if constexpr (Inner<M>::optional)
+                return self.fields->parse(v, &slot.emplace(), self.name, problems);
+            else
+                return self.fields->parse(v, &slot, self.name, problems);
+        };
+        return push(std::move(o));
+    }
+
+    /// For groups: how a value that is no map is read.
+    template <class Parse>
+    void shorthand(std::string help, Json schema, Parse parse) {
+        declaration.shorthand_help = std::move(help);
+        declaration.shorthand_schema = std::move(schema);
+        declaration.shorthand = [parse](const Value& v, void* target, Problems& problems) {
+            return parse(v, *static_cast<S*>(target), problems);
+        };
+    }
+
+    void at_most_one(std::vector<std::string> names) { rule(Exclusion::Rule::at_most_one, std::move(names)); }
+    void exactly_one(std::vector<std::string> names) { rule(Exclusion::Rule::exactly_one, std::move(names)); }
+    void at_least_one(std::vector<std::string> names) { rule(Exclusion::Rule::at_least_one, std::move(names)); }
+
+  private:
+    template <class M>
+    struct Inner {
+        using type = M;
+        static constexpr bool optional = false;
+    };
+    template <class G>
+    struct Inner<std::optional<G>> {
+        using type = G;
+        static constexpr bool optional = true;
+    };
+
+    Option start(std::string name, const char* type, std::string help) {
+        Option o;
+        o.name = std::move(name);
+        o.type = type;
+        o.help = std::move(help);
+        return o;
+    }
+    OptionRef<S> push(Option o) {
+        declaration.options.push_back(std::move(o));
+        return {declaration, declaration.options.size() - 1};
+    }
+    void rule(Exclusion::Rule r, std::vector<std::string> names) { declaration.exclusions.push_back({r, std::move(names)}); }
+};
+
+} // namespace facetmill

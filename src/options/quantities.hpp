@@ -1,0 +1,49 @@
+#pragma once
+// The typed quantities that options take. Each knows its spelling; lengths wait for a scene to become numbers.
+
+#include "base/vec.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace facetmill {
+
+/// A length as written: scene units, a physical unit, or a percentage of a bounding-box diagonal.
+struct Length {
+    enum class Kind { scene, physical, percent };
+    enum class Of { stage, part, load }; ///< whose diagonal: the scene entering the stage, the part, the scene as loaded
+    double amount = 0; ///< in scene units, in metres, or in percent
+    Kind kind = Kind::scene;
+    Of of = Of::stage;
+    std::string text;  ///< as written: "2mm"
+
+    static Length scene(double amount);
+    static Length percent(double amount, Of of = Of::stage);
+};
+
+/// Radians inside, degrees outside.
+struct Angle {
+    double radians = 0;
+    std::string text = "0deg";
+    static Angle degrees(double d);
+};
+
+/// A fraction, 0.25 for "25%".
+struct Ratio {
+    double value = 0;
+};
+
+/// A file as written; what it is relative to, the pipeline knows.
+struct PathText {
+    std::string text;
+    bool operator==(const PathText&) const = default;
+};
+
+/// A bound on a property: exactly (a bare value), or between min and max.
+struct Bound {
+    std::optional<double> min, max;
+    std::optional<bool> truth; ///< for properties that are true or false
+};
+
+} // namespace facetmill

@@ -1,0 +1,250 @@
+#include "options/types.hpp"
+
+#include "base/numbers.hpp"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint = {}) {
+    if (hint.empty() && value.is_scalar() && value.quoted) hint = "leave the quotes out";
+    problems.add(value.mark, "E-TYPE", fmt::format("expected {}, found {}", expected, value.described()),
+                 std::move(hint));
+    return false;
+}
+
+/// "2.5mm" -> 2.5 and "mm"; none when it does not start with a number.
+std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text) {
+    std::size_t split = text.size();
+    while (split > 0 && !(text[split - 1] >= '0' && text[split - 1] <= '9') && text[split - 1] != '.') --split;
+    const auto number = parse_real(text.substr(0, split));
+    if (!number) return {};
+    std::string_view unit = text.substr(split);
+    while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+    return std::pair{*number, unit};
+}
+
+constexpr std::array<std::pair<std::string_view, double>, 8> length_units{{{"um", 1e-6},
+                                                                          {"mm", 1e-3},
+                                                                          {"cm", 1e-2},
+                                                                          {"m", 1.0},
+                                                                          {"km", 1e3},
+                                                                          {"in", 0.0254},
+                                                                          {"ft", 0.3048},
+                                                                          {"inch", 0.0254}}};
+
+constexpr double pi = 3.141592653589793238462643383279502884;
+
+} // namespace
+
+// --- bool, numbers, text
+
+bool OptionType<bool>::parse(const Value& value, bool& out, Problems& problems) {
+    if (value.deferred) return true;
+    const auto truth = value.as_bool();
+    if (!truth) return wrong_type(value, "true or false", problems);
+    return out = *truth, true;
+}
+std::string OptionType<bool>::print(const bool& value) { return value ? "true" : "false"; }
+Json OptionType<bool>::schema() { return {{"type", "boolean"}}; }
+std::optional<double> OptionType<bool>::magnitude(const bool&) { return {}; }
+
+bool OptionType<std::int64_t>::parse(const Value& value, std::int64_t& out, Problems& problems) {
+    if (value.deferred) return true;
+    const auto number = value.as_integer();
+    if (!number) return wrong_type(value, "an integer", problems);
+    return out = *number, true;
+}
+std::string OptionType<std::int64_t>::print(const std::int64_t& value) { return fmt::format("{}", value); }
+Json OptionType<std::int64_t>::schema() { return {{"type", "integer"}}; }
+std::optional<double> OptionType<std::int64_t>::magnitude(const std::int64_t& v) { return static_cast<double>(v); }
+
+bool OptionType<double>::parse(const Value& value, double& out, Problems& problems) {
+    if (value.deferred) return true;
+    const auto number = value.as_real();
+    if (!number) return wrong_type(value, "a finite number", problems);
+    return out = *number, true;
+}
+std::string OptionType<double>::print(const double& value) { return spelled(value); }
+Json OptionType<double>::schema() { return {{"type", "number"}}; }
+std::optional<double> OptionType<double>::magnitude(const double& value) { return value; }
+
+bool OptionType<std::string>::parse(const Value& value, std::string& out, Problems& problems) {
+    if (value.deferred) return true;
+    if (!value.is_scalar()) return wrong_type(value, "a text", problems);
+    return out = value.text, true;
+}
+std::string OptionType<std::string>::print(const std::string& value) { return value; }
+Json OptionType<std::string>::schema() { return {{"type", Json::array({"string", "number", "boolean"})}}; }
+std::optional<double> OptionType<std::string>::magnitude(const std::string&) { return {}; }
+
+bool OptionType<PathText>::parse(const Value& value, PathText& out, Problems& problems) {
+    if (value.deferred) return true;
+    if (!value.is_scalar() || value.text.empty()) return wrong_type(value, "a path", problems);
+    if (value.text.find('\0') != std::string::npos) return wrong_type(value, "a path without NUL", problems);
+    return out.text = value.text, true;
+}
+std::string OptionType<PathText>::print(const PathText& value) { return value.text; }
+Json OptionType<PathText>::schema() { return {{"type", "string"}, {"minLength", 1}}; }
+std::optional<double> OptionType<PathText>::magnitude(const PathText&) { return {}; }
+
+// --- quantities
+
+bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems) {
+    if (value.deferred) return true;
+    const std::string expected = "a ratio (25% or 0.25)";
+    if (!value.is_scalar()) return wrong_type(value, expected, problems);
+    const auto parts = number_and_unit(value.text);
+    if (!parts || !(parts->second == "%" || parts->second == "pct" || parts->second.empty()))
+        return wrong_type(value, expected, problems);
+    const bool percent = !parts->second.empty();
+    if (!percent && value.text.find('.') == std::string::npos && parts->first != 0) {
+        const auto hint = parts->first <= 100 ? fmt::format("write {}%, or name the option that counts (faces: {})",
+                                                            parts->first == 1 ? "100" : value.text, value.text)
+                                              : fmt::format("for a count write faces: {}", value.text);
+        return wrong_type(value, expected, problems, hint);
+    }
+    out.value = percent ? parts->first / 100 : parts->first;
+    return true;
+}
+std::string OptionType<Ratio>::print(const Ratio& value) { return spelled(value.value * 100) + "%"; }
+Json OptionType<Ratio>::schema() {
+    return {{"anyOf", Json::array({{{"type", "number"}, {"minimum", 0}, {"maximum", 1}},
+                                   {{"type", "string"}, {"pattern", "^[0-9.eE+-]+ *(%|pct)$"}}})}};
+}
+std::optional<double> OptionType<Ratio>::magnitude(const Ratio& value) { return value.value; }
+
+Length Length::scene(double amount) { return {amount, Kind::scene, Of::stage, spelled(amount)}; }
+Length Length::percent(double amount, Of of) {
+    const char* basis = of == Of::part ? " of part" : of == Of::load ? " of load" : "";
+    return {amount, Kind::percent, of, spelled(amount) + "%" + basis};
+}
+
+bool OptionType<Length>::parse(const Value& value, Length& out, Problems& problems) {
+    if (value.deferred) return true;
+    const std::string expected = "a length (2, 2mm, 0.5%, 0.5% of part)";
+    if (!value.is_scalar()) return wrong_type(value, expected, problems);
+    const auto parts = number_and_unit(value.text);
+    if (!parts) return wrong_type(value, expected, problems);
+    const auto [number, unit] = *parts;
+    out = {number, Length::Kind::scene, Length::Of::stage, value.text};
+    if (unit.empty()) return true;
+    for (const std::string_view percent : {"%", "pct"}) {
+        if (!unit.starts_with(percent)) continue;
+        const auto basis = unit.substr(percent.size());
+        out.kind = Length::Kind::percent;
+        if (basis.empty()) return true;
+        if (basis == " of part") return out.of = Length::Of::part, true;
+        if (basis == " of load") return out.of = Length::Of::load, true;
+        return wrong_type(value, expected, problems);
+    }
+    for (const auto& [name, metres] : length_units)
+        if (unit == name) return out.kind = Length::Kind::physical, out.amount = number * metres, true;
+    return wrong_type(value, expected, problems, "units: um, mm, cm, m, km, in, ft, or %");
+}
+std::string OptionType<Length>::print(const Length& value) { return value.text.empty() ? "0" : value.text; }
+Json OptionType<Length>::schema() {
+    return {{"anyOf", Json::array({{{"type", "number"}},
+                                   {{"type", "string"},
+                                    {"pattern", "^[0-9.eE+-]+ *(um|mm|cm|m|km|in|inch|ft|(%|pct)( of (part|load))?)?$"}}})}};
+}
+std::optional<double> OptionType<Length>::magnitude(const Length& value) { return value.amount; }
+
+Angle Angle::degrees(double d) { return {d * (pi / 180), spelled(d) + "deg"}; }
+
+bool OptionType<Angle>::parse(const Value& value, Angle& out, Problems& problems) {
+    if (value.deferred) return true;
+    const std::string expected = "an angle (30deg, 0.5rad; a bare number is degrees)";
+    const auto parts = value.is_scalar() ? number_and_unit(value.text) : std::nullopt;
+    if (!parts || !(parts->second.empty() || parts->second == "deg" || parts->second == "rad"))
+        return wrong_type(value, expected, problems);
+    out.radians = parts->second == "rad" ? parts->first : parts->first * (pi / 180);
+    out.text = value.text;
+    return true;
+}
+std::string OptionType<Angle>::print(const Angle& value) { return value.text; }
+Json OptionType<Angle>::schema() {
+    return {{"anyOf", Json::array({{{"type", "number"}},
+                                   {{"type", "string"}, {"pattern", "^[0-9.eE+-]+ *(deg|rad)?$"}}})}};
+}
+/// In degrees: ranges of angles are declared in degrees.
+std::optional<double> OptionType<Angle>::magnitude(const Angle& value) { return value.radians * (180 / pi); }
+
+bool OptionType<Vec3>::parse(const Value& value, Vec3& out, Problems& problems) {
+    if (value.deferred) return true;
+    const std::string expected = "three numbers ([0, 0, 1])";
+    if (value.is_scalar()) { // "0,0,1", as the one-liner writes it
+        Value list = Value::list({}, value.mark);
+        for (std::size_t at = 0; at <= value.text.size();) {
+            const auto end = std::min(value.text.find(',', at), value.text.size());
+            list.items.push_back(Value::scalar(value.text.substr(at, end - at), value.mark));
+            at = end + 1;
+        }
+        return list.items.size() == 3 ? parse(list, out, problems) : wrong_type(value, expected, problems);
+    }
+    if (!value.is_list() || value.items.size() != 3) return wrong_type(value, expected, problems);
+    bool good = true;
+    for (std::size_t i = 0; i < 3; ++i) good &= OptionType<double>::parse(value.items[i], out[i], problems);
+    return good;
+}
+std::string OptionType<Vec3>::print(const Vec3& v) {
+    return fmt::format("[{}, {}, {}]", spelled(v.x), spelled(v.y), spelled(v.z));
+}
+Json OptionType<Vec3>::schema() {
+    return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};
+}
+std::optional<double> OptionType<Vec3>::magnitude(const Vec3&) { return {}; }
+
+namespace {
+
+/// A number, a percentage as a fraction, or true/false as the truth of a bound.
+bool parse_limit(const Value& value, std::optional<double>& out, Problems& problems) {
+    if (value.deferred) return true;
+    if (const auto number = value.as_real()) return out = *number, true;
+    const auto parts = value.is_scalar() ? number_and_unit(value.text) : std::nullopt;
+    if (parts && (parts->second == "%" || parts->second == "pct")) return out = parts->first / 100, true;
+    return wrong_type(value, "a number", problems);
+}
+
+} // namespace
+
+bool OptionType<Bound>::parse(const Value& value, Bound& out, Problems& problems) {
+    out = {};
+    if (value.deferred) return true;
+    if (const auto truth = value.as_bool()) return out.truth = truth, true;
+    if (value.is_map()) {
+        bool good = true;
+        for (const auto& e : value.entries) {
+            if (e.key == "min") good &= parse_limit(e.value, out.min, problems);
+            else if (e.key == "max") good &= parse_limit(e.value, out.max, problems);
+            else {
+                problems.add(e.key_mark, "E-KEY", fmt::format("a bound has no key '{}'", e.key), "expected min or max");
+                good = false;
+            }
+        }
+        return good && (out.min || out.max || wrong_type(value, "min or max", problems));
+    }
+    if (!value.is_scalar()) return wrong_type(value, "a bound (true, 2, {min: 1, max: 5})", problems);
+    if (!parse_limit(value, out.min, problems)) return false;
+    return out.max = out.min, true;
+}
+std::string OptionType<Bound>::print(const Bound& b) {
+    if (b.truth) return *b.truth ? "true" : "false";
+    if (b.min && b.max && *b.min == *b.max) return spelled(*b.min);
+    if (b.min && b.max) return fmt::format("{{min: {}, max: {}}}", spelled(*b.min), spelled(*b.max));
+    if (b.min) return fmt::format("{{min: {}}}", spelled(*b.min));
+    return b.max ? fmt::format("{{max: {}}}", spelled(*b.max)) : "";
+}
+Json OptionType<Bound>::schema() {
+    const Json limit = {{"type", Json::array({"number", "string"})}};
+    return {{"anyOf", Json::array({{{"type", Json::array({"boolean", "number", "string"})}},
+                                   {{"type", "object"},
+                                    {"additionalProperties", false},
+                                    {"properties", {{"min", limit}, {"max", limit}}}}})}};
+}
+std::optional<double> OptionType<Bound>::magnitude(const Bound&) { return {}; }
+
+} // namespace facetmill

@@ -1,0 +1,98 @@
+#pragma once
+// How each C++ type of an option is read from a Value, printed, and described. To add a type, specialise
+// OptionType for it: the YAML parser, the one-liner, help, man page and schema follow.
+
+#include "base/json.hpp"
+#include "options/quantities.hpp"
+#include "options/value.hpp"
+
+#include <vector>
+
+namespace facetmill {
+
+/// What the number of an option measures.
+enum class Dimension { none, length, angle, ratio, count, bytes };
+
+/// Limits of a numeric option; the open ends are exclusive.
+struct Range {
+    std::optional<double> min, max;
+    bool min_open = false, max_open = false;
+
+    bool holds(double x) const;
+    std::string spelled() const; ///< "0 < x <= 1", or empty
+};
+
+/// Each specialisation has:
+///   static constexpr const char* name;                      type for people: "integer", "length"
+///   static constexpr Dimension dimension;
+///   static bool parse(const Value&, T&, Problems&);         false after adding a problem at the value's mark
+///   static std::string print(const T&);                     a spelling that parses to the same
+///   static Json schema();                                   JSON Schema of what parse accepts
+///   static std::optional<double> magnitude(const T&);       the number that a Range limits, if any
+template <class T>
+struct OptionType;
+
+#define FACETMILL_OPTION_TYPE(T, NAME, DIMENSION)                                                                  \
+    template <>                                                                                                    \
+    struct OptionType<T> {                                                                                         \
+        static constexpr const char* name = NAME;                                                                  \
+        static constexpr Dimension dimension = DIMENSION;                                                          \
+        static bool parse(const Value& value, T& out, Problems& problems);                                         \
+        static std::string print(const T& value);                                                                  \
+        static Json schema();                                                                                      \
+        static std::optional<double> magnitude(const T& value);                                                    \
+    }
+
+FACETMILL_OPTION_TYPE(bool, "bool", Dimension::none);
+FACETMILL_OPTION_TYPE(std::int64_t, "integer", Dimension::count);
+FACETMILL_OPTION_TYPE(double, "number", Dimension::none);
+FACETMILL_OPTION_TYPE(std::string, "text", Dimension::none);
+FACETMILL_OPTION_TYPE(PathText, "path", Dimension::none);
+FACETMILL_OPTION_TYPE(Ratio, "ratio", Dimension::ratio);
+FACETMILL_OPTION_TYPE(Length, "length", Dimension::length);
+FACETMILL_OPTION_TYPE(Angle, "angle", Dimension::angle);
+FACETMILL_OPTION_TYPE(Vec3, "vector", Dimension::none);
+FACETMILL_OPTION_TYPE(Bound, "bound", Dimension::none);
+
+/// One value or a list of them.
+template <class T>
+struct OptionType<std::vector<T>> {
+    static constexpr const char* name = "list";
+    static constexpr Dimension dimension = OptionType<T>::dimension;
+    static bool parse(const Value& value, std::vector<T>& out, Problems& problems) {
+        out.clear();
+        if (value.is_list()) {
+            bool good = true;
+            for (const auto& item : value.items) good &= OptionType<T>::parse(item, out.emplace_back(), problems);
+            return good;
+        }
+        return OptionType<T>::parse(value, out.emplace_back(), problems);
+    }
+    static std::string print(const std::vector<T>& values) {
+        std::string text;
+        for (const auto& v : values) text += (text.empty() ? "" : ", ") + OptionType<T>::print(v);
+        return "[" + text + "]";
+    }
+    static Json schema() {
+        const Json one = OptionType<T>::schema();
+        return {{"anyOf", Json::array({one, {{"type", "array"}, {"items", one}}})}};
+    }
+    static std::optional<double> magnitude(const std::vector<T>&) { return {}; }
+};
+
+/// Unset unless given.
+template <class T>
+struct OptionType<std::optional<T>> {
+    static constexpr const char* name = OptionType<T>::name;
+    static constexpr Dimension dimension = OptionType<T>::dimension;
+    static bool parse(const Value& value, std::optional<T>& out, Problems& problems) {
+        return OptionType<T>::parse(value, out.emplace(), problems);
+    }
+    static std::string print(const std::optional<T>& value) { return value ? OptionType<T>::print(*value) : ""; }
+    static Json schema() { return OptionType<T>::schema(); }
+    static std::optional<double> magnitude(const std::optional<T>& value) {
+        return value ? OptionType<T>::magnitude(*value) : std::nullopt;
+    }
+};
+
+} // namespace facetmill

@@ -1,0 +1,19 @@
+#pragma once
+// Precompiled: the standard and library headers that most files include.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fmt/format.h>
+#include <functional>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <tbb/parallel_for.h>
+#include <variant>
+#include <vector>

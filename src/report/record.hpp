@@ -1,0 +1,67 @@
+#pragma once
+// What a run collects, as plain data. Renderers (text, JSON, HTML, JUnit) read it; nothing else does.
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+#include "mesh/attribute.hpp"
+
+#include <string>
+#include <vector>
+
+namespace facetmill::report {
+
+/// A validate or ensure assertion and how it went.
+struct Check {
+    std::string name;     ///< the property: "closed"
+    std::string stage;    ///< the name of the stage that made it
+    bool passed = true;
+    Severity severity = Severity::error;
+    std::string expected; ///< "true", "2", "at most 5"
+    std::string found;
+    std::string part;     ///< the part it is about; empty: the scene
+    Json evidence;        ///< places: [{face, at}], or null
+    Mark where;
+};
+
+struct LedgerEntry {
+    std::string part;
+    Fate fate;
+};
+
+struct StageRecord {
+    std::string name;  ///< unique in the run: the common key name, or the stage's own with a number
+    std::string stage; ///< "clip"
+    std::string path;  ///< where in the pipeline: "stages[3]" or "stages[5].branch.far[0]"
+    Json before, after; ///< brief properties: vertices, faces, parts, bounds
+    std::vector<LedgerEntry> ledger;
+    std::vector<Diagnostic> warnings;
+    Json result = Json::object(); ///< what the stage itself reports
+    Json resolved = Json::object(); ///< lengths that depended on the scene: {"amplitude": {"given": "0.2%", "is": 0.03}}
+    bool skipped = false; ///< its `when` did not hold
+    double seconds = 0;
+};
+
+struct FileRecord {
+    std::string path;
+    std::size_t bytes = 0;
+    std::string sha256;
+    Json read_back; ///< of outputs: properties of the file decoded again, and how far positions moved
+};
+
+struct RunRecord {
+    std::string pipeline; ///< the file's name as given, or "pipe"
+    std::string about;
+    Json params = Json::object();
+    std::vector<FileRecord> inputs, outputs;
+    std::vector<StageRecord> stages;
+    std::vector<Check> checks;
+    std::vector<Diagnostic> warnings; ///< of the run as a whole
+    std::vector<Diagnostic> errors;   ///< why it failed
+    int exit_code = 0;
+    double seconds = 0;
+    std::size_t peak_memory = 0; ///< bytes
+    int threads = 0;
+    Json final_properties; ///< of the scene at the end, all of section 7's
+};
+
+} // namespace facetmill::report

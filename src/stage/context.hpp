@@ -1,0 +1,69 @@
+#pragma once
+// What a stage gets besides its options and the scene: lengths resolved, warnings, the ledger, files.
+
+#include "io/outputs.hpp"
+#include "mesh/scene.hpp"
+#include "options/quantities.hpp"
+#include "report/record.hpp"
+
+#include <functional>
+
+namespace facetmill {
+
+/// The parts a stage works on (the common key `only`): names or globs of parts or materials, "!glob" excludes.
+struct PartFilter {
+    std::vector<std::string> patterns; ///< empty: all parts
+    bool selects(const Part& part, const Scene& scene) const;
+};
+
+/// Where files are looked for and put.
+struct Places {
+    std::filesystem::path input_base;  ///< what a pipeline file reads is relative to it
+    std::filesystem::path output_base; ///< --output-dir
+    /// The file a stage reads: absolute, or relative to input_base; "-" stays.
+    std::filesystem::path input(const std::string& text) const;
+    std::filesystem::path output(const std::string& text) const;
+};
+
+/// State of a run that outlives its stages.
+struct RunState {
+    Places places;
+    io::Outputs outputs;
+    report::RunRecord record;
+    double load_diagonal = 0; ///< world diagonal of the scene after the last load, for "% of load"
+    bool read_back = true;    ///< decode written files again and compare
+};
+
+/// One stage's view of the run. All the stage says goes into its StageRecord.
+class Context {
+  public:
+    Context(RunState& run, report::StageRecord& record, const PartFilter& only, Box entering, const Mark& where);
+
+    /// The parts to work on, selected by `only`, in order. Marks them changed, unless reading.
+    void for_each_part(Scene& scene, const std::function<void(Part&)>& body);
+    bool selects(const Part& part, const Scene& scene) const { return only_.selects(part, scene); }
+
+    /// The length in world scene units. Records what it was resolved to under the option's name. Throws usage
+    /// (E-UNIT) for a physical unit when the scene has none.
+    double resolve(const Length& length, const Scene& scene, std::string_view option, const Part* part = nullptr);
+
+    void warn(std::string id, std::string message, std::string hint = {});
+    void ledger(const Part& part, const Fates& fates);
+    /// What the stage wants in the report under "result".
+    Json& result() { return record_.result; }
+    void check(report::Check check);
+
+    const Places& places() const { return run_.places; }
+    RunState& run() { return run_; }
+    const Mark& where() const { return where_; }
+    const std::string& name() const { return record_.name; }
+
+  private:
+    RunState& run_;
+    report::StageRecord& record_;
+    const PartFilter& only_;
+    Box entering_;
+    Mark where_;
+};
+
+} // namespace facetmill

@@ -1,0 +1,35 @@
+#include "stage/stage.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+namespace {
+std::vector<StageInfo>& registry() {
+    static std::vector<StageInfo> all;
+    return all;
+}
+} // namespace
+
+RegisterStage::RegisterStage(StageInfo info) {
+    auto& all = registry();
+    const auto at = std::lower_bound(all.begin(), all.end(), info.name,
+                                     [](const StageInfo& s, const std::string& name) { return s.name < name; });
+    all.insert(at, std::move(info));
+}
+
+const std::vector<StageInfo>& stages() { return registry(); }
+
+const StageInfo* stage_named(std::string_view name) {
+    for (const auto& s : registry())
+        if (s.name == name) return &s;
+    return nullptr;
+}
+
+std::vector<std::string> stage_names() {
+    std::vector<std::string> names;
+    for (const auto& s : registry()) names.push_back(s.name);
+    return names;
+}
+
+} // namespace facetmill

@@ -1,0 +1,71 @@
+#pragma once
+// The interface of a stage: a declaration and a function. A stage file is
+//
+//   struct RelaxOptions { ... };
+//   void declare(Declare<RelaxOptions>& d) { ... }
+//   Scene run(Scene scene, const RelaxOptions& o, Context& context) { ... }
+//   const RegisterStage relax = make_stage<RelaxOptions>(
+//       {.name = "relax", .about = "Smooths a surface ...", .examples = {"relax: 3"}}, declare, run);
+
+#include "options/declaration.hpp"
+#include "stage/context.hpp"
+
+namespace facetmill {
+
+/// What a stage reads and writes, as far as its options tell; for plan, depfiles and collisions.
+struct StageFiles {
+    std::vector<PathText> inputs, outputs;
+};
+
+struct StageInfo {
+    std::string name;                  ///< the verb users write
+    std::string about;                 ///< one line
+    std::string details;               ///< a paragraph or more: what it guarantees, what it does to attributes, its source
+    std::vector<std::string> examples; ///< as list items of a pipeline, without the dash: "relax: 3"
+    bool checks = false;   ///< it only judges: several in a row all run before a failure ends the branch
+    bool loads = false;    ///< it adds to the scene rather than working on it (may come first)
+
+    // Filled by make_stage.
+    Declaration options;
+    std::function<std::shared_ptr<void>()> make_options; ///< a default options struct
+    std::function<Scene(Scene, const void* options, Context&)> run;
+    std::function<StageFiles(const void* options)> files; ///< may be empty
+    /// Legality that a declaration cannot say; adds problems at the value's marks. May be empty.
+    std::function<void(const void* options, const Value& given, Problems&)> verify;
+};
+
+struct RegisterStage {
+    RegisterStage(StageInfo info);
+};
+
+/// All stages, sorted by name.
+const std::vector<StageInfo>& stages();
+const StageInfo* stage_named(std::string_view name);
+std::vector<std::string> stage_names();
+
+template <class Options>
+struct StageHooks {
+    std::function<StageFiles(const Options&)> files = {};
+    std::function<void(const Options&, const Value&, Problems&)> verify = {};
+};
+
+template <class Options, class DeclareFunction>
+StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene, const Options&, Context&),
+                     StageHooks<Options> hooks = {}) {
+    Declare<Options> d;
+    declare(d);
+    info.options = std::move(d.declaration);
+    info.make_options = [] { return std::make_shared<Options>(); };
+    info.run = [run](Scene scene, const void* options, Context& context) {
+        return run(std::move(scene), *static_cast<const Options*>(options), context);
+    };
+    if (hooks.files)
+        info.files = [f = hooks.files](const void* options) { return f(*static_cast<const Options*>(options)); };
+    if (hooks.verify)
+        info.verify = [f = hooks.verify](const void* options, const Value& given, Problems& problems) {
+            f(*static_cast<const Options*>(options), given, problems);
+        };
+    return info;
+}
+
+} // namespace facetmill

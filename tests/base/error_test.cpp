@@ -1,0 +1,27 @@
+#include "support/catch.hpp"
+
+#include "base/error.hpp"
+#include "base/spelling.hpp"
+
+using namespace facetmill;
+
+TEST_CASE("a diagnostic is rendered with its source line, a caret and the way out", "[base]") {
+    auto source = std::make_shared<const SourceText>(SourceText{"a.yaml", "facetmill: 1\nstages:\n  - clop: 3\n"});
+    const Diagnostic d{Severity::error, "E-STAGE", "there is no stage 'clop'", Mark{source, 3, 5, 4}, "did you mean 'clip'?"};
+    CHECK(render(d) == "a.yaml:3:5: error[E-STAGE]: there is no stage 'clop'\n"
+                       "    - clop: 3\n"
+                       "      ^~~~\n"
+                       "  hint: did you mean 'clip'?");
+}
+
+TEST_CASE("a diagnostic without a place says who speaks", "[base]") {
+    CHECK(render({Severity::warning, "W-UNITS", "unknown unit", {}, {}}) == "facetmill: warning[W-UNITS]: unknown unit");
+}
+
+TEST_CASE("nearest names", "[base]") {
+    CHECK(nearest("clop", {"clip", "crop", "split"}) == "clip");
+    CHECK(nearest("simpilfy", {"clip", "simplify"}) == "simplify");
+    CHECK(nearest("iter", {"factor", "iterations"}) == "iterations");
+    CHECK(nearest("zzz", {"clip", "crop"}).empty());
+    CHECK(edit_distance("ab", "ba") == 1);
+}

@@ -1,0 +1,3 @@
+#pragma once
+#include "../../src/precompiled.hpp"
+#include "catch.hpp"
