@@ -1,0 +1,80 @@
+#pragma once
+// Parse -> plan: a document becomes steps whose options are parsed, checked and ready to run. All that can be known
+// without opening a mesh is known here, and all errors are reported at once.
+
+#include "stage/assertions.hpp"
+#include "stage/stage.hpp"
+
+namespace facetmill::pipeline {
+
+struct Step;
+
+/// Steps that run one after the other on a scene.
+using Steps = std::vector<Step>;
+
+/// The common key `when`: a truth known at plan time, or predicates on the scene.
+struct Condition {
+    std::optional<bool> known;
+    Assertions predicates;
+    Mark where;
+};
+
+struct Arm {
+    std::string name;          ///< of a branch; of a foreach: "lod=50%"
+    std::vector<std::pair<std::string, Value>> variables; ///< of a foreach
+    std::shared_ptr<Steps> steps;
+};
+
+/// A stage with its options, or a branch or foreach with its arms.
+struct Step {
+    enum class Kind { stage, branch, foreach };
+    Kind kind = Kind::stage;
+    const StageInfo* stage = nullptr;
+    std::shared_ptr<void> options;    ///< parsed, of the stage's type
+    Value given;                      ///< what was written, expressions resolved
+    std::string name;                 ///< unique in the plan
+    std::string path;                 ///< "stages[3]", "stages[5].branch.far[0]"
+    std::optional<Condition> when;
+    PartFilter only;
+    std::optional<Assertions> ensure;
+    std::vector<Arm> arms;            ///< of a branch, or of a foreach over known values
+    Value part_body;                  ///< of a foreach over parts: the list of stages, planned again for every part
+    std::string part_variable;        ///< ... and the variable that bears the part's name
+    std::string part_pattern;         ///< ... and the glob that selects the parts
+    bool join = false;
+    Mark where;
+};
+
+struct PlanSettings {
+    std::string name;                                          ///< of the pipeline, for messages and the report
+    std::vector<std::pair<std::string, std::string>> defines;  ///< -D
+    std::vector<std::pair<std::string, std::string>> sets;     ///< --set stage.option=value
+    Places places;
+    std::filesystem::path working_directory;                   ///< what -D paths are relative to
+    std::vector<std::string> extra_reports;                    ///< --report
+    bool parameters_needed = true; ///< false (check without -D): params without a value stand for any value
+};
+
+struct Plan {
+    std::string name, about;
+    Json params = Json::object();
+    Steps steps;
+    std::vector<std::string> reports;
+    Places places;
+    std::vector<Diagnostic> warnings;
+};
+
+/// Plans a parsed document. All problems (E-FORMAT-VERSION, E-REQUIRES, E-STAGE, E-KEY, E-PARAM, ...) are added; the
+/// plan is to be run only when there are no errors among them.
+Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems);
+/// Reads a pipeline file and plans it. An unreadable file throws missing.
+Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problems& problems);
+
+/// Files that the plan reads and writes, as far as they are known before it runs (globs expanded).
+std::vector<std::filesystem::path> planned_inputs(const Plan& plan);
+std::vector<std::filesystem::path> planned_outputs(const Plan& plan);
+/// What would run, everything resolved: for `facetmill plan`, as text and as JSON.
+std::string describe(const Plan& plan);
+Json describe_json(const Plan& plan);
+
+} // namespace facetmill::pipeline

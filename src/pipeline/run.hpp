@@ -1,0 +1,22 @@
+#pragma once
+// Plan -> run: the stages in order, branches from the same scene, checks, contracts, and all outputs or none.
+
+#include "base/progress.hpp"
+#include "pipeline/plan.hpp"
+
+namespace facetmill::pipeline {
+
+struct RunSettings {
+    Progress* progress = nullptr;
+    std::vector<std::string> strict; ///< ids of warnings that fail; "*": all
+    bool read_back = true;
+    bool check_invariants = false;   ///< mesh/invariants.hpp after every stage (tests)
+    /// Called for every warning as it arises.
+    std::function<void(const Diagnostic&)> on_warning;
+};
+
+/// Runs the plan, writes its outputs (all or none) and its reports (always), and returns the record; exit_code and
+/// errors in it say how it went. Throws only for bugs.
+report::RunRecord run_plan(const Plan& plan, const RunSettings& settings);
+
+} // namespace facetmill::pipeline

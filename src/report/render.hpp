@@ -1,0 +1,21 @@
+#pragma once
+// Renderers of a run's record.
+
+#include "geometry/inspect.hpp"
+#include "report/record.hpp"
+
+namespace facetmill::report {
+
+Json properties_json(const Properties& properties);     ///< numbers and truths of section 7, null where not applicable
+/// All of section 7 for a scene: properties_json plus unit, up, attributes, materials and parts.
+Json scene_json(const Scene& scene, const Properties& properties);
+Json to_json(const RunRecord& record);                  ///< the report; its schema is schema()
+Json schema();                                          ///< JSON Schema (2020-12) of the report
+Json info_schema();                                     ///< ... and of `info --json`
+std::string to_text(const RunRecord& record, bool colour);  ///< for a terminal
+std::string to_html(const RunRecord& record);           ///< one self-contained page
+std::string to_junit(const RunRecord& record);          ///< checks as test cases
+/// The renderer for a report's file name: .json, .html, .xml (JUnit), .txt. Throws usage (E-REPORT) otherwise.
+std::string render_for(const std::string& path, const RunRecord& record);
+
+} // namespace facetmill::report
