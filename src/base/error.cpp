@@ -74,7 +74,8 @@ std::string excerpt(const Mark& mark) {
         std::string cut = line.substr(std::min(from, line.size()), widest_line);
         return fmt::format("\n  {}\n  {}^", cut, std::string(std::min(column - from, cut.size()), ' '));
     }
-    const std::size_t room = std::max<std::size_t>(1, characters(line) > column ? characters(line) - column : 1);
+    const std::size_t room =
+        std::max<std::size_t>(1, characters(line) > column ? characters(line) - column : 1);
     const std::size_t wide = std::clamp<std::size_t>(mark.length, 1, room);
     std::string lead;
     for (std::size_t i = 0; i < column; ++i) lead += i < line.size() && line[i] == '\t' ? '\t' : ' ';

@@ -1,6 +1,6 @@
 #pragma once
-// What can go wrong, as data: a diagnostic has a stable id, a message, a place and a way out; an Error carries
-// one or several and an exit code. Library code throws, never prints and never exits.
+// What can go wrong, as data: a diagnostic has a stable id, a message, a place and a way out; an Error
+// carries one or several and an exit code. Library code throws, never prints and never exits.
 
 #include "base/mark.hpp"
 
@@ -40,7 +40,8 @@ class Error : public std::exception {
 
     ErrorKind kind() const { return kind_; }
     const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
-    /// Gives a place to the diagnostics that have none yet: the leaf says what, the layer that knows adds where.
+    /// Gives a place to the diagnostics that have none yet: the leaf says what, the layer that knows adds
+    /// where.
     Error& at(const Mark& where);
     const char* what() const noexcept override { return text_.c_str(); }
 

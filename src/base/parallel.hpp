@@ -1,6 +1,7 @@
 #pragma once
-// Loops over fixed chunks: parallel, and with the same result for any number of threads. Chunk boundaries depend on
-// the size only, and reductions join the chunks in index order, so floating-point sums never change.
+// Loops over fixed chunks: parallel, and with the same result for any number of threads. Chunk boundaries
+// depend on the size only, and reductions join the chunks in index order, so floating-point sums never
+// change.
 
 #include <algorithm>
 #include <cstddef>
@@ -45,7 +46,8 @@ void parallel_for(std::size_t n, Body&& body, std::size_t chunk = default_chunk)
 template <class T, class Map, class Join>
 T parallel_reduce(std::size_t n, T identity, Map&& map, Join&& join, std::size_t chunk = default_chunk) {
     std::vector<T> parts((n + chunk - 1) / chunk, identity);
-    parallel_chunks(n, [&](std::size_t begin, std::size_t end) { parts[begin / chunk] = map(begin, end); }, chunk);
+    parallel_chunks(
+        n, [&](std::size_t begin, std::size_t end) { parts[begin / chunk] = map(begin, end); }, chunk);
     T all = std::move(identity);
     for (auto& part : parts) all = join(std::move(all), std::move(part));
     return all;
@@ -68,7 +70,9 @@ void radix_sort(std::vector<T>& items, Key&& key, int key_bits = 64) {
     std::vector<T> other(n);
     std::vector<std::size_t> counts(chunks * buckets);
     for (int shift = 0; shift < key_bits; shift += digit_bits) {
-        const auto digit = [&](const T& item) { return (static_cast<std::uint64_t>(key(item)) >> shift) & (buckets - 1); };
+        const auto digit = [&](const T& item) {
+            return (static_cast<std::uint64_t>(key(item)) >> shift) & (buckets - 1);
+        };
         std::fill(counts.begin(), counts.end(), 0);
         parallel_chunks(
             n,

@@ -1,12 +1,13 @@
 #pragma once
-// A counter-based generator: the number at a key is a pure function of seed and key, so neither the order of calls
-// nor the number of threads matters.
+// A counter-based generator: the number at a key is a pure function of seed and key, so neither the order of
+// calls nor the number of threads matters.
 
 #include <cstdint>
 
 namespace facetmill {
 
-/// A well-mixed 64-bit value of the two (SplitMix64's finaliser, applied twice). Chain it to hash longer keys.
+/// A well-mixed 64-bit value of the two (SplitMix64's finaliser, applied twice). Chain it to hash longer
+/// keys.
 constexpr std::uint64_t hashed(std::uint64_t seed, std::uint64_t key) {
     std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (key + 1);
     for (int round = 0; round < 2; ++round) {

@@ -7,10 +7,12 @@
 
 namespace facetmill {
 
-/// The number of single-character insertions, deletions, replacements and swaps of neighbours between a and b.
+/// The number of single-character insertions, deletions, replacements and swaps of neighbours between a and
+/// b.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The candidate nearest to the word (ties: the first), or empty when none is near enough to be a likely meaning.
+/// The candidate nearest to the word (ties: the first), or empty when none is near enough to be a likely
+/// meaning.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "did you mean 'x'?" when there is a likely meaning, else "expected one of: a, b, c".

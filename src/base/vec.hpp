@@ -41,7 +41,9 @@ inline Vec3 normalised(const Vec3& a) {
 /// The point at parameter t between a (t = 0, exactly a) and b (t = 1, exactly b).
 constexpr Vec3 mix(const Vec3& a, const Vec3& b, double t) { return a * (1 - t) + b * t; }
 
-inline bool is_finite(const Vec3& a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+inline bool is_finite(const Vec3& a) {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 
 /// An axis-aligned box; empty until something is added.
 struct Box {

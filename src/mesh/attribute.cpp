@@ -11,7 +11,8 @@ std::size_t Attribute::size() const {
 }
 
 const char* Attribute::type() const {
-    static constexpr const char* names[] = {"float32", "float64", "uint8", "int8", "uint16", "int16", "uint32", "int32"};
+    static constexpr const char* names[] = {"float32", "float64", "uint8",  "int8",
+                                            "uint16",  "int16",   "uint32", "int32"};
     return names[data.index()];
 }
 
@@ -19,9 +20,11 @@ double Attribute::value(std::size_t i, int c) const {
     return std::visit(
         [&](const auto& v) {
             using T = typename std::decay_t<decltype(v)>::value_type;
-            const double x = static_cast<double>(v[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)]);
+            const double x = static_cast<double>(
+                v[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)]);
             if constexpr (std::is_integral_v<T>)
-                return normalised ? std::max(x / static_cast<double>(std::numeric_limits<T>::max()), -1.0) : x;
+                return normalised ? std::max(x / static_cast<double>(std::numeric_limits<T>::max()), -1.0)
+                                  : x;
             else
                 return x;
         },
@@ -34,10 +37,14 @@ const char* spelled(Domain domain) {
 
 const char* spelled(Fate::Kind kind) {
     switch (kind) {
-    case Fate::Kind::kept: return "kept";
-    case Fate::Kind::interpolated: return "interpolated";
-    case Fate::Kind::recomputed: return "recomputed";
-    default: return "dropped";
+    case Fate::Kind::kept:
+        return "kept";
+    case Fate::Kind::interpolated:
+        return "interpolated";
+    case Fate::Kind::recomputed:
+        return "recomputed";
+    default:
+        return "dropped";
     }
 }
 

@@ -25,9 +25,10 @@ enum class Role {
 };
 
 /// One array per component type; the array holds count * components numbers, element by element.
-using AttributeData = std::variant<std::vector<float>, std::vector<double>, std::vector<std::uint8_t>,
-                                   std::vector<std::int8_t>, std::vector<std::uint16_t>,
-                                   std::vector<std::int16_t>, std::vector<std::uint32_t>, std::vector<std::int32_t>>;
+using AttributeData =
+    std::variant<std::vector<float>, std::vector<double>, std::vector<std::uint8_t>, std::vector<std::int8_t>,
+                 std::vector<std::uint16_t>, std::vector<std::int16_t>, std::vector<std::uint32_t>,
+                 std::vector<std::int32_t>>;
 
 /// An attribute of a mesh. Names follow glTF where glTF has one (NORMAL, TEXCOORD_0, COLOR_0, JOINTS_0,
 /// WEIGHTS_0, TANGENT), and are the file's own name (quality, confidence) elsewhere.

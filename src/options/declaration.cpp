@@ -17,14 +17,16 @@ bool Range::holds(double x) const {
 std::string Range::spelled() const {
     const auto number = [](double x) { return facetmill::spelled(x); };
     if (min && max)
-        return fmt::format("{} {} x {} {}", number(*min), min_open ? "<" : "<=", max_open ? "<" : "<=", number(*max));
+        return fmt::format("{} {} x {} {}", number(*min),
+                           min_open ? "<" : "<=", max_open ? "<" : "<=", number(*max));
     if (min) return fmt::format("x {} {}", min_open ? ">" : ">=", number(*min));
     if (max) return fmt::format("x {} {}", max_open ? "<" : "<=", number(*max));
     return {};
 }
 
 const Option* Declaration::find(std::string_view name) const {
-    const auto it = std::find_if(options.begin(), options.end(), [&](const auto& o) { return o.name == name; });
+    const auto it =
+        std::find_if(options.begin(), options.end(), [&](const auto& o) { return o.name == name; });
     return it == options.end() ? nullptr : &*it;
 }
 
@@ -71,9 +73,10 @@ std::optional<std::size_t> choice_index(const Option& option, const Value& value
         for (std::size_t i = 0; i < names.size(); ++i)
             if (names[i] == value.text) return i;
     const bool near = value.is_scalar() && !nearest(value.text, names).empty();
-    problems.add(value.mark, "E-CHOICE",
-                 fmt::format("'{}' is one of {}, found {}", option.name, fmt::join(names, ", "), value.described()),
-                 near ? suggestion(value.text, names) : "");
+    problems.add(
+        value.mark, "E-CHOICE",
+        fmt::format("'{}' is one of {}, found {}", option.name, fmt::join(names, ", "), value.described()),
+        near ? suggestion(value.text, names) : "");
     return {};
 }
 
@@ -100,12 +103,13 @@ bool check_exclusion(const Exclusion& rule, const Value& map, std::string_view o
         }
     if (given.size() > 1 && rule.rule != Exclusion::Rule::at_least_one) {
         problems.add(second->key_mark, "E-EXCLUSIVE",
-                     fmt::format("{}: at most one of {} may be given, found {}", owner, fmt::join(rule.names, ", "),
-                                 fmt::join(given, " and ")));
+                     fmt::format("{}: at most one of {} may be given, found {}", owner,
+                                 fmt::join(rule.names, ", "), fmt::join(given, " and ")));
         return false;
     }
     if (given.empty() && rule.rule != Exclusion::Rule::at_most_one) {
-        problems.add(map.mark, "E-MISSING", fmt::format("{}: one of {} is needed", owner, fmt::join(rule.names, ", ")));
+        problems.add(map.mark, "E-MISSING",
+                     fmt::format("{}: one of {} is needed", owner, fmt::join(rule.names, ", ")));
         return false;
     }
     return true;

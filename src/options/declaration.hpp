@@ -1,17 +1,17 @@
 #pragma once
 // The one declaration of an option. A stage writes
 //
-//   struct RelaxOptions { std::int64_t iterations = 1; double factor = 1; Method method = Method::laplacian; };
-//   void declare(Declare<RelaxOptions>& d) {
+//   struct RelaxOptions { std::int64_t iterations = 1; double factor = 1; Method method = Method::laplacian;
+//   }; void declare(Declare<RelaxOptions>& d) {
 //       d.option("iterations", &RelaxOptions::iterations, "How many times ...").at_least(1).primary();
 //       d.option("factor", &RelaxOptions::factor, "How far ...").between(0, 1);
-//       d.choice("method", &RelaxOptions::method, {{"laplacian", Method::laplacian, "the note's"}, ...}, "Which ...");
-//       d.group("plane", &RelaxOptions::plane, "The plane ...", [](Declare<Plane>& p) { ... });
+//       d.choice("method", &RelaxOptions::method, {{"laplacian", Method::laplacian, "the note's"}, ...},
+//       "Which ..."); d.group("plane", &RelaxOptions::plane, "The plane ...", [](Declare<Plane>& p) { ... });
 //       d.at_most_one({"ratio", "faces"});
 //   }
 //
-// and parsing, the one-liner, help, man page, JSON Schema and the sweep test follow. Defaults are the members'
-// initialisers, so they are written once.
+// and parsing, the one-liner, help, man page, JSON Schema and the sweep test follow. Defaults are the
+// members' initialisers, so they are written once.
 
 #include "options/types.hpp"
 
@@ -29,19 +29,19 @@ struct Declaration;
 /// All that is known of an option, for every consumer.
 struct Option {
     std::string name;
-    std::string type;    ///< "integer", "length", "choice", "group", ...
+    std::string type; ///< "integer", "length", "choice", "group", ...
     Dimension dimension = Dimension::none;
-    std::string help;    ///< one or two sentences; says the unit when the number has one
+    std::string help;         ///< one or two sentences; says the unit when the number has one
     std::string default_text; ///< the default's spelling; empty when unset
     bool required = false;
-    bool primary = false; ///< a bare value sets it
+    bool primary = false;    ///< a bare value sets it
     bool repeatable = false; ///< takes a list
     Range range;
     std::vector<Choice> choices;
     std::shared_ptr<const Declaration> fields; ///< of a group
     Json schema;
-    /// Reads the value into this option's member of the struct at target. False after adding problems. The range
-    /// is checked by Declaration::parse.
+    /// Reads the value into this option's member of the struct at target. False after adding problems. The
+    /// range is checked by Declaration::parse.
     std::function<bool(const Option&, const Value&, void* target, Problems&)> parse;
     /// The number in the struct that the range limits, if there is one.
     std::function<std::optional<double>(const void* target)> magnitude;
@@ -58,7 +58,8 @@ struct Exclusion {
 struct Declaration {
     std::vector<Option> options;
     std::vector<Exclusion> exclusions;
-    /// Reads a value that is no map (none: the primary option takes it). For groups with a short form, "z=0.2".
+    /// Reads a value that is no map (none: the primary option takes it). For groups with a short form,
+    /// "z=0.2".
     std::function<bool(const Value&, void* target, Problems&)> shorthand;
     std::string shorthand_help;
     Json shorthand_schema;
@@ -68,8 +69,8 @@ struct Declaration {
     std::vector<std::string> names() const;
     Json schema() const;
 
-    /// Reads a stage's value into the options struct at target: null takes the defaults, a map sets options by
-    /// name, anything else goes to the shorthand or the primary option. owner is for messages: "clip",
+    /// Reads a stage's value into the options struct at target: null takes the defaults, a map sets options
+    /// by name, anything else goes to the shorthand or the primary option. owner is for messages: "clip",
     /// "clip: plane". Keys in also_known are skipped (the common keys). False after adding problems.
     bool parse(const Value& value, void* target, std::string_view owner, Problems& problems,
                const std::set<std::string>& also_known = {}) const;
@@ -125,12 +126,15 @@ class Declare {
         o.parse = [member](const Option&, const Value& v, void* target, Problems& problems) {
             return Type::parse(v, static_cast<S*>(target)->*member, problems);
         };
-        o.magnitude = [member](const void* target) { return Type::magnitude(static_cast<const S*>(target)->*member); };
+        o.magnitude = [member](const void* target) {
+            return Type::magnitude(static_cast<const S*>(target)->*member);
+        };
         return push(std::move(o));
     }
 
     template <class E>
-    OptionRef<S> choice(std::string name, E S::*member, std::vector<NamedChoice<E>> choices, std::string help) {
+    OptionRef<S> choice(std::string name, E S::*member, std::vector<NamedChoice<E>> choices,
+                        std::string help) {
         Option o = start(std::move(name), "choice", std::move(help));
         std::vector<E> values;
         for (auto& c : choices) {
@@ -178,7 +182,9 @@ class Declare {
 
     void at_most_one(std::vector<std::string> names) { rule(Exclusion::Rule::at_most_one, std::move(names)); }
     void exactly_one(std::vector<std::string> names) { rule(Exclusion::Rule::exactly_one, std::move(names)); }
-    void at_least_one(std::vector<std::string> names) { rule(Exclusion::Rule::at_least_one, std::move(names)); }
+    void at_least_one(std::vector<std::string> names) {
+        rule(Exclusion::Rule::at_least_one, std::move(names));
+    }
 
   private:
     template <class M>
@@ -203,7 +209,9 @@ class Declare {
         declaration.options.push_back(std::move(o));
         return {declaration, declaration.options.size() - 1};
     }
-    void rule(Exclusion::Rule r, std::vector<std::string> names) { declaration.exclusions.push_back({r, std::move(names)}); }
+    void rule(Exclusion::Rule r, std::vector<std::string> names) {
+        declaration.exclusions.push_back({r, std::move(names)});
+    }
 };
 
 } // namespace facetmill

@@ -1,5 +1,6 @@
 #pragma once
-// The typed quantities that options take. Each knows its spelling; lengths wait for a scene to become numbers.
+// The typed quantities that options take. Each knows its spelling; lengths wait for a scene to become
+// numbers.
 
 #include "base/vec.hpp"
 
@@ -12,11 +13,15 @@ namespace facetmill {
 /// A length as written: scene units, a physical unit, or a percentage of a bounding-box diagonal.
 struct Length {
     enum class Kind { scene, physical, percent };
-    enum class Of { stage, part, load }; ///< whose diagonal: the scene entering the stage, the part, the scene as loaded
+    enum class Of {
+        stage,
+        part,
+        load
+    };                 ///< whose diagonal: the scene entering the stage, the part, the scene as loaded
     double amount = 0; ///< in scene units, in metres, or in percent
     Kind kind = Kind::scene;
     Of of = Of::stage;
-    std::string text;  ///< as written: "2mm"
+    std::string text; ///< as written: "2mm"
 
     static Length scene(double amount);
     static Length percent(double amount, Of of = Of::stage);

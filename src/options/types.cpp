@@ -19,7 +19,8 @@ bool wrong_type(const Value& value, std::string_view expected, Problems& problem
 /// "2.5mm" -> 2.5 and "mm"; none when it does not start with a number.
 std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text) {
     std::size_t split = text.size();
-    while (split > 0 && !(text[split - 1] >= '0' && text[split - 1] <= '9') && text[split - 1] != '.') --split;
+    while (split > 0 && !(text[split - 1] >= '0' && text[split - 1] <= '9') && text[split - 1] != '.')
+        --split;
     const auto number = parse_real(text.substr(0, split));
     if (!number) return {};
     std::string_view unit = text.substr(split);
@@ -28,13 +29,13 @@ std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_v
 }
 
 constexpr std::array<std::pair<std::string_view, double>, 8> length_units{{{"um", 1e-6},
-                                                                          {"mm", 1e-3},
-                                                                          {"cm", 1e-2},
-                                                                          {"m", 1.0},
-                                                                          {"km", 1e3},
-                                                                          {"in", 0.0254},
-                                                                          {"ft", 0.3048},
-                                                                          {"inch", 0.0254}}};
+                                                                           {"mm", 1e-3},
+                                                                           {"cm", 1e-2},
+                                                                           {"m", 1.0},
+                                                                           {"km", 1e3},
+                                                                           {"in", 0.0254},
+                                                                           {"ft", 0.3048},
+                                                                           {"inch", 0.0254}}};
 
 constexpr double pi = 3.141592653589793238462643383279502884;
 
@@ -60,7 +61,9 @@ bool OptionType<std::int64_t>::parse(const Value& value, std::int64_t& out, Prob
 }
 std::string OptionType<std::int64_t>::print(const std::int64_t& value) { return fmt::format("{}", value); }
 Json OptionType<std::int64_t>::schema() { return {{"type", "integer"}}; }
-std::optional<double> OptionType<std::int64_t>::magnitude(const std::int64_t& v) { return static_cast<double>(v); }
+std::optional<double> OptionType<std::int64_t>::magnitude(const std::int64_t& v) {
+    return static_cast<double>(v);
+}
 
 bool OptionType<double>::parse(const Value& value, double& out, Problems& problems) {
     if (value.deferred) return true;
@@ -102,9 +105,10 @@ bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems
         return wrong_type(value, expected, problems);
     const bool percent = !parts->second.empty();
     if (!percent && value.text.find('.') == std::string::npos && parts->first != 0) {
-        const auto hint = parts->first <= 100 ? fmt::format("write {}%, or name the option that counts (faces: {})",
-                                                            parts->first == 1 ? "100" : value.text, value.text)
-                                              : fmt::format("for a count write faces: {}", value.text);
+        const auto hint = parts->first <= 100
+                              ? fmt::format("write {}%, or name the option that counts (faces: {})",
+                                            parts->first == 1 ? "100" : value.text, value.text)
+                              : fmt::format("for a count write faces: {}", value.text);
         return wrong_type(value, expected, problems, hint);
     }
     out.value = percent ? parts->first / 100 : parts->first;
@@ -147,9 +151,11 @@ bool OptionType<Length>::parse(const Value& value, Length& out, Problems& proble
 }
 std::string OptionType<Length>::print(const Length& value) { return value.text.empty() ? "0" : value.text; }
 Json OptionType<Length>::schema() {
-    return {{"anyOf", Json::array({{{"type", "number"}},
-                                   {{"type", "string"},
-                                    {"pattern", "^[0-9.eE+-]+ *(um|mm|cm|m|km|in|inch|ft|(%|pct)( of (part|load))?)?$"}}})}};
+    return {{"anyOf",
+             Json::array(
+                 {{{"type", "number"}},
+                  {{"type", "string"},
+                   {"pattern", "^[0-9.eE+-]+ *(um|mm|cm|m|km|in|inch|ft|(%|pct)( of (part|load))?)?$"}}})}};
 }
 std::optional<double> OptionType<Length>::magnitude(const Length& value) { return value.amount; }
 
@@ -218,10 +224,13 @@ bool OptionType<Bound>::parse(const Value& value, Bound& out, Problems& problems
     if (value.is_map()) {
         bool good = true;
         for (const auto& e : value.entries) {
-            if (e.key == "min") good &= parse_limit(e.value, out.min, problems);
-            else if (e.key == "max") good &= parse_limit(e.value, out.max, problems);
+            if (e.key == "min")
+                good &= parse_limit(e.value, out.min, problems);
+            else if (e.key == "max")
+                good &= parse_limit(e.value, out.max, problems);
             else {
-                problems.add(e.key_mark, "E-KEY", fmt::format("a bound has no key '{}'", e.key), "expected min or max");
+                problems.add(e.key_mark, "E-KEY", fmt::format("a bound has no key '{}'", e.key),
+                             "expected min or max");
                 good = false;
             }
         }

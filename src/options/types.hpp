@@ -32,15 +32,15 @@ struct Range {
 template <class T>
 struct OptionType;
 
-#define FACETMILL_OPTION_TYPE(T, NAME, DIMENSION)                                                                  \
-    template <>                                                                                                    \
-    struct OptionType<T> {                                                                                         \
-        static constexpr const char* name = NAME;                                                                  \
-        static constexpr Dimension dimension = DIMENSION;                                                          \
-        static bool parse(const Value& value, T& out, Problems& problems);                                         \
-        static std::string print(const T& value);                                                                  \
-        static Json schema();                                                                                      \
-        static std::optional<double> magnitude(const T& value);                                                    \
+#define FACETMILL_OPTION_TYPE(T, NAME, DIMENSION)                                                            \
+    template <>                                                                                              \
+    struct OptionType<T> {                                                                                   \
+        static constexpr const char* name = NAME;                                                            \
+        static constexpr Dimension dimension = DIMENSION;                                                    \
+        static bool parse(const Value& value, T& out, Problems& problems);                                   \
+        static std::string print(const T& value);                                                            \
+        static Json schema();                                                                                \
+        static std::optional<double> magnitude(const T& value);                                              \
     }
 
 FACETMILL_OPTION_TYPE(bool, "bool", Dimension::none);
@@ -63,7 +63,8 @@ struct OptionType<std::vector<T>> {
         out.clear();
         if (value.is_list()) {
             bool good = true;
-            for (const auto& item : value.items) good &= OptionType<T>::parse(item, out.emplace_back(), problems);
+            for (const auto& item : value.items)
+                good &= OptionType<T>::parse(item, out.emplace_back(), problems);
             return good;
         }
         return OptionType<T>::parse(value, out.emplace_back(), problems);
@@ -88,7 +89,9 @@ struct OptionType<std::optional<T>> {
     static bool parse(const Value& value, std::optional<T>& out, Problems& problems) {
         return OptionType<T>::parse(value, out.emplace(), problems);
     }
-    static std::string print(const std::optional<T>& value) { return value ? OptionType<T>::print(*value) : ""; }
+    static std::string print(const std::optional<T>& value) {
+        return value ? OptionType<T>::print(*value) : "";
+    }
     static Json schema() { return OptionType<T>::schema(); }
     static std::optional<double> magnitude(const std::optional<T>& value) {
         return value ? OptionType<T>::magnitude(*value) : std::nullopt;

@@ -79,10 +79,14 @@ std::optional<double> Value::as_real() const {
 
 std::string Value::described() const {
     switch (kind) {
-    case Kind::null: return "nothing";
-    case Kind::list: return fmt::format("a list of {}", items.size());
-    case Kind::map: return "a map";
-    default: return quoted ? fmt::format("the text \"{}\"", text) : fmt::format("'{}'", text);
+    case Kind::null:
+        return "nothing";
+    case Kind::list:
+        return fmt::format("a list of {}", items.size());
+    case Kind::map:
+        return "a map";
+    default:
+        return quoted ? fmt::format("the text \"{}\"", text) : fmt::format("'{}'", text);
     }
 }
 
@@ -93,7 +97,8 @@ bool same_content(const Value& a, const Value& b) {
     for (std::size_t i = 0; i < a.items.size(); ++i)
         if (!same_content(a.items[i], b.items[i])) return false;
     for (std::size_t i = 0; i < a.entries.size(); ++i)
-        if (a.entries[i].key != b.entries[i].key || !same_content(a.entries[i].value, b.entries[i].value)) return false;
+        if (a.entries[i].key != b.entries[i].key || !same_content(a.entries[i].value, b.entries[i].value))
+            return false;
     return true;
 }
 

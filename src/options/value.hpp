@@ -1,6 +1,6 @@
 #pragma once
-// What a person wrote, with its places: the one tree that the YAML file, the one-liner, -D and --set all become
-// before options are read from it.
+// What a person wrote, with its places: the one tree that the YAML file, the one-liner, -D and --set all
+// become before options are read from it.
 
 #include "base/error.hpp"
 #include "base/mark.hpp"
@@ -19,11 +19,12 @@ struct Value {
     struct Entry;
 
     Kind kind = Kind::null;
-    std::string text;      ///< of a scalar
-    bool quoted = false;   ///< a quoted scalar is text, whatever it spells
-    bool deferred = false; ///< known only when the pipeline runs (foreach over parts): any type will do when checking
+    std::string text;    ///< of a scalar
+    bool quoted = false; ///< a quoted scalar is text, whatever it spells
+    bool deferred =
+        false; ///< known only when the pipeline runs (foreach over parts): any type will do when checking
     Mark mark;
-    Mark anchor;           ///< where an alias's content was written; unknown when this is no alias
+    Mark anchor; ///< where an alias's content was written; unknown when this is no alias
     std::vector<Value> items;
     std::vector<Entry> entries;
 

@@ -20,7 +20,8 @@ struct Assertions {
     bool needs_self_intersections() const;
 };
 
-/// Reads assertions from a map value; unknown properties, truths where numbers belong and the reverse are problems.
+/// Reads assertions from a map value; unknown properties, truths where numbers belong and the reverse are
+/// problems.
 bool parse_assertions(const Value& value, Assertions& out, std::string_view owner, Problems& problems,
                       const std::set<std::string>& also_known = {});
 /// JSON Schema of such a map.
@@ -34,7 +35,9 @@ template <>
 struct OptionType<Assertions> {
     static constexpr const char* name = "assertions";
     static constexpr Dimension dimension = Dimension::none;
-    static bool parse(const Value& v, Assertions& out, Problems& p) { return parse_assertions(v, out, "assertions", p); }
+    static bool parse(const Value& v, Assertions& out, Problems& p) {
+        return parse_assertions(v, out, "assertions", p);
+    }
     static std::string print(const Assertions&) { return ""; }
     static Json schema() { return assertions_schema(); }
     static std::optional<double> magnitude(const Assertions&) { return {}; }

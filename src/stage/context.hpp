@@ -10,7 +10,8 @@
 
 namespace facetmill {
 
-/// The parts a stage works on (the common key `only`): names or globs of parts or materials, "!glob" excludes.
+/// The parts a stage works on (the common key `only`): names or globs of parts or materials, "!glob"
+/// excludes.
 struct PartFilter {
     std::vector<std::string> patterns; ///< empty: all parts
     bool selects(const Part& part, const Scene& scene) const;
@@ -37,7 +38,8 @@ struct RunState {
 /// One stage's view of the run. All the stage says goes into its StageRecord.
 class Context {
   public:
-    Context(RunState& run, report::StageRecord& record, const PartFilter& only, Box entering, const Mark& where);
+    Context(RunState& run, report::StageRecord& record, const PartFilter& only, Box entering,
+            const Mark& where);
 
     /// The parts to work on, selected by `only`, in order. Marks them changed, unless reading.
     void for_each_part(Scene& scene, const std::function<void(Part&)>& body);
@@ -45,7 +47,8 @@ class Context {
 
     /// The length in world scene units. Records what it was resolved to under the option's name. Throws usage
     /// (E-UNIT) for a physical unit when the scene has none.
-    double resolve(const Length& length, const Scene& scene, std::string_view option, const Part* part = nullptr);
+    double resolve(const Length& length, const Scene& scene, std::string_view option,
+                   const Part* part = nullptr);
 
     void warn(std::string id, std::string message, std::string hint = {});
     void ledger(const Part& part, const Fates& fates);

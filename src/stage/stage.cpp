@@ -13,8 +13,9 @@ std::vector<StageInfo>& registry() {
 
 RegisterStage::RegisterStage(StageInfo info) {
     auto& all = registry();
-    const auto at = std::lower_bound(all.begin(), all.end(), info.name,
-                                     [](const StageInfo& s, const std::string& name) { return s.name < name; });
+    const auto at =
+        std::lower_bound(all.begin(), all.end(), info.name,
+                         [](const StageInfo& s, const std::string& name) { return s.name < name; });
     all.insert(at, std::move(info));
 }
 

@@ -18,12 +18,12 @@ struct StageFiles {
 };
 
 struct StageInfo {
-    std::string name;                  ///< the verb users write
-    std::string about;                 ///< one line
-    std::string details;               ///< a paragraph or more: what it guarantees, what it does to attributes, its source
+    std::string name;    ///< the verb users write
+    std::string about;   ///< one line
+    std::string details; ///< a paragraph or more: what it guarantees, what it does to attributes, its source
     std::vector<std::string> examples; ///< as list items of a pipeline, without the dash: "relax: 3"
-    bool checks = false;   ///< it only judges: several in a row all run before a failure ends the branch
-    bool loads = false;    ///< it adds to the scene rather than working on it (may come first)
+    bool checks = false; ///< it only judges: several in a row all run before a failure ends the branch
+    bool loads = false;  ///< it adds to the scene rather than working on it (may come first)
 
     // Filled by make_stage.
     Declaration options;
@@ -60,7 +60,9 @@ StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene
         return run(std::move(scene), *static_cast<const Options*>(options), context);
     };
     if (hooks.files)
-        info.files = [f = hooks.files](const void* options) { return f(*static_cast<const Options*>(options)); };
+        info.files = [f = hooks.files](const void* options) {
+            return f(*static_cast<const Options*>(options));
+        };
     if (hooks.verify)
         info.verify = [f = hooks.verify](const void* options, const Value& given, Problems& problems) {
             f(*static_cast<const Options*>(options), given, problems);
