@@ -1,0 +1,130 @@
+#include "support/catch.hpp"
+
+#include "options/declaration.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+enum class Method { note, better };
+
+struct Plane {
+    Vec3 normal{0, 0, 1};
+};
+
+struct Settings {
+    std::int64_t iterations = 1;
+    double factor = 0.5;
+    Method method = Method::better;
+    std::optional<Ratio> ratio;
+    std::optional<std::int64_t> faces;
+    std::optional<Plane> plane;
+    std::vector<PathText> paths;
+};
+
+Declaration declared() {
+    Declare<Settings> d;
+    d.option("iterations", &Settings::iterations, "How many times.").at_least(1).primary();
+    d.option("factor", &Settings::factor, "How far.").above(0).at_most(1);
+    d.choice("method", &Settings::method,
+             {{"note", Method::note, "the note's"}, {"better", Method::better, "ours"}}, "Which.");
+    d.option("ratio", &Settings::ratio, "Of the faces.").above(0).at_most(1);
+    d.option("faces", &Settings::faces, "How many are left.").at_least(1);
+    d.group("plane", &Settings::plane, "Where.",
+            [](Declare<Plane>& p) { p.option("normal", &Plane::normal, "Its direction.").required(); });
+    d.option("paths", &Settings::paths, "Files.");
+    d.at_most_one({"ratio", "faces"});
+    return d.declaration;
+}
+
+Value map(std::initializer_list<std::pair<const char*, Value>> entries) {
+    Value v = Value::map({});
+    for (const auto& [key, value] : entries) v.set(key, value);
+    return v;
+}
+
+/// All complaints about the value, one a line.
+std::string complaints(const Value& value) {
+    Problems problems;
+    Settings s;
+    const bool good = declared().parse(value, &s, "relax", problems, {"name"});
+    std::string text;
+    for (const auto& d : problems.all())
+        text += d.id + " " + d.message + (d.hint.empty() ? "" : " (" + d.hint + ")") + "\n";
+    CHECK(good == text.empty());
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("a bare value sets the primary option, nothing takes the defaults", "[options]") {
+    Problems problems;
+    Settings s;
+    CHECK(declared().parse(Value::scalar("7"), &s, "relax", problems));
+    CHECK(s.iterations == 7);
+    CHECK(s.factor == 0.5);
+    CHECK(declared().parse({}, &s, "relax", problems));
+    CHECK_FALSE(problems.any_errors());
+}
+
+TEST_CASE("defaults are the members' initialisers", "[options]") {
+    const auto d = declared();
+    CHECK(d.find("iterations")->default_text == "1");
+    CHECK(d.find("factor")->default_text == "0.5");
+    CHECK(d.find("method")->default_text == "better");
+    CHECK(d.find("ratio")->default_text.empty());
+    CHECK(d.primary()->name == "iterations");
+}
+
+TEST_CASE("every wrong option is reported at once", "[options]") {
+    CHECK(complaints(map({{"iterations", Value::scalar("0")},
+                          {"factr", Value::scalar("1")},
+                          {"method", Value::scalar("beter")},
+                          {"name", Value::scalar("smooth")}})) ==
+          "E-RANGE 'iterations' must be in the range x >= 1, found '0'\n"
+          "E-KEY relax has no option 'factr' (did you mean 'factor'?)\n"
+          "E-CHOICE 'method' is one of note, better, found 'beter' (did you mean 'better'?)\n");
+}
+
+TEST_CASE("options that exclude each other", "[options]") {
+    CHECK(complaints(map({{"ratio", Value::scalar("10%")}, {"faces", Value::scalar("10")}})) ==
+          "E-EXCLUSIVE relax: at most one of ratio, faces may be given, found ratio and faces\n");
+}
+
+TEST_CASE("nested groups say what they miss", "[options]") {
+    CHECK(complaints(map({{"plane", Value::map({})}})) ==
+          "E-MISSING plane: 'normal' is needed (Its direction.)\n");
+    CHECK(complaints(map({{"plane", map({{"normal", Value::scalar("0,1,0")}})}})).empty());
+}
+
+TEST_CASE("open ends of a range are exclusive", "[options]") {
+    CHECK(complaints(map({{"factor", Value::scalar("0")}})) ==
+          "E-RANGE 'factor' must be in the range 0 < x <= 1, found '0'\n");
+    CHECK(complaints(map({{"factor", Value::scalar("1")}})).empty());
+}
+
+TEST_CASE("a list option takes one value or several", "[options]") {
+    Problems problems;
+    Settings s;
+    CHECK(declared().parse(map({{"paths", Value::scalar("a.ply")}}), &s, "load", problems));
+    CHECK(s.paths.size() == 1);
+    const Value two = Value::list({Value::scalar("a"), Value::scalar("b")});
+    CHECK(declared().parse(map({{"paths", two}}), &s, "load", problems));
+    CHECK(s.paths.size() == 2);
+}
+
+TEST_CASE("a deferred value is good for any option", "[options]") {
+    Value later = Value::scalar("${part}");
+    later.deferred = true;
+    CHECK(complaints(map({{"iterations", later}, {"method", later}, {"plane", later}, {"ratio", later}}))
+              .empty());
+}
+
+TEST_CASE("the schema lists every option once and is closed", "[options]") {
+    const Json schema = declared().schema();
+    const Json& object = schema["anyOf"][0];
+    CHECK(object["additionalProperties"] == false);
+    CHECK(object["properties"].size() == 7);
+    CHECK(object["properties"]["factor"]["x-range"] == "0 < x <= 1");
+    CHECK(schema["anyOf"][1]["type"] == "integer");
+}

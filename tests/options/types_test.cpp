@@ -1,0 +1,120 @@
+#include "support/catch.hpp"
+
+#include "options/types.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+template <class T>
+std::optional<T> parsed(const Value& value) {
+    Problems problems;
+    T out{};
+    if (!OptionType<T>::parse(value, out, problems)) return {};
+    return out;
+}
+
+template <class T>
+std::optional<T> parsed(const std::string& text) {
+    return parsed<T>(Value::scalar(text));
+}
+
+template <class T>
+std::string complaint(const std::string& text) {
+    Problems problems;
+    T out{};
+    if (OptionType<T>::parse(Value::scalar(text), out, problems)) return "none";
+    const auto& d = problems.all().at(0);
+    return d.id + " " + d.message + (d.hint.empty() ? "" : " (" + d.hint + ")");
+}
+
+} // namespace
+
+TEST_CASE("integers are decimal, 0x or 0o; leading zeros do not make them octal", "[options]") {
+    CHECK(parsed<std::int64_t>("010") == 10);
+    CHECK(parsed<std::int64_t>("0x1f") == 31);
+    CHECK(parsed<std::int64_t>("0o17") == 15);
+    CHECK(parsed<std::int64_t>("-3") == -3);
+    CHECK_FALSE(parsed<std::int64_t>("3.0"));
+    CHECK_FALSE(parsed<std::int64_t>("9223372036854775808"));
+    CHECK_FALSE(parsed<std::int64_t>(""));
+    CHECK_FALSE(parsed<std::int64_t>(Value::scalar("3", {}, true)));
+}
+
+TEST_CASE("numbers are finite", "[options]") {
+    CHECK(parsed<double>("1e3") == 1000);
+    CHECK(parsed<double>("+.5") == 0.5);
+    CHECK_FALSE(parsed<double>(".nan"));
+    CHECK_FALSE(parsed<double>("nan"));
+    CHECK_FALSE(parsed<double>("inf"));
+    CHECK_FALSE(parsed<double>("1e999"));
+    CHECK_FALSE(parsed<double>("1,5"));
+}
+
+TEST_CASE("truths are true and false only", "[options]") {
+    CHECK(parsed<bool>("true") == true);
+    CHECK(parsed<bool>("False") == false);
+    CHECK_FALSE(parsed<bool>("yes"));
+    CHECK_FALSE(parsed<bool>("1"));
+}
+
+TEST_CASE("a bare whole number is no ratio, and both meanings are offered", "[options]") {
+    CHECK(parsed<Ratio>("25%")->value == 0.25);
+    CHECK(parsed<Ratio>("0.25")->value == 0.25);
+    CHECK(parsed<Ratio>("10pct")->value == 0.1);
+    CHECK(complaint<Ratio>("1") ==
+          "E-TYPE expected a ratio (25% or 0.25), found '1' (write 100%, or name the option "
+          "that counts (faces: 1))");
+    CHECK(complaint<Ratio>("5000") ==
+          "E-TYPE expected a ratio (25% or 0.25), found '5000' (for a count write faces: 5000)");
+}
+
+TEST_CASE("lengths keep their unit until there is a scene", "[options]") {
+    CHECK(parsed<Length>("2")->kind == Length::Kind::scene);
+    CHECK(parsed<Length>("2mm")->amount == Approx(0.002));
+    CHECK(parsed<Length>("0.1in")->amount == Approx(0.00254));
+    CHECK(parsed<Length>("2 cm")->kind == Length::Kind::physical);
+    CHECK(parsed<Length>("0.5%")->kind == Length::Kind::percent);
+    CHECK(parsed<Length>("0.5% of part")->of == Length::Of::part);
+    CHECK(parsed<Length>("0.5% of load")->of == Length::Of::load);
+    CHECK_FALSE(parsed<Length>("0.5% of moon"));
+    CHECK_FALSE(parsed<Length>("mm"));
+    CHECK(complaint<Length>("2 furlong") ==
+          "E-TYPE expected a length (2, 2mm, 0.5%, 0.5% of part), found '2 furlong' "
+          "(units: um, mm, cm, m, km, in, ft, or %)");
+}
+
+TEST_CASE("angles are degrees unless they say rad", "[options]") {
+    CHECK(parsed<Angle>("180")->radians == Approx(3.14159265358979));
+    CHECK(parsed<Angle>("30deg")->radians == Approx(0.523598775598299));
+    CHECK(parsed<Angle>("0.5rad")->radians == 0.5);
+    CHECK_FALSE(parsed<Angle>("0.5grad"));
+}
+
+TEST_CASE("vectors are three numbers, as a list or with commas", "[options]") {
+    CHECK(parsed<Vec3>("0,0,1") == Vec3{0, 0, 1});
+    CHECK(parsed<Vec3>(Value::list({Value::scalar("1"), Value::scalar("2"), Value::scalar("3.5")})) ==
+          Vec3{1, 2, 3.5});
+    CHECK_FALSE(parsed<Vec3>("0,0"));
+    CHECK_FALSE(parsed<Vec3>("0,0,x"));
+    CHECK_FALSE(parsed<Vec3>("0,0,nan"));
+}
+
+TEST_CASE("bounds are a truth, a value, or min and max", "[options]") {
+    CHECK(parsed<Bound>("true")->truth == true);
+    CHECK(parsed<Bound>("2")->min == 2);
+    CHECK(parsed<Bound>("2")->max == 2);
+    const auto between =
+        parsed<Bound>(Value::map({{"min", {}, Value::scalar("1")}, {"max", {}, Value::scalar("50%")}}));
+    CHECK(between->min == 1);
+    CHECK(between->max == 0.5);
+    CHECK_FALSE(parsed<Bound>(Value::map({{"mid", {}, Value::scalar("1")}})));
+    CHECK_FALSE(parsed<Bound>(Value::map({})));
+}
+
+TEST_CASE("what a type prints reads back as the same", "[options]") {
+    CHECK(OptionType<Ratio>::print(*parsed<Ratio>("12.5%")) == "12.5%");
+    CHECK(OptionType<Length>::print(Length::percent(0.2, Length::Of::part)) == "0.2% of part");
+    CHECK(OptionType<Angle>::print(Angle::degrees(30)) == "30deg");
+    CHECK(OptionType<Vec3>::print({0, -1.5, 1e300}) == "[0, -1.5, 1e+300]");
+}
