@@ -16,7 +16,9 @@ namespace facetmill::io {
 using Bytes = std::vector<std::byte>;
 using Span = std::span<const std::byte>;
 
-inline std::string_view as_text(Span bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+inline std::string_view as_text(Span bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
 /// An input, whole: a mapped regular file, or what a pipe or standard input gave. Immutable and shared.
 class Input {
@@ -25,16 +27,26 @@ class Input {
     /// (E-SIZE, when a stream goes beyond max_stream bytes). Gzip (.gz) is inflated, within the same limit.
     static Input open(const std::filesystem::path& path, std::size_t max_stream = std::size_t{4} << 30);
     static Input of(std::string name, Bytes bytes);
+    /// The same bytes under another name (a staged output under its target's).
+    Input named(std::string name) const;
 
-    const std::string& name() const { return name_; }                ///< for messages and the report
-    const std::filesystem::path& path() const { return path_; }      ///< empty for streams
+    const std::string& name() const { return name_; }           ///< for messages and the report
+    const std::filesystem::path& path() const { return path_; } ///< empty for streams
     Span bytes() const { return bytes_; }
+    Span stored() const { return stored_; } ///< as the file holds them: still compressed, when it was gzip
 
   private:
+    void inflate(std::size_t limit);
+
     std::string name_;
     std::filesystem::path path_;
-    std::shared_ptr<const void> owner_;
-    Span bytes_;
+    std::shared_ptr<const void> owner_, stored_owner_;
+    Span bytes_, stored_;
 };
+
+/// Whether these bytes begin as gzip does.
+bool is_gzip(Span bytes);
+/// The bytes as a gzip file without name and time, so that the same bytes give the same file.
+Bytes gzipped(Span bytes);
 
 } // namespace facetmill::io

@@ -1,6 +1,6 @@
 #pragma once
-// One codec per format, behind one registry sorted by name. A codec turns bytes into a Scene and back; it opens no
-// files itself (except a glTF's neighbours, through Neighbours) and writes none.
+// One codec per format, behind one registry sorted by name. A codec turns bytes into a Scene and back; it
+// opens no files itself (except a glTF's neighbours, through Neighbours) and writes none.
 
 #include "io/bytes.hpp"
 #include "mesh/scene.hpp"
@@ -17,7 +17,7 @@ struct ReadLog {
 };
 
 struct ReadSettings {
-    std::optional<Unit> unit;       ///< overrides what the format says
+    std::optional<Unit> unit; ///< overrides what the format says
     std::optional<UpAxis> up;
     std::size_t max_vertices = std::size_t{1} << 31;
 };
@@ -29,11 +29,11 @@ struct DracoSettings {
 };
 
 struct WriteSettings {
-    bool ascii = false;     ///< PLY and STL: text instead of binary
-    bool big_endian = false; ///< PLY
-    DracoSettings draco;    ///< glTF
+    bool ascii = false;         ///< PLY and STL: text instead of binary
+    bool big_endian = false;    ///< PLY
+    DracoSettings draco;        ///< glTF
     bool mesh_manifold = false; ///< glTF: EXT_mesh_manifold
-    std::string title;      ///< the output's stem, for names inside the file
+    std::string title;          ///< the output's stem, for names inside the file
 };
 
 /// A written file: the main one first, then its neighbours (a .gltf's .bin and images, an .obj's .mtl).
@@ -54,12 +54,14 @@ struct Codec {
     std::vector<std::string> extensions; ///< lower case, without the dot; the first is the usual one
     Unit unit = Unit::unknown;           ///< what a written file's numbers mean; unknown: as the scene has it
     UpAxis up = UpAxis::unknown;
-    /// Whether the bytes are of this format, whatever the name says; 0 no, 1 perhaps, 2 surely (a magic number).
+    /// Whether the bytes are of this format, whatever the name says; 0 no, 1 perhaps, 2 surely (a magic
+    /// number).
     std::function<int(Span)> recognises;
-    /// Throws Error malformed with the place (line, or byte offset in the message), limit when counts exceed what
-    /// the file can hold. Sizes and counts from the file are never trusted before they are checked.
+    /// Throws Error malformed with the place (line, or byte offset in the message), limit when counts exceed
+    /// what the file can hold. Sizes and counts from the file are never trusted before they are checked.
     std::function<Scene(const Input&, const ReadSettings&, ReadLog&)> read;
-    /// Throws Error stage when the scene cannot be held by the format at all. Empty: the format is not written.
+    /// Throws Error stage when the scene cannot be held by the format at all. Empty: the format is not
+    /// written.
     std::function<Written(const Scene&, const WriteSettings&)> write;
 };
 
@@ -73,8 +75,9 @@ const std::vector<Codec>& codecs();
 const Codec* codec_for(const std::filesystem::path& path);
 const Codec* codec_named(std::string_view name);
 
-/// Reads a mesh file: by content where it is sure, else by extension. Throws as Codec::read, usage (E-FORMAT) when
-/// no codec takes it. Positions that are not finite are malformed (E-NAN) with the vertex and file.
-Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log, const Codec* forced = nullptr);
+/// Reads a mesh file: by content where it is sure, else by extension. Throws as Codec::read, usage (E-FORMAT)
+/// when no codec takes it. Positions that are not finite are malformed (E-NAN) with the vertex and file.
+Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
+                 const Codec* forced = nullptr);
 
 } // namespace facetmill::io

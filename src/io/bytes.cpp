@@ -1,0 +1,199 @@
+#include "io/bytes.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+#include <zlib.h>
+
+namespace facetmill::io {
+
+namespace {
+
+/// Below this a file is read rather than mapped: nobody can shrink memory under us.
+constexpr std::size_t map_from = std::size_t{64} << 20;
+
+struct Descriptor {
+    int fd;
+    bool own;
+    ~Descriptor() {
+        if (own) ::close(fd);
+    }
+};
+
+[[noreturn]] void cannot_read(const std::string& name, int error) {
+    if (error == ENOENT || error == ENOTDIR)
+        throw Error(ErrorKind::missing, "E-FILE", fmt::format("there is no file '{}'", name));
+    if (error == EACCES || error == EPERM)
+        throw Error(ErrorKind::missing, "E-PERMISSION", fmt::format("'{}' may not be read", name));
+    if (error == EISDIR)
+        throw Error(ErrorKind::missing, "E-DIRECTORY",
+                    fmt::format("'{}' is a directory, expected a file", name));
+    throw Error(ErrorKind::missing, "E-FILE",
+                fmt::format("'{}' cannot be read: {}", name, std::strerror(error)));
+}
+
+[[noreturn]] void too_large(const std::string& name, std::size_t limit) {
+    throw Error(ErrorKind::limit, "E-SIZE", fmt::format("'{}' gives more than {} bytes", name, limit),
+                "write it to a file first, uncompressed");
+}
+
+/// Reads up to room bytes; 0 at the end.
+std::size_t read_some(int fd, std::byte* to, std::size_t room, const std::string& name) {
+    while (true) {
+        const ssize_t got = ::read(fd, to, std::min(room, std::size_t{1} << 30));
+        if (got >= 0) return static_cast<std::size_t>(got);
+        if (errno != EINTR) cannot_read(name, errno);
+    }
+}
+
+/// All that the descriptor gives; expected is a guess, not a promise (files grow and shrink).
+Bytes read_all(int fd, std::size_t expected, std::size_t limit, const std::string& name) {
+    Bytes bytes;
+    std::size_t size = 0;
+    for (std::size_t room = expected + 1;; room = std::max<std::size_t>(size, 1 << 16)) {
+        bytes.resize(size + room);
+        std::size_t got = 0;
+        while (size < bytes.size() &&
+               (got = read_some(fd, bytes.data() + size, bytes.size() - size, name)) > 0)
+            size += got;
+        if (size > limit) too_large(name, limit);
+        if (size < bytes.size()) break;
+    }
+    bytes.resize(size);
+    return bytes;
+}
+
+std::shared_ptr<const void> map_file(int fd, std::size_t size) {
+    void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0);
+    if (at == MAP_FAILED) return nullptr;
+    ::madvise(at, size, MADV_SEQUENTIAL);
+    return {at, [size](const void* p) { ::munmap(const_cast<void*>(p), size); }};
+}
+
+struct Inflater {
+    z_stream stream{};
+    Inflater() {
+        if (::inflateInit2(&stream, 15 + 16) != Z_OK)
+            throw Error(ErrorKind::limit, "E-MEMORY", "no memory to inflate a file");
+    }
+    ~Inflater() { ::inflateEnd(&stream); }
+};
+
+/// Inflates a gzip file of one or more members.
+Bytes inflated(Span bytes, std::size_t limit, const std::string& name) {
+    Inflater z;
+    Bytes out;
+    std::size_t size = 0, at = 0;
+    const auto broken = [&] {
+        throw Error(ErrorKind::malformed, "E-GZIP",
+                    fmt::format("'{}' is not whole gzip: {} near byte {}", name,
+                                z.stream.msg ? z.stream.msg : "it ends early", at));
+    };
+    while (true) {
+        if (size == out.size()) out.resize(std::min(std::max<std::size_t>(size * 2, 1 << 16), limit + 1));
+        const uInt in = static_cast<uInt>(std::min<std::size_t>(bytes.size() - at, 1 << 30));
+        const uInt room = static_cast<uInt>(std::min<std::size_t>(out.size() - size, 1 << 30));
+        z.stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data() + at));
+        z.stream.next_out = reinterpret_cast<Bytef*>(out.data() + size);
+        z.stream.avail_in = in, z.stream.avail_out = room;
+        const int state = ::inflate(&z.stream, Z_NO_FLUSH);
+        at += in - z.stream.avail_in, size += room - z.stream.avail_out;
+        if (size > limit) too_large(name, limit);
+        if (state == Z_STREAM_END) {
+            if (!is_gzip(bytes.subspan(at))) break;
+            if (::inflateReset(&z.stream) != Z_OK) broken();
+        } else if (state != Z_OK || (at == bytes.size() && z.stream.avail_out > 0)) {
+            broken();
+        }
+    }
+    out.resize(size);
+    return out;
+}
+
+} // namespace
+
+Input Input::open(const std::filesystem::path& path, std::size_t max_stream) {
+    Input input;
+    const bool standard = path == "-";
+    input.name_ = standard ? "standard input" : path.string();
+    const Descriptor file{standard ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC), !standard};
+    if (file.fd < 0) cannot_read(input.name_, errno);
+    struct stat about {};
+    if (::fstat(file.fd, &about) != 0) cannot_read(input.name_, errno);
+    if (S_ISDIR(about.st_mode)) cannot_read(input.name_, EISDIR);
+
+    const bool regular = S_ISREG(about.st_mode) && !standard;
+    const auto size = static_cast<std::size_t>(regular ? about.st_size : 0);
+    if (regular) input.path_ = path;
+    if (size >= map_from) input.owner_ = map_file(file.fd, size);
+    if (input.owner_) {
+        input.bytes_ = {static_cast<const std::byte*>(input.owner_.get()), size};
+    } else {
+        auto bytes = std::make_shared<const Bytes>(
+            read_all(file.fd, size, regular ? SIZE_MAX - 1 : max_stream, input.name_));
+        input.bytes_ = *bytes;
+        input.owner_ = std::move(bytes);
+    }
+    input.inflate(max_stream);
+    return input;
+}
+
+Input Input::of(std::string name, Bytes bytes) {
+    Input input;
+    input.name_ = std::move(name);
+    auto shared = std::make_shared<const Bytes>(std::move(bytes));
+    input.bytes_ = *shared;
+    input.owner_ = std::move(shared);
+    input.inflate(std::size_t{4} << 30);
+    return input;
+}
+
+Input Input::named(std::string name) const {
+    Input other = *this;
+    other.name_ = std::move(name);
+    return other;
+}
+
+void Input::inflate(std::size_t limit) {
+    stored_ = bytes_;
+    if (!is_gzip(bytes_)) return;
+    stored_owner_ = owner_;
+    auto bytes = std::make_shared<const Bytes>(inflated(bytes_, limit, name_));
+    bytes_ = *bytes;
+    owner_ = std::move(bytes);
+}
+
+bool is_gzip(Span bytes) {
+    // Two magic bytes, the only method there is, and no reserved flag.
+    return bytes.size() >= 18 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b} &&
+           bytes[2] == std::byte{8} && (bytes[3] & std::byte{0xe0}) == std::byte{0};
+}
+
+Bytes gzipped(Span bytes) {
+    z_stream z{};
+    if (::deflateInit2(&z, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+        throw Error(ErrorKind::limit, "E-MEMORY", "no memory to compress a file");
+    Bytes out;
+    std::size_t at = 0, size = 0;
+    for (int state = Z_OK; state == Z_OK;) {
+        if (size == out.size()) out.resize(std::max<std::size_t>(size * 2, 1 << 16));
+        const uInt in = static_cast<uInt>(std::min<std::size_t>(bytes.size() - at, 1 << 30));
+        const uInt room = static_cast<uInt>(std::min<std::size_t>(out.size() - size, 1 << 30));
+        z.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data() + at));
+        z.next_out = reinterpret_cast<Bytef*>(out.data() + size);
+        z.avail_in = in, z.avail_out = room;
+        state = ::deflate(&z, at + in == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
+        at += in - z.avail_in, size += room - z.avail_out;
+    }
+    ::deflateEnd(&z);
+    out.resize(size);
+    return out;
+}
+
+} // namespace facetmill::io

@@ -1,0 +1,26 @@
+#pragma once
+// What must be undone when a signal ends the process: a list that a signal handler may walk at any time.
+
+#include <filesystem>
+
+namespace facetmill::io {
+
+/// An entry of the list: a file to unlink or a directory to remove when it is empty. Entries are never freed,
+/// since a handler may be reading them; there is one per output.
+struct CleanUp;
+
+CleanUp* clean_up_file(const std::filesystem::path& path);
+CleanUp* clean_up_directory(const std::filesystem::path& path);
+/// The entry is done with: a signal leaves it alone from now on.
+void keep(CleanUp* entry);
+
+/// While one lives, a signal waits: the process ends when it goes. For the renames of a commit.
+class HoldSignals {
+  public:
+    HoldSignals();
+    ~HoldSignals();
+    HoldSignals(const HoldSignals&) = delete;
+    HoldSignals& operator=(const HoldSignals&) = delete;
+};
+
+} // namespace facetmill::io

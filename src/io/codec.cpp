@@ -1,0 +1,117 @@
+#include "io/codec.hpp"
+
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+
+namespace facetmill::io {
+
+namespace {
+
+std::vector<Codec>& registry() {
+    static std::vector<Codec> all;
+    return all;
+}
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::string known_formats() {
+    std::vector<std::string> names;
+    for (const auto& c : codecs()) names.push_back(c.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The codec that the content asks for; else the one that the name asks for.
+const Codec& choose(const Input& input, ReadLog& log) {
+    const Codec* by_name = codec_for(input.name());
+    const Codec* perhaps = nullptr;
+    const Codec* surely = nullptr;
+    for (const auto& codec : codecs()) {
+        const int score = codec.recognises ? codec.recognises(input.bytes()) : 0;
+        if (score == 2 && (!surely || &codec == by_name)) surely = &codec;
+        if (score == 1 && !perhaps) perhaps = &codec;
+    }
+    if (surely) {
+        if (by_name && by_name != surely)
+            log.warnings.push_back({Severity::warning, "W-FORMAT",
+                                    fmt::format("'{}' is read as {}, which it is, whatever its name",
+                                                input.name(), surely->name),
+                                    file_mark(input.name()), ""});
+        return *surely;
+    }
+    if (by_name) return *by_name;
+    if (perhaps) return *perhaps;
+    throw Error(ErrorKind::usage, "E-FORMAT",
+                fmt::format("the format of '{}' is not recognised", input.name()),
+                fmt::format("say it with 'format', one of: {}", known_formats()));
+}
+
+void check_finite(const Part& part, const std::string& name) {
+    for (const auto& row : part.transform.m)
+        for (const double x : row)
+            if (!std::isfinite(x))
+                throw Error(ErrorKind::malformed, "E-NAN",
+                            fmt::format("the transform of part '{}' in '{}' is not finite", part.name, name));
+    const auto& positions = part.mesh.positions;
+    const std::size_t first = parallel_reduce(
+        positions.size(), positions.size(),
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t v = begin; v < end; ++v)
+                if (!is_finite(positions[v])) return v;
+            return positions.size();
+        },
+        [](std::size_t a, std::size_t b) { return std::min(a, b); });
+    if (first == positions.size()) return;
+    const Vec3& p = positions[first];
+    throw Error(ErrorKind::malformed, "E-NAN",
+                fmt::format("vertex {} of part '{}' in '{}' is ({}, {}, {}), expected finite numbers", first,
+                            part.name, name, p.x, p.y, p.z));
+}
+
+} // namespace
+
+RegisterCodec::RegisterCodec(Codec codec) {
+    auto& all = registry();
+    const auto at = std::lower_bound(all.begin(), all.end(), codec.name,
+                                     [](const Codec& c, const std::string& name) { return c.name < name; });
+    all.insert(at, std::move(codec));
+}
+
+const std::vector<Codec>& codecs() { return registry(); }
+
+const Codec* codec_for(const std::filesystem::path& path) {
+    std::string extension = lower(path.extension().string());
+    if (extension == ".gz") extension = lower(path.stem().extension().string());
+    if (extension.empty()) return nullptr;
+    for (const auto& codec : codecs())
+        for (const auto& e : codec.extensions)
+            if (extension.compare(1, std::string::npos, e) == 0) return &codec;
+    return nullptr;
+}
+
+const Codec* codec_named(std::string_view name) {
+    for (const auto& codec : codecs())
+        if (codec.name == name) return &codec;
+    return nullptr;
+}
+
+Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log, const Codec* forced) {
+    if (input.bytes().empty())
+        throw Error(ErrorKind::malformed, "E-EMPTY",
+                    fmt::format("'{}' is empty: it has no bytes", input.name()));
+    const Codec& codec = forced ? *forced : choose(input, log);
+    if (!codec.read)
+        throw Error(ErrorKind::usage, "E-FORMAT", fmt::format("{} is written but not read", codec.name));
+    Scene scene = codec.read(input, settings, log);
+    if (settings.unit) scene.unit = *settings.unit;
+    if (settings.up) scene.up = *settings.up;
+    for (const auto& part : scene.parts) check_finite(part, input.name());
+    return scene;
+}
+
+} // namespace facetmill::io

@@ -1,0 +1,305 @@
+#include "io/outputs.hpp"
+
+#include "base/hash.hpp"
+#include "io/clean_up.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <csignal>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace facetmill::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Temporaries held open with a lock at a time; beyond it the process id alone says that they are alive.
+constexpr std::size_t most_locks = 128;
+
+[[noreturn]] void cannot_write(const fs::path& target, int error) {
+    const std::string name = target == "-" ? "standard output" : fmt::format("'{}'", target.string());
+    if (error == ENOSPC || error == EDQUOT || error == EFBIG)
+        throw Error(ErrorKind::output, "E-SPACE", fmt::format("no space left to write {}", name));
+    if (error == EPIPE)
+        throw Error(ErrorKind::output, "E-WRITE",
+                    fmt::format("{} cannot be written: its reader went away", name));
+    if (error == EISDIR)
+        throw Error(ErrorKind::output, "E-DIRECTORY",
+                    fmt::format("{} is a directory, expected a file", name));
+    throw Error(ErrorKind::output, "E-WRITE",
+                fmt::format("{} cannot be written: {}", name, std::strerror(error)));
+}
+
+void write_all(int fd, Span bytes, const fs::path& target) {
+    while (!bytes.empty()) {
+        const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), std::size_t{1} << 30));
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) cannot_write(target, errno);
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+}
+
+/// Whether the target takes bytes one after another and cannot be replaced by a rename.
+bool is_stream(const fs::path& target) {
+    const std::string text = target.string();
+    if (text == "-" || text.starts_with("/dev/fd/") || text.starts_with("/proc/") || text == "/dev/stdout" ||
+        text == "/dev/stderr")
+        return true;
+    std::error_code ignored;
+    const auto status = fs::status(target, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+/// The file that is replaced: symbolic links at the end are followed, also when they lead nowhere yet.
+fs::path followed(fs::path path) {
+    std::error_code error;
+    const fs::path given = path;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(path, error)); ++links) {
+        if (links == 40) cannot_write(given, ELOOP);
+        const fs::path to = fs::read_symlink(path, error);
+        if (error) cannot_write(given, error.value());
+        path = to.is_absolute() ? to : path.parent_path() / to;
+    }
+    return path;
+}
+
+/// One name for a file, however it is spelled.
+fs::path identity(const fs::path& path) {
+    std::error_code error;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(path), error);
+    return error ? path : whole;
+}
+
+std::string temporary_name(const fs::path& target, int attempt) {
+    const std::string tail =
+        fmt::format(".facetmill-{}{}~", ::getpid(), attempt ? fmt::format("-{}", attempt) : "");
+    constexpr std::size_t longest_name = 255;
+    return fmt::format(".{}{}", target.filename().string().substr(0, longest_name - 1 - tail.size()), tail);
+}
+
+/// The process that wrote this temporary, or 0 when the name is not one of ours.
+int writer_of(std::string_view name) {
+    constexpr std::string_view mark = ".facetmill-";
+    const auto at = name.rfind(mark);
+    if (name.size() < 2 || name.front() != '.' || name.back() != '~' || at == std::string_view::npos ||
+        at == 0)
+        return 0;
+    int pid = 0, attempt = 0;
+    const char* const end = name.data() + name.size() - 1;
+    auto read = std::from_chars(name.data() + at + mark.size(), end, pid);
+    if (read.ec == std::errc{} && read.ptr != end && *read.ptr == '-')
+        read = std::from_chars(read.ptr + 1, end, attempt);
+    return read.ec == std::errc{} && read.ptr == end && pid > 0 ? pid : 0;
+}
+
+/// Whether nobody is at work on the temporary: its process is gone, and nobody holds its lock (a process in
+/// another container that shares the directory has no id here).
+bool is_abandoned(const fs::path& temporary, int pid) {
+    if (pid == ::getpid() || ::kill(pid, 0) == 0 || errno != ESRCH) return false;
+    const int fd = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (fd < 0) return false;
+    const bool free = ::flock(fd, LOCK_EX | LOCK_NB) == 0;
+    ::close(fd);
+    return free;
+}
+
+/// Gives the temporary the permissions, and as far as allowed the owner, of the file it will replace.
+void keep_permissions(int fd, const fs::path& target, const fs::path& given) {
+    struct stat about {};
+    if (::stat(target.c_str(), &about) != 0) return;
+    if (S_ISDIR(about.st_mode)) cannot_write(given, EISDIR);
+    if (::access(target.c_str(), W_OK) != 0) cannot_write(given, errno);
+    const bool owned = (about.st_uid == ::geteuid() && about.st_gid == ::getegid()) ||
+                       ::fchown(fd, about.st_uid, about.st_gid) == 0;
+    ::fchmod(fd, about.st_mode & (owned ? 07777 : 0777));
+}
+
+/// A second name (or, where there are no hard links, a copy) of the file at target; empty when there is none.
+fs::path set_aside(const fs::path& target) {
+    std::error_code error;
+    const auto status = fs::symlink_status(target, error);
+    if (!fs::exists(status)) return {};
+    if (fs::is_directory(status)) cannot_write(target, EISDIR);
+    for (int attempt = 1;; ++attempt) {
+        fs::path aside = target.parent_path() / temporary_name(target, attempt);
+        fs::create_hard_link(target, aside, error);
+        if (error == std::errc::file_exists) continue;
+        if (error) fs::copy_file(target, aside, error);
+        if (error) cannot_write(target, error.value());
+        return aside;
+    }
+}
+
+void stream_out(const Outputs::File& file) {
+    const bool standard = file.target == "-";
+    const int fd = standard ? STDOUT_FILENO : ::open(file.target.c_str(), O_WRONLY | O_CLOEXEC | O_TRUNC);
+    if (fd < 0) cannot_write(file.target, errno);
+    try {
+        write_all(fd, file.stream, file.target);
+    } catch (...) {
+        if (!standard) ::close(fd);
+        throw;
+    }
+    if (!standard && ::close(fd) != 0) cannot_write(file.target, errno);
+}
+
+} // namespace
+
+Outputs::~Outputs() { discard(); }
+
+void Outputs::make_directory(const fs::path& directory) {
+    std::error_code error;
+    if (directory.empty() || fs::is_directory(directory, error)) return;
+    make_directory(directory.parent_path());
+    if (::mkdir(directory.c_str(), 0777) == 0) {
+        made_directories_.push_back({directory, clean_up_directory(directory)});
+    } else if (const int why = errno; !fs::is_directory(directory, error)) {
+        throw Error(ErrorKind::output, why == ENOSPC ? "E-SPACE" : "E-DIRECTORY",
+                    fmt::format("the directory '{}' cannot be made: {}", directory.string(),
+                                why == EEXIST ? "a file has its name" : std::strerror(why)));
+    }
+}
+
+void Outputs::remove_stale(const fs::path& directory) {
+    if (!swept_.insert(directory).second) return;
+    std::error_code error;
+    for (fs::directory_iterator it(directory.empty() ? "." : directory, error), end; !error && it != end;
+         it.increment(error)) {
+        const int pid = writer_of(it->path().filename().native());
+        if (pid && is_abandoned(it->path(), pid)) ::unlink(it->path().c_str());
+    }
+}
+
+void Outputs::stage(File& file, Span bytes) {
+    const fs::path directory = file.resolved.parent_path();
+    for (int attempt = 0;; ++attempt) {
+        file.temporary = directory / temporary_name(file.resolved, attempt);
+        file.clean_up = clean_up_file(file.temporary);
+        file.lock = ::open(file.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (file.lock >= 0) break;
+        const int why = errno;
+        keep(file.clean_up);
+        if (why != EEXIST) cannot_write(file.target, why);
+    }
+    try {
+        ::flock(file.lock, LOCK_EX | LOCK_NB);
+        keep_permissions(file.lock, file.resolved, file.target);
+        write_all(file.lock, bytes, file.target);
+        // Network file systems say only at a close that there is no room; the lock lives in the other
+        // descriptor.
+        if (const int copy = ::dup(file.lock); copy < 0 || ::close(copy) != 0)
+            cannot_write(file.target, errno);
+    } catch (...) {
+        ::close(file.lock);
+        ::unlink(file.temporary.c_str());
+        keep(file.clean_up);
+        throw;
+    }
+    if (files_.size() >= most_locks) ::close(std::exchange(file.lock, -1));
+}
+
+const Outputs::File& Outputs::add(const fs::path& target, Span bytes) {
+    auto file = std::make_unique<File>();
+    file->target = target;
+    const bool stream = is_stream(target);
+    file->resolved = stream ? target : followed(target);
+    const fs::path self = stream ? target : identity(file->resolved);
+    for (const auto& other : files_)
+        if (self == (other->temporary.empty() ? other->target : identity(other->resolved)))
+            throw Error(ErrorKind::output, "E-TWICE",
+                        fmt::format("'{}' is written twice in one run", target.string()),
+                        "give the second a name of its own");
+    file->bytes = bytes.size();
+    file->sha256 = sha256(bytes);
+    if (stream) {
+        file->stream.assign(bytes.begin(), bytes.end());
+    } else {
+        std::error_code error;
+        if (target.filename().empty() || fs::is_directory(file->resolved, error))
+            cannot_write(target, EISDIR);
+        make_directory(file->resolved.parent_path());
+        remove_stale(file->resolved.parent_path());
+        stage(*file, bytes);
+    }
+    return *files_.emplace_back(std::move(file));
+}
+
+Input Outputs::staged(const File& file) const {
+    if (file.temporary.empty()) return Input::of(file.target.string(), file.stream);
+    return Input::open(file.temporary).named(file.target.string());
+}
+
+void Outputs::rename_all() {
+    const HoldSignals hold;
+    std::vector<std::pair<const File*, fs::path>> done; // with what was there before
+    std::error_code ignored;
+    const auto several =
+        std::count_if(files_.begin(), files_.end(), [](const auto& f) { return !f->temporary.empty(); }) > 1;
+    try {
+        for (const auto& file : files_) {
+            if (file->temporary.empty()) continue;
+            fs::path aside = several ? set_aside(file->resolved) : fs::path();
+            if (::rename(file->temporary.c_str(), file->resolved.c_str()) != 0) {
+                const int why = errno;
+                fs::remove(aside, ignored);
+                cannot_write(file->target, why);
+            }
+            done.emplace_back(file.get(), std::move(aside));
+        }
+    } catch (...) {
+        for (const auto& [file, aside] : done)
+            if (aside.empty())
+                ::unlink(file->resolved.c_str());
+            else
+                ::rename(aside.c_str(), file->resolved.c_str());
+        forget(true);
+        throw;
+    }
+    for (const auto& [file, aside] : done)
+        if (!aside.empty()) fs::remove(aside, ignored);
+    for (const auto& directory : made_directories_) keep(directory.clean_up);
+    made_directories_.clear();
+}
+
+void Outputs::commit() {
+    rename_all();
+    const auto staged = std::exchange(files_, {});
+    for (const auto& file : staged) {
+        keep(file->clean_up);
+        if (file->lock >= 0) ::close(file->lock);
+    }
+    for (const auto& file : staged)
+        if (file->temporary.empty()) stream_out(*file);
+}
+
+void Outputs::forget(bool remove) {
+    for (const auto& file : files_) {
+        if (remove && !file->temporary.empty()) ::unlink(file->temporary.c_str());
+        if (file->lock >= 0) ::close(file->lock);
+        keep(file->clean_up);
+    }
+    files_.clear();
+    for (auto it = made_directories_.rbegin(); it != made_directories_.rend(); ++it) {
+        if (remove) ::rmdir(it->path.c_str());
+        keep(it->clean_up);
+    }
+    made_directories_.clear();
+}
+
+void Outputs::discard() { forget(true); }
+
+void write_now(const fs::path& target, Span bytes) {
+    Outputs outputs;
+    outputs.add(target, bytes);
+    outputs.commit();
+}
+
+} // namespace facetmill::io

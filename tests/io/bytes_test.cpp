@@ -1,0 +1,70 @@
+#include "support/catch.hpp"
+
+#include "io/bytes.hpp"
+#include "support/failure.hpp"
+#include "support/temporary.hpp"
+
+#include <sys/stat.h>
+#include <thread>
+
+using namespace facetmill;
+using namespace facetmill::test;
+using io::Input;
+
+TEST_CASE("a file is read whole", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "a", std::string(100000, 'x'));
+    const Input input = Input::open(dir / "a");
+    CHECK(input.bytes().size() == 100000);
+    CHECK(input.path() == dir / "a");
+    put(dir / "empty", "");
+    CHECK(Input::open(dir / "empty").bytes().empty());
+}
+
+TEST_CASE("gzip is inflated, members one after another, and its stored bytes are known", "[io]") {
+    const TemporaryDirectory dir;
+    const std::string text(300000, 'y');
+    const io::Bytes packed = io::gzipped(bytes_of(text));
+    std::string two;
+    for (int i = 0; i < 2; ++i) two += std::string(io::as_text(packed));
+    put(dir / "a.gz", two);
+    const Input input = Input::open(dir / "a.gz");
+    CHECK(io::as_text(input.bytes()) == text + text);
+    CHECK(io::as_text(input.stored()) == two);
+    CHECK(
+        failure([&] { Input::open(dir / "a.gz", 1000); }) ==
+        fmt::format("limit [E-SIZE] '{}' gives more than 1000 bytes | write it to a file first, uncompressed",
+                    (dir / "a.gz").string()));
+    put(dir / "cut.gz", two.substr(0, packed.size() - 20));
+    CHECK(failure([&] { Input::open(dir / "cut.gz"); }) ==
+          fmt::format("malformed [E-GZIP] '{}' is not whole gzip: it ends early near byte {}",
+                      (dir / "cut.gz").string(), packed.size() - 20));
+}
+
+TEST_CASE("a pipe is read to its end, within a limit", "[io]") {
+    const TemporaryDirectory dir;
+    const auto fifo = dir / "fifo";
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    for (const std::size_t limit : {std::size_t{1} << 20, std::size_t{10}}) {
+        std::thread writer([&] { put(fifo, std::string(1000, 'z')); });
+        std::string text;
+        const std::string failed = failure([&] { text = io::as_text(Input::open(fifo, limit).bytes()); });
+        writer.join();
+        if (limit > 10) {
+            CHECK(text == std::string(1000, 'z'));
+        } else {
+            CHECK(failed ==
+                  fmt::format("limit [E-SIZE] '{}' gives more than 10 bytes | write it to a file first, "
+                              "uncompressed",
+                              fifo.string()));
+        }
+    }
+}
+
+TEST_CASE("inputs that are not there are refused", "[io]") {
+    const TemporaryDirectory dir;
+    CHECK(failure([&] { Input::open(dir / "no"); }) ==
+          fmt::format("missing [E-FILE] there is no file '{}'", (dir / "no").string()));
+    CHECK(failure([&] { Input::open(dir.path()); }) ==
+          fmt::format("missing [E-DIRECTORY] '{}' is a directory, expected a file", dir.path().string()));
+}

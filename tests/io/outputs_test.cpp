@@ -1,0 +1,163 @@
+#include "support/catch.hpp"
+
+#include "io/outputs.hpp"
+#include "support/failure.hpp"
+#include "support/temporary.hpp"
+
+#include <csignal>
+#include <sys/stat.h>
+#include <sys/wait.h>
+
+using namespace facetmill;
+using namespace facetmill::test;
+using io::Outputs;
+namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
+
+TEST_CASE("outputs appear together at the commit", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "a", "old");
+    Outputs outputs;
+    outputs.add(dir / "a", bytes_of("new"));
+    outputs.add(dir / "sub/deep/b", bytes_of("second"));
+    CHECK(get(dir / "a") == "old");
+    CHECK_FALSE(fs::exists(dir / "sub/deep/b"));
+    outputs.commit();
+    CHECK(get(dir / "a") == "new");
+    CHECK(get(dir / "sub/deep/b") == "second");
+    CHECK(dir.names() == Names{"a", "sub", "sub/deep", "sub/deep/b"});
+}
+
+TEST_CASE("a staged file can be read back before the commit", "[io]") {
+    const TemporaryDirectory dir;
+    Outputs outputs;
+    const auto& file = outputs.add(dir / "a.ply", bytes_of("text"));
+    CHECK(file.bytes == 4);
+    CHECK(file.sha256 == "982d9e3eb996f559e633f4d194def3761d909f5a3b647d1a851fead67c32c9d1");
+    const io::Input input = outputs.staged(file);
+    CHECK(io::as_text(input.bytes()) == "text");
+    CHECK(input.name() == (dir / "a.ply").string());
+}
+
+TEST_CASE("a discarded run leaves older outputs and no directories of its own", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "a", "old");
+    {
+        Outputs outputs;
+        outputs.add(dir / "a", bytes_of("new"));
+        outputs.add(dir / "made/b", bytes_of("new"));
+    }
+    CHECK(get(dir / "a") == "old");
+    CHECK(dir.names() == Names{"a"});
+}
+
+TEST_CASE("a rename that fails puts back what was renamed before it", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "a", "old");
+    Outputs outputs;
+    outputs.add(dir / "a", bytes_of("new"));
+    outputs.add(dir / "b", bytes_of("new"));
+    outputs.add(dir / "c", bytes_of("new"));
+    fs::create_directories(dir / "c/in-the-way");
+    CHECK(failure([&] { outputs.commit(); }) ==
+          fmt::format("output [E-DIRECTORY] '{}' is a directory, expected a file", (dir / "c").string()));
+    CHECK(get(dir / "a") == "old");
+    CHECK(dir.names() == Names{"a", "c", "c/in-the-way"});
+}
+
+TEST_CASE("targets that cannot be written are refused before anything is", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "file", "x");
+    fs::create_directory(dir / "folder");
+    Outputs outputs;
+    CHECK(
+        failure([&] { outputs.add(dir / "folder", bytes_of("x")); }) ==
+        fmt::format("output [E-DIRECTORY] '{}' is a directory, expected a file", (dir / "folder").string()));
+    CHECK(failure([&] { outputs.add(dir / "file/below", bytes_of("x")); }) ==
+          fmt::format("output [E-DIRECTORY] the directory '{}' cannot be made: a file has its name",
+                      (dir / "file").string()));
+    outputs.add(dir / "once", bytes_of("x"));
+    CHECK(failure([&] { outputs.add(dir / "folder/../once", bytes_of("y")); }) ==
+          fmt::format("output [E-TWICE] '{}' is written twice in one run | give the second a name of its own",
+                      (dir / "folder/../once").string()));
+}
+
+TEST_CASE("a directory that may not be written to is refused", "[io]") {
+    if (::geteuid() == 0) return; // root may write anywhere
+    const TemporaryDirectory dir;
+    fs::create_directory(dir / "locked");
+    ::chmod((dir / "locked").c_str(), 0555);
+    Outputs outputs;
+    CHECK(failure([&] { outputs.add(dir / "locked/a", bytes_of("x")); }) ==
+          fmt::format("output [E-WRITE] '{}' cannot be written: Permission denied",
+                      (dir / "locked/a").string()));
+}
+
+TEST_CASE("a full device is told from other failures", "[io]") {
+    if (!fs::exists("/dev/full")) return;
+    Outputs outputs;
+    outputs.add("/dev/full", bytes_of("x"));
+    CHECK(failure([&] { outputs.commit(); }) == "output [E-SPACE] no space left to write '/dev/full'");
+}
+
+TEST_CASE("links stay links and permissions stay", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "target", "old");
+    ::chmod((dir / "target").c_str(), 0640);
+    fs::create_symlink("target", dir / "link");
+    fs::create_symlink("nowhere-yet", dir / "dangling");
+    Outputs outputs;
+    outputs.add(dir / "link", bytes_of("new"));
+    outputs.add(dir / "dangling", bytes_of("new"));
+    outputs.commit();
+    CHECK(fs::is_symlink(dir / "link"));
+    CHECK(get(dir / "target") == "new");
+    CHECK(get(dir / "nowhere-yet") == "new");
+    CHECK((fs::status(dir / "target").permissions() & fs::perms::all) == static_cast<fs::perms>(0640));
+}
+
+TEST_CASE("temporaries of a dead process go, those of living ones stay", "[io]") {
+    const TemporaryDirectory dir;
+    const pid_t dead = ::fork();
+    if (dead == 0) ::_exit(0);
+    ::waitpid(dead, nullptr, 0);
+    const std::string stale = fmt::format(".a.facetmill-{}~", dead),
+                      again = fmt::format(".b.facetmill-{}-2~", dead);
+    const std::string alive = fmt::format(".a.facetmill-{}~", ::getppid());
+    for (const auto& name :
+         {stale, again, alive, std::string(".a.facetmill-x~"), std::string("a.facetmill-1~")})
+        put(dir / name, "x");
+    Outputs outputs;
+    outputs.add(dir / "a", bytes_of("new"));
+    outputs.commit();
+    CHECK(dir.names() == Names{alive, ".a.facetmill-x~", "a", "a.facetmill-1~"});
+}
+
+TEST_CASE("a signal removes temporaries and ends the process by that signal", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "a", "old");
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            std::signal(number, SIG_DFL);
+            io::clean_up_on_signals();
+            Outputs outputs;
+            outputs.add(dir / "a", bytes_of("new"));
+            outputs.add(dir / "made/below/b", bytes_of("new"));
+            ::raise(number);
+            ::_exit(99);
+        }
+        int status = 0;
+        ::waitpid(child, &status, 0);
+        CHECK(WIFSIGNALED(status));
+        CHECK(WTERMSIG(status) == number);
+        CHECK(get(dir / "a") == "old");
+        CHECK(dir.names() == Names{"a"});
+    }
+}
+
+TEST_CASE("one file at once", "[io]") {
+    const TemporaryDirectory dir;
+    io::write_now(dir / "reports/r.json", bytes_of("{}"));
+    CHECK(get(dir / "reports/r.json") == "{}");
+}

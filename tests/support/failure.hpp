@@ -1,0 +1,47 @@
+#pragma once
+// What an operation refuses with, whole: "malformed [E-PLY] a.ply:3: message | hint".
+
+#include "base/error.hpp"
+
+#include <fmt/format.h>
+#include <string>
+
+namespace facetmill::test {
+
+inline const char* spelled(ErrorKind kind) {
+    switch (kind) {
+    case ErrorKind::check:
+        return "check";
+    case ErrorKind::usage:
+        return "usage";
+    case ErrorKind::missing:
+        return "missing";
+    case ErrorKind::output:
+        return "output";
+    case ErrorKind::stage:
+        return "stage";
+    case ErrorKind::malformed:
+        return "malformed";
+    case ErrorKind::limit:
+        return "limit";
+    default:
+        return "bug";
+    }
+}
+
+/// Runs the body and spells the first diagnostic of the Error it throws; "nothing" when it throws none.
+template <class Body>
+std::string failure(Body&& body) {
+    try {
+        body();
+    } catch (const Error& error) {
+        const Diagnostic& d = error.diagnostics().front();
+        std::string text = fmt::format("{} [{}] ", spelled(error.kind()), d.id);
+        if (d.where.known()) text += facetmill::spelled(d.where) + ": ";
+        text += d.message;
+        return d.hint.empty() ? text : text + " | " + d.hint;
+    }
+    return "nothing";
+}
+
+} // namespace facetmill::test
