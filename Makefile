@@ -1,0 +1,54 @@
+# The short way in: make demo, make test. Everything else is CMake (see CMakePresets.json).
+#
+#   make          build build/release/facetmill
+#   make deps     install the Debian packages that are missing (tools/deps.sh --list names them)
+#   make demo     build, then mill a real scan and say where to look
+#   make test     build and run all tests                    (PRESET=debug, asan or ci for other builds)
+#   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
+#   make install  install under PREFIX (/usr/local; DESTDIR is respected)
+#   make deb      a Debian package in build/release
+#   make format   run clang-format over the sources
+
+PRESET ?= release
+JOBS ?= $(shell n=$$(nproc); [ $$n -gt 2 ] && echo 2 || echo $$n)
+PREFIX ?= /usr/local
+BUILD := build/$(PRESET)
+export CTEST_PARALLEL_LEVEL ?= $(JOBS)
+
+.PHONY: all build deps demo test asan install deb format check-layers clean
+all: build
+
+deps:
+	@tools/deps.sh
+
+build: deps
+	@cmake --preset $(PRESET) --log-level=NOTICE
+	@cmake --build --preset $(PRESET) -j $(JOBS)
+
+demo: build
+	@mkdir -p out
+	$(BUILD)/facetmill run pipelines/quickstart.yaml --output-dir out
+	@echo
+	@echo "Look at out/nefertiti.html (the report) and out/nefertiti.glb in any glTF viewer;"
+	@echo "out/nefertiti.draco.glb is the same mesh compressed, out/nefertiti.json the report for programs."
+
+test: build
+	@ctest --preset $(PRESET)
+
+asan:
+	@$(MAKE) --no-print-directory test PRESET=asan
+
+install: build
+	cmake --install $(BUILD) --prefix $(PREFIX)
+
+deb: build
+	cd $(BUILD) && cpack -G DEB
+
+format:
+	git ls-files 'src/*.[ch]pp' 'tests/*.[ch]pp' 'bench/*.[ch]pp' | xargs clang-format -i
+
+check-layers:
+	python3 tools/check_layers.py
+
+clean:
+	rm -rf build out

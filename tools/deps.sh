@@ -1,0 +1,44 @@
+#!/bin/sh
+# deps.sh [--list] [--all]
+# Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
+# and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
+# shells, a second Draco reader, and node for the glTF validator.
+set -eu
+
+build="g++ cmake ninja-build pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libyaml-cpp-dev
+    libcli11-dev libfmt-dev libtbb-dev libeigen3-dev libssl-dev zlib1g-dev"
+test="catch2 python3 python3-jsonschema"
+optional="ccache zsh fish draco nodejs npm mandoc"
+
+list=no wanted="$build $test"
+for argument in "$@"; do
+    case $argument in
+    --list) list=yes ;;
+    --all) wanted="$build $test $optional" ;;
+    *) echo "usage: deps.sh [--list] [--all]" >&2; exit 2 ;;
+    esac
+done
+
+missing=
+for package in $wanted; do
+    # Node from elsewhere serves as well, and does not live beside Debian's.
+    case $package in nodejs | npm) if command -v npm >/dev/null && command -v node >/dev/null; then continue; fi ;; esac
+    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing="$missing $package"
+done
+
+if [ $list = yes ]; then
+    for package in $missing; do echo "$package"; done
+    exit 0
+fi
+[ -n "$missing" ] || exit 0
+echo "Installing from Debian:$missing" >&2
+
+sudo=
+if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || { echo "Run as root: apt-get install --no-install-recommends$missing" >&2; exit 1; }
+    sudo=sudo
+fi
+export DEBIAN_FRONTEND=noninteractive
+$sudo apt-get update -qq
+# shellcheck disable=SC2086  # a list of names
+$sudo apt-get install -y -qq --no-install-recommends $missing >&2
