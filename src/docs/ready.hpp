@@ -1,0 +1,18 @@
+#pragma once
+// The ready pipelines: the files of pipelines/, embedded when facetmill is built (cmake/Embed.cmake).
+
+#include <string_view>
+#include <vector>
+
+namespace facetmill::docs {
+
+struct ReadyPipeline {
+    std::string_view name; ///< the file's stem: "quickstart"
+    std::string_view text;
+};
+
+/// Sorted by name.
+const std::vector<ReadyPipeline>& ready_pipelines();
+const ReadyPipeline* ready_pipeline(std::string_view name);
+
+} // namespace facetmill::docs

@@ -1,0 +1,79 @@
+#include "docs/describe.hpp"
+#include "docs/stages.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::docs {
+
+const std::vector<Choice>& common_keys() {
+    static const std::vector<Choice> keys{
+        {"name", "How the report, --set and messages call this step. Unique in the pipeline."},
+        {"when", "Runs the step only when this holds: a bool param, ${a} == value, or properties as in ensure."},
+        {"only", "The parts it works on: names or globs of parts or materials; \"!glob\" excludes."},
+        {"ensure", "A contract on the scene that leaves the step: {closed: true, faces: {max: 5000}}."},
+    };
+    return keys;
+}
+
+std::string stage_list() {
+    std::size_t widest = 0;
+    for (const auto& s : stages()) widest = std::max(widest, s.name.size());
+    std::string text;
+    for (const auto& s : stages()) text += fmt::format("{:<{}}  {}\n", s.name, widest, s.about);
+    return text;
+}
+
+namespace {
+
+std::string option_text(const OptionRow& row) {
+    std::string head = fmt::format("  {} ({}", row.name, row.type);
+    if (row.required) head += ", needed";
+    if (!row.default_text.empty()) head += ", default " + row.default_text;
+    head += row.primary ? "; a bare value sets it)\n" : ")\n";
+    std::string text = head + wrapped(row.help, 6);
+    for (const auto& c : row.choices)
+        if (!c.help.empty()) text += wrapped(fmt::format("{}: {}", c.name, c.help), 8);
+    return text;
+}
+
+} // namespace
+
+std::string stage_page(const StageInfo& stage) {
+    std::string text = fmt::format("{}: {}\n", stage.name, stage.about);
+    if (!stage.details.empty()) text += "\n" + wrapped(stage.details, 2);
+    const auto options = rows(stage.options);
+    if (!stage.options.shorthand_help.empty())
+        text += "\n" + wrapped("A bare value: " + stage.options.shorthand_help, 2);
+    text += options.empty() ? "\nOptions: none\n" : "\nOptions\n";
+    for (const auto& row : options) text += option_text(row);
+    for (const auto& rule : rules(stage.options)) text += fmt::format("  Given: {}.\n", rule);
+    text += "\nAlso, as for every stage: name, when, only, ensure (see facetmill-pipeline(5)).\n";
+    if (const auto helps = spelling_helps(options); !helps.empty()) {
+        text += "\n";
+        for (const auto& help : helps) text += wrapped(help, 0);
+    }
+    if (!stage.examples.empty()) text += "\nExamples\n";
+    for (const auto& example : stage.examples) text += fmt::format("  - {}\n", example);
+    return text;
+}
+
+Json stages_json() {
+    Json all = Json::array();
+    for (const auto& s : stages()) {
+        Json options = Json::array();
+        for (const auto& row : rows(s.options)) {
+            Json option = {{"name", row.name}, {"type", row.type}, {"help", row.help}};
+            if (!row.default_text.empty()) option["default"] = row.default_text;
+            if (row.required) option["required"] = true;
+            if (row.primary) option["primary"] = true;
+            if (row.repeatable) option["repeatable"] = true;
+            for (const auto& c : row.choices) option["choices"][c.name] = c.help;
+            options.push_back(std::move(option));
+        }
+        all.push_back({{"name", s.name}, {"about", s.about}, {"details", s.details}, {"options", options},
+                       {"rules", rules(s.options)}, {"examples", s.examples}});
+    }
+    return all;
+}
+
+} // namespace facetmill::docs

@@ -1,0 +1,24 @@
+#pragma once
+// The stages as people read them: `facetmill stages`, its Markdown, and the manual page of section 7. All of it comes
+// from the declarations.
+
+#include "stage/stage.hpp"
+
+namespace facetmill::docs {
+
+/// One line per stage.
+std::string stage_list();
+/// All of one stage: what it does, its options, rules, spelling of quantities and examples.
+std::string stage_page(const StageInfo& stage);
+/// The keys that every step takes besides its stage's options, as name and help.
+const std::vector<Choice>& common_keys();
+/// All stages, as one Markdown page.
+std::string stages_markdown();
+/// A table of name and purpose in Markdown, for the README.
+std::string stages_markdown_table();
+/// All stages as a manual page, facetmill-stages(7).
+std::string stages_man();
+/// The registry as JSON: name, about, details, examples and option rows.
+Json stages_json();
+
+} // namespace facetmill::docs

@@ -1,0 +1,16 @@
+#pragma once
+// The release and the libraries it was built with, as CMake found them (cmake/Versions.cmake).
+
+#include <string_view>
+#include <vector>
+
+namespace facetmill::docs {
+
+struct LibraryVersion {
+    std::string_view name, version;
+};
+
+std::string_view release();
+const std::vector<LibraryVersion>& library_versions();
+
+} // namespace facetmill::docs
