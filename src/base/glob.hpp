@@ -1,0 +1,22 @@
+#pragma once
+// Shell-like patterns: * (any run of characters), ? (one character), [abc], [a-z], [!a]. A backslash takes
+// the next character as it is.
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace facetmill {
+
+/// Whether the text holds a character that makes it a pattern.
+bool is_glob(std::string_view text);
+
+/// Whether the pattern matches the whole text. Time is at most pattern times text, whatever the pattern.
+bool glob_matches(std::string_view pattern, std::string_view text);
+
+/// The files that a path with patterns in any of its components names, sorted by their bytes; ** stands for
+/// any number of directories. Hidden files only match a pattern that starts with a dot. A path without
+/// patterns is itself, whether it exists or not.
+std::vector<std::filesystem::path> expand_glob(const std::filesystem::path& pattern);
+
+} // namespace facetmill

@@ -1,0 +1,119 @@
+#include "stage/context.hpp"
+
+#include "base/glob.hpp"
+#include "base/parallel.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+// Until mesh/scene.cpp is there with the real one.
+__attribute__((weak)) double metres(Unit unit) {
+    constexpr double table[] = {0, 1e-6, 1e-3, 1e-2, 1, 1e3, 0.0254, 0.3048};
+    return table[static_cast<int>(unit)];
+}
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether the pattern names the part itself or a material that one of its primitives uses.
+bool names(std::string_view pattern, const Part& part, const Scene& scene) {
+    if (glob_matches(pattern, part.name)) return true;
+    for (const auto& primitive : part.mesh.primitives)
+        if (primitive.material < scene.materials.size() &&
+            glob_matches(pattern, scene.materials[primitive.material].name))
+            return true;
+    return false;
+}
+
+fs::path placed(const fs::path& base, const std::string& text) {
+    if (text == "-") return text;
+    const fs::path path(text);
+    return (path.is_absolute() ? path : base / path).lexically_normal();
+}
+
+/// The diagonal of the part's box in world space. Boxes do not depend on the order of points, so chunks may
+/// join freely.
+double world_diagonal(const Part& part) {
+    const Transform to_world = part.skinned ? Transform{} : part.transform;
+    const auto& points = part.mesh.positions;
+    const Box box = parallel_reduce(
+        points.size(), Box{},
+        [&](std::size_t begin, std::size_t end) {
+            Box b;
+            for (std::size_t i = begin; i < end; ++i) b.add(to_world.point(points[i]));
+            return b;
+        },
+        [](Box a, const Box& b) { return a.add(b), a; });
+    return box.diagonal();
+}
+
+} // namespace
+
+bool PartFilter::selects(const Part& part, const Scene& scene) const {
+    bool any_positive = false, named = false;
+    for (const auto& pattern : patterns) {
+        if (pattern.starts_with('!')) {
+            if (names(std::string_view(pattern).substr(1), part, scene)) return false;
+        } else {
+            any_positive = true;
+            named = named || names(pattern, part, scene);
+        }
+    }
+    return named || !any_positive;
+}
+
+fs::path Places::input(const std::string& text) const { return placed(input_base, text); }
+fs::path Places::output(const std::string& text) const { return placed(output_base, text); }
+
+Context::Context(RunState& run, report::StageRecord& record, const PartFilter& only, Box entering,
+                 const Mark& where)
+    : run_(run), record_(record), only_(only), entering_(entering), where_(where) {}
+
+void Context::for_each_part(Scene& scene, const std::function<void(Part&)>& body) {
+    for (auto& part : scene.parts) {
+        if (!only_.selects(part, scene)) continue;
+        body(part);
+        part.changed = true;
+    }
+}
+
+double Context::resolve(const Length& length, const Scene& scene, std::string_view option, const Part* part) {
+    double is = length.amount;
+    if (length.kind == Length::Kind::physical) {
+        const double unit = metres(scene.unit);
+        if (!(unit > 0))
+            throw Error(ErrorKind::usage, "E-UNIT",
+                        fmt::format("'{}' is {}, but the scene has no unit", option, length.text),
+                        "say what the numbers of the file mean (load: {unit: mm}), or give a bare number or "
+                        "a percentage");
+        is = length.amount / unit;
+    } else if (length.kind == Length::Kind::percent) {
+        const double diagonal = length.of == Length::Of::load           ? run_.load_diagonal
+                                : length.of == Length::Of::part && part ? world_diagonal(*part)
+                                                                        : entering_.diagonal();
+        is = length.amount / 100 * diagonal;
+    }
+    const Json resolved = {{"given", length.text}, {"is", is}};
+    const bool of_part = length.kind == Length::Kind::percent && length.of == Length::Of::part && part;
+    record_.resolved[of_part ? fmt::format("{} ({})", option, part->name) : std::string(option)] = resolved;
+    return is;
+}
+
+void Context::warn(std::string id, std::string message, std::string hint) {
+    record_.warnings.push_back(
+        {Severity::warning, std::move(id), std::move(message), where_, std::move(hint)});
+}
+
+void Context::ledger(const Part& part, const Fates& fates) {
+    for (const auto& fate : fates) record_.ledger.push_back({part.name, fate});
+}
+
+void Context::check(report::Check check) {
+    if (check.stage.empty()) check.stage = record_.name;
+    if (!check.where.known()) check.where = where_;
+    run_.record.checks.push_back(std::move(check));
+}
+
+} // namespace facetmill
