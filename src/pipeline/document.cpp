@@ -1,0 +1,325 @@
+#include "pipeline/document.hpp"
+
+#include "pipeline/source.hpp"
+
+#include <fmt/format.h>
+#include <map>
+#include <sstream>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+namespace facetmill::pipeline {
+
+namespace {
+
+constexpr std::size_t most_nodes = 100'000; ///< with all aliases written out
+constexpr std::size_t deepest = 64;
+
+/// Ends the parse after a problem that makes the rest worthless.
+struct Stop {};
+
+struct Size {
+    std::size_t nodes = 1, depth = 1;
+};
+
+Size size_of(const Value& value) {
+    Size all;
+    const auto add = [&](const Value& child) {
+        const Size s = size_of(child);
+        all.nodes += s.nodes;
+        all.depth = std::max(all.depth, s.depth + 1);
+    };
+    for (const auto& item : value.items) add(item);
+    for (const auto& entry : value.entries) add(entry.value);
+    return all;
+}
+
+/// Fills our tree from yaml-cpp's events.
+class Builder : public YAML::EventHandler {
+  public:
+    Builder(const SourceIndex& source, std::size_t skipped, Problems& problems)
+        : source_(source), skipped_(skipped), problems_(problems) {}
+
+    Value root;
+    bool second_document = false; ///< set before the parser looks for another document
+
+    void OnDocumentStart(const YAML::Mark& mark) override {
+        if (!second_document) return;
+        problems_.add(source_.mark(offset(mark)), "E-YAML", "a second document begins here",
+                      "one file holds one pipeline; remove the '---' or make two files");
+        throw Stop{};
+    }
+    void OnDocumentEnd() override {}
+
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+        Value value;
+        const std::size_t at = content(mark);
+        const char c = at < source_.text().size() ? source_.text()[at] : '\n';
+        if (c == '~' || c == 'n' || c == 'N') value.mark = source_.mark(at, c == '~' ? 1 : 4);
+        complete(std::move(value), anchor);
+    }
+
+    void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  const std::string& text) override {
+        const std::size_t at = content(mark);
+        if (tag == "?") refuse_unquoted(at, text);
+        Value value = Value::scalar(text, scalar_mark(at, text, tag == "?"), tag != "?");
+        if (tag != "?" && tag != "!") apply_tag(tag, value);
+        complete(std::move(value), anchor);
+    }
+
+    void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+        const Mark where = source_.mark(offset(mark), alias_length(offset(mark)));
+        const auto found = anchors_.find(anchor);
+        if (found == anchors_.end()) {
+            problems_.add(where, "E-YAML", "an alias inside the content that it stands for");
+            throw Stop{};
+        }
+        grow(found->second.size, where);
+        Value copy = found->second.value;
+        copy.anchor = copy.mark;
+        copy.mark = where;
+        add(std::move(copy));
+    }
+
+    void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                         YAML::EmitterStyle::value style) override {
+        open(Value::list({}, source_.mark(content(mark))), tag, anchor, style);
+    }
+    void OnSequenceEnd() override { close(); }
+
+    void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                    YAML::EmitterStyle::value style) override {
+        open(Value::map({}, source_.mark(content(mark))), tag, anchor, style);
+    }
+    void OnMapEnd() override {
+        for (const auto& merged : stack_.back().merges) merge(stack_.back(), merged);
+        close();
+    }
+
+  private:
+    struct Frame {
+        Value value;
+        YAML::anchor_t anchor = 0;
+        bool flow = false;
+        std::optional<Value> key;                 ///< of a map: the key whose value comes next
+        std::map<std::string, std::size_t> index; ///< of a map: key -> entry
+        std::vector<Value> merges;                ///< of a map: values of <<
+    };
+    struct Anchored {
+        Value value;
+        Size size;
+    };
+
+    std::size_t offset(const YAML::Mark& mark) const {
+        return static_cast<std::size_t>(std::max(0, mark.pos)) + skipped_;
+    }
+
+    /// Where the content of a node begins: yaml-cpp's mark is at its anchor or tag.
+    std::size_t content(const YAML::Mark& mark) const {
+        const std::string& text = source_.text();
+        std::size_t at = offset(mark);
+        while (at < text.size() && (text[at] == '&' || text[at] == '!')) {
+            at = std::min(text.size(), text.find_first_of(" \t\r\n,[]{}", at));
+            at = std::min(text.size(), text.find_first_not_of(" \t\r\n", at));
+        }
+        return at;
+    }
+
+    int alias_length(std::size_t at) const {
+        const std::size_t end =
+            std::min(source_.text().size(), source_.text().find_first_of(" \t\r\n,[]{}", at));
+        return source_.characters(at, end);
+    }
+
+    Mark scalar_mark(std::size_t at, const std::string& text, bool plain) const {
+        const std::string& all = source_.text();
+        if (plain) {
+            const std::size_t line_end = std::min(all.size(), all.find('\n', at));
+            return source_.mark(at, source_.characters(at, std::min(at + text.size(), line_end)));
+        }
+        const char quote = at < all.size() ? all[at] : ' ';
+        if (quote != '"' && quote != '\'') return source_.mark(at);
+        for (std::size_t i = at + 1; i < all.size() && all[i] != '\n'; ++i) {
+            if (all[i] == '\\' && quote == '"')
+                ++i;
+            else if (all[i] == quote)
+                return source_.mark(at, source_.characters(at, i + 1));
+        }
+        return source_.mark(at);
+    }
+
+    /// `${x}` in braces or brackets reads as "$" and a map; say so instead of what YAML says.
+    void refuse_unquoted(std::size_t at, const std::string& text) {
+        const std::string& all = source_.text();
+        const bool in_flow = !stack_.empty() && stack_.back().flow;
+        const std::size_t brace = at + text.size();
+        if (!in_flow || !text.ends_with('$') || brace >= all.size() || all[brace] != '{') return;
+        const std::size_t closed = all.find_first_of("},]\n", brace);
+        const std::size_t end =
+            std::min(all.size(), all.find_first_of(" ,]}\r\n", std::min(closed, all.size() - 1) + 1));
+        const std::string written = all.substr(at, end - at);
+        problems_.add(source_.mark(at, source_.characters(at, end)), "E-UNQUOTED",
+                      fmt::format("inside {{}} and [] an expression must be quoted, found {}", written),
+                      fmt::format("write \"{}\"", written));
+        throw Stop{};
+    }
+
+    void apply_tag(const std::string& tag, Value& value) {
+        constexpr std::string_view core = "tag:yaml.org,2002:";
+        const std::string_view name = tag.starts_with(core) ? std::string_view(tag).substr(core.size()) : "";
+        if (name == "str" && value.is_scalar())
+            value.quoted = true;
+        else if ((name == "int" || name == "float" || name == "bool") && value.is_scalar())
+            value.quoted = false;
+        else if (name == "null" && value.is_scalar())
+            value.kind = Value::Kind::null, value.text.clear();
+        else if (!((name == "seq" && value.is_list()) || (name == "map" && value.is_map())))
+            problems_.add(
+                value.mark, "E-YAML",
+                fmt::format("the tag {} has no meaning here", name.empty() ? tag : fmt::format("!!{}", name)),
+                "leave it out");
+    }
+
+    /// Counts what is about to be added.
+    void grow(Size size, const Mark& where) {
+        nodes_ += size.nodes;
+        if (nodes_ > most_nodes || stack_.size() + size.depth > deepest) {
+            problems_.add(
+                where, "E-EXPANSION",
+                nodes_ > most_nodes
+                    ? fmt::format("with its aliases written out the file has more than {} values", most_nodes)
+                    : fmt::format("nested more than {} levels deep", deepest));
+            throw Stop{};
+        }
+    }
+
+    void open(Value value, const std::string& tag, YAML::anchor_t anchor, YAML::EmitterStyle::value style) {
+        grow({}, value.mark);
+        if (tag != "?" && tag != "!" && !tag.empty()) apply_tag(tag, value);
+        Frame frame;
+        frame.value = std::move(value);
+        frame.anchor = anchor;
+        frame.flow = style == YAML::EmitterStyle::Flow || (!stack_.empty() && stack_.back().flow);
+        stack_.push_back(std::move(frame));
+    }
+
+    void close() {
+        Frame frame = std::move(stack_.back());
+        stack_.pop_back();
+        if (frame.anchor) anchors_[frame.anchor] = {frame.value, size_of(frame.value)};
+        add(std::move(frame.value));
+    }
+
+    void complete(Value value, YAML::anchor_t anchor) {
+        grow({}, value.mark);
+        if (anchor) anchors_[anchor] = {value, {}};
+        add(std::move(value));
+    }
+
+    /// Puts a finished value where it belongs: the root, an item, a key, or the value of a key.
+    void add(Value value) {
+        if (stack_.empty()) {
+            root = std::move(value);
+            return;
+        }
+        Frame& frame = stack_.back();
+        if (frame.value.is_list()) {
+            frame.value.items.push_back(std::move(value));
+        } else if (!frame.key) {
+            if (!value.is_scalar())
+                problems_.add(value.mark.known() ? value.mark : frame.value.mark, "E-YAML",
+                              fmt::format("a key must be a text, found {}", value.described()));
+            frame.key = std::move(value);
+        } else {
+            Value key = std::move(*frame.key);
+            frame.key.reset();
+            if (!value.mark.known()) value.mark = key.mark;
+            if (key.is_scalar()) add_entry(frame, std::move(key), std::move(value));
+        }
+    }
+
+    void add_entry(Frame& frame, Value key, Value value) {
+        if (key.text == "<<" && !key.quoted) {
+            value.mark = key.mark;
+            frame.merges.push_back(std::move(value));
+            return;
+        }
+        const auto [at, is_new] = frame.index.emplace(key.text, frame.value.entries.size());
+        if (is_new) {
+            frame.value.entries.push_back({std::move(key.text), key.mark, std::move(value)});
+            return;
+        }
+        problems_.add(key.mark, "E-DUPLICATE", fmt::format("the key '{}' is there twice", key.text),
+                      fmt::format("the first is at {}", spelled(frame.value.entries[at->second].key_mark)));
+    }
+
+    /// YAML's merge key: what the map says itself wins, then the earlier of several.
+    void merge(Frame& frame, const Value& merged) {
+        if (merged.is_list()) {
+            for (const auto& one : merged.items) merge(frame, one);
+            return;
+        }
+        if (!merged.is_map()) {
+            problems_.add(merged.mark, "E-YAML",
+                          fmt::format("'<<' merges a map or a list of maps, found {}", merged.described()),
+                          "write it as <<: *name, with &name at the map to merge");
+            return;
+        }
+        grow(size_of(merged), merged.mark);
+        for (const auto& entry : merged.entries)
+            if (frame.index.emplace(entry.key, frame.value.entries.size()).second)
+                frame.value.entries.push_back(entry);
+    }
+
+    const SourceIndex& source_;
+    std::size_t skipped_; ///< bytes of the text that yaml-cpp did not get
+    Problems& problems_;
+    std::vector<Frame> stack_;
+    std::map<YAML::anchor_t, Anchored> anchors_;
+    std::size_t nodes_ = 0;
+};
+
+/// What yaml-cpp says, in words for people where its own are opaque.
+std::pair<std::string, std::string> explained(const std::string& message) {
+    if (message == "end of map flow not found")
+        return {"expected ',' or '}' here", "a text with special characters must be quoted"};
+    if (message == "end of sequence flow not found")
+        return {"expected ',' or ']' here", "a text with special characters must be quoted"};
+    if (message == "illegal map value")
+        return {"a ':' cannot stand here", "quote a text that holds ': ', and mind the indentation"};
+    if (message == "end of map not found") return {"expected a key of the map here", "mind the indentation"};
+    if (message == "end of sequence not found")
+        return {"expected an item of the list ('- ...') here", "mind the indentation"};
+    if (message == "illegal EOF in scalar") return {"the quote is never closed", ""};
+    return {message, ""};
+}
+
+} // namespace
+
+Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems) {
+    const SourceIndex index(std::move(source));
+    if (!check_text(index, problems)) return {};
+    const std::size_t mark_bytes = index.text().starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    std::istringstream stream(index.text().substr(mark_bytes));
+    Builder builder(index, mark_bytes, problems);
+    try {
+        YAML::Parser parser(stream);
+        parser.HandleNextDocument(builder);
+        Value root = std::move(builder.root);
+        builder.second_document = true;
+        parser.HandleNextDocument(builder);
+        if (!root.mark.known()) root.mark = index.mark(0);
+        return root;
+    } catch (const Stop&) {
+    } catch (const YAML::Exception& e) {
+        const auto [message, hint] = explained(e.msg);
+        const std::size_t at =
+            e.mark.is_null() ? 0 : static_cast<std::size_t>(std::max(0, e.mark.pos)) + mark_bytes;
+        problems.add(index.mark(at), "E-YAML", message, hint);
+    }
+    return {};
+}
+
+} // namespace facetmill::pipeline
