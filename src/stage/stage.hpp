@@ -26,12 +26,12 @@ struct StageInfo {
     bool loads = false;  ///< it adds to the scene rather than working on it (may come first)
 
     // Filled by make_stage.
-    Declaration options;
-    std::function<std::shared_ptr<void>()> make_options; ///< a default options struct
-    std::function<Scene(Scene, const void* options, Context&)> run;
-    std::function<StageFiles(const void* options)> files; ///< may be empty
+    Declaration options = {};
+    std::function<std::shared_ptr<void>()> make_options = {}; ///< a default options struct
+    std::function<Scene(Scene, const void* options, Context&)> run = {};
+    std::function<StageFiles(const void* options)> files = {}; ///< may be empty
     /// Legality that a declaration cannot say; adds problems at the value's marks. May be empty.
-    std::function<void(const void* options, const Value& given, Problems&)> verify;
+    std::function<void(const void* options, const Value& given, Problems&)> verify = {};
 };
 
 struct RegisterStage {
