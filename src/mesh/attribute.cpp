@@ -1,8 +1,8 @@
 #include "mesh/attribute.hpp"
 
+#include "base/parallel.hpp"
+
 #include <algorithm>
-#include <limits>
-#include <type_traits>
 
 namespace facetmill {
 
@@ -29,6 +29,33 @@ double Attribute::value(std::size_t i, int c) const {
                 return x;
         },
         data);
+}
+
+void Attribute::set_value(std::size_t i, int c, double x) {
+    std::visit(
+        [&](auto& v) {
+            using T = typename std::decay_t<decltype(v)>::value_type;
+            if constexpr (std::is_integral_v<T>)
+                if (normalised) x *= static_cast<double>(std::numeric_limits<T>::max());
+            v[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)] = as_component<T>(x);
+        },
+        data);
+}
+
+void Attribute::select(std::span<const std::uint32_t> old) {
+    const auto k = static_cast<std::size_t>(components);
+    std::visit(
+        [&](auto& v) {
+            std::decay_t<decltype(v)> selected(old.size() * k);
+            parallel_for(old.size(),
+                         [&](std::size_t i) { std::copy_n(&v[old[i] * k], k, &selected[i * k]); });
+            v = std::move(selected);
+        },
+        data);
+}
+
+void Attribute::resize(std::size_t count) {
+    std::visit([&](auto& v) { v.resize(count * static_cast<std::size_t>(components)); }, data);
 }
 
 const char* spelled(Domain domain) {

@@ -1,9 +1,13 @@
 #pragma once
 // Named, typed arrays that go with the vertices, wedges or faces of a mesh.
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -46,7 +50,28 @@ struct Attribute {
     const char* type() const;
     /// Component c of element i as a number: fractions when normalised.
     double value(std::size_t i, int c) const;
+    /// Sets it; integers are rounded to nearest, ties up, and kept in their type's range.
+    void set_value(std::size_t i, int c, double x);
+    /// Element i becomes what element old[i] was.
+    void select(std::span<const std::uint32_t> old);
+    /// Makes it count elements; new ones are zero.
+    void resize(std::size_t count);
 };
+
+/// x as a component of type T: integers rounded to nearest, ties up, and kept in range; not a number becomes
+/// 0.
+template <class T>
+T as_component(double x) {
+    if constexpr (std::is_integral_v<T>) {
+        constexpr double low = std::numeric_limits<T>::min(), high = std::numeric_limits<T>::max();
+        return x >= high  ? std::numeric_limits<T>::max()
+               : x > low  ? static_cast<T>(std::floor(x + 0.5))
+               : x <= low ? std::numeric_limits<T>::min()
+                          : T{0};
+    } else {
+        return static_cast<T>(x);
+    }
+}
 
 /// The name of a domain as users see it.
 const char* spelled(Domain domain);

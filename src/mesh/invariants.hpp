@@ -1,5 +1,6 @@
 #pragma once
-// What always holds for a mesh and a scene; tests check it after every stage, and run --check-invariants does too.
+// What always holds for a mesh and a scene; tests check it after every stage, and run --check-invariants does
+// too.
 
 #include "mesh/scene.hpp"
 

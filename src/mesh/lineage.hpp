@@ -1,6 +1,6 @@
 #pragma once
-// Where the elements of a new mesh come from: every stage that makes elements says so with one of these, and the
-// attributes follow by one function. This is the only place where attributes are mixed.
+// Where the elements of a new mesh come from: every stage that makes elements says so with one of these, and
+// the attributes follow by one function. This is the only place where attributes are mixed.
 
 #include "mesh/mesh.hpp"
 
@@ -13,12 +13,12 @@ struct Lineage {
         Index a = 0, b = 0; ///< old elements
         double t = 0.5;     ///< 0 at a, 1 at b
     };
-    bool identity = false;              ///< copies is not stored: all old elements, in order, come first
-    std::vector<Index> copies;          ///< old index of each copied element
-    std::vector<Edge> edges;            ///< the elements after the copies
-    std::vector<Index> mix_offsets{0};  ///< [mixes + 1] into mix_sources; the elements after the edges
-    std::vector<Index> mix_sources;     ///< old elements
-    std::vector<double> mix_weights;    ///< one per source, summing to one
+    bool identity = false;             ///< copies is not stored: all old elements, in order, come first
+    std::vector<Index> copies;         ///< old index of each copied element
+    std::vector<Edge> edges;           ///< the elements after the copies
+    std::vector<Index> mix_offsets{0}; ///< [mixes + 1] into mix_sources; the elements after the edges
+    std::vector<Index> mix_sources;    ///< old elements
+    std::vector<double> mix_weights;   ///< one per source, summing to one
 
     std::size_t mixes() const { return mix_offsets.size() - 1; }
 };
@@ -30,11 +30,11 @@ struct Descent {
     bool faces_identity = false;
 };
 
-/// Fills to.attributes and to.primitives from from's, by the roles of the attributes: normals and tangents are
-/// renormalised; joints are united, the strongest kept and their weights renormalised (ties by joint index);
-/// Role::index takes the first parent's; integers are rounded to nearest, ties up. Each value is computed once,
-/// from its own parents, in double precision. Parallel; the same bytes for any number of threads.
-/// Returns what became of each attribute (kept when nothing was mixed).
+/// Fills to.attributes and to.primitives from from's, by the roles of the attributes: normals and tangents
+/// are renormalised; joints are united, the strongest kept and their weights renormalised (ties by joint
+/// index); Role::index takes the first parent's; integers are rounded to nearest, ties up. Each value is
+/// computed once, from its own parents, in double precision. Parallel; the same bytes for any number of
+/// threads. Returns what became of each attribute (kept when nothing was mixed).
 Fates inherit_attributes(Mesh& to, const Mesh& from, const Descent& descent);
 
 } // namespace facetmill

@@ -5,8 +5,8 @@
 //   face f --face_offsets[f] .. face_offsets[f+1]--> its corners, in order
 //
 // Topology lives on vertices: two faces are neighbours when they share two vertices, whatever their wedges.
-// A wedge is one attribute tuple at a vertex (what glTF calls a vertex): a UV seam is a vertex with two wedges.
-// Open, non-manifold, flipped, degenerate and self-intersecting meshes are all representable; see
+// A wedge is one attribute tuple at a vertex (what glTF calls a vertex): a UV seam is a vertex with two
+// wedges. Open, non-manifold, flipped, degenerate and self-intersecting meshes are all representable; see
 // mesh/topology.hpp for what can be derived and mesh/invariants.hpp for what always holds.
 
 #include "base/vec.hpp"
@@ -25,8 +25,8 @@ namespace facetmill {
 using Index = std::uint32_t;
 inline constexpr Index none = UINT32_MAX;
 
-/// An entry of the table that the face attribute "primitive" indexes: what glTF calls a primitive. Faces of one
-/// glTF mesh are merged for geometry and come apart again along these on writing.
+/// An entry of the table that the face attribute "primitive" indexes: what glTF calls a primitive. Faces of
+/// one glTF mesh are merged for geometry and come apart again along these on writing.
 struct Primitive {
     Index material = none;               ///< into Scene::materials
     std::vector<std::string> attributes; ///< names of the wedge attributes it had; empty: all
@@ -37,18 +37,20 @@ struct Primitive {
 
 /// See the head of this file. Moved, not shared; cheap to copy only when small.
 struct Mesh {
-    std::vector<Vec3> positions;      ///< [vertices]
-    std::vector<Index> wedge_vertex;  ///< [wedges] -> vertex; empty: wedge w is vertex w
-    std::vector<Index> corners;       ///< [corners] -> wedge, face by face
-    std::vector<Index> face_offsets;  ///< [faces + 1] into corners; empty: all faces are triangles
+    std::vector<Vec3> positions;     ///< [vertices]
+    std::vector<Index> wedge_vertex; ///< [wedges] -> vertex; empty: wedge w is vertex w
+    std::vector<Index> corners;      ///< [corners] -> wedge, face by face
+    std::vector<Index> face_offsets; ///< [faces + 1] into corners; empty: all faces are triangles
     std::vector<Attribute> attributes;
-    std::vector<Primitive> primitives; ///< empty: one, with no material. Else face attribute "primitive" indexes it
-                                       ///< (absent: all faces are of primitive 0)
+    std::vector<Primitive> primitives; ///< empty: one, with no material. Else face attribute "primitive"
+                                       ///< indexes it (absent: all faces are of primitive 0)
 
     std::size_t vertex_count() const { return positions.size(); }
     std::size_t wedge_count() const { return wedge_vertex.empty() ? positions.size() : wedge_vertex.size(); }
     std::size_t corner_count() const { return corners.size(); }
-    std::size_t face_count() const { return face_offsets.empty() ? corners.size() / 3 : face_offsets.size() - 1; }
+    std::size_t face_count() const {
+        return face_offsets.empty() ? corners.size() / 3 : face_offsets.size() - 1;
+    }
     std::size_t count(Domain domain) const;
 
     bool all_triangles() const { return face_offsets.empty(); }
@@ -87,14 +89,15 @@ void normalise_offsets(Mesh& mesh);
 /// Drops vertices and wedges that no face uses. Attributes follow.
 void drop_unused(Mesh& mesh);
 
-/// Merges vertices at exactly the same position (-0 is 0); wedges stay apart, so attributes survive. Vertices keep
-/// the order of their first occurrence. Faces are kept, degenerate ones too. Returns how many vertices went.
+/// Merges vertices at exactly the same position (-0 is 0); wedges stay apart, so attributes survive. Vertices
+/// keep the order of their first occurrence. Faces are kept, degenerate ones too. Returns how many vertices
+/// went.
 std::size_t weld_exact(Mesh& mesh);
 
-/// The mesh with every face of four or more corners cut into triangles: quads along the shorter diagonal (ties:
-/// the one at the first corner), larger ones as a fan when convex from some corner, else by clipping ears in the
-/// plane of the polygon's normal. Face attributes are copied, wedges untouched. Faces of fewer than three corners
-/// are dropped. The triangulate stage offers more.
+/// The mesh with every face of four or more corners cut into triangles: quads along the shorter diagonal
+/// (ties: the one at the first corner), larger ones as a fan when convex from some corner, else by clipping
+/// ears in the plane of the polygon's normal. Face attributes are copied, wedges untouched. Faces of fewer
+/// than three corners are dropped. The triangulate stage offers more.
 Mesh triangulated(const Mesh& mesh);
 
 /// Appends b to a: vertices, wedges, faces, primitives; attributes that only one has are filled with zeros.

@@ -1,6 +1,6 @@
 #pragma once
-// What a pipeline works on: named parts with a node transform, materials, a unit and an up axis, and the rest of
-// the document when it came from glTF.
+// What a pipeline works on: named parts with a node transform, materials, a unit and an up axis, and the rest
+// of the document when it came from glTF.
 
 #include "mesh/mesh.hpp"
 
@@ -21,13 +21,13 @@ const char* spelled(UpAxis up);
 /// The unit of that spelling, or none.
 std::optional<Unit> unit_named(std::string_view text);
 
-/// A glTF file as it was: the parsed document is the truth, and writing patches meshes, accessors, bufferViews and
-/// buffers in it and leaves all else alone.
+/// A glTF file as it was: the parsed document is the truth, and writing patches meshes, accessors,
+/// bufferViews and buffers in it and leaves all else alone.
 struct Document {
-    std::string json;                             ///< the whole JSON text
-    std::vector<std::vector<std::byte>> buffers;  ///< by buffer index, loaded
+    std::string json;                                    ///< the whole JSON text
+    std::vector<std::vector<std::byte>> buffers;         ///< by buffer index, loaded
     std::map<std::string, std::vector<std::byte>> files; ///< images beside the file, by their uri as spelled
-    std::string name;                             ///< the file's name, for messages
+    std::string name;                                    ///< the file's name, for messages
 };
 
 struct Material {
@@ -47,7 +47,8 @@ struct Part {
     int node = -1;        ///< its node there
     int source_mesh = -1; ///< its mesh there
     bool skinned = false; ///< processed in bind pose; its node's transform is ignored, as glTF requires
-    bool changed = false; ///< set by every stage that gives the part another mesh: extensions of it are then dropped
+    bool changed =
+        false; ///< set by every stage that gives the part another mesh: extensions of it are then dropped
 };
 
 struct Scene {

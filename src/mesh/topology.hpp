@@ -6,8 +6,8 @@
 namespace facetmill {
 
 /// The undirected edges of a mesh, sorted by (low vertex, high vertex), and the corners that run along each.
-/// Corner c of face f stands for the edge from its vertex to the next corner's vertex in f. Edges from a vertex to
-/// itself (degenerate faces) are left out.
+/// Corner c of face f stands for the edge from its vertex to the next corner's vertex in f. Edges from a
+/// vertex to itself (degenerate faces) are left out.
 struct EdgeTable {
     struct Edge {
         Index low, high; ///< vertices, low < high
@@ -27,7 +27,9 @@ struct EdgeTable {
 EdgeTable build_edges(const Mesh& mesh);
 
 /// The next corner around the face of corner c (face f).
-inline Index next_corner(const Mesh& mesh, Index f, Index c) { return c + 1 == mesh.face_end(f) ? mesh.face_begin(f) : c + 1; }
+inline Index next_corner(const Mesh& mesh, Index f, Index c) {
+    return c + 1 == mesh.face_end(f) ? mesh.face_begin(f) : c + 1;
+}
 
 /// The face of each corner.
 std::vector<Index> corner_faces(const Mesh& mesh);
@@ -36,14 +38,16 @@ std::vector<Index> corner_faces(const Mesh& mesh);
 struct VertexLists {
     std::vector<Index> offsets; ///< [vertices + 1]
     std::vector<Index> items;
-    std::span<const Index> of(Index v) const { return {items.data() + offsets[v], items.data() + offsets[v + 1]}; }
+    std::span<const Index> of(Index v) const {
+        return {items.data() + offsets[v], items.data() + offsets[v + 1]};
+    }
 };
 
 /// The corners at each vertex, ascending.
 VertexLists corners_at_vertices(const Mesh& mesh);
 
-/// Component of each face (faces are connected when they share an edge or, with by_vertex, a vertex), numbered by
-/// first face; and their number.
+/// Component of each face (faces are connected when they share an edge or, with by_vertex, a vertex),
+/// numbered by first face; and their number.
 struct Components {
     std::vector<Index> of_face;
     std::size_t count = 0;

@@ -1,0 +1,17 @@
+#pragma once
+// Signs decided exactly, for the layers that do not see CGAL.
+
+#include "base/vec.hpp"
+
+namespace facetmill {
+
+/// The sign (-1, 0, 1) of the area of the triangle a, b, c in the plane: 1 when they turn left. Exact for
+/// finite coordinates, as long as no product of two differences overflows or underflows: a floating-point
+/// filter, then exact expansions (Shewchuk 1997, Adaptive precision floating-point arithmetic).
+int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy);
+
+/// True when the three points lie on one line (or two coincide), exactly: all three of their axis projections
+/// do.
+bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
+
+} // namespace facetmill

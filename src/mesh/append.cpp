@@ -1,0 +1,165 @@
+#include "base/parallel.hpp"
+#include "mesh/mesh.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+namespace {
+
+/// An attribute of b's kind for n elements, all zero.
+Attribute zeros(const Attribute& like, std::size_t n) {
+    Attribute a = like;
+    std::visit([](auto& v) { v.clear(); }, a.data);
+    a.resize(n);
+    return a;
+}
+
+bool same_layout(const Attribute& a, const Attribute& b) {
+    return a.data.index() == b.data.index() && a.components == b.components && a.normalised == b.normalised;
+}
+
+/// The attribute as doubles with that many components: what both sides become when their layouts differ.
+Attribute widened(const Attribute& a, int components) {
+    Attribute wide{a.name, a.domain, a.role, components, false, std::vector<double>{}};
+    wide.resize(a.size());
+    parallel_for(a.size(), [&](std::size_t i) {
+        for (int c = 0; c < a.components; ++c) wide.set_value(i, c, a.value(i, c));
+    });
+    return wide;
+}
+
+void concatenate(Attribute& a, const Attribute& b) {
+    if (!same_layout(a, b)) {
+        const int components = std::max(a.components, b.components);
+        a = widened(a, components);
+        return concatenate(a, widened(b, components));
+    }
+    std::visit(
+        [&](auto& to) {
+            const auto& from = std::get<std::decay_t<decltype(to)>>(b.data);
+            to.insert(to.end(), from.begin(), from.end());
+        },
+        a.data);
+}
+
+void append_attributes(Mesh& a, const Mesh& b) {
+    for (auto& own : a.attributes) {
+        const Attribute* other = b.find(own.name, own.domain);
+        concatenate(own, other ? *other : zeros(own, b.count(own.domain)));
+    }
+    for (const auto& other : b.attributes) {
+        if (a.find(other.name, other.domain)) continue;
+        Attribute own = zeros(other, a.count(other.domain));
+        concatenate(own, other);
+        a.attributes.push_back(std::move(own));
+    }
+}
+
+std::vector<std::string> wedge_attribute_names(const Mesh& mesh) {
+    std::vector<std::string> names;
+    for (const auto& a : mesh.attributes)
+        if (a.domain == Domain::wedge) names.push_back(a.name);
+    return names;
+}
+
+/// The table of primitives with every "all attributes" spelled out.
+std::vector<Primitive> primitives_of(const Mesh& mesh, bool spell_out) {
+    auto table = mesh.primitives.empty() ? std::vector<Primitive>(1) : mesh.primitives;
+    if (spell_out)
+        for (auto& p : table)
+            if (p.attributes.empty()) p.attributes = wedge_attribute_names(mesh);
+    return table;
+}
+
+std::vector<std::uint32_t> primitive_indices(const Mesh& mesh) {
+    const Attribute* a = mesh.find(primitive_attribute, Domain::face);
+    return a ? std::get<std::vector<std::uint32_t>>(a->data)
+             : std::vector<std::uint32_t>(mesh.face_count(), 0);
+}
+
+Attribute& primitive_indices_for_writing(Mesh& mesh) {
+    if (Attribute* a = mesh.find(primitive_attribute, Domain::face)) return *a;
+    return mesh.attributes.emplace_back(Attribute{std::string(primitive_attribute), Domain::face, Role::index,
+                                                  1, false,
+                                                  std::vector<std::uint32_t>(mesh.face_count(), 0)});
+}
+
+/// The two tables joined, equal entries once; and where b's entries are in it.
+struct JoinedPrimitives {
+    std::vector<Primitive> table;
+    std::vector<Index> of_b;
+};
+
+JoinedPrimitives join_primitives(const Mesh& a, const Mesh& b) {
+    const bool differ = wedge_attribute_names(a) != wedge_attribute_names(b);
+    JoinedPrimitives joined{primitives_of(a, differ), {}};
+    for (const auto& p : primitives_of(b, differ)) {
+        const auto at = std::find(joined.table.begin(), joined.table.end(), p);
+        joined.of_b.push_back(static_cast<Index>(at - joined.table.begin()));
+        if (at == joined.table.end()) joined.table.push_back(p);
+    }
+    return joined;
+}
+
+template <class T>
+void append_shifted(std::vector<T>& to, const std::vector<T>& from, std::size_t shift) {
+    const std::size_t before = to.size();
+    to.resize(before + from.size());
+    parallel_for(from.size(), [&](std::size_t i) { to[before + i] = from[i] + static_cast<T>(shift); });
+}
+
+std::vector<Index> spelled_offsets(const Mesh& mesh) {
+    if (!mesh.face_offsets.empty()) return mesh.face_offsets;
+    std::vector<Index> offsets(mesh.face_count() + 1);
+    for (std::size_t f = 0; f < offsets.size(); ++f) offsets[f] = static_cast<Index>(3 * f);
+    return offsets;
+}
+
+std::vector<Index> spelled_wedges(const Mesh& mesh) {
+    if (mesh.has_seams()) return mesh.wedge_vertex;
+    std::vector<Index> wedges(mesh.wedge_count());
+    for (std::size_t w = 0; w < wedges.size(); ++w) wedges[w] = static_cast<Index>(w);
+    return wedges;
+}
+
+void append_arrays(Mesh& a, const Mesh& b) {
+    const std::size_t vertices = a.vertex_count(), wedges = a.wedge_count(), corners = a.corner_count();
+    if (a.has_seams() || b.has_seams()) {
+        a.wedge_vertex = spelled_wedges(a);
+        append_shifted(a.wedge_vertex, spelled_wedges(b), vertices);
+    }
+    if (!a.all_triangles() || !b.all_triangles()) {
+        a.face_offsets = spelled_offsets(a);
+        a.face_offsets.pop_back();
+        append_shifted(a.face_offsets, spelled_offsets(b), corners);
+    }
+    append_shifted(a.corners, b.corners, wedges);
+    a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());
+}
+
+} // namespace
+
+void append(Mesh& a, const Mesh& b) {
+    if (&a == &b) return append(a, Mesh(b));
+    if (a.positions.empty() && a.corners.empty()) {
+        a = b;
+        return;
+    }
+    auto joined = join_primitives(a, b);
+    const bool one_plain = joined.table.size() == 1 && joined.table[0] == Primitive{};
+    if (!one_plain) {
+        auto indices = primitive_indices(a);
+        for (const auto p : primitive_indices(b))
+            indices.push_back(p < joined.of_b.size() ? joined.of_b[p] : 0);
+        append_attributes(a, b);
+        append_arrays(a, b);
+        primitive_indices_for_writing(a).data = std::move(indices);
+    } else {
+        append_attributes(a, b);
+        append_arrays(a, b);
+    }
+    a.primitives = one_plain ? std::vector<Primitive>{} : std::move(joined.table);
+}
+
+} // namespace facetmill

@@ -1,0 +1,267 @@
+#include "mesh/lineage.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+namespace facetmill {
+
+namespace {
+
+/// The old elements that a new one comes from, with weights that sum to one.
+struct Parents {
+    std::span<const Index> sources;
+    std::span<const double> weights;
+};
+
+/// A lineage together with the number of old elements: how many there are of each kind, and the parents of
+/// any.
+struct Ancestry {
+    const Lineage& lineage;
+    std::size_t copies;
+
+    Ancestry(const Lineage& l, std::size_t old) : lineage(l), copies(l.identity ? old : l.copies.size()) {}
+    std::size_t mixed() const { return lineage.edges.size() + lineage.mixes(); }
+    std::size_t size() const { return copies + mixed(); }
+
+    /// Parents of mixed element i (edges first); room holds those of an edge.
+    Parents parents(std::size_t i, std::array<Index, 2>& sources, std::array<double, 2>& weights) const {
+        if (i < lineage.edges.size()) {
+            const auto& e = lineage.edges[i];
+            sources = {e.a, e.b};
+            weights = {1 - e.t, e.t};
+            return {sources, weights};
+        }
+        i -= lineage.edges.size();
+        const std::size_t begin = lineage.mix_offsets[i], n = lineage.mix_offsets[i + 1] - begin;
+        return {{lineage.mix_sources.data() + begin, n}, {lineage.mix_weights.data() + begin, n}};
+    }
+
+    /// Calls body(new element, its parents) for every mixed element, in parallel.
+    template <class Body>
+    void for_mixed(Body&& body) const {
+        parallel_for(mixed(), [&](std::size_t i) {
+            std::array<Index, 2> sources;
+            std::array<double, 2> weights;
+            body(copies + i, parents(i, sources, weights));
+        });
+    }
+};
+
+template <class T>
+void copy_elements(std::vector<T>& to, const std::vector<T>& from, const Ancestry& ancestry, std::size_t k) {
+    if (ancestry.lineage.identity) {
+        parallel_chunks(ancestry.copies * k, [&](std::size_t begin, std::size_t end) {
+            std::copy(&from[begin], from.data() + end, &to[begin]);
+        });
+        return;
+    }
+    const auto& copies = ancestry.lineage.copies;
+    parallel_for(copies.size(), [&](std::size_t i) { std::copy_n(&from[copies[i] * k], k, &to[i * k]); });
+}
+
+constexpr std::size_t most_components = 16; // glTF's MAT4; wider attributes are mixed piece by piece
+
+/// The weighted sums of components [c, c + n) over the parents.
+template <class T>
+void mix_components(const T* from, std::size_t k, std::size_t c, std::size_t n, const Parents& parents,
+                    double* sums) {
+    std::fill_n(sums, n, 0.0);
+    for (std::size_t p = 0; p < parents.sources.size(); ++p)
+        for (std::size_t i = 0; i < n; ++i)
+            sums[i] += parents.weights[p] * static_cast<double>(from[parents.sources[p] * k + c + i]);
+}
+
+/// Scales the first three sums to unit length (to the type's maximum for normalised integers); when they
+/// cancel, the first parent's direction is taken.
+template <class T>
+void renormalise(double* sums, const T* first_parent) {
+    double scale = 1;
+    if constexpr (std::is_integral_v<T>) scale = static_cast<double>(std::numeric_limits<T>::max());
+    const Vec3 unit = normalised({sums[0], sums[1], sums[2]});
+    if (dot(unit, unit) > 0)
+        for (std::size_t i = 0; i < 3; ++i) sums[i] = unit[i] * scale;
+    else
+        for (std::size_t i = 0; i < 3; ++i) sums[i] = static_cast<double>(first_parent[i]);
+}
+
+template <class T>
+void mix_element(const Attribute& a, const std::vector<T>& from, T* to, const Parents& parents) {
+    const auto k = static_cast<std::size_t>(a.components);
+    const T* first_parent = &from[parents.sources[0] * k];
+    if (a.role == Role::index) {
+        std::copy_n(first_parent, k, to);
+        return;
+    }
+    double sums[most_components];
+    for (std::size_t c = 0; c < k; c += most_components) {
+        const std::size_t n = std::min(most_components, k - c);
+        mix_components(from.data(), k, c, n, parents, sums);
+        if (c == 0 && k >= 3 && (a.role == Role::normal || a.role == Role::tangent))
+            renormalise(sums, first_parent);
+        if (c == 0 && k == 4 && a.role == Role::tangent) sums[3] = static_cast<double>(first_parent[3]);
+        for (std::size_t i = 0; i < n; ++i) to[c + i] = as_component<T>(sums[i]);
+    }
+}
+
+/// The attribute of the new elements, in one visit.
+Attribute inherited(const Attribute& from, const Ancestry& ancestry) {
+    Attribute to{from.name, from.domain, from.role, from.components, from.normalised, {}};
+    const auto k = static_cast<std::size_t>(from.components);
+    std::visit(
+        [&](const auto& old) {
+            std::decay_t<decltype(old)> renewed(ancestry.size() * k);
+            copy_elements(renewed, old, ancestry, k);
+            if (from.role != Role::joints && from.role != Role::weights) // those are mixed together
+                ancestry.for_mixed(
+                    [&](std::size_t i, const Parents& p) { mix_element(from, old, &renewed[i * k], p); });
+            to.data = std::move(renewed);
+        },
+        from.data);
+    return to;
+}
+
+struct Influence {
+    double joint, weight;
+};
+
+/// The joint sets of a mesh and their weights, paired by the number at the end of their names.
+struct Skin {
+    std::vector<const Attribute*> joints, weights;
+    std::vector<Attribute*> new_joints, new_weights;
+
+    Skin(const Mesh& from, Mesh& to) {
+        for (const auto& a : from.attributes) {
+            if (a.role != Role::joints) continue;
+            const auto suffix = a.name.substr(std::min(a.name.size(), a.name.rfind('_')));
+            for (const auto& b : from.attributes)
+                if (b.role == Role::weights && b.domain == a.domain && b.components == a.components &&
+                    b.name.ends_with(suffix)) {
+                    joints.push_back(&a), weights.push_back(&b);
+                    new_joints.push_back(to.find(a.name, a.domain)),
+                        new_weights.push_back(to.find(b.name, b.domain));
+                    break;
+                }
+        }
+    }
+};
+
+/// Sums the weights of equal joints and puts the strongest first, ties by joint.
+void unite(std::vector<Influence>& all) {
+    std::sort(all.begin(), all.end(),
+              [](const auto& a, const auto& b) { return a.joint < b.joint; }); // then summed
+    std::size_t kept = 0;
+    for (const auto& i : all) {
+        if (kept > 0 && all[kept - 1].joint == i.joint)
+            all[kept - 1].weight += i.weight;
+        else
+            all[kept++] = i;
+    }
+    all.resize(kept);
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+        return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
+    });
+}
+
+/// What is lost in rounding weights to fractions goes to the strongest, so that they still sum to one.
+void settle_rounding(const Skin& skin, std::size_t element) {
+    double rest = 1;
+    for (const auto* w : skin.new_weights)
+        for (int c = 0; c < w->components; ++c) rest -= w->value(element, c);
+    Attribute& first = *skin.new_weights[0];
+    if (first.normalised) first.set_value(element, 0, first.value(element, 0) + rest);
+}
+
+void mix_skin(const Skin& skin, std::size_t element, const Parents& parents, std::vector<Influence>& all) {
+    all.clear();
+    std::size_t slots = 0;
+    for (std::size_t s = 0; s < skin.joints.size(); ++s) {
+        slots += static_cast<std::size_t>(skin.joints[s]->components);
+        for (std::size_t p = 0; p < parents.sources.size(); ++p)
+            for (int c = 0; c < skin.joints[s]->components; ++c) {
+                const double w = parents.weights[p] * skin.weights[s]->value(parents.sources[p], c);
+                if (w > 0) all.push_back({skin.joints[s]->value(parents.sources[p], c), w});
+            }
+    }
+    unite(all);
+    if (all.size() > slots) all.resize(slots);
+    double sum = 0;
+    for (const auto& i : all) sum += i.weight;
+    std::size_t slot = 0;
+    for (std::size_t s = 0; s < skin.joints.size(); ++s)
+        for (int c = 0; c < skin.joints[s]->components; ++c, ++slot) {
+            const Influence i =
+                slot < all.size() ? Influence{all[slot].joint, all[slot].weight / sum} : Influence{0, 0};
+            skin.new_joints[s]->set_value(element, c, i.joint);
+            skin.new_weights[s]->set_value(element, c, i.weight);
+        }
+    if (!all.empty()) settle_rounding(skin, element);
+}
+
+void inherit_skin(Mesh& to, const Mesh& from, const Ancestry& ancestry, Domain domain) {
+    const Skin skin(from, to);
+    if (skin.joints.empty() || skin.joints[0]->domain != domain) return;
+    ancestry.for_mixed([&](std::size_t element, const Parents& p) {
+        thread_local std::vector<Influence> all;
+        mix_skin(skin, element, p, all);
+    });
+}
+
+Fate fate_of(const Attribute& a, const Ancestry& ancestry) {
+    Fate fate{a.name, a.domain, Fate::Kind::kept, {}};
+    if (ancestry.mixed() == 0 || a.role == Role::index) return fate;
+    fate.kind = Fate::Kind::interpolated;
+    switch (a.role) {
+    case Role::normal:
+    case Role::tangent:
+        fate.why = "mixed at new elements and renormalised";
+        break;
+    case Role::joints:
+    case Role::weights:
+        fate.why = "united at new elements, the strongest kept and renormalised";
+        break;
+    default:
+        fate.why = "mixed at new elements";
+        break;
+    }
+    return fate;
+}
+
+void expect_size(const Mesh& to, Domain domain, std::size_t found) {
+    if (to.count(domain) != found)
+        throw Error(ErrorKind::bug, "E-BUG",
+                    std::string("the lineage of the ") + spelled(domain) + " domain has " +
+                        std::to_string(found) + " elements, the mesh has " +
+                        std::to_string(to.count(domain)));
+}
+
+} // namespace
+
+Fates inherit_attributes(Mesh& to, const Mesh& from, const Descent& descent) {
+    Lineage faces;
+    faces.identity = descent.faces_identity;
+    faces.copies = descent.faces;
+    const Ancestry of_vertices(descent.vertices, from.vertex_count()),
+        of_wedges(descent.wedges, from.wedge_count()), of_faces(faces, from.face_count());
+    expect_size(to, Domain::vertex, of_vertices.size());
+    expect_size(to, Domain::wedge, of_wedges.size());
+    expect_size(to, Domain::face, of_faces.size());
+    const auto ancestry = [&](Domain d) -> const Ancestry& {
+        return d == Domain::vertex ? of_vertices : d == Domain::wedge ? of_wedges : of_faces;
+    };
+    to.primitives = from.primitives;
+    to.attributes.clear();
+    Fates fates;
+    for (const auto& a : from.attributes) {
+        to.attributes.push_back(inherited(a, ancestry(a.domain)));
+        fates.push_back(fate_of(a, ancestry(a.domain)));
+    }
+    inherit_skin(to, from, of_wedges, Domain::wedge);
+    inherit_skin(to, from, of_vertices, Domain::vertex);
+    return fates;
+}
+
+} // namespace facetmill

@@ -1,0 +1,275 @@
+#include "mesh/topology.hpp"
+
+#include "base/parallel.hpp"
+
+#include <atomic>
+#include <bit>
+
+namespace facetmill {
+
+std::vector<Index> corner_faces(const Mesh& mesh) {
+    std::vector<Index> faces(mesh.corner_count());
+    if (mesh.all_triangles()) {
+        parallel_for(faces.size(), [&](std::size_t c) { faces[c] = static_cast<Index>(c / 3); });
+        return faces;
+    }
+    parallel_for(mesh.face_count(), [&](std::size_t f) {
+        const auto i = static_cast<Index>(f);
+        for (Index c = mesh.face_begin(i); c < mesh.face_end(i); ++c) faces[c] = i;
+    });
+    return faces;
+}
+
+namespace {
+
+/// Items in buckets by the high bits of a vertex: one scattering pass, after which each bucket (some thousand
+/// items) is sorted in cache. That is a radix sort whose first digit is wide and whose others never leave the
+/// cache.
+template <class Item>
+struct Buckets {
+    int shift = 0;                  ///< bucket of vertex v: v >> shift
+    std::vector<Item> items;        ///< bucket by bucket, in the order of their faces
+    std::vector<std::size_t> begin; ///< [buckets + 1] into items
+    std::size_t count() const { return begin.size() - 1; }
+};
+
+/// visit(f, emit) calls emit(vertex, item) for what face f contributes.
+template <class Item, class Visit>
+Buckets<Item> fill_buckets(const Mesh& mesh, Visit&& visit) {
+    constexpr std::size_t chunk = std::size_t{1} << 15;
+    const std::size_t faces = mesh.face_count(), vertices = mesh.vertex_count();
+    Buckets<Item> result;
+    const int bits = std::bit_width(vertices > 0 ? vertices - 1 : 0);
+    result.shift = std::max(0, bits - 11);
+    const std::size_t buckets = vertices == 0 ? 0 : ((vertices - 1) >> result.shift) + 1,
+                      chunks = (faces + chunk - 1) / chunk;
+    std::vector<std::size_t> counts(chunks * buckets, 0);
+    const auto for_faces = [&](auto&& body) {
+        parallel_chunks(
+            faces,
+            [&](std::size_t begin, std::size_t end) {
+                std::size_t* mine = counts.data() + begin / chunk * buckets;
+                for (std::size_t f = begin; f < end; ++f)
+                    visit(static_cast<Index>(f),
+                          [&](Index v, const Item& item) { body(mine[v >> result.shift], item); });
+            },
+            chunk);
+    };
+    for_faces([](std::size_t& count, const Item&) { ++count; });
+    result.begin.resize(buckets + 1, 0);
+    std::size_t sum = 0;
+    for (std::size_t b = 0; b < buckets; ++b) {
+        result.begin[b] = sum;
+        for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(counts[c * buckets + b], sum);
+    }
+    result.begin[buckets] = sum;
+    result.items.resize(sum);
+    for_faces([&](std::size_t& at, const Item& item) { result.items[at++] = item; });
+    return result;
+}
+
+struct HalfEdge {
+    Index low, high, corner;
+};
+
+/// Sorts one bucket by (low, high, corner): counted by low vertex, then each vertex's few by hand.
+void sort_bucket(std::span<HalfEdge> items, Index first_vertex, std::size_t vertices,
+                 std::vector<HalfEdge>& room, std::vector<Index>& counts) {
+    room.assign(items.begin(), items.end());
+    counts.assign(vertices + 1, 0);
+    for (const auto& h : room) ++counts[h.low - first_vertex];
+    exclusive_scan(counts);
+    for (const auto& h : room) items[counts[h.low - first_vertex]++] = h;
+    const auto before = [](const HalfEdge& a, const HalfEdge& b) {
+        return a.high != b.high ? a.high < b.high : a.corner < b.corner;
+    };
+    std::size_t begin = 0;
+    for (std::size_t v = 0; v < vertices; ++v) {
+        const std::size_t end = counts[v]; // after the scatter: where v's items end
+        if (end - begin > 16) {
+            std::sort(items.begin() + static_cast<std::ptrdiff_t>(begin),
+                      items.begin() + static_cast<std::ptrdiff_t>(end), before);
+        } else {
+            for (std::size_t i = begin + 1; i < end; ++i) {
+                const HalfEdge item = items[i];
+                std::size_t j = i;
+                for (; j > begin && before(item, items[j - 1]); --j) items[j] = items[j - 1];
+                items[j] = item;
+            }
+        }
+        begin = end;
+    }
+}
+
+Buckets<HalfEdge> sorted_half_edges(const Mesh& mesh) {
+    auto buckets = fill_buckets<HalfEdge>(mesh, [&](Index f, auto&& emit) {
+        const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+        if (begin == end) return;
+        Index c = end - 1, from = mesh.vertex(c);
+        for (Index n = begin; n < end; c = n++) {
+            const Index to = mesh.vertex(n);
+            if (from != to) emit(std::min(from, to), HalfEdge{std::min(from, to), std::max(from, to), c});
+            from = to;
+        }
+    });
+    parallel_chunks(
+        buckets.count(),
+        [&](std::size_t first, std::size_t last) {
+            std::vector<HalfEdge> room;
+            std::vector<Index> counts;
+            for (std::size_t b = first; b < last; ++b)
+                sort_bucket(
+                    {buckets.items.data() + buckets.begin[b], buckets.items.data() + buckets.begin[b + 1]},
+                    static_cast<Index>(b << buckets.shift), std::size_t{1} << buckets.shift, room, counts);
+        },
+        16);
+    return buckets;
+}
+
+bool same_edge(const HalfEdge& a, const HalfEdge& b) { return a.low == b.low && a.high == b.high; }
+
+} // namespace
+
+EdgeTable build_edges(const Mesh& mesh) {
+    const auto buckets = sorted_half_edges(mesh);
+    const auto& items = buckets.items;
+    std::vector<Index> first_edge(buckets.count());
+    parallel_for(
+        buckets.count(),
+        [&](std::size_t b) { // an edge never spans buckets
+            Index count = 0;
+            for (std::size_t i = buckets.begin[b]; i < buckets.begin[b + 1]; ++i)
+                count += i == buckets.begin[b] || !same_edge(items[i], items[i - 1]);
+            first_edge[b] = count;
+        },
+        16);
+    EdgeTable table;
+    const Index edges = exclusive_scan(first_edge);
+    table.edges.resize(edges);
+    table.corner_offsets.resize(std::size_t{edges} + 1);
+    table.corner_offsets[edges] = static_cast<Index>(items.size());
+    table.edge_corners.resize(items.size());
+    table.corner_edge.resize(mesh.corner_count(), none);
+    parallel_for(
+        buckets.count(),
+        [&](std::size_t b) {
+            Index e = first_edge[b] - 1;
+            for (std::size_t i = buckets.begin[b]; i < buckets.begin[b + 1]; ++i) {
+                if (i == buckets.begin[b] || !same_edge(items[i], items[i - 1])) {
+                    table.edges[++e] = {items[i].low, items[i].high};
+                    table.corner_offsets[e] = static_cast<Index>(i);
+                }
+                table.edge_corners[i] = items[i].corner;
+                table.corner_edge[items[i].corner] = e;
+            }
+        },
+        16);
+    return table;
+}
+
+VertexLists corners_at_vertices(const Mesh& mesh) {
+    struct Item {
+        Index vertex, corner;
+    };
+    const auto buckets = fill_buckets<Item>(mesh, [&](Index f, auto&& emit) {
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+            emit(mesh.vertex(c), Item{mesh.vertex(c), c});
+    });
+    VertexLists lists;
+    const std::size_t vertices = mesh.vertex_count();
+    lists.offsets.resize(vertices + 1);
+    lists.offsets[vertices] = static_cast<Index>(buckets.items.size());
+    lists.items.resize(buckets.items.size());
+    parallel_for(
+        buckets.count(),
+        [&](std::size_t b) {
+            const std::size_t first = b << buckets.shift, last = std::min(vertices, (b + 1) << buckets.shift);
+            std::vector<Index> counts(last - first, 0);
+            for (std::size_t i = buckets.begin[b]; i < buckets.begin[b + 1]; ++i)
+                ++counts[buckets.items[i].vertex - first];
+            exclusive_scan(counts);
+            for (std::size_t v = first; v < last; ++v)
+                lists.offsets[v] = static_cast<Index>(buckets.begin[b]) + counts[v - first];
+            for (std::size_t i = buckets.begin[b]; i < buckets.begin[b + 1]; ++i)
+                lists.items[buckets.begin[b] + counts[buckets.items[i].vertex - first]++] =
+                    buckets.items[i].corner;
+        },
+        16);
+    return lists;
+}
+
+namespace {
+
+/// Sets that are joined from several threads at once. A root only ever points to a lower one, so the root of
+/// a finished set is its lowest member, whatever the order of the joins.
+class DisjointSets {
+  public:
+    explicit DisjointSets(std::size_t n) : parent_(n) {
+        parallel_for(n, [&](std::size_t i) { parent_[i] = static_cast<Index>(i); });
+    }
+    Index find(Index i) {
+        for (;;) {
+            const Index p = load(i), above = load(p);
+            if (p == above) return p;
+            Index expected = p;
+            std::atomic_ref(parent_[i]).compare_exchange_weak(expected, above, std::memory_order_relaxed);
+            i = above;
+        }
+    }
+    void join(Index a, Index b) {
+        for (;;) {
+            a = find(a), b = find(b);
+            if (a == b) return;
+            if (a > b) std::swap(a, b);
+            Index expected = b;
+            if (std::atomic_ref(parent_[b]).compare_exchange_strong(expected, a, std::memory_order_relaxed))
+                return;
+        }
+    }
+
+  private:
+    Index load(Index i) { return std::atomic_ref(parent_[i]).load(std::memory_order_relaxed); }
+    std::vector<Index> parent_;
+};
+
+/// Roots into numbers, in the order of the first face that has them.
+Components numbered(std::vector<Index> roots, std::size_t elements) {
+    Components result;
+    std::vector<Index> number(elements, none);
+    for (Index& r : roots) {
+        if (number[r] == none) number[r] = static_cast<Index>(result.count++);
+        r = number[r];
+    }
+    result.of_face = std::move(roots);
+    return result;
+}
+
+} // namespace
+
+Components face_components(const Mesh& mesh, bool by_vertex) {
+    const std::size_t faces = mesh.face_count();
+    std::vector<Index> roots(faces);
+    if (by_vertex) {
+        DisjointSets sets(mesh.vertex_count());
+        parallel_for(faces, [&](std::size_t f) {
+            const Index begin = mesh.face_begin(static_cast<Index>(f)),
+                        end = mesh.face_end(static_cast<Index>(f));
+            for (Index c = begin + 1; c < end; ++c) sets.join(mesh.vertex(c - 1), mesh.vertex(c));
+        });
+        parallel_for(faces, [&](std::size_t f) {
+            roots[f] = sets.find(mesh.vertex(mesh.face_begin(static_cast<Index>(f))));
+        });
+        return numbered(std::move(roots), mesh.vertex_count());
+    }
+    const auto edges = build_edges(mesh);
+    const auto face_of = corner_faces(mesh);
+    DisjointSets sets(faces);
+    parallel_for(edges.size(), [&](std::size_t e) {
+        const auto corners = edges.corners_of(static_cast<Index>(e));
+        for (std::size_t i = 1; i < corners.size(); ++i) sets.join(face_of[corners[0]], face_of[corners[i]]);
+    });
+    parallel_for(faces, [&](std::size_t f) { roots[f] = sets.find(static_cast<Index>(f)); });
+    return numbered(std::move(roots), faces);
+}
+
+} // namespace facetmill
