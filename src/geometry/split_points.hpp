@@ -1,0 +1,54 @@
+#pragma once
+// New points on edges, the same for all faces that meet there. For the methods of split.
+
+#include "mesh/lineage.hpp"
+#include "mesh/topology.hpp"
+
+#include <cstdint>
+
+namespace facetmill {
+
+/// The points that divide edges into equal parts: vertices numbered after the old ones, edge by edge and from
+/// the edge's low vertex to its high one; wedges likewise, one set per pair of wedges that some face has
+/// along the edge.
+class EdgePoints {
+  public:
+    /// pieces >= 1: each edge gets pieces - 1 points. With marks (one per edge), only marked edges get any.
+    EdgePoints(const Mesh& mesh, const EdgeTable& edges, int pieces,
+               const std::vector<std::uint8_t>& marks = {});
+
+    /// The wedge of point i (1 .. pieces - 1, counted from corner c's own vertex) on the edge of corner c,
+    /// which must have points. An edge from a vertex to itself has its own wedge for all of them.
+    Index wedge(Index c, int i) const {
+        const Index e = table_->corner_edge[c];
+        if (e == none) return mesh_->corners[c];
+        const bool up = mesh_->vertex(c) == table_->edges[e].low;
+        return first_wedge_ + bundle(c, e) * static_cast<Index>(points_) +
+               static_cast<Index>(up ? i - 1 : points_ - i);
+    }
+
+    std::size_t vertex_points() const { return edge_count_ * static_cast<std::size_t>(points_); }
+    std::size_t wedge_points() const { return bundle_count_ * static_cast<std::size_t>(points_); }
+
+    /// Appends the points to the lineages; wedges is left alone when the mesh has no seams.
+    void describe(Lineage& vertices, Lineage& wedges) const;
+    /// Appends the vertex of each wedge point; for meshes with seams.
+    void append_wedge_vertices(std::vector<Index>& wedge_vertex) const;
+
+  private:
+    Index rank(Index e) const { return ranks_.empty() ? e : ranks_[e]; }
+    Index bundle(Index c, Index e) const { return bundles_.empty() ? rank(e) : bundles_[c]; }
+    void number_bundles();
+
+    const Mesh* mesh_;
+    const EdgeTable* table_;
+    int points_; ///< per edge
+    Index first_wedge_;
+    std::vector<Index> ranks_;   ///< [edges] number among the marked edges, or none; empty: all are marked
+    std::vector<Index> bundles_; ///< [corners] number of the (edge, wedge pair); empty without seams
+    std::vector<Index> bundle_corner_; ///< [bundles] its first corner
+    std::vector<Index> next_;          ///< [corners] the next corner in the face; only with seams
+    std::size_t edge_count_ = 0, bundle_count_ = 0;
+};
+
+} // namespace facetmill
