@@ -1,0 +1,195 @@
+#include "geometry/cgal/triangulate_polygon.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/hilbert_sort.h>
+#include <CGAL/property_map.h>
+#include <algorithm>
+#include <map>
+#include <optional>
+
+namespace facetmill {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+struct FaceInfo {
+    int turns = 0;
+    bool known = false;
+};
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
+using PlainFaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel, PlainFaceBase>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
+using Triangulation = CGAL::Constrained_triangulation_plus_2<Delaunay>;
+using Vertex = Triangulation::Vertex_handle;
+using Face = Triangulation::Face_handle;
+using Constraint = Triangulation::Constraint_id;
+
+std::vector<Index> lowest_at_same_place(const std::vector<Vec2>& points) {
+    std::vector<Index> order(points.size()), same(points.size());
+    for (Index i = 0; i < order.size(); ++i) order[i] = i;
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        const Vec2 &p = points[a], &q = points[b];
+        return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : a < b;
+    });
+    for (std::size_t i = 0; i < order.size(); ++i)
+        same[order[i]] = i > 0 && points[order[i]] == points[order[i - 1]] ? same[order[i - 1]] : order[i];
+    return same;
+}
+
+/// Inserts the distinct points, along a Hilbert curve for speed. Returns the vertex of each.
+std::vector<Vertex> insert_points(Triangulation& t, const std::vector<Vec2>& points,
+                                  const std::vector<Index>& same) {
+    using Item = std::pair<Kernel::Point_2, Index>;
+    using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::First_of_pair_property_map<Item>>;
+    std::vector<Item> items;
+    for (Index i = 0; i < points.size(); ++i)
+        if (same[i] == i) items.emplace_back(Kernel::Point_2(points[i].x, points[i].y), i);
+    CGAL::hilbert_sort(items.begin(), items.end(), Traits());
+    std::vector<Vertex> vertices(points.size());
+    Face near;
+    for (const auto& [point, i] : items) {
+        vertices[i] = t.insert(point, near);
+        near = vertices[i]->face();
+    }
+    return vertices;
+}
+
+class Filler {
+  public:
+    explicit Filler(const Contours& contours) : in_(contours) {}
+
+    Filling run() {
+        out_.same = lowest_at_same_place(in_.points);
+        vertices_ = insert_points(t_, in_.points, out_.same);
+        insert_edges();
+        number_vertices();
+        walk_paths();
+        if (t_.dimension() < 2) return std::move(out_);
+        count_turns();
+        emit();
+        return std::move(out_);
+    }
+
+  private:
+    void insert_edges() {
+        constraints_.resize(in_.edges.size());
+        std::map<std::pair<Index, Index>, std::optional<Constraint>> seen;
+        for (std::size_t e = 0; e < in_.edges.size(); ++e) {
+            const Index a = out_.same[in_.edges[e].from], b = out_.same[in_.edges[e].to];
+            if (a == b) continue;
+            const auto [at, fresh] = seen.try_emplace({std::min(a, b), std::max(a, b)});
+            if (fresh)
+                at->second = t_.insert_constraint(vertices_[std::min(a, b)], vertices_[std::max(a, b)]);
+            constraints_[e] = at->second;
+        }
+    }
+
+    /// Points that CGAL added where edges cross get the next numbers, in the order in which the edges meet
+    /// them.
+    void number_vertices() {
+        for (auto v = t_.finite_vertices_begin(); v != t_.finite_vertices_end(); ++v) v->info() = none;
+        for (Index i = 0; i < vertices_.size(); ++i)
+            if (out_.same[i] == i) vertices_[i]->info() = i;
+        for (std::size_t e = 0; e < in_.edges.size(); ++e)
+            for_path(e, [&](Vertex v) {
+                if (v->info() != none) return;
+                v->info() = static_cast<Index>(in_.points.size() + out_.added.size());
+                const Vec2 at{v->point().x(), v->point().y()};
+                out_.added.push_back({at, static_cast<Index>(e), parameter(in_.edges[e], at)});
+            });
+    }
+
+    double parameter(const Contours::Edge& e, const Vec2& at) const {
+        const Vec2 &a = in_.points[e.from], &b = in_.points[e.to];
+        const double dx = b.x - a.x, dy = b.y - a.y;
+        const double t = std::abs(dx) > std::abs(dy) ? (at.x - a.x) / dx : (at.y - a.y) / dy;
+        return std::clamp(t, 0.0, 1.0);
+    }
+
+    /// Calls body for the vertices along edge e, both ends included, from its from to its to.
+    template <class Body>
+    void for_path(std::size_t e, Body body) const {
+        if (!constraints_[e]) return;
+        std::vector<Vertex> all;
+        const auto end = t_.vertices_in_constraint_end(*constraints_[e]);
+        for (auto v = t_.vertices_in_constraint_begin(*constraints_[e]); v != end; ++v) all.push_back(*v);
+        if (all.front() != vertices_[out_.same[in_.edges[e].from]]) std::reverse(all.begin(), all.end());
+        for (const Vertex v : all) body(v);
+    }
+
+    void walk_paths() {
+        out_.path_offsets.push_back(0);
+        for (std::size_t e = 0; e < in_.edges.size(); ++e) {
+            const Index from = out_.same[in_.edges[e].from], to = out_.same[in_.edges[e].to];
+            Index last = from;
+            for_path(e, [&](Vertex v) {
+                const Index i = v->info();
+                if (i == last) return;
+                along_[{std::min(last, i), std::max(last, i)}] +=
+                    last < i ? in_.edges[e].count : -in_.edges[e].count;
+                if (i != to) out_.path.push_back(i);
+                last = i;
+            });
+            out_.path_offsets.push_back(static_cast<Index>(out_.path.size()));
+        }
+    }
+
+    /// Spreads the number of turns from the outside in: it changes by the contours' count at every edge
+    /// crossed.
+    void count_turns() {
+        std::vector<Face> stack{t_.infinite_face()};
+        stack.back()->info().known = true;
+        while (!stack.empty()) {
+            const Face f = stack.back();
+            stack.pop_back();
+            for (int i = 0; i < 3; ++i) {
+                const Face g = f->neighbor(i);
+                if (g->info().known) continue;
+                // f lies left of the edge from a to b, and turns(left) - turns(right) is the count from a to
+                // b.
+                const Vertex a = f->vertex(Triangulation::ccw(i)), b = f->vertex(Triangulation::cw(i));
+                g->info() = {f->info().turns - count_along(a, b), true};
+                stack.push_back(g);
+            }
+        }
+    }
+    int count_along(Vertex a, Vertex b) const {
+        if (t_.is_infinite(a) || t_.is_infinite(b)) return 0;
+        const Index i = a->info(), j = b->info();
+        const auto it = along_.find({std::min(i, j), std::max(i, j)});
+        return it == along_.end() ? 0 : i < j ? it->second : -it->second;
+    }
+
+    void emit() {
+        for (auto f = t_.finite_faces_begin(); f != t_.finite_faces_end(); ++f) {
+            std::array<Index, 3> abc{f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
+            std::rotate(abc.begin(), std::min_element(abc.begin(), abc.end()), abc.end());
+            const int turns = f->info().turns;
+            if (turns < 0) std::swap(abc[1], abc[2]);
+            for (int i = 0; i < std::abs(turns); ++i) out_.triangles.push_back(abc);
+        }
+        std::sort(out_.triangles.begin(), out_.triangles.end());
+    }
+
+    const Contours& in_;
+    Filling out_;
+    Triangulation t_;
+    std::vector<Vertex> vertices_; ///< [points], of the lowest at each place
+    std::vector<std::optional<Constraint>>
+        constraints_; ///< [edges], none for an edge between points at one place
+    std::map<std::pair<Index, Index>, int>
+        along_; ///< the contours' count from the lower to the higher number
+};
+
+} // namespace
+
+Filling fill(const Contours& contours) { return Filler(contours).run(); }
+
+} // namespace facetmill

@@ -1,0 +1,47 @@
+#pragma once
+// Fills closed contours in the plane: any number of them, nested, touching, crossing or running along each
+// other. Free of CGAL, which does the work behind it.
+
+#include "mesh/mesh.hpp"
+
+#include <array>
+
+namespace facetmill {
+
+struct Vec2 {
+    double x = 0, y = 0;
+    bool operator==(const Vec2&) const = default;
+};
+
+/// Directed edges between points, counted: at every point as many arrive as leave.
+struct Contours {
+    struct Edge {
+        Index from = 0, to = 0; ///< points
+        int count = 1;          ///< how many times; negative: the other way
+    };
+    std::vector<Vec2> points;
+    std::vector<Edge> edges;
+};
+
+/// Triangles between the points and the points that had to be added where edges cross.
+struct Filling {
+    struct Added {
+        Vec2 at;
+        Index edge; ///< an edge that it lies on
+        double t;   ///< where: 0 at its from, 1 at its to
+    };
+    /// Counter-clockwise; each once per turn that the contours make around it, reversed when they turn
+    /// clockwise.
+    std::vector<std::array<Index, 3>> triangles;
+    std::vector<Index> same;  ///< [points] the lowest point at the same place; triangles use only these
+    std::vector<Added> added; ///< numbered after the points
+    std::vector<Index> path_offsets; ///< [edges + 1] into path
+    std::vector<Index> path; ///< the points strictly between the ends of each edge, from its from to its to
+};
+
+/// Constrained Delaunay triangulation with exact predicates. Requires finite coordinates. The boundary of the
+/// triangles is exactly the edges along their paths (points at one place counted as one), whatever the input.
+/// The same for the same input.
+Filling fill(const Contours& contours);
+
+} // namespace facetmill

@@ -1,0 +1,38 @@
+#pragma once
+// Planes, and on which side of them a point is: exactly.
+
+#include "base/vec.hpp"
+
+namespace facetmill {
+
+/// The points p with normal . (p - through) + offset = 0. The normal has any length but zero and is never
+/// normalised: the plane is the one that the given doubles mean. A x + B y + C z + D = 0 has through = 0 and
+/// offset = D.
+struct Plane {
+    Vec3 normal{0, 0, 1};
+    Vec3 through;
+    double offset = 0;
+
+    bool operator==(const Plane&) const = default;
+};
+
+/// normal . (p - through) + offset: the sign is exact (0 means exactly on the plane), the magnitude good to a
+/// few units in the last place of its largest term, and never 0 for a point off the plane. A filter in plain
+/// doubles decides almost always; else the sum is evaluated as an expansion (Shewchuk, 1997). Exact as long
+/// as no product of a normal's component and a coordinate is beyond 1e290 or its last bit below 1e-300.
+double side(const Plane& plane, const Vec3& p);
+
+/// The plane as seen before the map: p is on its front exactly when to_world takes p to the front of the
+/// given one, but for rounding in the new coefficients. The same plane for the identity; normal and through
+/// are mapped, so that axis-aligned planes stay axis-aligned through a point; a map without an inverse moves
+/// the offset instead.
+Plane pulled_back(const Plane& plane, const Transform& to_world);
+
+/// The only axis along which the normal is not zero, or -1.
+int axis_of(const Plane& plane);
+
+/// Throws usage (E-PLANE) for a normal that is zero or not finite, and for a point or offset that is not
+/// finite.
+void check_plane(const Plane& plane);
+
+} // namespace facetmill
