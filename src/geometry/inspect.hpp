@@ -20,8 +20,8 @@ struct Properties {
     std::int64_t boundary_loops = 0, boundary_edges = 0;
     bool closed = true;          ///< at every edge the directions of its faces cancel
     bool edge_manifold = true;   ///< at most two faces at an edge
-    bool vertex_manifold = true; ///< the faces around each vertex form one fan
-    bool oriented = true;        ///< neighbours agree: no two faces run along an edge the same way
+    bool vertex_manifold = true; ///< the faces around each vertex form one fan: edges link them all
+    bool oriented = true;        ///< neighbours agree: the faces that run along an edge either way differ by at most one
     std::int64_t degenerate_faces = 0; ///< exactly zero area (repeated vertex, or collinear: exact test)
     std::int64_t duplicate_faces = 0;  ///< faces beyond the first with the same set of vertices
     std::int64_t isolated_vertices = 0;

@@ -1,0 +1,66 @@
+#include "report/render.hpp"
+
+#include <map>
+
+namespace facetmill::report {
+
+namespace {
+
+Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
+
+Json bounds_json(const Box& box) {
+    if (box.empty()) return nullptr;
+    return {{"min", point_json(box.min)}, {"max", point_json(box.max)}};
+}
+
+/// Each attribute once, in order of first appearance, with its domain and component type.
+Json attributes_json(const Scene& scene) {
+    Json all = Json::array();
+    for (const auto& part : scene.parts)
+        for (const auto& a : part.mesh.attributes) {
+            if (a.name == primitive_attribute && a.domain == Domain::face) continue;
+            Json entry = {{"name", a.name},
+                          {"domain", spelled(a.domain)},
+                          {"type", a.type()},
+                          {"components", a.components}};
+            if (std::find(all.begin(), all.end(), entry) == all.end()) all.push_back(std::move(entry));
+        }
+    return all;
+}
+
+} // namespace
+
+Json properties_json(const Properties& properties) {
+    Json json = Json::object();
+    for (const auto& p : property_table()) {
+        const auto value = p.get(properties);
+        Json& slot = json[std::string(p.name)];
+        if (!value) continue;
+        if (p.truth)
+            slot = *value != 0;
+        else if (p.name == "area" || p.name == "volume")
+            slot = *value;
+        else
+            slot = static_cast<std::int64_t>(*value);
+    }
+    json["bounds"] = bounds_json(properties.bounds);
+    return json;
+}
+
+Json scene_json(const Scene& scene, const Properties& properties) {
+    Json json = properties_json(properties);
+    json["unit"] = spelled(scene.unit);
+    json["up"] = spelled(scene.up);
+    json["attributes"] = attributes_json(scene);
+    json["materials"] = Json::array();
+    for (const auto& m : scene.materials) json["materials"].push_back(m.name);
+    json["parts"] = Json::array();
+    for (const auto& part : scene.parts)
+        json["parts"].push_back({{"name", part.name},
+                                 {"vertices", part.mesh.vertex_count()},
+                                 {"wedges", part.mesh.wedge_count()},
+                                 {"faces", part.mesh.face_count()}});
+    return json;
+}
+
+} // namespace facetmill::report
