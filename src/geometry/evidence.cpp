@@ -30,7 +30,8 @@ std::vector<Place> places_of_edges(const Mesh& mesh, std::size_t limit, Fails fa
     for (Index e = 0; e < edges.size() && places.size() < limit; ++e) {
         if (!fails(directions(mesh, edges, e))) continue;
         const auto& [low, high] = edges.edges[e];
-        places.push_back({faces[edges.corners_of(e).front()], mix(mesh.positions[low], mesh.positions[high], 0.5)});
+        places.push_back(
+            {faces[edges.corners_of(e).front()], mix(mesh.positions[low], mesh.positions[high], 0.5)});
     }
     return places;
 }
@@ -121,7 +122,8 @@ std::vector<Index> duplicate_faces(const Mesh& mesh, const EdgeTable& edges) {
     const auto faces = corner_faces(mesh);
     const auto lowest = [&](Index f) {
         Index low = none;
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) low = std::min(low, edges.corner_edge[c]);
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+            low = std::min(low, edges.corner_edge[c]);
         return low;
     };
     using List = std::vector<Index>;
@@ -155,8 +157,8 @@ std::vector<Index> duplicate_faces(const Mesh& mesh, const EdgeTable& edges) {
 
 std::vector<Place> places_against(const Mesh& mesh, std::string_view property, std::size_t limit) {
     using Ways = std::array<int, 2>;
-    if (property == "closed" || property == "boundary_edges" || property == "boundary_loops" || property == "volume" ||
-        property == "genus")
+    if (property == "closed" || property == "boundary_edges" || property == "boundary_loops" ||
+        property == "volume" || property == "genus")
         return places_of_edges(mesh, limit, [](const Ways& w) { return w[0] != w[1]; });
     if (property == "edge_manifold")
         return places_of_edges(mesh, limit, [](const Ways& w) { return w[0] + w[1] > 2; });

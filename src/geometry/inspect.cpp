@@ -38,14 +38,15 @@ EdgeCounts count_edges(const Mesh& mesh, const EdgeTable& edges) {
         });
 }
 
-/// How many closed chains the boundary edges form. Where two fans meet at a vertex the chains pass each other: each
-/// goes on along its own fan.
+/// How many closed chains the boundary edges form. Where two fans meet at a vertex the chains pass each
+/// other: each goes on along its own fan.
 std::int64_t count_boundary_loops(const Mesh& mesh, const EdgeTable& edges) {
     const auto faces = corner_faces(mesh);
     std::vector<Index> boundary;
     std::vector<Index> place(edges.size(), none);
     for (Index e = 0; e < edges.size(); ++e)
-        if (edges.corners_of(e).size() == 1) place[e] = static_cast<Index>(boundary.size()), boundary.push_back(e);
+        if (edges.corners_of(e).size() == 1)
+            place[e] = static_cast<Index>(boundary.size()), boundary.push_back(e);
     std::vector<Index> parent(boundary.size());
     std::iota(parent.begin(), parent.end(), Index{0});
     const auto root = [&](Index i) {
@@ -54,7 +55,8 @@ std::int64_t count_boundary_loops(const Mesh& mesh, const EdgeTable& edges) {
     };
     std::int64_t loops = static_cast<std::int64_t>(boundary.size());
     for (const Index e : boundary) {
-        // Turn around the vertex at the end of the edge's only corner, from face to face, to the fan's other side.
+        // Turn around the vertex at the end of the edge's only corner, from face to face, to the fan's other
+        // side.
         Index c = edges.corners_of(e).front();
         for (std::size_t turns = 0; turns <= mesh.corner_count(); ++turns) {
             const Index next = next_corner(mesh, faces[c], c);
@@ -79,7 +81,8 @@ struct Sums {
     std::int64_t degenerate = 0, triangles = 0;
 };
 
-/// Area of polygons as half the length of their vector area; volume by the divergence theorem about the centre.
+/// Area of polygons as half the length of their vector area; volume by the divergence theorem about the
+/// centre.
 Sums sum_faces(const Mesh& mesh, const Vec3& centre) {
     return parallel_reduce(
         mesh.face_count(), Sums{},
@@ -119,16 +122,18 @@ Mesh in_world(const Part& part) {
 }
 
 void add(Properties& all, const Properties& one) {
-    for (auto member : {&Properties::vertices, &Properties::wedges, &Properties::edges, &Properties::faces,
-                        &Properties::triangles, &Properties::components, &Properties::euler,
-                        &Properties::boundary_loops, &Properties::boundary_edges, &Properties::degenerate_faces,
-                        &Properties::duplicate_faces, &Properties::isolated_vertices})
+    for (auto member :
+         {&Properties::vertices, &Properties::wedges, &Properties::edges, &Properties::faces,
+          &Properties::triangles, &Properties::components, &Properties::euler, &Properties::boundary_loops,
+          &Properties::boundary_edges, &Properties::degenerate_faces, &Properties::duplicate_faces,
+          &Properties::isolated_vertices})
         all.*member += one.*member;
     for (auto member : {&Properties::closed, &Properties::edge_manifold, &Properties::vertex_manifold,
                         &Properties::oriented})
         all.*member = all.*member && one.*member;
     for (auto member : {&Properties::genus, &Properties::self_intersections})
-        all.*member = all.*member && one.*member ? std::optional(*(all.*member) + *(one.*member)) : std::nullopt;
+        all.*member =
+            all.*member && one.*member ? std::optional(*(all.*member) + *(one.*member)) : std::nullopt;
     all.volume = all.volume && one.volume ? std::optional(*all.volume + *one.volume) : std::nullopt;
     all.area += one.area;
     all.bounds.add(one.bounds);
@@ -172,7 +177,8 @@ Properties inspect(const Scene& scene, const InspectSettings& settings) {
     all.genus = 0, all.volume = 0;
     if (settings.self_intersections) all.self_intersections = 0;
     for (const auto& part : scene.parts)
-        add(all, part.transform.identity() ? inspect(part.mesh, settings) : inspect(in_world(part), settings));
+        add(all,
+            part.transform.identity() ? inspect(part.mesh, settings) : inspect(in_world(part), settings));
     return all;
 }
 

@@ -31,7 +31,7 @@ struct Document {
 };
 
 struct Material {
-    std::string name;
+    std::string name{};
     double base_colour[4] = {1, 1, 1, 1}; ///< linear RGBA
     bool double_sided = false;
     int document = -1; ///< index into Scene::documents, or -1
@@ -40,13 +40,13 @@ struct Material {
 
 /// A mesh in its own space and where it stands in the world.
 struct Part {
-    std::string name;
-    Mesh mesh;
-    Transform transform;  ///< part space -> world
-    int document = -1;    ///< index into Scene::documents, or -1
-    int node = -1;        ///< its node there
-    int source_mesh = -1; ///< its mesh there
-    bool skinned = false; ///< processed in bind pose; its node's transform is ignored, as glTF requires
+    std::string name{};
+    Mesh mesh{};
+    Transform transform{}; ///< part space -> world
+    int document = -1;     ///< index into Scene::documents, or -1
+    int node = -1;         ///< its node there
+    int source_mesh = -1;  ///< its mesh there
+    bool skinned = false;  ///< processed in bind pose; its node's transform is ignored, as glTF requires
     bool changed =
         false; ///< set by every stage that gives the part another mesh: extensions of it are then dropped
 };

@@ -27,6 +27,24 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
 /// JSON Schema of such a map.
 Json assertions_schema();
 
+/// Declares one option per property of the table; each given one is appended to the struct's assertions.
+template <class S>
+void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner) {
+    const Json schema = assertions_schema();
+    for (const auto& p : property_table()) {
+        Option o;
+        o.name = p.name;
+        o.type = p.truth ? "bool" : OptionType<Bound>::name;
+        o.help = p.help;
+        o.schema = schema["properties"][o.name];
+        o.parse = [member, owner](const Option& self, const Value& v, void* target, Problems& problems) {
+            const Value map = Value::map({{self.name, v.mark, v}}, v.mark);
+            return parse_assertions(map, static_cast<S*>(target)->*member, owner, problems);
+        };
+        d.declaration.options.push_back(std::move(o));
+    }
+}
+
 /// One check per assertion, in order. A property that does not apply (volume of an open mesh) does not hold.
 std::vector<report::Check> evaluate(const Assertions& assertions, const Properties& properties,
                                     const std::string& stage);
