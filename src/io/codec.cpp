@@ -1,6 +1,7 @@
 #include "io/codec.hpp"
 
 #include "base/parallel.hpp"
+#include "io/attributes.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -73,6 +74,13 @@ void check_finite(const Part& part, const std::string& name) {
                             part.name, name, p.x, p.y, p.z));
 }
 
+/// The file's name without directory, .gz and suffix, for parts that bear none.
+std::string stem_of(const Input& input) {
+    std::filesystem::path name = std::filesystem::path(input.name()).filename();
+    if (name.extension() == ".gz") name = name.stem();
+    return name.stem().string();
+}
+
 } // namespace
 
 RegisterCodec::RegisterCodec(Codec codec) {
@@ -110,7 +118,16 @@ Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
     Scene scene = codec.read(input, settings, log);
     if (settings.unit) scene.unit = *settings.unit;
     if (settings.up) scene.up = *settings.up;
-    for (const auto& part : scene.parts) check_finite(part, input.name());
+    bool any = false;
+    for (auto& part : scene.parts) {
+        if (part.name.empty()) part.name = stem_of(input);
+        check_finite(part, input.name());
+        mend_attributes(part, input.name(), log);
+        any |= part.mesh.vertex_count() > 0;
+    }
+    if (!any)
+        throw Error(ErrorKind::malformed, "E-EMPTY",
+                    fmt::format("'{}' has no mesh: not one vertex", input.name()));
     return scene;
 }
 

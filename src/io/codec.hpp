@@ -29,8 +29,10 @@ struct DracoSettings {
 };
 
 struct WriteSettings {
-    bool ascii = false;         ///< PLY and STL: text instead of binary
-    bool big_endian = false;    ///< PLY
+    bool ascii = false;      ///< PLY and STL: text instead of binary
+    bool big_endian = false; ///< PLY
+    bool double_positions =
+        false;                  ///< PLY, OBJ, OFF: positions with all their digits, else rounded to float32
     DracoSettings draco;        ///< glTF
     bool mesh_manifold = false; ///< glTF: EXT_mesh_manifold
     std::string title;          ///< the output's stem, for names inside the file
@@ -57,8 +59,9 @@ struct Codec {
     /// Whether the bytes are of this format, whatever the name says; 0 no, 1 perhaps, 2 surely (a magic
     /// number).
     std::function<int(Span)> recognises;
-    /// Throws Error malformed with the place (line, or byte offset in the message), limit when counts exceed
-    /// what the file can hold. Sizes and counts from the file are never trusted before they are checked.
+    /// Throws Error malformed with the place (line, or byte offset in the message), also when counts exceed
+    /// what the file holds; limit when they exceed what can be held. Sizes and counts from the file are never
+    /// trusted before they are checked.
     std::function<Scene(const Input&, const ReadSettings&, ReadLog&)> read;
     /// Throws Error stage when the scene cannot be held by the format at all. Empty: the format is not
     /// written.

@@ -1,0 +1,115 @@
+#include "io/attributes.hpp"
+
+#include "base/parallel.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <type_traits>
+
+namespace facetmill::io {
+
+Role role_of(const std::string& name, int components, const AttributeData& data) {
+    const bool floats = data.index() <= 1, small = data.index() == 2 || data.index() == 4; // uint8, uint16
+    const auto is = [&](std::string_view stem) { return name.starts_with(stem); };
+    if (name == "NORMAL" && components == 3 && floats) return Role::normal;
+    if (name == "TANGENT" && components == 4 && floats) return Role::tangent;
+    if (is("TEXCOORD_") && components == 2 && (floats || small)) return Role::uv;
+    if (is("COLOR_") && (components == 3 || components == 4) && (floats || small)) return Role::colour;
+    if (is("JOINTS_") && components == 4 && small) return Role::joints;
+    if (is("WEIGHTS_") && components == 4 && (floats || small)) return Role::weights;
+    return data.index() >= 4 ? Role::index : Role::generic;
+}
+
+void add_attribute(Mesh& mesh, Attribute attribute) {
+    const std::string wanted = attribute.name;
+    const auto taken = [&] {
+        return attribute.name.empty() || attribute.name == primitive_attribute ||
+               mesh.find(attribute.name, attribute.domain) != nullptr;
+    };
+    for (int n = 2; taken(); ++n) attribute.name = fmt::format("{}_{}", wanted, n);
+    // What lost the name that its role goes with is an array like any other.
+    if (attribute.role == Role::normal && attribute.name != "NORMAL") attribute.role = Role::generic;
+    mesh.attributes.push_back(std::move(attribute));
+}
+
+void extend_to_wedges(Attribute& attribute, std::span<const Index> wedge_vertex, std::size_t vertices) {
+    const auto n = static_cast<std::size_t>(attribute.components);
+    std::visit(
+        [&](auto& values) {
+            values.resize(wedge_vertex.size() * n);
+            for (std::size_t w = vertices; w < wedge_vertex.size(); ++w)
+                for (std::size_t c = 0; c < n; ++c) values[w * n + c] = values[wedge_vertex[w] * n + c];
+        },
+        attribute.data);
+}
+
+Attribute selected(const Attribute& attribute, std::span<const Index> kept) {
+    Attribute other{attribute.name,       attribute.domain,     attribute.role,
+                    attribute.components, attribute.normalised, {}};
+    const auto n = static_cast<std::size_t>(attribute.components);
+    std::visit(
+        [&](const auto& values) {
+            std::decay_t<decltype(values)> some(kept.size() * n);
+            for (std::size_t i = 0; i < kept.size(); ++i)
+                for (std::size_t c = 0; c < n; ++c) some[i * n + c] = values[kept[i] * n + c];
+            other.data = std::move(some);
+        },
+        attribute.data);
+    return other;
+}
+
+namespace {
+
+template <class T>
+std::size_t zero_what_is_not_finite(std::vector<T>& values) {
+    if constexpr (std::is_floating_point_v<T>) {
+        return parallel_reduce(
+            values.size(), std::size_t{0},
+            [&](std::size_t begin, std::size_t end) {
+                std::size_t found = 0;
+                for (std::size_t i = begin; i < end; ++i)
+                    if (!std::isfinite(values[i])) values[i] = 0, ++found;
+                return found;
+            },
+            [](std::size_t a, std::size_t b) { return a + b; });
+    }
+    return 0;
+}
+
+} // namespace
+
+void mend_attributes(Part& part, const std::string& file, ReadLog& log) {
+    for (auto& attribute : part.mesh.attributes) {
+        const std::size_t found =
+            std::visit([](auto& values) { return zero_what_is_not_finite(values); }, attribute.data);
+        if (found > 0)
+            log.warnings.push_back(
+                {Severity::warning, "W-NAN",
+                 fmt::format("{} values of '{}' in part '{}' are not finite numbers: they are set to 0",
+                             found, attribute.name, part.name),
+                 file_mark(file), ""});
+    }
+}
+
+void drop_short_faces(Mesh& mesh, const std::string& file, ReadLog& log) {
+    if (mesh.all_triangles()) return;
+    std::vector<Index> kept, corners, offsets{0};
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (mesh.face_size(f) < 3) continue;
+        kept.push_back(f);
+        const auto wedges = mesh.face_wedges(f);
+        corners.insert(corners.end(), wedges.begin(), wedges.end());
+        offsets.push_back(static_cast<Index>(corners.size()));
+    }
+    const std::size_t dropped = mesh.face_count() - kept.size();
+    if (dropped == 0) return;
+    for (auto& a : mesh.attributes)
+        if (a.domain == Domain::face) a = selected(a, kept);
+    mesh.corners = std::move(corners);
+    mesh.face_offsets = std::move(offsets);
+    log.warnings.push_back({Severity::warning, "W-FACES",
+                            fmt::format("{} faces of fewer than three corners are skipped", dropped),
+                            file_mark(file), ""});
+}
+
+} // namespace facetmill::io

@@ -1,0 +1,49 @@
+#include "io/flatten.hpp"
+
+#include <charconv>
+#include <cstring>
+
+namespace facetmill::io {
+
+Transform effective(const Part& part) { return part.skinned ? Transform{} : part.transform; }
+
+WorldMesh::WorldMesh(const Part& part) {
+    if (effective(part).identity()) {
+        given_ = &part.mesh;
+        return;
+    }
+    own_ = part.mesh;
+    apply(own_, effective(part));
+}
+
+WorldMesh::WorldMesh(const Scene& scene) {
+    if (scene.parts.size() == 1) {
+        *this = WorldMesh(scene.parts.front());
+        return;
+    }
+    for (const auto& part : scene.parts) facetmill::append(own_, *WorldMesh(part));
+}
+
+void dropped(Written& written, const Attribute& attribute, std::string why) {
+    written.fates.push_back({attribute.name, attribute.domain, Fate::Kind::dropped, std::move(why)});
+}
+
+namespace {
+template <class T>
+void put_shortest(std::string& out, T value) {
+    char buffer[40];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+    out.append(buffer, end);
+}
+} // namespace
+
+void put_number(std::string& out, double value) { put_shortest(out, value); }
+void put_number(std::string& out, float value) { put_shortest(out, value); }
+void put_number(std::string& out, std::int64_t value) { put_shortest(out, value); }
+
+void append(Bytes& bytes, std::string_view text) {
+    const auto* const first = reinterpret_cast<const std::byte*>(text.data());
+    bytes.insert(bytes.end(), first, first + text.size());
+}
+
+} // namespace facetmill::io

@@ -1,0 +1,53 @@
+#pragma once
+// For formats without nodes: the scene as meshes in world space.
+
+#include "io/codec.hpp"
+
+namespace facetmill::io {
+
+/// The part's mesh in world space; a copy only when the part stands somewhere else (or elsewhere turned).
+class WorldMesh {
+  public:
+    explicit WorldMesh(const Part& part);
+    /// All parts joined in order, for formats that hold one mesh; primitives refer to the scene's materials.
+    explicit WorldMesh(const Scene& scene);
+    const Mesh& operator*() const { return given_ ? *given_ : own_; }
+    const Mesh* operator->() const { return &**this; }
+
+  private:
+    const Mesh* given_ = nullptr;
+    Mesh own_;
+};
+
+/// The part's transform as it counts: skinned meshes ignore their node's.
+Transform effective(const Part& part);
+
+/// What a format cannot hold, for the ledger.
+void dropped(Written& written, const Attribute& attribute, std::string why);
+
+/// Numbers, text or bytes written chunk by chunk in parallel and joined in order.
+/// write(begin, end, std::string& out) appends the text of items [begin, end).
+template <class Write>
+void append_text(Bytes& bytes, std::size_t n, Write&& write);
+
+/// The shortest text that reads back as the same number, appended.
+void put_number(std::string& out, double value);
+void put_number(std::string& out, float value);
+void put_number(std::string& out, std::int64_t value);
+
+void append(Bytes& bytes, std::string_view text);
+
+} // namespace facetmill::io
+
+#include "base/parallel.hpp"
+
+namespace facetmill::io {
+template <class Write>
+void append_text(Bytes& bytes, std::size_t n, Write&& write) {
+    constexpr std::size_t chunk = 16384;
+    std::vector<std::string> texts((n + chunk - 1) / chunk);
+    parallel_chunks(
+        n, [&](std::size_t begin, std::size_t end) { write(begin, end, texts[begin / chunk]); }, chunk);
+    for (const auto& t : texts) append(bytes, t);
+}
+} // namespace facetmill::io

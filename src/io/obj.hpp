@@ -1,0 +1,51 @@
+#pragma once
+// Wavefront OBJ, in pieces: the statements of the file, the scene that they make, and the way back.
+
+#include "io/codec.hpp"
+
+#include <map>
+
+namespace facetmill::io::obj {
+
+/// A statement that holds from a face (and a vertex) on.
+struct Event {
+    enum class Kind { object, group, material, smoothing, library };
+    Kind kind;
+    std::size_t face = 0, vertex = 0; ///< the first ones behind it
+    std::string text;
+};
+
+/// All statements of a file, indices resolved: from 0, in range, `none` where a corner has no such index.
+struct Statements {
+    std::vector<Vec3> positions;
+    std::vector<float> colours;             ///< three a position, or empty; white where the file gives none
+    std::vector<float> uvs;                 ///< two each, as in the file: from the bottom
+    std::vector<float> normals;             ///< three each
+    std::vector<Index> corners;             ///< -> position
+    std::vector<std::uint64_t> corner_keys; ///< uv << 32 | normal; empty when no corner has either
+    std::vector<Index> face_offsets;
+    std::vector<Event> events;                  ///< in the order of the file
+    std::map<std::string, std::size_t> skipped; ///< how often each statement that cannot be kept was met
+    std::size_t short_faces = 0;                ///< faces of fewer than three corners, left out
+    std::size_t dangling = 0; ///< corners whose texture point or normal is not in the file: left without
+
+    std::size_t faces() const { return face_offsets.size() - 1; }
+};
+
+/// Parses the text, in parallel over chunks of lines. Malformed (E-OBJ, E-NAN) with the line.
+Statements parse(const Input& input, const ReadSettings& settings);
+
+/// Reads the .mtl files that the events name, beside the input, and gives the materials their colours. What
+/// cannot be read is a warning (W-MTL): the mesh is whole without it.
+void read_materials(const Input& input, const std::vector<Event>& events, std::vector<Material>& materials,
+                    ReadLog& log);
+/// The .mtl file of the materials.
+std::string material_library(const std::vector<Material>& materials);
+
+/// `o` makes parts, unless objects share vertices: then they stay one part, so that the surface stays whole,
+/// with the face attribute "object". Face attributes "group" and "smoothing_group" number the groups where
+/// there are several. `usemtl` makes materials and primitives. Texture points and normals make wedges.
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+Written write(const Scene& scene, const WriteSettings& settings);
+
+} // namespace facetmill::io::obj

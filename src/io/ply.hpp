@@ -1,0 +1,70 @@
+#pragma once
+// PLY, in pieces: the header, the elements as typed columns, and the mesh that they make.
+
+#include "io/codec.hpp"
+
+#include <string>
+#include <vector>
+
+namespace facetmill::io::ply {
+
+/// The eight scalar types, in the order of AttributeData's alternatives.
+enum class Type { float32, float64, uint8, int8, uint16, int16, uint32, int32 };
+std::size_t size_of(Type type);
+/// An empty array of the type.
+AttributeData array_of(Type type);
+
+struct Property {
+    std::string name;
+    Type type = Type::float32;
+    bool list = false;
+    Type count_type = Type::uint8;
+};
+
+struct Element {
+    std::string name;
+    std::size_t count = 0;
+    std::vector<Property> properties;
+    int line = 0; ///< where the header declares it
+};
+
+enum class Encoding { ascii, little_endian, big_endian };
+
+struct Header {
+    Encoding encoding = Encoding::ascii;
+    std::vector<Element> elements;
+    std::size_t size = 0; ///< bytes up to the first element
+    int lines = 0;        ///< lines it takes
+};
+
+/// Reads the header; malformed (E-PLY) at its line.
+Header read_header(const Input& input);
+
+/// The values of one property over all of its element.
+struct Column {
+    AttributeData values;
+    std::vector<std::size_t>
+        offsets; ///< of a list: [count + 1] into values; empty when all have `each` values
+    std::size_t each = 1;
+
+    std::size_t begin(std::size_t i) const { return offsets.empty() ? i * each : offsets[i]; }
+    std::size_t size(std::size_t i) const { return offsets.empty() ? each : offsets[i + 1] - offsets[i]; }
+};
+
+/// Reads elements one after another. Nothing is allocated that the bytes left could not fill.
+class Body {
+  public:
+    Body(const Input& input, const Header& header);
+    ~Body();
+    /// The columns of the next element, in the order of its properties.
+    std::vector<Column> read(const Element& element);
+
+  private:
+    struct Reader;
+    std::unique_ptr<Reader> reader_;
+};
+
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+Written write(const Scene& scene, const WriteSettings& settings);
+
+} // namespace facetmill::io::ply

@@ -1,0 +1,19 @@
+#pragma once
+// STL: triangles without indices, text or binary.
+
+#include "io/codec.hpp"
+
+namespace facetmill::io::stl {
+
+/// Whether these bytes are STL text rather than binary: headers of binary files may begin with "solid" too,
+/// so the size that a binary file's count asks for decides first.
+bool is_text(Span bytes);
+
+/// One part per solid, welded exactly. Normals in the file are not looked at: the order of the corners
+/// counts. Attribute bytes, where a file has any that are not zero, become the face attribute "attribute".
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+
+/// Triangles as float32, their normals computed from what is written. Text has one solid per part.
+Written write(const Scene& scene, const WriteSettings& settings);
+
+} // namespace facetmill::io::stl

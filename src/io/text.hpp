@@ -1,0 +1,92 @@
+#pragma once
+// Reading mesh files that are text: words, numbers, and the line for a message. Fast, and the same in any
+// locale.
+
+#include "io/bytes.hpp"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace facetmill::io {
+
+/// Throws malformed with the file and line (0: the file as a whole).
+[[noreturn]] void malformed(const std::string& name, int line, const char* id, std::string message,
+                            std::string hint = {});
+/// Throws limit with the file.
+[[noreturn]] void beyond_limit(const std::string& name, std::string message);
+
+/// Reads a number at `at` and moves behind it; false, without moving, when there is none. Decimal with
+/// optional sign, point and exponent, correctly rounded; nan and inf too. What follows the number is not
+/// looked at.
+bool scan_real(const char*& at, const char* end, double& value);
+bool scan_integer(const char*& at, const char* end, std::int64_t& value);
+
+/// A text file, read word by word. Lines end in LF, CR LF or CR.
+class Text {
+  public:
+    /// id: of the errors it throws, "E-PLY". comment: the character that starts a comment, or 0.
+    Text(std::string_view text, const std::string& name, const char* id, char comment = 0)
+        : begin_(text.data()), at_(text.data()), end_(text.data() + text.size()), name_(&name), id_(id),
+          comment_(comment) {}
+
+    bool at_end() { return skip_space(), at_ == end_; }
+    /// Whether nothing is left on this line.
+    bool at_line_end() { return skip_blanks(), at_ == end_ || is_line_end(*at_); }
+    /// Goes to the next line, whatever is left on this one; false at the end of the text.
+    bool next_line();
+    /// The next word, lines crossed; empty at the end.
+    std::string_view word() { return skip_space(), take_word(); }
+    /// The next word on this line; empty at its end.
+    std::string_view word_on_line() { return skip_blanks(), take_word(); }
+    /// What is left of this line without blanks at both ends.
+    std::string_view rest_of_line();
+
+    /// The next number, lines crossed; what names it in the message.
+    double real(const char* what);
+    /// A finite number: E-NAN otherwise.
+    double coordinate(const char* what);
+    std::int64_t integer(const char* what);
+
+    /// Parts of a word, read where the text stands: an integer, or one character; false when it is not there.
+    bool take(std::int64_t& value) { return scan_integer(at_, end_, value); }
+    bool take(char c) { return at_ < end_ && *at_ == c ? (++at_, true) : false; }
+    bool at_word_end() const { return ends_word(); }
+
+    int line() const { return line_; }
+    std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
+    std::size_t offset() const { return static_cast<std::size_t>(at_ - begin_); }
+    const std::string& name() const { return *name_; }
+    [[noreturn]] void fail(std::string message, std::string hint = {}) const {
+        malformed(*name_, line_, id_, std::move(message), std::move(hint));
+    }
+    [[noreturn]] void expected(const char* what);
+
+  private:
+    static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+    void skip_blanks();
+    void skip_space();
+    void pass_line_end();
+    std::string_view take_word();
+    bool ends_word() const {
+        if (at_ == end_ || is_blank(*at_) || is_line_end(*at_) || (comment_ && *at_ == comment_)) return true;
+        return *at_ == '\\' && at_ + 1 < end_ && is_line_end(at_[1]);
+    }
+
+    const char* begin_;
+    const char* at_;
+    const char* end_;
+    const std::string* name_;
+    const char* id_;
+    char comment_;
+    int line_ = 1;
+};
+
+/// A word for a message: in quotes, cut when long, control characters as dots.
+std::string in_quotes(std::string_view word);
+
+/// Whether two words are the same but for the case of ASCII letters.
+bool same_word(std::string_view a, std::string_view b);
+
+} // namespace facetmill::io
