@@ -12,5 +12,7 @@ Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems);
 
 /// YAML that parse_yaml reads back to the same content; lists of stages in block style, small maps in braces.
 std::string emit_yaml(const Value& value);
+/// The same on one line, in braces.
+std::string emit_flow(const Value& value);
 
 } // namespace facetmill::pipeline

@@ -123,6 +123,8 @@ void block(const Value& value, std::size_t indent, bool first_in_place, std::str
 
 } // namespace
 
+std::string emit_flow(const Value& value) { return flow(value); }
+
 std::string emit_yaml(const Value& value) {
     if ((!value.is_map() && !value.is_list()) || (value.items.empty() && value.entries.empty()))
         return flow(value) + "\n";

@@ -22,8 +22,12 @@ struct Condition {
 struct Arm {
     std::string name;          ///< of a branch; of a foreach: "lod=50%"
     std::vector<std::pair<std::string, Value>> variables; ///< of a foreach
+    std::optional<std::size_t> part; ///< of a foreach over parts: which of the parts it was given
     std::shared_ptr<Steps> steps;
 };
+
+/// What a foreach over parts does for the parts with these names, once they are known.
+using ArmsOfParts = std::function<std::vector<Arm>(const std::vector<std::string>& parts, Problems&)>;
 
 /// A stage with its options, or a branch or foreach with its arms.
 struct Step {
@@ -37,10 +41,9 @@ struct Step {
     std::optional<Condition> when;
     PartFilter only;
     std::optional<Assertions> ensure;
-    std::vector<Arm> arms;            ///< of a branch, or of a foreach over known values
-    Value part_body;                  ///< of a foreach over parts: the list of stages, planned again for every part
-    std::string part_variable;        ///< ... and the variable that bears the part's name
-    std::string part_pattern;         ///< ... and the glob that selects the parts
+    std::vector<Arm> arms;     ///< of a branch, or of a foreach (over parts: as planned for a part yet unknown)
+    ArmsOfParts arms_of_parts; ///< of a foreach over parts, else empty
+    PartFilter parts;          ///< ... and the parts it runs over
     bool join = false;
     Mark where;
 };
@@ -69,6 +72,21 @@ struct Plan {
 Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems);
 /// Reads a pipeline file and plans it. An unreadable file throws missing.
 Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problems& problems);
+
+/// A file that a plan reads or writes.
+struct PlannedFile {
+    std::filesystem::path path;
+    Mark where;
+    bool written = false;
+};
+
+/// The files of these steps in their order, as far as they are known (globs expanded); without those of a step that
+/// will be skipped.
+std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places);
+/// Adds E-TWICE and E-OVERWRITE: two writes to one path (also by case), an output that is an input.
+void check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
+/// An E-FILE for every input that does not exist, at its place; exit code 3. run_plan begins with it.
+std::vector<Diagnostic> missing_inputs(const Plan& plan);
 
 /// Files that the plan reads and writes, as far as they are known before it runs (globs expanded).
 std::vector<std::filesystem::path> planned_inputs(const Plan& plan);

@@ -7,12 +7,6 @@
 
 namespace facetmill {
 
-// Until mesh/scene.cpp is there with the real one.
-__attribute__((weak)) double metres(Unit unit) {
-    constexpr double table[] = {0, 1e-6, 1e-3, 1e-2, 1, 1e3, 0.0254, 0.3048};
-    return table[static_cast<int>(unit)];
-}
-
 namespace fs = std::filesystem;
 
 namespace {

@@ -1,0 +1,134 @@
+#include "pipeline/document.hpp"
+#include "pipeline/params.hpp"
+#include "pipeline/plan.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::pipeline {
+
+namespace {
+
+std::string list_of(const std::vector<std::string>& texts) {
+    return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string assertions_text(const Assertions& assertions) {
+    std::string out;
+    for (const auto& a : assertions.all)
+        out +=
+            fmt::format("{}{}: {}", out.empty() ? "" : ", ", a.property, OptionType<Bound>::print(a.bound));
+    return out;
+}
+
+std::string extras(const Step& step) {
+    std::string out;
+    if (!step.only.patterns.empty()) out += fmt::format("  only [{}]", list_of(step.only.patterns));
+    if (step.when)
+        out += step.when->known ? (*step.when->known ? "" : "  skipped: when does not hold")
+                                : fmt::format("  when {{{}}}", assertions_text(step.when->predicates));
+    if (step.ensure) out += fmt::format("  ensure {{{}}}", assertions_text(*step.ensure));
+    if (step.join) out += "  join";
+    return out;
+}
+
+void describe(const Steps& steps, std::size_t indent, std::string& out) {
+    const std::string lead(indent, ' ');
+    for (const auto& step : steps) {
+        if (step.kind == Step::Kind::stage) {
+            const std::string options = step.given.is_null() ? "" : ": " + emit_flow(step.given);
+            out += fmt::format("{}{:<16} {}{}{}\n", lead, step.name, step.stage ? step.stage->name : "",
+                               options, extras(step));
+            continue;
+        }
+        out += fmt::format("{}{}{}\n", lead,
+                           step.kind == Step::Kind::branch ? "branch"
+                           : step.arms_of_parts            ? "foreach part"
+                                                           : "foreach",
+                           extras(step));
+        for (const auto& arm : step.arms) {
+            out += fmt::format("{}  {}:\n", lead, arm.name);
+            describe(*arm.steps, indent + 4, out);
+        }
+    }
+}
+
+Json assertions_json(const Assertions& assertions) {
+    Json out = Json::object();
+    for (const auto& a : assertions.all) out[a.property] = OptionType<Bound>::print(a.bound);
+    return out;
+}
+
+/// The options of a stage as they will be: given, else the default.
+Json options_json(const Step& step) {
+    Json out = Json::object();
+    const bool is_map = step.given.is_map();
+    const Option* primary = step.stage->options.primary();
+    for (const auto& option : step.stage->options.options) {
+        const Value* given = is_map ? step.given.find(option.name) : nullptr;
+        if (!is_map && !step.given.is_null() && &option == primary) given = &step.given;
+        if (given)
+            out[option.name] = value_json(*given);
+        else if (!option.default_text.empty())
+            out[option.name] = option.default_text;
+    }
+    if (is_map) // names of properties and the like, which are no declared options
+        for (const auto& entry : step.given.entries)
+            if (!out.contains(entry.key)) out[entry.key] = value_json(entry.value);
+    return out;
+}
+
+Json steps_json(const Steps& steps) {
+    Json all = Json::array();
+    for (const auto& step : steps) {
+        Json one = {{"name", step.name}, {"path", step.path}};
+        if (step.stage)
+            one["stage"] = step.stage->name, one["options"] = options_json(step);
+        else
+            one["stage"] = step.kind == Step::Kind::branch ? "branch" : "foreach";
+        if (!step.only.patterns.empty()) one["only"] = step.only.patterns;
+        if (step.when)
+            one["when"] = step.when->known ? Json(*step.when->known) : assertions_json(step.when->predicates);
+        if (step.ensure) one["ensure"] = assertions_json(*step.ensure);
+        if (step.join) one["join"] = true;
+        for (const auto& arm : step.arms)
+            one["arms"].push_back({{"name", arm.name}, {"stages", steps_json(*arm.steps)}});
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+Json paths_json(const std::vector<std::filesystem::path>& paths) {
+    Json all = Json::array();
+    for (const auto& path : paths) all.push_back(path.string());
+    return all;
+}
+
+} // namespace
+
+std::string describe(const Plan& plan) {
+    std::string out = plan.name + (plan.about.empty() ? "" : ": " + plan.about) + "\n";
+    for (const auto& [name, value] : plan.params.items())
+        out += fmt::format("  {} = {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
+    out += "stages:\n";
+    describe(plan.steps, 2, out);
+    const auto files = [&](const char* title, const std::vector<std::filesystem::path>& paths) {
+        if (!paths.empty()) out += fmt::format("{}:\n", title);
+        for (const auto& path : paths) out += fmt::format("  {}\n", path.string());
+    };
+    files("reads", planned_inputs(plan));
+    files("writes", planned_outputs(plan));
+    files("reports", {plan.reports.begin(), plan.reports.end()});
+    return out;
+}
+
+Json describe_json(const Plan& plan) {
+    return {{"pipeline", plan.name},
+            {"about", plan.about},
+            {"params", plan.params},
+            {"stages", steps_json(plan.steps)},
+            {"inputs", paths_json(planned_inputs(plan))},
+            {"outputs", paths_json(planned_outputs(plan))},
+            {"reports", plan.reports}};
+}
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,136 @@
+#include "base/glob.hpp"
+#include "base/spelling.hpp"
+#include "pipeline/plan.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace facetmill::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Where the text was written in the options, or none.
+const Mark* find_text(const Value& value, const std::string& text) {
+    if (value.is_scalar()) return value.text == text ? &value.mark : nullptr;
+    for (const auto& item : value.items)
+        if (const Mark* mark = find_text(item, text)) return mark;
+    for (const auto& entry : value.entries)
+        if (const Mark* mark = find_text(entry.value, text)) return mark;
+    return nullptr;
+}
+
+void add_files(const Step& step, const Places& places, std::vector<PlannedFile>& files) {
+    if (!step.stage || !step.stage->files || !step.options) return;
+    const StageFiles named = step.stage->files(step.options.get());
+    const auto where = [&](const PathText& path) {
+        const Mark* mark = find_text(step.given, path.text);
+        return mark ? *mark : step.where;
+    };
+    for (const auto& input : named.inputs) {
+        if (input.text.empty()) continue; // known only at run time
+        const fs::path path = places.input(input.text);
+        std::error_code ignored;
+        const auto matches = fs::exists(path, ignored) ? std::vector<fs::path>{path} : expand_glob(path);
+        if (matches.empty()) files.push_back({path, where(input), false});
+        for (const auto& match : matches) files.push_back({match, where(input), false});
+    }
+    for (const auto& output : named.outputs)
+        if (!output.text.empty()) files.push_back({places.output(output.text), where(output), true});
+}
+
+/// The same text for all spellings of a path.
+std::string identity(const fs::path& path) {
+    if (path == "-") return "-";
+    std::error_code error;
+    const fs::path canonical = fs::weakly_canonical(fs::absolute(path), error);
+    return (error ? fs::absolute(path).lexically_normal() : canonical).string();
+}
+
+std::string lower_case(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+std::string nearest_file(const fs::path& path) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        names.push_back(entry.path().filename().string());
+        if (names.size() > 1000) break;
+    }
+    if (ignored) return fmt::format("there is no folder '{}' either", folder.string());
+    std::sort(names.begin(), names.end());
+    const std::string near = nearest(path.filename().string(), names);
+    return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
+}
+
+std::vector<fs::path> paths_of(const Plan& plan, bool written) {
+    std::vector<fs::path> paths;
+    for (const auto& file : planned_files(plan.steps, plan.places))
+        if (file.written == written && std::find(paths.begin(), paths.end(), file.path) == paths.end())
+            paths.push_back(file.path);
+    return paths;
+}
+
+} // namespace
+
+std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places) {
+    std::vector<PlannedFile> files;
+    for (const auto& step : steps) {
+        if (step.when && step.when->known == false) continue;
+        add_files(step, places, files);
+        for (const auto& arm : step.arms) {
+            auto inner = planned_files(*arm.steps, places);
+            files.insert(files.end(), inner.begin(), inner.end());
+        }
+    }
+    return files;
+}
+
+void check_collisions(const std::vector<PlannedFile>& files, Problems& problems) {
+    std::map<std::string, const PlannedFile*> inputs, outputs;
+    for (const auto& file : files)
+        if (!file.written) inputs.emplace(identity(file.path), &file);
+    for (const auto& file : files) {
+        if (!file.written) continue;
+        const std::string path = identity(file.path);
+        if (const auto input = inputs.find(path); input != inputs.end() && path != "-")
+            problems.add(
+                file.where, "E-OVERWRITE", fmt::format("'{}' would overwrite an input", file.path.string()),
+                fmt::format("it is read at {}; give the output another name", spelled(input->second->where)));
+        const auto [first, is_new] = outputs.emplace(lower_case(path), &file);
+        if (is_new) continue;
+        const bool same = identity(first->second->path) == path;
+        problems.add(file.where, "E-TWICE",
+                     same ? fmt::format("'{}' is written twice", file.path.string())
+                          : fmt::format("'{}' and '{}' are one file where case does not count",
+                                        first->second->path.string(), file.path.string()),
+                     fmt::format("the first is at {}", spelled(first->second->where)));
+    }
+}
+
+std::vector<Diagnostic> missing_inputs(const Plan& plan) {
+    std::vector<Diagnostic> missing;
+    for (const auto& file : planned_files(plan.steps, plan.places)) {
+        std::error_code error;
+        if (file.written || file.path == "-" || fs::exists(file.path, error)) continue;
+        const std::string path = file.path.string();
+        if (is_glob(path))
+            missing.push_back(
+                {Severity::error, "E-FILE", fmt::format("no file matches '{}'", path), file.where, {}});
+        else
+            missing.push_back({Severity::error, "E-FILE", fmt::format("there is no file '{}'", path),
+                               file.where, nearest_file(file.path)});
+    }
+    return missing;
+}
+
+std::vector<fs::path> planned_inputs(const Plan& plan) { return paths_of(plan, false); }
+std::vector<fs::path> planned_outputs(const Plan& plan) { return paths_of(plan, true); }
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,88 @@
+#include "base/spelling.hpp"
+#include "pipeline/params.hpp"
+#include "pipeline/planner.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::pipeline {
+
+namespace {
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.size(), text.find(separator, at));
+        parts.push_back(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return parts;
+}
+
+/// "[0, 0, 1]" as a list; all else is one scalar.
+Value command_line_value(const std::string& text, const Mark& where) {
+    if (!text.starts_with('[') || !text.ends_with(']')) return Value::scalar(text, where);
+    Value list = Value::list({}, where);
+    for (auto& part : split(text.substr(1, text.size() - 2), ',')) {
+        const auto first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
+        if (first != std::string::npos)
+            list.items.push_back(Value::scalar(part.substr(first, last - first + 1), where));
+    }
+    return list;
+}
+
+} // namespace
+
+Overrides::Overrides(const std::vector<std::pair<std::string, std::string>>& sets, Problems& problems) {
+    for (const auto& [key, text] : sets) {
+        const std::string whole = fmt::format("{}={}", key, text);
+        const Mark where = command_line_mark("--set", whole);
+        std::vector<std::string> path = split(key, '.');
+        if (path.size() < 2 || std::find(path.begin(), path.end(), "") != path.end()) {
+            problems.add(where, "E-SET", fmt::format("expected stage.option=value, found '{}'", whole));
+            continue;
+        }
+        std::string target = path.front();
+        path.erase(path.begin());
+        all_.push_back({std::move(target), std::move(path),
+                        command_line_value(text, command_line_mark("--set", whole, key.size() + 1)), where});
+    }
+}
+
+void Overrides::apply(const std::vector<std::string>& names, const StageInfo& stage, Value& given,
+                      Problems& problems) {
+    for (auto& change : all_) {
+        if (std::find(names.begin(), names.end(), change.target) == names.end()) continue;
+        change.used = true;
+        const Declaration* declaration = &stage.options;
+        Value* value = &given;
+        for (std::size_t i = 0; i < change.path.size(); ++i) {
+            if (!value->is_map() && !value->is_null()) {
+                const Option* primary = declaration ? declaration->primary() : nullptr;
+                if (!primary) {
+                    problems.add(
+                        change.where, "E-SET",
+                        fmt::format("the pipeline gives '{}' in short form, which cannot be changed in parts",
+                                    i == 0 ? stage.name : change.path[i - 1]),
+                        "set it as a whole");
+                    break;
+                }
+                *value = Value::map({{primary->name, value->mark, *value}}, value->mark);
+            }
+            const Option* option = declaration ? declaration->find(change.path[i]) : nullptr;
+            declaration = option ? option->fields.get() : nullptr;
+            Value* next = value->find(change.path[i]);
+            value = next ? next : &value->set(change.path[i], {}, change.where);
+            if (!value->mark.known()) value->mark = change.where;
+            if (i + 1 == change.path.size()) *value = change.value;
+        }
+    }
+}
+
+void Overrides::check_all_used(const std::vector<std::string>& names, Problems& problems) const {
+    for (const auto& change : all_)
+        if (!change.used)
+            problems.add(change.where, "E-SET", fmt::format("the pipeline has no stage '{}'", change.target),
+                         names.empty() ? "" : suggestion(change.target, names));
+}
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,238 @@
+#include "pipeline/params.hpp"
+
+#include "base/spelling.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::pipeline {
+
+namespace fs = std::filesystem;
+
+Mark command_line_mark(const std::string& option, const std::string& text, std::size_t from) {
+    const auto source = std::make_shared<const SourceText>(SourceText{option, text});
+    return {source, 1, static_cast<int>(from) + 1,
+            static_cast<int>(text.size() - std::min(from, text.size()))};
+}
+
+Json value_json(const Value& value) {
+    Json out;
+    switch (value.kind) {
+    case Value::Kind::null:
+        return nullptr;
+    case Value::Kind::scalar:
+        if (const auto truth = value.as_bool()) return *truth;
+        if (const auto integer = value.as_integer()) return *integer;
+        if (const auto real = value.as_real()) return *real;
+        return value.text;
+    case Value::Kind::list:
+        out = Json::array();
+        for (const auto& item : value.items) out.push_back(value_json(item));
+        return out;
+    case Value::Kind::map:
+        out = Json::object();
+        for (const auto& entry : value.entries) out[entry.key] = value_json(entry.value);
+        return out;
+    }
+    return out;
+}
+
+namespace {
+
+enum class Type { path, text, integer, number, boolean, ratio, length, angle, choice };
+
+struct ParamOptions {
+    Type type = Type::text;
+    std::string help;
+    bool required = false;
+    std::optional<std::string> min, max;
+    std::vector<std::string> choices;
+};
+
+Declaration param_declaration() {
+    Declare<ParamOptions> d;
+    d.choice("type", &ParamOptions::type,
+             {{"path", Type::path, ""},
+              {"text", Type::text, ""},
+              {"integer", Type::integer, ""},
+              {"number", Type::number, ""},
+              {"bool", Type::boolean, ""},
+              {"ratio", Type::ratio, ""},
+              {"length", Type::length, ""},
+              {"angle", Type::angle, ""},
+              {"choice", Type::choice, ""}},
+             "What the parameter holds")
+        .required()
+        .primary();
+    d.option("help", &ParamOptions::help, "What the parameter is for");
+    d.option("required", &ParamOptions::required, "Whether it must be given");
+    d.option("min", &ParamOptions::min, "The least value");
+    d.option("max", &ParamOptions::max, "The greatest value");
+    d.option("choices", &ParamOptions::choices, "The values of a choice");
+    return std::move(d.declaration);
+}
+
+/// Checks the value by the type T; gives the number that min and max limit.
+template <class T>
+std::optional<double> checked(const Value& value, bool& good, Problems& problems) {
+    T out{};
+    good = OptionType<T>::parse(value, out, problems);
+    return good && !value.deferred ? OptionType<T>::magnitude(out) : std::nullopt;
+}
+
+std::optional<double> checked(Type type, const Value& value, bool& good, Problems& problems) {
+    switch (type) {
+    case Type::path:
+        return checked<PathText>(value, good, problems);
+    case Type::integer:
+        return checked<std::int64_t>(value, good, problems);
+    case Type::number:
+        return checked<double>(value, good, problems);
+    case Type::boolean:
+        return checked<bool>(value, good, problems);
+    case Type::ratio:
+        return checked<Ratio>(value, good, problems);
+    case Type::length:
+        return checked<Length>(value, good, problems);
+    case Type::angle:
+        return checked<Angle>(value, good, problems);
+    case Type::text:
+    case Type::choice:
+        break;
+    }
+    return checked<std::string>(value, good, problems);
+}
+
+/// A file named on the command line, as a pipeline file would name it: relative to the pipeline when that
+/// leads to the same file, else absolute.
+std::string from_working_directory(const std::string& text, const PlanSettings& settings) {
+    const fs::path given(text);
+    if (text == "-" || text.empty() || given.is_absolute()) return text;
+    const fs::path here = fs::absolute(settings.working_directory / given).lexically_normal();
+    const fs::path base = fs::absolute(settings.places.input_base).lexically_normal();
+    const fs::path near = here.lexically_relative(base);
+    std::error_code ignored;
+    const bool same_file =
+        !near.empty() && (!fs::exists(here, ignored) || fs::equivalent(base / near, here, ignored));
+    return same_file ? near.string() : here.string();
+}
+
+class Params {
+  public:
+    Params(const PlanSettings& settings, Problems& problems) : settings_(settings), problems_(problems) {}
+
+    void add(const Value::Entry& entry, Json& json) {
+        if (!is_variable_name(entry.key))
+            problems_.add(entry.key_mark, "E-PARAM", fmt::format("'{}' cannot name a parameter", entry.key),
+                          "a name is made of letters, digits, _ and -, and begins with a letter");
+        static const Declaration declaration = param_declaration();
+        ParamOptions options;
+        const bool good = declaration.parse(entry.value, &options, entry.key, problems_, {"default"});
+        Variable variable{entry.key, {}, {}, false};
+        Json shown;
+        if (good)
+            variable.value = value(entry, options, shown);
+        else
+            variable.value.deferred = true; // reported already
+        json[entry.key] = std::move(shown);
+        scope.push_back(std::move(variable));
+    }
+
+    Scope scope;
+
+  private:
+    Value value(const Value::Entry& entry, const ParamOptions& options, Json& shown) {
+        Value out;
+        const Value* default_value = entry.value.is_map() ? entry.value.find("default") : nullptr;
+        if (const auto* define = defined(entry.key)) {
+            const std::string text = fmt::format("{}={}", define->first, define->second);
+            out = Value::scalar(define->second, command_line_mark("-D", text, define->first.size() + 1),
+                                options.type == Type::text);
+            shown = value_json(out);
+            if (options.type == Type::path) out.text = from_working_directory(out.text, settings_);
+        } else if (default_value && !default_value->is_null()) {
+            out = resolved(*default_value, scope, problems_);
+            shown = value_json(out);
+        } else if (!settings_.parameters_needed) {
+            out.deferred = true;
+        } else if (options.required || !entry.value.is_map() || !entry.value.find("required")) {
+            problems_.add(entry.key_mark, "E-PARAM",
+                          fmt::format("the parameter '{}' has no value", entry.key),
+                          fmt::format("give it with -D {}=...{}", entry.key,
+                                      options.help.empty() ? "" : " (" + options.help + ")"));
+            out.deferred = true;
+        } else {
+            return out;
+        }
+        check(entry, options, out);
+        return out;
+    }
+
+    void check(const Value::Entry& entry, const ParamOptions& options, Value& value) {
+        bool good = true;
+        const auto magnitude = checked(options.type, value, good, problems_);
+        if (options.type == Type::choice) good = good && is_choice(entry, options, value);
+        if (!good) value.deferred = true; // reported already
+        Range range;
+        for (auto [text, limit] : {std::pair{&options.min, &range.min}, std::pair{&options.max, &range.max}})
+            if (*text) {
+                bool limit_good = true;
+                *limit = checked(options.type, Value::scalar(**text, entry.key_mark), limit_good, problems_);
+            }
+        if (!magnitude || range.holds(*magnitude)) return;
+        const std::string limits = options.min && options.max
+                                       ? fmt::format("between {} and {}", *options.min, *options.max)
+                                   : options.min ? fmt::format("at least {}", *options.min)
+                                                 : fmt::format("at most {}", *options.max);
+        problems_.add(
+            value.mark, "E-RANGE",
+            fmt::format("the parameter '{}' must be {}, found {}", entry.key, limits, value.described()));
+    }
+
+    bool is_choice(const Value::Entry& entry, const ParamOptions& options, const Value& value) {
+        if (options.choices.empty()) {
+            problems_.add(entry.key_mark, "E-PARAM", fmt::format("the choice '{}' needs choices", entry.key),
+                          "choices: [a, b]");
+            return false;
+        }
+        if (value.deferred ||
+            std::find(options.choices.begin(), options.choices.end(), value.text) != options.choices.end())
+            return true;
+        problems_.add(value.mark, "E-CHOICE",
+                      fmt::format("'{}' is one of {}, found {}", entry.key, fmt::join(options.choices, ", "),
+                                  value.described()));
+        return false;
+    }
+
+    /// The last -D of that name.
+    const std::pair<std::string, std::string>* defined(const std::string& name) const {
+        const std::pair<std::string, std::string>* found = nullptr;
+        for (const auto& define : settings_.defines)
+            if (define.first == name) found = &define;
+        return found;
+    }
+
+    const PlanSettings& settings_;
+    Problems& problems_;
+};
+
+} // namespace
+
+Scope read_params(const Value* params, const PlanSettings& settings, Json& json, Problems& problems) {
+    Params all(settings, problems);
+    if (params && !params->is_map() && !params->is_null())
+        problems.add(params->mark, "E-TYPE",
+                     fmt::format("params is a map of names to declarations, found {}", params->described()),
+                     "params: {keep: {type: ratio, default: 10%}}");
+    if (params)
+        for (const auto& entry : params->entries) all.add(entry, json);
+    std::vector<std::string> names;
+    for (const auto& variable : all.scope) names.push_back(variable.name);
+    for (const auto& [name, text] : settings.defines)
+        if (!find_variable(all.scope, name))
+            problems.add(command_line_mark("-D", fmt::format("{}={}", name, text)), "E-PARAM",
+                         fmt::format("the pipeline has no parameter '{}'", name),
+                         names.empty() ? "it declares none" : suggestion(name, names));
+    return std::move(all.scope);
+}
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,19 @@
+#pragma once
+// The typed parameters of a pipeline, and their values from -D and defaults.
+
+#include "pipeline/expressions.hpp"
+#include "pipeline/plan.hpp"
+
+namespace facetmill::pipeline {
+
+/// The variables that `params` declares, with their values: -D, else the default. json gets the values for
+/// the report. Adds E-PARAM and what the types of values add.
+Scope read_params(const Value* params, const PlanSettings& settings, Json& json, Problems& problems);
+
+/// A place on the command line: "-D keep=10%" with the caret under it.
+Mark command_line_mark(const std::string& option, const std::string& text, std::size_t from = 0);
+
+/// Scalars as typed JSON, the rest as it is.
+Json value_json(const Value& value);
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,136 @@
+#include "pipeline/plan.hpp"
+
+#include "base/spelling.hpp"
+#include "io/bytes.hpp"
+#include "pipeline/document.hpp"
+#include "pipeline/params.hpp"
+#include "pipeline/planner.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> top_level_keys = {"facetmill", "requires", "about",
+                                                 "params",    "stages",   "report"};
+
+void check_keys(const Value& document, Problems& problems) {
+    for (const auto& entry : document.entries)
+        if (!entry.key.starts_with("x-") &&
+            std::find(top_level_keys.begin(), top_level_keys.end(), entry.key) == top_level_keys.end())
+            problems.add(entry.key_mark, "E-KEY", fmt::format("a pipeline has no key '{}'", entry.key),
+                         suggestion(entry.key, top_level_keys) + "; keys that begin with x- are free");
+}
+
+void check_format(const Value& document, Problems& problems) {
+    const Value* format = document.find("facetmill");
+    if (!format)
+        return problems.add(document.mark, "E-FORMAT-VERSION",
+                            "the pipeline does not say which format it is in", "begin with: facetmill: 1");
+    if (format->as_integer() != 1)
+        problems.add(
+            format->mark, "E-FORMAT-VERSION",
+            fmt::format("facetmill {} reads format 1, found {}", FACETMILL_VERSION, format->described()),
+            format->as_integer() ? "a newer facetmill may read it" : "write: facetmill: 1");
+}
+
+void check_requires(const Value& document, Problems& problems) {
+    const Value* range = document.find("requires");
+    if (!range) return;
+    const auto holds = range->is_scalar() ? satisfies(FACETMILL_VERSION, range->text) : std::nullopt;
+    if (!holds)
+        problems.add(range->mark, "E-REQUIRES",
+                     fmt::format("expected a range of versions, found {}", range->described()),
+                     "requires: \">=0.3,<2\"");
+    else if (!*holds)
+        problems.add(
+            range->mark, "E-REQUIRES",
+            fmt::format("the pipeline requires facetmill {}, this is {}", range->text, FACETMILL_VERSION));
+}
+
+bool has_renderer(const std::string& path) {
+    const std::string extension = fs::path(path).extension().string();
+    return extension == ".json" || extension == ".html" || extension == ".xml" || extension == ".txt";
+}
+
+/// The files of `report` and --report, as Places::output understands them; also added to files.
+std::vector<std::string> read_reports(const Value* report, const Scope& scope, const PlanSettings& settings,
+                                      std::vector<PlannedFile>& files, Problems& problems) {
+    std::vector<std::string> reports;
+    const auto add = [&](const std::string& path, const Mark& where) {
+        if (!has_renderer(path))
+            problems.add(where, "E-REPORT",
+                         fmt::format("a report is .json, .html, .xml (JUnit) or .txt, found '{}'", path));
+        reports.push_back(path);
+        files.push_back({settings.places.output(path), where, true});
+    };
+    if (report && !report->is_null()) {
+        const Value paths = resolved(*report, scope, problems);
+        const Value list = paths.is_list() ? paths : Value::list({paths}, paths.mark);
+        for (const auto& item : list.items) {
+            PathText path;
+            if (OptionType<PathText>::parse(item, path, problems) && !item.deferred)
+                add(path.text, item.mark);
+        }
+    }
+    for (const auto& path :
+         settings.extra_reports) // named on the command line, so relative to where that was
+        add(settings.places.output_base == settings.working_directory
+                ? path
+                : fs::absolute(settings.working_directory / path).string(),
+            command_line_mark("--report", path));
+    return reports;
+}
+
+} // namespace
+
+Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems) {
+    Plan plan;
+    plan.name = settings.name;
+    plan.places = settings.places;
+    if (!document.is_map()) {
+        problems.add(
+            document.mark, "E-TYPE",
+            fmt::format("a pipeline is a map with facetmill and stages, found {}", document.described()),
+            "facetmill: 1\n    stages:\n      - load: scan.ply");
+        return plan;
+    }
+    check_format(document, problems);
+    check_requires(document, problems);
+    check_keys(document, problems);
+    if (const Value* about = document.find("about"))
+        OptionType<std::string>::parse(*about, plan.about, problems);
+    const Scope scope = read_params(document.find("params"), settings, plan.params, problems);
+    Planner planner(settings, problems);
+    bool has_scene = false;
+    if (const Value* stages = document.find("stages"))
+        plan.steps = planner.steps(*stages, scope, {"stages", ""}, has_scene);
+    if (const Value* stages = document.find("stages"); !stages || stages->is_null())
+        problems.add(stages ? stages->mark : document.mark, "E-MISSING", "a pipeline needs stages",
+                     "stages: [{load: scan.ply}]");
+    planner.finish();
+    auto files = planned_files(plan.steps, plan.places);
+    plan.reports = read_reports(document.find("report"), scope, settings, files, problems);
+    if (!problems.any_errors()) check_collisions(files, problems);
+    for (const auto& d : problems.all())
+        if (d.severity == Severity::warning) plan.warnings.push_back(d);
+    return plan;
+}
+
+Plan load_plan(const fs::path& file, PlanSettings settings, Problems& problems) {
+    const auto input = io::Input::open(file);
+    if (settings.name.empty()) settings.name = file.string();
+    if (settings.places.input_base.empty() && file != "-") settings.places.input_base = file.parent_path();
+    auto source = std::make_shared<const SourceText>(
+        SourceText{settings.name, std::string(io::as_text(input.bytes()))});
+    const Value document = parse_yaml(std::move(source), problems);
+    if (!problems.any_errors()) return make_plan(document, settings, problems);
+    // What the tree still tells is worth planning only when it is whole.
+    if (document.is_map()) return make_plan(document, settings, problems);
+    return {};
+}
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,76 @@
+#pragma once
+// Inside planning: from items of `stages` to steps. plan.hpp is what others include.
+
+#include "pipeline/expressions.hpp"
+#include "pipeline/plan.hpp"
+
+namespace facetmill::pipeline {
+
+/// The --set options: each changes every stage of its name.
+class Overrides {
+  public:
+    Overrides(const std::vector<std::pair<std::string, std::string>>& sets, Problems& problems);
+
+    /// Changes the value of a stage that is known by these names. Bare values become maps first.
+    void apply(const std::vector<std::string>& names, const StageInfo& stage, Value& given,
+               Problems& problems);
+    /// Complains of targets that no stage answered to.
+    void check_all_used(const std::vector<std::string>& names, Problems& problems) const;
+
+  private:
+    struct Override {
+        std::string target;
+        std::vector<std::string> path; ///< option, nested option ...
+        Value value;
+        Mark where;
+        bool used = false;
+    };
+    std::vector<Override> all_;
+};
+
+/// Where in the pipeline a list of stages stands.
+struct Position {
+    std::string path;   ///< "stages[5].branch.far"
+    std::string prefix; ///< of the names of its steps: "far/"
+};
+
+class Planner {
+  public:
+    Planner(const PlanSettings& settings, Problems& problems)
+        : settings_(settings), problems_(problems), overrides_(settings.sets, problems) {}
+
+    /// Plans a list of stages. has_scene: whether a stage before has loaded one; updated.
+    Steps steps(const Value& list, const Scope& scope, const Position& position, bool& has_scene);
+    /// Arms for all combinations of the values of a foreach. parts: the names that variable `part` runs over;
+    /// none: it is unknown yet, and one arm stands for all.
+    std::vector<Arm> foreach_arms(const Value& variables, const Value& body, const Scope& scope,
+                                  const Position& position,
+                                  const std::optional<std::vector<std::string>>& parts, bool has_scene);
+    void finish() const { overrides_.check_all_used(names_, problems_); }
+
+  private:
+    std::optional<Step> step(const Value& item, const Scope& scope, const Position& position,
+                             std::size_t index, bool& has_scene);
+    void plan_stage(Step& step, const Value::Entry& entry, const Scope& scope, bool& has_scene);
+    void plan_branch(Step& step, const Value::Entry& entry, const Scope& scope, const Position& inner,
+                     bool& has_scene);
+    void plan_foreach(Step& step, const Value& item, const Value::Entry& entry, const Scope& scope,
+                      const Position& inner, bool& has_scene);
+    void common_keys(Step& step, const Value& item, const Scope& scope, const std::string& base,
+                     const Position& position);
+    std::string unique_name(const std::string& base, const std::string& prefix, const Mark& explicit_at);
+
+    const PlanSettings& settings_;
+    Problems& problems_;
+    Overrides overrides_;
+    std::set<std::string> used_names_;
+    std::vector<std::string> names_; ///< by which --set may name the steps
+};
+
+/// The common key `when`: a truth, a comparison of expressions, or predicates on the scene.
+Condition read_condition(const Value& value, const Scope& scope, Problems& problems);
+
+/// Whether the version satisfies a range like ">=0.3,<2"; none when the range cannot be read.
+std::optional<bool> satisfies(const std::string& version, const std::string& range);
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,367 @@
+#include "pipeline/run.hpp"
+
+#include "base/parallel.hpp"
+#include "geometry/inspect.hpp"
+#include "mesh/invariants.hpp"
+#include "pipeline/join.hpp"
+#include "report/render.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <new>
+#include <sys/resource.h>
+
+namespace facetmill::pipeline {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::size_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+/// What is cheap to tell of a scene before and after every stage.
+Json brief(const Scene& scene) {
+    std::size_t vertices = 0;
+    for (const auto& part : scene.parts) vertices += part.mesh.vertex_count();
+    const Box box = scene.bounds();
+    Json bounds;
+    if (!box.empty()) bounds = {{"min", vector_json(box.min)}, {"max", vector_json(box.max)}};
+    return {{"parts", scene.parts.size()},
+            {"vertices", vertices},
+            {"faces", scene.face_count()},
+            {"bounds", bounds}};
+}
+
+int count_stages(const Steps& steps) {
+    int count = 0;
+    for (const auto& step : steps) {
+        count += step.kind == Step::Kind::stage;
+        for (const auto& arm : step.arms) count += count_stages(*arm.steps);
+    }
+    return count;
+}
+
+class Runner {
+  public:
+    Runner(const Plan& plan, const RunSettings& settings) : plan_(plan), settings_(settings) {
+        state_.places = plan.places;
+        state_.read_back = settings.read_back;
+        record().pipeline = plan.name;
+        record().about = plan.about;
+        record().params = plan.params;
+    }
+
+    report::RunRecord run() {
+        const auto start = Clock::now();
+        stages_ = count_stages(plan_.steps);
+        for (const auto& warning : plan_.warnings) warn(warning), record().warnings.push_back(warning);
+        for (const auto& missing : missing_inputs(plan_)) fail(ErrorKind::missing, missing);
+        Scene scene;
+        if (!failed_ && run_steps(plan_.steps, scene, true) && !plan_.reports.empty())
+            guarded({}, "the inspection at the end",
+                    [&] { record().final_properties = report::scene_json(scene, inspect(scene)); });
+        finish_outputs();
+        if (settings_.progress) settings_.progress->done();
+        record().seconds = seconds_since(start);
+        record().peak_memory = peak_memory();
+        record().threads = threads();
+        write_reports();
+        return std::move(record());
+    }
+
+  private:
+    report::RunRecord& record() { return state_.record; }
+
+    // --- failures
+
+    void fail(ErrorKind kind, Diagnostic why) {
+        // A check that did not hold gives way to what went wrong in earnest, else the first failure decides.
+        if (!failed_ ||
+            (record().exit_code == static_cast<int>(ErrorKind::check) && kind != ErrorKind::check))
+            record().exit_code = static_cast<int>(kind);
+        failed_ = true;
+        record().errors.push_back(std::move(why));
+    }
+
+    void fail(const Error& error) {
+        for (const auto& d : error.diagnostics()) fail(error.kind(), d);
+    }
+
+    /// Runs body; whatever it throws becomes a failure at this place. False then.
+    template <class Body>
+    bool guarded(const Mark& where, const std::string& what, Body&& body) {
+        try {
+            body();
+            return true;
+        } catch (Error& e) {
+            fail(e.at(where));
+        } catch (const std::bad_alloc&) {
+            fail(ErrorKind::limit,
+                 {Severity::error, "E-MEMORY", fmt::format("not enough memory for {}", what), where,
+                  "simplify earlier, or use a machine with more memory"});
+        } catch (const std::exception& e) {
+            fail(ErrorKind::bug, {Severity::error, "E-BUG",
+                                  fmt::format("{} failed in a way it never should: {}", what, e.what()),
+                                  where, "please report it, with the pipeline and the input"});
+        }
+        return false;
+    }
+
+    void warn(const Diagnostic& warning) {
+        if (settings_.on_warning) settings_.on_warning(warning);
+        const auto& strict = settings_.strict;
+        if (std::find(strict.begin(), strict.end(), "*") == strict.end() &&
+            std::find(strict.begin(), strict.end(), warning.id) == strict.end())
+            return;
+        fail(ErrorKind::check, {Severity::error, "E-STRICT",
+                                fmt::format("--strict makes {} fail: {}", warning.id, warning.message),
+                                warning.where, warning.hint});
+    }
+
+    // --- steps
+
+    /// Runs the steps on the scene. False when the chain ended early; the scene is then worth nothing.
+    /// needed: whether the scene is looked at afterwards.
+    bool run_steps(const Steps& steps, Scene& scene, bool needed) {
+        bool holds = true; // no check has failed so far
+        for (const auto& step : steps) {
+            const bool judges = step.kind == Step::Kind::stage && step.stage->checks;
+            if (!holds && !judges) return false;
+            const bool last = &step == &steps.back();
+            bool skip = false;
+            if (!guarded(step.where, "the condition", [&] { skip = is_skipped(step, scene); })) return false;
+            if (skip) {
+                if (step.kind == Step::Kind::stage) record_skipped(step);
+                continue;
+            }
+            std::size_t checked = record().checks.size();
+            const bool done = step.kind == Step::Kind::stage ? run_stage(step, scene)
+                                                             : run_arms(step, scene, needed || !last);
+            if (!done) return false;
+            if (step.kind != Step::Kind::stage)
+                checked = record().checks.size(); // those of the arms are judged
+            if (step.ensure && !guarded(step.where, step.name, [&] { check_contract(step, scene); }))
+                return false;
+            holds = judge_checks(checked) && holds;
+        }
+        return holds;
+    }
+
+    static Properties properties_for(const Assertions& assertions, const Scene& scene) {
+        return inspect(scene, InspectSettings{assertions.needs_self_intersections()});
+    }
+
+    static bool is_skipped(const Step& step, const Scene& scene) {
+        if (!step.when) return false;
+        if (step.when->known) return !*step.when->known;
+        const auto& predicates = step.when->predicates;
+        const auto results = evaluate(predicates, properties_for(predicates, scene), step.name);
+        return !std::all_of(results.begin(), results.end(), [](const auto& check) { return check.passed; });
+    }
+
+    report::StageRecord new_record(const Step& step) {
+        report::StageRecord stage;
+        stage.name = step.name;
+        stage.stage = step.stage->name;
+        stage.path = step.path;
+        ++number_; // parts found at run time may bring more stages than were planned
+        if (settings_.progress) settings_.progress->stage(number_, std::max(number_, stages_), step.name);
+        return stage;
+    }
+
+    void record_skipped(const Step& step) {
+        auto stage = new_record(step);
+        stage.skipped = true;
+        record().stages.push_back(std::move(stage));
+    }
+
+    bool run_stage(const Step& step, Scene& scene) {
+        auto stage = new_record(step);
+        stage.before = brief(scene);
+        const auto start = Clock::now();
+        const bool done = guarded(step.where, fmt::format("'{}'", step.name), [&] {
+            Context context(state_, stage, step.only, scene.bounds(), step.where);
+            if (!step.only.patterns.empty() && !step.stage->loads)
+                warn_of_empty_selection(step, scene, context);
+            scene = step.stage->run(std::move(scene), step.options.get(), context);
+            if (settings_.check_invariants) check_invariants(step, scene);
+        });
+        stage.seconds = seconds_since(start);
+        if (done) stage.after = brief(scene);
+        if (done && step.stage->loads) state_.load_diagonal = scene.bounds().diagonal();
+        for (const auto& warning : stage.warnings) warn(warning);
+        record().stages.push_back(std::move(stage));
+        return done;
+    }
+
+    static void warn_of_empty_selection(const Step& step, const Scene& scene, Context& context) {
+        for (const auto& part : scene.parts)
+            if (step.only.selects(part, scene)) return;
+        std::string names;
+        for (const auto& part : scene.parts) names += (names.empty() ? "" : ", ") + part.name;
+        context.warn("W-ONLY", fmt::format("'only' selects none of the {} parts", scene.parts.size()),
+                     "their names: " + names.substr(0, 300));
+    }
+
+    static void check_invariants(const Step& step, const Scene& scene) {
+        const auto broken = broken_invariants(scene);
+        if (!broken.empty())
+            throw Error(
+                ErrorKind::bug, "E-INVARIANT",
+                fmt::format("'{}' left a scene that breaks an invariant: {}", step.name, broken.front()));
+    }
+
+    void check_contract(const Step& step, const Scene& scene) {
+        for (auto& check : evaluate(*step.ensure, properties_for(*step.ensure, scene), step.name))
+            record().checks.push_back(std::move(check));
+    }
+
+    /// Turns the checks from this one on that do not hold into failures. Those of arms have been judged
+    /// inside.
+    bool judge_checks(std::size_t first) {
+        bool all_hold = true;
+        for (std::size_t i = first; i < record().checks.size(); ++i) {
+            const auto& check = record().checks[i];
+            if (check.passed) continue;
+            const std::string text =
+                fmt::format("'{}' must be {}, found {}{}", check.name, check.expected, check.found,
+                            check.part.empty() ? "" : fmt::format(" in part '{}'", check.part));
+            if (check.severity == Severity::error) {
+                all_hold = false;
+                fail(ErrorKind::check, {Severity::error, "E-CHECK", text, check.where, {}});
+            } else {
+                const Diagnostic warning{Severity::warning, "W-CHECK", text, check.where, {}};
+                record().warnings.push_back(warning);
+                warn(warning);
+            }
+        }
+        return all_hold;
+    }
+
+    // --- branches
+
+    bool run_arms(const Step& step, Scene& scene, bool needed) {
+        if (step.arms_of_parts) return run_part_arms(step, scene);
+        std::vector<NamedScene> results;
+        bool all_done = true;
+        for (const auto& arm : step.arms) {
+            const bool last = &arm == &step.arms.back();
+            Scene inside;
+            if (!guarded(step.where, step.name, [&] {
+                    if (last && (step.join || !needed))
+                        inside = std::move(scene);
+                    else
+                        inside = scene;
+                }))
+                return false;
+            all_done = run_steps(*arm.steps, inside, step.join) && all_done;
+            if (step.join) results.push_back({arm.name, std::move(inside)});
+        }
+        if (!step.join) return true; // the scene that entered goes on, whatever became of the branches
+        if (all_done) scene = joined(std::move(results));
+        return all_done;
+    }
+
+    bool run_part_arms(const Step& step, Scene& scene) {
+        std::vector<std::string> names;
+        std::vector<std::size_t> parts;
+        for (std::size_t p = 0; p < scene.parts.size(); ++p)
+            if (step.parts.selects(scene.parts[p], scene))
+                names.push_back(scene.parts[p].name), parts.push_back(p);
+        Problems problems;
+        const auto arms = step.arms_of_parts(names, problems);
+        check_new_files(arms, problems);
+        for (const auto& d : problems.all())
+            if (d.severity == Severity::error) fail(ErrorKind::usage, d);
+        if (problems.any_errors()) return false;
+
+        std::vector<std::vector<NamedScene>> results(scene.parts.size());
+        bool all_done = true;
+        for (const auto& arm : arms) {
+            const std::size_t p = parts[arm.part.value_or(0)];
+            Scene inside;
+            inside.materials = scene.materials;
+            inside.documents = scene.documents;
+            inside.unit = scene.unit;
+            inside.up = scene.up;
+            if (!guarded(step.where, step.name, [&] { inside.parts.push_back(scene.parts[p]); }))
+                return false;
+            all_done = run_steps(*arm.steps, inside, step.join) && all_done;
+            if (step.join) results[p].push_back({arm.name, std::move(inside)});
+        }
+        if (!step.join) return true;
+        if (all_done) scene = with_parts_replaced(std::move(scene), std::move(results));
+        return all_done;
+    }
+
+    /// Each part makes way for what its arms made of it; parts without arms stay.
+    static Scene with_parts_replaced(Scene scene, std::vector<std::vector<NamedScene>> results) {
+        std::vector<NamedScene> all;
+        for (std::size_t p = 0; p < results.size(); ++p) {
+            if (results[p].empty()) {
+                Scene alone{{}, scene.materials, scene.unit, scene.up, scene.documents};
+                alone.parts.push_back(std::move(scene.parts[p]));
+                all.push_back({"", std::move(alone)});
+            }
+            for (auto& result : results[p]) all.push_back(std::move(result));
+        }
+        return all.empty() ? std::move(scene) : joined(std::move(all));
+    }
+
+    /// Now that the parts have names, so have the files written for each.
+    void check_new_files(const std::vector<Arm>& arms, Problems& problems) {
+        auto files = planned_files(plan_.steps, plan_.places);
+        for (const auto& arm : arms) {
+            auto inner = planned_files(*arm.steps, plan_.places);
+            for (auto& file : inner) {
+                const bool is_known = std::any_of(files.begin(), files.end(), [&](const auto& f) {
+                    return !f.written && f.path == file.path;
+                });
+                if (file.written || !is_known) files.push_back(std::move(file));
+            }
+        }
+        check_collisions(files, problems);
+    }
+
+    // --- the end
+
+    void finish_outputs() {
+        if (!failed_ && guarded({}, "writing the outputs", [&] { state_.outputs.commit(); })) return;
+        state_.outputs.discard();
+        record().outputs.clear();
+    }
+
+    void write_reports() {
+        for (const auto& path : plan_.reports) {
+            guarded({}, "the report", [&] {
+                const std::string text = report::render_for(path, record());
+                io::write_now(plan_.places.output(path), std::as_bytes(std::span(text)));
+            });
+        }
+    }
+
+    const Plan& plan_;
+    const RunSettings& settings_;
+    RunState state_;
+    bool failed_ = false;
+    int number_ = 0, stages_ = 0;
+};
+
+} // namespace
+
+report::RunRecord run_plan(const Plan& plan, const RunSettings& settings) {
+    return Runner(plan, settings).run();
+}
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,178 @@
+#include "base/spelling.hpp"
+#include "pipeline/planner.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::pipeline {
+
+namespace {
+
+bool is_common_key(std::string_view key) {
+    return key == "name" || key == "when" || key == "only" || key == "ensure";
+}
+
+/// Keys that belong to an item beside its stage.
+bool belongs(std::string_view key, std::string_view stage) {
+    return is_common_key(key) || (key == "join" && (stage == "branch" || stage == "foreach")) ||
+           (key == "do" && stage == "foreach");
+}
+
+bool is_stage(std::string_view key) { return key == "branch" || key == "foreach" || stage_named(key); }
+
+std::vector<std::string> all_stage_names() {
+    auto names = stage_names();
+    names.insert(names.end(), {"branch", "foreach"});
+    return names;
+}
+
+void no_such_stage(const std::string& name, const Mark& where, Problems& problems) {
+    const std::string near = nearest(name, all_stage_names());
+    problems.add(where, "E-STAGE", fmt::format("there is no stage '{}'", name),
+                 near.empty() ? "facetmill stages lists them all" : fmt::format("did you mean '{}'?", near));
+}
+
+/// Which entry of the item is its stage; null after a problem.
+const Value::Entry* stage_entry(const Value& item, Problems& problems) {
+    const Value::Entry* stage = nullptr;
+    for (const auto& entry : item.entries)
+        if (!stage && is_stage(entry.key) && !is_common_key(entry.key)) stage = &entry;
+    if (!stage) stage = item.find_entry("ensure"); // a stage of its own when it is alone
+    bool good = true;
+    for (const auto& entry : item.entries) {
+        if (&entry == stage || (stage && belongs(entry.key, stage->key)) ||
+            (!stage && is_common_key(entry.key)))
+            continue;
+        good = false;
+        if (!stage || stage->key == "ensure") {
+            no_such_stage(entry.key, entry.key_mark, problems);
+            return nullptr;
+        }
+        if (is_stage(entry.key)) {
+            problems.add(
+                entry.key_mark, "E-STAGE",
+                fmt::format("two stages in one item: '{}' and '{}'", stage->key, entry.key),
+                fmt::format("make it two items:\n    - {}: ...\n    - {}: ...", stage->key, entry.key));
+            continue;
+        }
+        const StageInfo* info = stage_named(stage->key);
+        const bool is_option = info && info->options.find(entry.key);
+        problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is no key of an item", entry.key),
+                     is_option
+                         ? fmt::format("it is an option of {}: write {}: {{{}: ...}}, or indent it more",
+                                       stage->key, stage->key, entry.key)
+                         : suggestion(entry.key, {"name", "when", "only", "ensure"}));
+    }
+    if (!stage && good) problems.add(item.mark, "E-STAGE", "the item has no stage", "- clip: {plane: z=0}");
+    return good ? stage : nullptr;
+}
+
+} // namespace
+
+Steps Planner::steps(const Value& list, const Scope& scope, const Position& position, bool& has_scene) {
+    Steps all;
+    if (list.is_null()) return all;
+    if (!list.is_list()) {
+        problems_.add(list.mark, "E-TYPE",
+                      fmt::format("expected a list of stages, found {}", list.described()),
+                      "begin every stage with '- '");
+        return all;
+    }
+    for (std::size_t i = 0; i < list.items.size(); ++i)
+        if (auto one = step(list.items[i], scope, position, i, has_scene)) all.push_back(std::move(*one));
+    return all;
+}
+
+std::optional<Step> Planner::step(const Value& item, const Scope& scope, const Position& position,
+                                  std::size_t index, bool& has_scene) {
+    Value as_map = item;
+    if (item.is_scalar()) {
+        if (!is_stage(item.text)) return no_such_stage(item.text, item.mark, problems_), std::nullopt;
+        as_map = Value::map({{item.text, item.mark, Value{}}}, item.mark);
+        as_map.entries[0].value.mark = item.mark;
+    }
+    if (!as_map.is_map()) {
+        problems_.add(item.mark, "E-TYPE", fmt::format("expected a stage, found {}", item.described()),
+                      "- clip: {plane: z=0}");
+        return {};
+    }
+    const Value::Entry* entry = stage_entry(as_map, problems_);
+    if (!entry) {
+        has_scene = true; // it may have been the load; do not complain of what follows
+        return {};
+    }
+    Step step;
+    step.where = entry->key_mark;
+    step.path = fmt::format("{}[{}]", position.path, index);
+    common_keys(step, as_map, scope, entry->key, position);
+    const bool auto_named = step.name == position.prefix + entry->key;
+    const Position inner{step.path + "." + entry->key, auto_named ? position.prefix : step.name + "/"};
+    if (entry->key == "branch")
+        plan_branch(step, *entry, scope, inner, has_scene);
+    else if (entry->key == "foreach")
+        plan_foreach(step, as_map, *entry, scope, inner, has_scene);
+    else
+        plan_stage(step, *entry, scope, has_scene);
+    if (const Value* join = as_map.find("join"); join && step.kind != Step::Kind::stage) {
+        OptionType<bool>::parse(resolved(*join, scope, problems_), step.join, problems_);
+        has_scene = has_scene || step.join;
+    }
+    return step;
+}
+
+void Planner::common_keys(Step& step, const Value& item, const Scope& scope, const std::string& base,
+                          const Position& position) {
+    std::string name = base;
+    Mark explicit_at;
+    if (const Value* value = item.find("name")) {
+        OptionType<std::string>::parse(resolved(*value, scope, problems_), name, problems_);
+        explicit_at = value->mark;
+        if (name.empty() || name.find_first_of("./[]") != std::string::npos)
+            problems_.add(value->mark, "E-NAME", fmt::format("'{}' cannot name a stage", name),
+                          "a name has no . / [ ]");
+    }
+    names_.push_back(name);
+    if (name != base) names_.push_back(base);
+    step.name = unique_name(name, position.prefix, explicit_at);
+    if (const Value* when = item.find("when")) step.when = read_condition(*when, scope, problems_);
+    if (const Value* only = item.find("only"))
+        OptionType<std::vector<std::string>>::parse(resolved(*only, scope, problems_), step.only.patterns,
+                                                    problems_);
+    if (const Value* ensure = item.find("ensure"); ensure && base != "ensure")
+        parse_assertions(resolved(*ensure, scope, problems_), step.ensure.emplace(), "ensure", problems_);
+}
+
+std::string Planner::unique_name(const std::string& base, const std::string& prefix,
+                                 const Mark& explicit_at) {
+    const std::string name = prefix + base;
+    if (used_names_.insert(name).second) return name;
+    if (explicit_at.known())
+        problems_.add(explicit_at, "E-NAME", fmt::format("two stages have the name '{}'", name),
+                      "names are unique, so that --set and the report can use them");
+    for (int number = 2;; ++number)
+        if (std::string numbered = fmt::format("{}-{}", name, number); used_names_.insert(numbered).second)
+            return numbered;
+}
+
+void Planner::plan_stage(Step& step, const Value::Entry& entry, const Scope& scope, bool& has_scene) {
+    step.stage = stage_named(entry.key);
+    if (!step.stage->loads && !has_scene) {
+        problems_.add(entry.key_mark, "E-ORDER",
+                      fmt::format("'{}' needs a scene, but nothing has been loaded before it", entry.key),
+                      "begin with load: FILE");
+        has_scene = true; // said once
+    }
+    has_scene = has_scene || step.stage->loads;
+    step.given = resolved(entry.value, scope, problems_);
+    if (!step.given.mark.known()) step.given.mark = entry.key_mark;
+    std::vector<std::string> names = {entry.key, step.name};
+    const auto slash = step.name.rfind('/');
+    if (slash != std::string::npos) names.push_back(step.name.substr(slash + 1));
+    overrides_.apply(names, *step.stage, step.given, problems_);
+    step.options = step.stage->make_options();
+    const bool good = step.stage->options.parse(step.given, step.options.get(), entry.key, problems_);
+    if (good && step.stage->verify && !is_deferred(step.given))
+        step.stage->verify(step.options.get(), step.given, problems_);
+}
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,99 @@
+#include "report/render.hpp"
+
+namespace facetmill::report {
+
+namespace {
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+const char* spelled(Severity severity) {
+    return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
+}
+
+Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
+    Json all = Json::array();
+    for (const auto& d : diagnostics)
+        all.push_back({{"id", d.id},
+                       {"message", d.message},
+                       {"where", text_or_null(facetmill::spelled(d.where))},
+                       {"hint", text_or_null(d.hint)}});
+    return all;
+}
+
+Json files_json(const std::vector<FileRecord>& files, bool read_back) {
+    Json all = Json::array();
+    for (const auto& f : files) {
+        Json one = {{"path", f.path}, {"bytes", f.bytes}, {"sha256", f.sha256}};
+        if (read_back) one["read_back"] = f.read_back;
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+Json stage_json(const StageRecord& stage) {
+    Json ledger = Json::array();
+    for (const auto& [part, fate] : stage.ledger)
+        ledger.push_back({{"part", part},
+                          {"attribute", fate.attribute},
+                          {"domain", spelled(fate.domain)},
+                          {"fate", spelled(fate.kind)},
+                          {"why", text_or_null(fate.why)}});
+    return {{"name", stage.name},
+            {"stage", stage.stage},
+            {"path", stage.path},
+            {"skipped", stage.skipped},
+            {"before", stage.before},
+            {"after", stage.after},
+            {"resolved", stage.resolved},
+            {"ledger", std::move(ledger)},
+            {"warnings", diagnostics_json(stage.warnings)},
+            {"result", stage.result}};
+}
+
+Json check_json(const Check& check) {
+    return {{"name", check.name},
+            {"stage", check.stage},
+            {"passed", check.passed},
+            {"severity", spelled(check.severity)},
+            {"expected", check.expected},
+            {"found", check.found},
+            {"part", text_or_null(check.part)},
+            {"where", text_or_null(facetmill::spelled(check.where))},
+            {"evidence", check.evidence}};
+}
+
+/// Whatever differs from run to run.
+Json run_json(const RunRecord& record) {
+    Json stages = Json::array();
+    for (const auto& stage : record.stages)
+        stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
+    return {{"seconds", record.seconds},
+            {"peak_memory", record.peak_memory},
+            {"threads", record.threads},
+            {"stages", std::move(stages)}};
+}
+
+} // namespace
+
+Json to_json(const RunRecord& record) {
+    Json stages = Json::array(), checks = Json::array();
+    for (const auto& stage : record.stages) stages.push_back(stage_json(stage));
+    for (const auto& check : record.checks) checks.push_back(check_json(check));
+    return {{"format", 1},
+            {"tool", {{"name", "facetmill"}, {"version", FACETMILL_VERSION}}},
+            {"pipeline", record.pipeline},
+            {"about", text_or_null(record.about)},
+            {"passed", record.exit_code == 0},
+            {"exit_code", record.exit_code},
+            {"errors", diagnostics_json(record.errors)},
+            {"warnings", diagnostics_json(record.warnings)},
+            {"params", record.params},
+            {"inputs", files_json(record.inputs, false)},
+            {"stages", std::move(stages)},
+            {"checks", std::move(checks)},
+            {"outputs", files_json(record.outputs, true)},
+            {"properties", record.final_properties},
+            {"run", run_json(record)}};
+}
+
+} // namespace facetmill::report

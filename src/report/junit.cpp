@@ -1,0 +1,71 @@
+#include "report/markup.hpp"
+#include "report/render.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else if (c == '\'')
+            out += "&#39;";
+        else if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
+            out += "\xEF\xBF\xBD";
+        else
+            out += c;
+    }
+    return out;
+}
+
+namespace {
+
+std::string check_case(const Check& check) {
+    const std::string head =
+        fmt::format("    <testcase classname=\"{}\" name=\"{}{}\"", escaped(check.stage), escaped(check.name),
+                    check.part.empty() ? "" : escaped(fmt::format(" [{}]", check.part)));
+    if (check.passed) return head + "/>\n";
+    const std::string said = escaped(fmt::format("expected {}, found {}", check.expected, check.found));
+    if (check.severity != Severity::error)
+        return fmt::format("{}>\n      <system-out>warning: {}</system-out>\n    </testcase>\n", head, said);
+    return fmt::format("{}>\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n", head, said,
+                       escaped(spelled(check.where)));
+}
+
+} // namespace
+
+std::string to_junit(const RunRecord& record) {
+    std::string cases;
+    std::size_t tests = 0, failures = 0, errors = 0;
+    for (const auto& check : record.checks) {
+        cases += check_case(check);
+        ++tests;
+        failures += !check.passed && check.severity == Severity::error;
+    }
+    for (const auto& d : record.errors) {
+        if (d.id == "E-CHECK") continue; // a case of its own already
+        cases += fmt::format("    <testcase classname=\"run\" name=\"{}\">\n      <error "
+                             "message=\"{}\">{}</error>\n    </testcase>\n",
+                             escaped(d.id), escaped(d.message), escaped(spelled(d.where)));
+        ++tests;
+        ++errors;
+    }
+    if (tests == 0) { // a run without checks is a case too, so that it is seen
+        cases = "    <testcase classname=\"run\" name=\"done\"/>\n";
+        tests = 1;
+    }
+    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"{}\" "
+                       "tests=\"{}\" failures=\"{}\" errors=\"{}\">\n"
+                       "{}  </testsuite>\n</testsuites>\n",
+                       escaped(record.pipeline), tests, failures, errors, cases);
+}
+
+} // namespace facetmill::report

@@ -1,0 +1,12 @@
+#pragma once
+// Texts inside HTML and XML.
+
+#include <string>
+#include <string_view>
+
+namespace facetmill::report {
+
+/// The text with & < > and both quotes as entities; control characters, which XML cannot hold, become U+FFFD.
+std::string escaped(std::string_view text);
+
+} // namespace facetmill::report

@@ -1,0 +1,29 @@
+#include "report/numbers.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+std::string grouped(std::uint64_t count) {
+    std::string digits = std::to_string(count);
+    for (std::size_t at = digits.size(); at > 3; at -= 3) digits.insert(at - 3, 1, ',');
+    return digits;
+}
+
+std::string sized(std::uint64_t bytes) {
+    if (bytes < 1000) return fmt::format("{} bytes", bytes);
+    double amount = static_cast<double>(bytes) / 1000;
+    const char* unit = "kB";
+    for (const char* next : {"MB", "GB"})
+        if (amount >= 999.95) amount /= 1000, unit = next;
+    return fmt::format("{:.1f} {}", amount, unit);
+}
+
+std::string timed(double seconds) {
+    return seconds < 60 ? fmt::format("{:.2f} s", seconds)
+                        : fmt::format("{:.0f} min {:02.0f} s",
+                                      (seconds - static_cast<double>(static_cast<int>(seconds) % 60)) / 60,
+                                      static_cast<double>(static_cast<int>(seconds) % 60));
+}
+
+} // namespace facetmill::report

@@ -1,0 +1,173 @@
+#include "report/render.hpp"
+
+namespace facetmill::report {
+
+namespace {
+
+Json typed(const char* type, const char* about = nullptr) {
+    Json schema = {{"type", type}};
+    if (about) schema["description"] = about;
+    return schema;
+}
+
+Json nullable(const char* type, const char* about = nullptr) {
+    Json schema = {{"type", Json::array({type, "null"})}};
+    if (about) schema["description"] = about;
+    return schema;
+}
+
+Json choice(std::initializer_list<const char*> names) {
+    Json all = Json::array();
+    for (const char* name : names) all.push_back(name);
+    return {{"enum", all}};
+}
+
+/// An object that has exactly these keys.
+Json closed_object(Json properties) {
+    Json required = Json::array();
+    for (const auto& [name, schema] : properties.items()) required.push_back(name);
+    return {{"type", "object"},
+            {"properties", std::move(properties)},
+            {"required", std::move(required)},
+            {"additionalProperties", false}};
+}
+
+Json list_of(Json items, const char* about) {
+    return {{"type", "array"}, {"items", std::move(items)}, {"description", about}};
+}
+Json reference(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; }
+
+Json point() { return {{"type", "array"}, {"items", typed("number")}, {"minItems", 3}, {"maxItems", 3}}; }
+
+Json bounds() {
+    Json schema = closed_object({{"min", point()}, {"max", point()}});
+    schema["type"] = Json::array({"object", "null"});
+    schema["description"] = "The axis-aligned box in world space; null when there is nothing";
+    return schema;
+}
+
+Json file(bool read_back) {
+    Json properties = {{"path", typed("string")},
+                       {"bytes", {{"type", "integer"}, {"minimum", 0}}},
+                       {"sha256", {{"type", "string"}, {"pattern", "^([0-9a-f]{64})?$"}}}};
+    if (read_back)
+        properties["read_back"] = {{"description", "What was found when the written file was decoded again"}};
+    return closed_object(std::move(properties));
+}
+
+/// The properties of section 7 of a scene, named once in the table that info, validate, ensure and when
+/// share.
+Json scene_schema() {
+    Json properties = Json::object();
+    for (const auto& p : property_table()) {
+        Json& schema = properties[std::string(p.name)];
+        const bool real = p.name == "area" || p.name == "volume";
+        schema = p.truth ? typed("boolean") : nullable(real ? "number" : "integer");
+        schema["description"] = p.help;
+    }
+    properties["bounds"] = bounds();
+    properties["unit"] = typed("string", "um, mm, cm, m, km, in, ft or unknown");
+    properties["up"] = choice({"y", "z", "unknown"});
+    properties["attributes"] = list_of(closed_object({{"name", typed("string")},
+                                                      {"domain", choice({"vertex", "wedge", "face"})},
+                                                      {"type", typed("string")},
+                                                      {"components", typed("integer")}}),
+                                       "Each attribute once");
+    properties["materials"] = list_of(typed("string"), "Names of the materials");
+    properties["parts"] = list_of(closed_object({{"name", typed("string")},
+                                                 {"vertices", typed("integer")},
+                                                 {"wedges", typed("integer")},
+                                                 {"faces", typed("integer")}}),
+                                  "The parts, in order");
+    return closed_object(std::move(properties));
+}
+
+Json stage_schema() {
+    const Json ledger = closed_object({{"part", typed("string")},
+                                       {"attribute", typed("string")},
+                                       {"domain", choice({"vertex", "wedge", "face"})},
+                                       {"fate", choice({"kept", "interpolated", "recomputed", "dropped"})},
+                                       {"why", nullable("string")}});
+    return closed_object({{"name", typed("string", "Unique in the run")},
+                          {"stage", typed("string")},
+                          {"path", typed("string", "Where in the pipeline: stages[5].branch.far[0]")},
+                          {"skipped", typed("boolean", "Its `when` did not hold")},
+                          {"before", reference("brief")},
+                          {"after", reference("brief")},
+                          {"resolved", typed("object", "Lengths that depended on the scene")},
+                          {"ledger", list_of(ledger, "What became of every attribute")},
+                          {"warnings", list_of(reference("diagnostic"), "What the stage warned of")},
+                          {"result", typed("object", "What the stage itself reports")}});
+}
+
+Json definitions() {
+    Json brief = closed_object({{"parts", typed("integer")},
+                                {"vertices", typed("integer")},
+                                {"faces", typed("integer")},
+                                {"bounds", bounds()}});
+    brief["type"] = Json::array({"object", "null"});
+    return {{"diagnostic", closed_object({{"id", typed("string")},
+                                          {"message", typed("string")},
+                                          {"where", nullable("string")},
+                                          {"hint", nullable("string")}})},
+            {"brief", std::move(brief)},
+            {"stage", stage_schema()},
+            {"check", closed_object({{"name", typed("string", "The property")},
+                                     {"stage", typed("string")},
+                                     {"passed", typed("boolean")},
+                                     {"severity", choice({"error", "warning", "note"})},
+                                     {"expected", typed("string")},
+                                     {"found", typed("string")},
+                                     {"part", nullable("string", "The part it is about; null: the scene")},
+                                     {"where", nullable("string", "Its place in the pipeline")},
+                                     {"evidence", nullable("array", "Places that show it")}})},
+            {"scene", scene_schema()}};
+}
+
+Json run_schema() {
+    Json run = closed_object(
+        {{"seconds", typed("number")},
+         {"peak_memory", typed("integer", "Bytes")},
+         {"threads", typed("integer")},
+         {"stages", list_of(closed_object({{"name", typed("string")}, {"seconds", typed("number")}}),
+                            "In the order of `stages`")}});
+    run["description"] = "Whatever differs from run to run; all the rest is the same for the same input";
+    return run;
+}
+
+constexpr const char* dialect = "https://json-schema.org/draft/2020-12/schema";
+
+} // namespace
+
+Json schema() {
+    Json properties = closed_object(
+        {{"format", {{"const", 1}}},
+         {"tool", closed_object({{"name", {{"const", "facetmill"}}}, {"version", typed("string")}})},
+         {"pipeline", typed("string")},
+         {"about", nullable("string")},
+         {"passed", typed("boolean")},
+         {"exit_code", typed("integer")},
+         {"errors", list_of(reference("diagnostic"), "Why it failed")},
+         {"warnings", list_of(reference("diagnostic"), "Of the run as a whole")},
+         {"params", typed("object")},
+         {"inputs", list_of(file(false), "Files that were read")},
+         {"stages", list_of(reference("stage"), "In the order they ran")},
+         {"checks", list_of(reference("check"), "What validate and ensure asked")},
+         {"outputs", list_of(file(true), "Files that were written; none when the run failed")},
+         {"properties",
+          {{"anyOf", Json::array({reference("scene"), typed("null")})},
+           {"description", "Of the scene at the end; null when the run failed before it"}}},
+         {"run", run_schema()}});
+    Json out = {{"$schema", dialect}, {"title", "facetmill report"}};
+    out.update(properties);
+    out["$defs"] = definitions();
+    return out;
+}
+
+Json info_schema() {
+    Json out = {{"$schema", dialect}, {"title", "facetmill info"}};
+    out.update(scene_schema());
+    return out;
+}
+
+} // namespace facetmill::report

@@ -1,0 +1,83 @@
+#include "report/numbers.hpp"
+#include "report/render.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+namespace {
+
+struct Paint {
+    bool on;
+    std::string operator()(const char* code, const std::string& text) const {
+        return on ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+    }
+};
+
+std::uint64_t faces_of(const Json& brief) {
+    return brief.is_object() ? brief.value("faces", std::uint64_t{0}) : 0;
+}
+
+/// "12,000 -> 3,000 faces", or one number when the stage left it.
+std::string face_change(const StageRecord& stage) {
+    const auto before = faces_of(stage.before), after = faces_of(stage.after);
+    if (stage.after.is_null()) return fmt::format("{} faces -> failed", grouped(before));
+    if (before == after) return fmt::format("{} faces", grouped(after));
+    return before == 0 ? fmt::format("-> {} faces", grouped(after))
+                       : fmt::format("{} -> {} faces", grouped(before), grouped(after));
+}
+
+void add_stage(const StageRecord& stage, std::size_t width, const Paint& paint, std::string& out) {
+    const std::string name = fmt::format("{:<{}}", stage.name, width);
+    if (stage.skipped) {
+        out += fmt::format("  {}  {}\n", name, paint("2", "skipped"));
+        return;
+    }
+    out += fmt::format("  {}  {:<34} {:>9}\n", name, face_change(stage), timed(stage.seconds));
+    for (const auto& warning : stage.warnings)
+        out += fmt::format("  {:<{}}  {}: {}\n", "", width,
+                           paint("35", fmt::format("warning[{}]", warning.id)), warning.message);
+}
+
+void add_checks(const std::vector<Check>& checks, const Paint& paint, std::string& out) {
+    if (checks.empty()) return;
+    const auto failed = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return !c.passed; });
+    out += fmt::format("checks: {} passed, {} failed\n", static_cast<std::ptrdiff_t>(checks.size()) - failed,
+                       failed);
+    for (const auto& c : checks)
+        if (!c.passed)
+            out +=
+                fmt::format("  {} {} ({}{}): expected {}, found {}\n",
+                            paint(c.severity == Severity::error ? "31" : "35",
+                                  c.severity == Severity::error ? "failed" : "warned"),
+                            c.name, c.stage, c.part.empty() ? "" : ", part " + c.part, c.expected, c.found);
+}
+
+} // namespace
+
+std::string to_text(const RunRecord& record, bool colour) {
+    const Paint paint{colour};
+    std::string out = paint("1", record.pipeline) + (record.about.empty() ? "" : ": " + record.about) + "\n";
+    std::size_t width = 8;
+    for (const auto& stage : record.stages) width = std::max(width, stage.name.size());
+    for (const auto& stage : record.stages) add_stage(stage, std::min<std::size_t>(width, 40), paint, out);
+    for (const auto& warning : record.warnings)
+        out +=
+            fmt::format("  {}: {}\n", paint("35", fmt::format("warning[{}]", warning.id)), warning.message);
+    add_checks(record.checks, paint, out);
+    for (const auto& file : record.outputs)
+        out += fmt::format("wrote {} ({})\n", file.path, sized(file.bytes));
+    const std::string cost =
+        fmt::format("{}, peak memory {}", timed(record.seconds), sized(record.peak_memory));
+    if (record.exit_code == 0) return out + fmt::format("{} in {}\n", paint("1;32", "ok"), cost);
+    const std::string why = record.errors.empty() ? ""
+                                                  : fmt::format(": [{}] {}", record.errors.front().id,
+                                                                record.errors.front().message);
+    const std::string more =
+        record.errors.size() > 1 ? fmt::format(" (and {} more)", record.errors.size() - 1) : "";
+    return out + fmt::format("{}{}{}; no output was written; exit code {}\n", paint("1;31", "failed"), why,
+                             more, record.exit_code);
+}
+
+} // namespace facetmill::report
