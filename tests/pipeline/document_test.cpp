@@ -1,5 +1,7 @@
 #include "support/catch.hpp"
 
+#include <fmt/format.h>
+
 #include "pipeline/document.hpp"
 
 using namespace facetmill;
