@@ -4,6 +4,7 @@
 #include "io/text.hpp"
 
 #include <fmt/format.h>
+#include <set>
 
 namespace facetmill::io::obj {
 

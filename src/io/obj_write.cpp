@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>
+#include <set>
 #include <unordered_map>
 
 namespace facetmill::io::obj {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <fmt/format.h>
+#include <set>
 
 namespace facetmill::io::stl {
 
