@@ -2,6 +2,7 @@
 #include "pipeline/params.hpp"
 #include "pipeline/plan.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::pipeline {
@@ -58,6 +59,16 @@ Json assertions_json(const Assertions& assertions) {
     return out;
 }
 
+/// Whether something was given that this option excludes: its default then means nothing.
+bool is_excluded(const Declaration& declaration, const std::string& name, const Value& given) {
+    for (const auto& rule : declaration.exclusions)
+        if (rule.rule != Exclusion::Rule::at_least_one &&
+            std::find(rule.names.begin(), rule.names.end(), name) != rule.names.end())
+            for (const auto& other : rule.names)
+                if (given.find(other)) return true;
+    return false;
+}
+
 /// The options of a stage as they will be: given, else the default.
 Json options_json(const Step& step) {
     Json out = Json::object();
@@ -68,7 +79,7 @@ Json options_json(const Step& step) {
         if (!is_map && !step.given.is_null() && &option == primary) given = &step.given;
         if (given)
             out[option.name] = value_json(*given);
-        else if (!option.default_text.empty())
+        else if (!option.default_text.empty() && !is_excluded(step.stage->options, option.name, step.given))
             out[option.name] = option.default_text;
     }
     if (is_map) // names of properties and the like, which are no declared options

@@ -296,6 +296,19 @@ std::pair<std::string, std::string> explained(const std::string& message) {
     return {message, ""};
 }
 
+/// "- relax" and then "when: ..." below it: the name needs a colon to have keys beside it.
+std::optional<std::string> bare_item_hint(const SourceIndex& source, std::size_t at) {
+    const std::string& text = source.text();
+    const std::size_t line = text.rfind('\n', std::min(at, text.size() - 1) - (at > 0 ? 1 : 0));
+    if (text.empty() || line == std::string::npos || line == 0) return {};
+    const std::size_t before = text.rfind('\n', line - 1);
+    std::string above = text.substr(before == std::string::npos ? 0 : before + 1,
+                                    line - (before == std::string::npos ? 0 : before + 1));
+    above.erase(0, above.find_first_not_of(' '));
+    if (!above.starts_with("- ") || above.find_first_of(":{}[]\"'#") != std::string::npos) return {};
+    return fmt::format("a stage with keys beside it needs a colon: '{}:' in the line above", above);
+}
+
 } // namespace
 
 Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems) {
@@ -317,7 +330,7 @@ Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems) {
         const auto [message, hint] = explained(e.msg);
         const std::size_t at =
             e.mark.is_null() ? 0 : static_cast<std::size_t>(std::max(0, e.mark.pos)) + mark_bytes;
-        problems.add(index.mark(at), "E-YAML", message, hint);
+        problems.add(index.mark(at), "E-YAML", message, bare_item_hint(index, at).value_or(hint));
     }
     return {};
 }

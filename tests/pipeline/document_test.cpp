@@ -149,6 +149,11 @@ TEST_CASE("what is wrong with a text is said with its place and the way out", "[
                       "  a: b: c\n"
                       "      ^\n"
                       "  hint: quote a text that holds ': ', and mind the indentation"},
+        {"- relax\n  when: true\n",
+         "p.yaml:2:7: error[E-YAML]: a ':' cannot stand here\n"
+         "    when: true\n"
+         "        ^\n"
+         "  hint: a stage with keys beside it needs a colon: '- relax:' in the line above"},
         {std::string("a: \0", 4),
          "p.yaml:1:4: error[E-YAML]: the control character 0x00 may not be in a pipeline\n"
          "  hint: a pipeline is a text in UTF-8"},

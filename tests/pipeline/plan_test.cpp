@@ -1,0 +1,310 @@
+#include "support/catch.hpp"
+
+#include "pipeline/expressions.hpp"
+#include "pipeline/planner.hpp"
+#include "support/planning.hpp"
+
+using namespace facetmill;
+using pipeline::PlanSettings;
+using pipeline::Step;
+using pipeline::Steps;
+
+namespace {
+
+/// "name=stage: options" of every stage, arms in parentheses.
+std::string outline(const Steps& steps) {
+    std::string out;
+    for (const auto& step : steps) {
+        out += out.empty() ? "" : "; ";
+        if (step.kind == Step::Kind::stage) {
+            out += step.name + (step.given.is_null() ? "" : " " + pipeline::emit_flow(step.given));
+            continue;
+        }
+        for (const auto& arm : step.arms) out += "(" + arm.name + ": " + outline(*arm.steps) + ")";
+    }
+    return out;
+}
+
+std::string outline_of(const std::string& text, PlanSettings settings = {}) {
+    const Planned result = planned(text, std::move(settings));
+    return result.problems.empty() ? outline(result.plan.steps) : result.problems;
+}
+
+std::string stages(const std::string& items) {
+    return "facetmill: 1\nstages:\n  - test-load: a.ply\n" + items;
+}
+
+} // namespace
+
+TEST_CASE("what is wrong with a pipeline is said with its place and the way out", "[pipeline]") {
+    struct Case {
+        std::string text, problem;
+    };
+    const Case cases[] = {
+        {"stages:\n  - test-load: a.ply\n",
+         "p.yaml:1:1: error[E-FORMAT-VERSION]: the pipeline does not say which format it is in\n"
+         "  stages:\n"
+         "  ^\n"
+         "  hint: begin with: facetmill: 1"},
+        {"facetmill: 2\nstages: [test-load: a]\n",
+         "p.yaml:1:12: error[E-FORMAT-VERSION]: facetmill " FACETMILL_VERSION " reads format 1, found '2'\n"
+         "  facetmill: 2\n"
+         "             ^\n"
+         "  hint: a newer facetmill may read it"},
+        {"facetmill: 1\nrequires: \">=99\"\nstages: [test-load: a]\n",
+         "p.yaml:2:11: error[E-REQUIRES]: the pipeline requires facetmill >=99, this is " FACETMILL_VERSION
+         "\n"
+         "  requires: \">=99\"\n"
+         "            ^~~~~~"},
+        {"facetmill: 1\nstage: []\nstages: [test-load: a]\n",
+         "p.yaml:2:1: error[E-KEY]: a pipeline has no key 'stage'\n"
+         "  stage: []\n"
+         "  ^~~~~\n"
+         "  hint: did you mean 'stages'?; keys that begin with x- are free"},
+        {"- a\n",
+         "p.yaml:1:1: error[E-TYPE]: a pipeline is a map with facetmill and stages, found a list of 1\n"
+         "  - a\n"
+         "  ^\n"
+         "  hint: facetmill: 1\n    stages:\n      - load: scan.ply"},
+        {stages("  - test-cot: 3\n"), "p.yaml:4:5: error[E-STAGE]: there is no stage 'test-cot'\n"
+                                      "    - test-cot: 3\n"
+                                      "      ^~~~~~~~\n"
+                                      "  hint: did you mean 'test-cut'?"},
+        {stages("  - test-cut: {faces: 3, capp: true}\n"),
+         "p.yaml:4:26: error[E-KEY]: test-cut has no option 'capp'\n"
+         "    - test-cut: {faces: 3, capp: true}\n"
+         "                           ^~~~\n"
+         "  hint: did you mean 'cap'?"},
+        {stages("  - test-cut: 3\n    test-warn: W-A\n"),
+         "p.yaml:5:5: error[E-STAGE]: two stages in one item: 'test-cut' and 'test-warn'\n"
+         "      test-warn: W-A\n"
+         "      ^~~~~~~~~\n"
+         "  hint: make it two items:\n"
+         "    - test-cut: ...\n"
+         "    - test-warn: ..."},
+        {stages("  - test-cut:\n    cap: true\n"),
+         "p.yaml:5:5: error[E-KEY]: 'cap' is no key of an item\n"
+         "      cap: true\n"
+         "      ^~~\n"
+         "  hint: it is an option of test-cut: write test-cut: {cap: ...}, or indent it more"},
+        {stages("  - test-cut: 3\n    ony: a\n"), "p.yaml:5:5: error[E-KEY]: 'ony' is no key of an item\n"
+                                                  "      ony: a\n"
+                                                  "      ^~~\n"
+                                                  "  hint: did you mean 'only'?"},
+        {stages("  - test-cut: three\n"), "p.yaml:4:15: error[E-TYPE]: expected an integer, found 'three'\n"
+                                          "    - test-cut: three\n"
+                                          "                ^~~~~"},
+        {stages("  - test-cut: 101\n"),
+         "p.yaml:4:15: error[E-RANGE]: 'faces' must be in the range 1 <= x <= 100, found '101'\n"
+         "    - test-cut: 101\n"
+         "                ^~~"},
+        {stages("  - test-cut: {faces: 3, ratio: 10%}\n"),
+         "p.yaml:4:26: error[E-EXCLUSIVE]: test-cut: at most one of faces, ratio may be given, found faces "
+         "and ratio\n"
+         "    - test-cut: {faces: 3, ratio: 10%}\n"
+         "                           ^~~~~"},
+        {stages("  - test-cut: {depth: 3parsec}\n"),
+         "p.yaml:4:23: error[E-TYPE]: expected a length (2, 2mm, 0.5%, 0.5% of part), found '3parsec'\n"
+         "    - test-cut: {depth: 3parsec}\n"
+         "                        ^~~~~~~\n"
+         "  hint: units: um, mm, cm, m, km, in, ft, or %"},
+        {stages("  - test-cut: \"${fces}\"\n"),
+         "p.yaml:4:16: error[E-VARIABLE]: there is no variable 'fces'\n"
+         "    - test-cut: \"${fces}\"\n"
+         "                 ^~~~~~~\n"
+         "  hint: declare it under params"},
+        {stages("  - test-cut: 3\n    name: x\n  - test-cut: 4\n    name: x\n"),
+         "p.yaml:7:11: error[E-NAME]: two stages have the name 'x'\n"
+         "      name: x\n"
+         "            ^\n"
+         "  hint: names are unique, so that --set and the report can use them"},
+        {stages("  - test-cut: 3\n    ensure: {closd: true}\n"),
+         "p.yaml:5:14: error[E-KEY]: ensure knows no property 'closd'\n"
+         "      ensure: {closd: true}\n"
+         "               ^~~~~\n"
+         "  hint: did you mean 'closed'?"},
+        {stages("  - test-cut: 3\n    when: perhaps\n"),
+         "p.yaml:5:11: error[E-WHEN]: expected true, false, a comparison or properties, found 'perhaps'\n"
+         "      when: perhaps\n"
+         "            ^~~~~~~\n"
+         "  hint: when: \"${flag}\", when: ${quality} == high, or when: {closed: false}"},
+        {"facetmill: 1\nstages:\n  - test-cut: 3\n",
+         "p.yaml:3:5: error[E-ORDER]: 'test-cut' needs a scene, but nothing has been loaded before it\n"
+         "    - test-cut: 3\n"
+         "      ^~~~~~~~\n"
+         "  hint: begin with load: FILE"},
+        {stages("  - test-write: o.glb\n  - branch:\n      far: [test-write: ./O.glb]\n"),
+         "p.yaml:6:25: error[E-TWICE]: 'o.glb' and 'O.glb' are one file where case does not count\n"
+         "        far: [test-write: ./O.glb]\n"
+         "                          ^~~~~~~\n"
+         "  hint: the first is at p.yaml:4:17"},
+        {stages("  - test-write: x/../a.ply\n"),
+         "p.yaml:4:17: error[E-OVERWRITE]: 'a.ply' would overwrite an input\n"
+         "    - test-write: x/../a.ply\n"
+         "                  ^~~~~~~~~~\n"
+         "  hint: it is read at p.yaml:3:16; give the output another name"},
+        {stages("  - foreach: {lod: [50%, 25%]}\n    do: [test-write: o.glb]\n"),
+         "p.yaml:5:22: error[E-TWICE]: 'o.glb' is written twice\n"
+         "      do: [test-write: o.glb]\n"
+         "                       ^~~~~\n"
+         "  hint: the first is at p.yaml:5:22"},
+        {stages("  - foreach: {lod: [50%]}\n"),
+         "p.yaml:4:5: error[E-MISSING]: foreach: 'do' is needed, the stages for each value\n"
+         "    - foreach: {lod: [50%]}\n"
+         "      ^~~~~~~\n"
+         "  hint: - foreach: {lod: [50%, 25%]}\n"
+         "      do: [{simplify: \"${lod}\"}]"},
+        {stages("  - branch: [a]\n"),
+         "p.yaml:4:13: error[E-TYPE]: branch is a map of names to lists of stages, found a list of 1\n"
+         "    - branch: [a]\n"
+         "              ^\n"
+         "  hint: branch: {near: [write: a.glb], far: [simplify: 10%, write: b.glb]}"},
+        {"facetmill: 1\nstages: [test-load: a]\nreport: a.pdf\n",
+         "p.yaml:3:9: error[E-REPORT]: a report is .json, .html, .xml (JUnit) or .txt, found 'a.pdf'\n"
+         "  report: a.pdf\n"
+         "          ^~~~~"},
+    };
+    for (const auto& c : cases) CHECK(planned(c.text).problems == c.problem);
+}
+
+TEST_CASE("all errors are reported at once", "[pipeline]") {
+    const auto problems =
+        planned(stages("  - test-cot\n  - test-cut: {capp: 1, faces: x}\n  - test-write\n")).problems;
+    for (const char* id :
+         {"[E-STAGE]: there is no stage 'test-cot'", "[E-KEY]: test-cut has no option 'capp'",
+          "[E-TYPE]: expected an integer", "[E-MISSING]: test-write: 'path' is needed"})
+        CHECK(problems.find(id) != std::string::npos);
+}
+
+TEST_CASE("shorthand: bare names, bare values, maps", "[pipeline]") {
+    CHECK(outline_of(stages("  - test-cut\n  - test-cut: 5\n  - test-cut: {faces: 7}\n    name: last\n")) ==
+          "test-load a.ply; test-cut; test-cut-2 5; last {faces: 7}");
+    CHECK(outline_of(stages("  - ensure: {closed: true}\n    name: sound\n")) ==
+          "test-load a.ply; sound {closed: true}");
+}
+
+TEST_CASE("branch and foreach become arms with names of their own", "[pipeline]") {
+    CHECK(
+        outline_of(stages(
+            "  - branch:\n      near: [test-write: a.glb]\n      far: [test-cut: 2, test-write: b.glb]\n")) ==
+        "test-load a.ply; (near: near/test-write a.glb)(far: far/test-cut 2; far/test-write b.glb)");
+    CHECK(outline_of(stages("  - foreach: {lod: [50%, 25%], cap: [true, false]}\n"
+                            "    do: [{test-cut: {ratio: \"${lod}\", cap: \"${cap}\"}}, {test-write: "
+                            "\"o.${lod.index}.${cap}\"}]\n")) ==
+          "test-load a.ply; "
+          "(lod=50%,cap=true: lod=50%,cap=true/test-cut {ratio: 50%, cap: true}; lod=50%,cap=true/test-write "
+          "o.0.true)"
+          "(lod=50%,cap=false: lod=50%,cap=false/test-cut {ratio: 50%, cap: false}; "
+          "lod=50%,cap=false/test-write o.0.false)"
+          "(lod=25%,cap=true: lod=25%,cap=true/test-cut {ratio: 25%, cap: true}; lod=25%,cap=true/test-write "
+          "o.1.true)"
+          "(lod=25%,cap=false: lod=25%,cap=false/test-cut {ratio: 25%, cap: false}; "
+          "lod=25%,cap=false/test-write o.1.false)");
+}
+
+TEST_CASE("a foreach over parts is checked before the parts are known, and planned when they are",
+          "[pipeline]") {
+    const auto result =
+        planned(stages("  - foreach: {part: \"*\"}\n    do: [{test-write: \"o/${part}.glb\"}]\n"));
+    REQUIRE(result.problems.empty());
+    REQUIRE(result.plan.steps.at(1).arms_of_parts);
+    Problems problems;
+    const auto arms = result.plan.steps[1].arms_of_parts({"left wheel", "a/b"}, problems);
+    REQUIRE(arms.size() == 2);
+    CHECK(outline(*arms[0].steps) == "part=left_wheel/test-write o/left_wheel.glb");
+    CHECK(outline(*arms[1].steps) == "part=a_b/test-write o/a_b.glb");
+    CHECK(planned(stages("  - foreach: {part: \"*\"}\n    do: [{test-wite: \"${part}.glb\"}]\n"))
+              .problems.find("did you mean 'test-write'?") != std::string::npos);
+}
+
+TEST_CASE("when is decided at plan time where it can be", "[pipeline]") {
+    const auto known = [](const std::string& when) {
+        const auto result = planned("facetmill: 1\nparams:\n  q: {type: text, default: high}\n  n: {type: "
+                                    "integer, default: 9}\n  on: {type: bool, default: true}\n"
+                                    "stages:\n  - test-load: a.ply\n  - test-cut:\n    when: " +
+                                    when + "\n");
+        INFO(result.problems);
+        REQUIRE(result.plan.steps.size() == 2);
+        return result.plan.steps[1].when->known;
+    };
+    CHECK(known("\"${on}\"") == true);
+    CHECK(known("false") == false);
+    CHECK(known("${q} == high") == true);
+    CHECK(known("${q} != high") == false);
+    CHECK(known("${n} < 10") == true);
+    CHECK(known("${n} >= 10%") == true);
+    CHECK(known("{closed: true}") == std::nullopt);
+}
+
+TEST_CASE("versions in ranges", "[pipeline]") {
+    CHECK(pipeline::satisfies("0.3.0", ">=0.3,<2") == true);
+    CHECK(pipeline::satisfies("0.10.1", ">=0.9") == true);
+    CHECK(pipeline::satisfies("2.0", "<2") == false);
+    CHECK(pipeline::satisfies("1.2.3", "1.2.3") == true);
+    CHECK(pipeline::satisfies("1.2.3", "=1.2") == false);
+    CHECK(pipeline::satisfies("1.2.3", "new") == std::nullopt);
+    CHECK(pipeline::satisfies("1.2.3", "") == std::nullopt);
+}
+
+TEST_CASE("--set changes options by the name of a step or of a stage", "[pipeline]") {
+    const std::string text = stages("  - test-cut: 5\n    name: first\n  - test-cut: {plane: {offset: 1}}\n");
+    const auto with = [&](std::vector<std::pair<std::string, std::string>> sets) {
+        PlanSettings settings;
+        settings.sets = std::move(sets);
+        return outline_of(text, settings);
+    };
+    CHECK(with({{"first.faces", "7"}}) == "test-load a.ply; first {faces: 7}; test-cut {plane: {offset: 1}}");
+    CHECK(with({{"test-cut.cap", "true"}}) ==
+          "test-load a.ply; first {faces: 5, cap: true}; test-cut {plane: {offset: 1}, cap: true}");
+    CHECK(with({{"test-cut.plane.normal", "[1, 0, 0]"}}) ==
+          "test-load a.ply; first {faces: 5, plane: {normal: [1, 0, 0]}}; test-cut {plane: {offset: 1, "
+          "normal: [1, 0, 0]}}");
+    CHECK(with({{"frst.faces", "7"}}) == "--set:1:1: error[E-SET]: the pipeline has no stage 'frst'\n"
+                                         "  frst.faces=7\n"
+                                         "  ^~~~~~~~~~~~\n"
+                                         "  hint: did you mean 'first'?");
+    CHECK(with({{"first.face", "7"}}) == "--set:1:1: error[E-KEY]: test-cut has no option 'face'\n"
+                                         "  first.face=7\n"
+                                         "  ^~~~~~~~~~~~\n"
+                                         "  hint: did you mean 'faces'?");
+    CHECK(with({{"first.faces", "x"}}) == "--set:1:13: error[E-TYPE]: expected an integer, found 'x'\n"
+                                          "  first.faces=x\n"
+                                          "              ^");
+}
+
+TEST_CASE("inputs that are missing are named at their place", "[pipeline]") {
+    const auto result = planned(stages("  - test-load: \"scans/*.ply\"\n"));
+    REQUIRE(result.problems.empty());
+    const auto missing = missing_inputs(result.plan);
+    REQUIRE(missing.size() == 2);
+    CHECK(render(missing[0]).starts_with("p.yaml:3:16: error[E-FILE]: there is no file 'a.ply'"));
+    CHECK(render(missing[1]) == "p.yaml:4:16: error[E-FILE]: no file matches 'scans/*.ply'\n"
+                                "    - test-load: \"scans/*.ply\"\n"
+                                "                 ^~~~~~~~~~~~~");
+}
+
+TEST_CASE("plan shows everything resolved", "[pipeline]") {
+    const auto result = planned("facetmill: 1\nabout: A test\nparams: {keep: {type: ratio, default: "
+                                "10%}}\nstages:\n  - test-load: a.ply\n"
+                                "  - test-cut: {ratio: \"${keep}\"}\n    ensure: {closed: true}\n  - branch: "
+                                "{near: [test-write: b.glb]}\nreport: r.json\n");
+    REQUIRE(result.problems.empty());
+    CHECK(describe(result.plan) == "p.yaml: A test\n"
+                                   "  keep = 10%\n"
+                                   "stages:\n"
+                                   "  test-load        test-load: a.ply\n"
+                                   "  test-cut         test-cut: {ratio: 10%}  ensure {closed: true}\n"
+                                   "  branch\n"
+                                   "    near:\n"
+                                   "      near/test-write  test-write: b.glb\n"
+                                   "reads:\n"
+                                   "  a.ply\n"
+                                   "writes:\n"
+                                   "  b.glb\n"
+                                   "reports:\n"
+                                   "  r.json\n");
+    const Json json = describe_json(result.plan);
+    CHECK(json["stages"][1]["options"].dump() ==
+          R"({"ratio":"10%","depth":"1%","cap":"false","method":"fast"})");
+    CHECK(json["outputs"].dump() == R"(["b.glb"])");
+}

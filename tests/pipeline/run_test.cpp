@@ -1,0 +1,290 @@
+#include "support/catch.hpp"
+
+#include "pipeline/run.hpp"
+#include "report/render.hpp"
+#include "support/planning.hpp"
+#include "support/temporary.hpp"
+
+#include <fmt/format.h>
+
+using namespace facetmill;
+using pipeline::RunSettings;
+using report::RunRecord;
+
+namespace {
+
+/// A directory with the input a.ply, in which pipelines run.
+struct Ground {
+    test::TemporaryDirectory directory;
+    Ground() { test::put(directory / "a.ply", "x"); }
+
+    RunRecord run(const std::string& stages, RunSettings settings = {}, const std::string& rest = {}) {
+        pipeline::PlanSettings plan;
+        plan.places = {directory.path(), directory.path()};
+        auto result = planned("facetmill: 1\nstages:\n" + stages + rest, plan);
+        if (!result.problems.empty()) FAIL(result.problems);
+        settings.check_invariants = true;
+        return pipeline::run_plan(result.plan, settings);
+    }
+    std::string file(const char* name) const { return test::get(directory / name); }
+};
+
+std::string errors_of(const RunRecord& record) {
+    std::string out;
+    for (const auto& d : record.errors) out += (out.empty() ? "" : "\n") + render(d);
+    return out;
+}
+
+std::string ran(const RunRecord& record) {
+    std::string out;
+    for (const auto& s : record.stages)
+        out += fmt::format("{}{}{}", out.empty() ? "" : " ", s.name, s.skipped ? "(skipped)" : "");
+    return out;
+}
+
+using Names = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("stages run in order and the outputs are written", "[pipeline]") {
+    Ground ground;
+    const auto record = ground.run("  - test-load: a.ply\n  - test-cut: 5\n  - test-write: out/b.txt\n");
+    CHECK(errors_of(record).empty());
+    CHECK(record.exit_code == 0);
+    CHECK(ground.file("out/b.txt") == "a 5\n");
+    CHECK(record.stages.at(1).before["faces"] == 12);
+    CHECK(record.stages.at(1).after["faces"] == 5);
+    CHECK(record.stages.at(1).resolved["depth"]["given"] == "1%");
+}
+
+TEST_CASE("every branch begins with the scene that entered, which also goes on", "[pipeline]") {
+    Ground ground;
+    const auto record = ground.run("  - test-load: a.ply\n"
+                                   "  - branch:\n"
+                                   "      near: [test-cut: 9, test-write: near.txt]\n"
+                                   "      far: [test-write: far.txt, test-cut: 2]\n"
+                                   "  - foreach: {keep: [3, 4]}\n"
+                                   "    do: [{test-cut: \"${keep}\"}, {test-write: \"${keep.index}.txt\"}]\n"
+                                   "  - test-write: all.txt\n");
+    CHECK(errors_of(record).empty());
+    CHECK(ground.file("near.txt") == "a 9\n");
+    CHECK(ground.file("far.txt") == "a 12\n");
+    CHECK(ground.file("0.txt") == "a 3\n");
+    CHECK(ground.file("1.txt") == "a 4\n");
+    CHECK(ground.file("all.txt") == "a 12\n");
+}
+
+TEST_CASE("join concatenates what the arms made", "[pipeline]") {
+    Ground ground;
+    const auto record = ground.run("  - test-load: a.ply\n"
+                                   "  - foreach: {keep: [3, 4]}\n"
+                                   "    do: [test-cut: \"${keep}\"]\n"
+                                   "    join: true\n"
+                                   "  - test-write: all.txt\n");
+    CHECK(errors_of(record).empty());
+    CHECK(ground.file("all.txt") == "a 3\na.keep_4 4\n");
+}
+
+TEST_CASE("a foreach over parts gives each its own scene, and join puts them back", "[pipeline]") {
+    Ground ground;
+    test::put(ground.directory / "b.ply", "x");
+    const std::string load = "  - test-load: a.ply\n  - test-load: b.ply\n";
+    const auto each =
+        ground.run(load + "  - foreach: {part: \"*\"}\n    do: [test-write: \"o.${part}.txt\"]\n");
+    CHECK(errors_of(each).empty());
+    CHECK(ground.file("o.a.txt") == "a 12\n");
+    CHECK(ground.file("o.b.txt") == "b 12\n");
+    const auto put_back = ground.run(
+        load + "  - foreach: {part: b}\n    do: [test-cut: 2]\n    join: true\n  - test-write: all.txt\n");
+    CHECK(errors_of(put_back).empty());
+    CHECK(ground.file("all.txt") == "a 12\nb 2\n");
+}
+
+TEST_CASE("files that collide once the parts are known fail before anything is written", "[pipeline]") {
+    Ground ground;
+    test::put(ground.directory / "A.ply", "x");
+    const auto record = ground.run("  - test-load: a.ply\n  - test-load: A.ply\n  - foreach: {part: \"*\"}\n "
+                                   "   do: [test-write: \"${part}.txt\"]\n");
+    CHECK(record.exit_code == 2);
+    CHECK(errors_of(record).find("are one file where case does not count") != std::string::npos);
+    CHECK(ground.directory.names() == Names{"A.ply", "a.ply"});
+}
+
+TEST_CASE("when skips a stage, and sees the scene at its place", "[pipeline]") {
+    Ground ground;
+    const auto record = ground.run("  - test-load: a.ply\n"
+                                   "  - test-cut: 5\n    when: {closed: false}\n"
+                                   "  - test-cut: 4\n    when: {faces: {min: 12}}\n"
+                                   "  - test-write: b.txt\n");
+    CHECK(ran(record) == "test-load test-cut(skipped) test-cut-2 test-write");
+    CHECK(ground.file("b.txt") == "a 4\n");
+}
+
+TEST_CASE("ensure is checked right after its stage, and a failure keeps all outputs back", "[pipeline]") {
+    Ground ground;
+    test::put(ground.directory / "b.txt", "older");
+    const auto record = ground.run("  - test-load: a.ply\n  - test-write: b.txt\n  - test-cut: 5\n    "
+                                   "ensure: {closed: true, faces: {max: 5}}\n  - test-write: c.txt\n");
+    CHECK(record.exit_code == 1);
+    CHECK(errors_of(record) == "p.yaml:6:14: error[E-CHECK]: 'closed' must be true, found false\n"
+                               "      ensure: {closed: true, faces: {max: 5}}\n"
+                               "               ^~~~~~");
+    CHECK(record.checks.size() == 2);
+    CHECK(record.outputs.empty());
+    CHECK(ran(record) == "test-load test-write test-cut");
+    CHECK(ground.file("b.txt") == "older");
+    CHECK(ground.directory.names() == Names{"a.ply", "b.txt"});
+}
+
+TEST_CASE("checks in a row all run before a failure ends the branch; other branches go on", "[pipeline]") {
+    Ground ground;
+    const auto record = ground.run(
+        "  - test-load: a.ply\n"
+        "  - branch:\n"
+        "      one: [test-judge: false, test-judge: {passes: false, called: second}, test-cut: 3]\n"
+        "      two: [test-fail: error]\n"
+        "      three: [test-judge: true, test-write: o.txt]\n");
+    CHECK(ran(record) ==
+          "test-load one/test-judge one/test-judge-2 two/test-fail three/test-judge three/test-write");
+    CHECK(record.errors.size() == 3);
+    CHECK(record.exit_code == 5); // what went wrong in earnest, not the check before it
+    CHECK(ground.directory.names() == Names{"a.ply"});
+}
+
+TEST_CASE("whatever a stage throws has a kind, an id and a place", "[pipeline]") {
+    Ground ground;
+    const auto failing = [&](const char* how) {
+        return ground.run(fmt::format("  - test-load: a.ply\n  - test-fail: {}\n", how));
+    };
+    const auto error = failing("error");
+    CHECK(error.exit_code == 5);
+    CHECK(errors_of(error) == "p.yaml:4:5: error[E-TEST]: this stage never works\n"
+                              "    - test-fail: error\n"
+                              "      ^~~~~~~~~\n"
+                              "  hint: use another");
+    const auto memory = failing("memory");
+    CHECK(memory.exit_code == 7);
+    CHECK(memory.errors.at(0).message == "not enough memory for 'test-fail'");
+    const auto bug = failing("bug");
+    CHECK(bug.exit_code == 70);
+    CHECK(bug.errors.at(0).message == "'test-fail' failed in a way it never should: index out of range");
+}
+
+TEST_CASE("a missing input is found before anything runs", "[pipeline]") {
+    Ground ground;
+    const auto record = ground.run("  - test-load: aa.ply\n  - test-load: a.ply\n");
+    CHECK(record.exit_code == 3);
+    CHECK(record.stages.empty());
+    REQUIRE(record.errors.size() == 1);
+    CHECK(record.errors[0].hint == "did you mean 'a.ply'?");
+    CHECK(spelled(record.errors[0].where) == "p.yaml:3:16");
+}
+
+TEST_CASE("warnings are forwarded, and strict makes them fail", "[pipeline]") {
+    Ground ground;
+    const std::string stages =
+        "  - test-load: a.ply\n  - test-warn: W-ONE\n  - test-warn: W-TWO\n  - test-write: b.txt\n";
+    std::string heard;
+    RunSettings settings;
+    settings.on_warning = [&](const Diagnostic& d) { heard += d.id + " "; };
+    CHECK(ground.run(stages, settings).exit_code == 0);
+    CHECK(heard == "W-ONE W-TWO ");
+    settings.strict = {"W-OTHER"};
+    CHECK(ground.run(stages, settings).exit_code == 0);
+    settings.strict = {"W-TWO"};
+    const auto record = ground.run(stages, settings);
+    CHECK(record.exit_code == 1);
+    CHECK(record.errors.size() == 1);
+    CHECK(record.errors.at(0).message == "--strict makes W-TWO fail: this is only a test");
+    settings.strict = {"*"};
+    CHECK(ground.run(stages, settings).errors.size() == 2);
+}
+
+TEST_CASE("only that selects nothing is worth a warning", "[pipeline]") {
+    Ground ground;
+    const auto record =
+        ground.run("  - test-load: a.ply\n  - test-cut: 2\n    only: wheel*\n  - test-write: b.txt\n");
+    CHECK(ground.file("b.txt") == "a 12\n");
+    CHECK(record.stages.at(1).warnings.at(0).id == "W-ONLY");
+}
+
+TEST_CASE("reports are always written, and are the same but for what varies", "[pipeline]") {
+    Ground ground;
+    const std::string stages = "  - test-load: a.ply\n  - test-cut: 5\n  - test-judge: false\n";
+    const std::string reports = "report: [r/r.json, r/r.html, r/r.xml, r/r.txt]\n";
+    CHECK(ground.run(stages, {}, reports).exit_code == 1);
+    auto first = Json::parse(ground.file("r/r.json"));
+    CHECK(first["passed"] == false);
+    CHECK(first["checks"][0]["where"] == "p.yaml:5:5");
+    const std::string junit = ground.file("r/r.xml");
+    CHECK(junit.find("<testsuite name=\"p.yaml\" tests=\"1\" failures=\"1\" errors=\"0\">") !=
+          std::string::npos);
+    CHECK(ground.file("r/r.txt").find(
+              "failed: [E-CHECK] 'sound' must be true, found false; no output was written; exit code 1\n") !=
+          std::string::npos);
+    CHECK(
+        ground.file("r/r.html")
+            .find("<td><code>test-cut</code></td><td class=\"number\">12</td><td class=\"number\">5</td>") !=
+        std::string::npos);
+    CHECK(ground.run(stages, {}, reports).exit_code == 1);
+    auto second = Json::parse(ground.file("r/r.json"));
+    first.erase("run"), second.erase("run");
+    CHECK(first.dump() == second.dump());
+    CHECK(ground.file("r/r.xml") == junit);
+}
+
+TEST_CASE("parameters: types, defaults, -D relative to the working directory", "[pipeline]") {
+    const std::string text = "facetmill: 1\n"
+                             "params:\n"
+                             "  input: {type: path, help: The scan to read}\n"
+                             "  keep: {type: ratio, default: 10%, max: 50%}\n"
+                             "  method: {type: choice, choices: [fast, exact], default: fast}\n"
+                             "  note: {type: text, required: false}\n"
+                             "stages:\n"
+                             "  - test-load: \"${input}\"\n"
+                             "  - test-cut: {ratio: \"${keep}\", method: \"${method}\"}\n"
+                             "  - test-write: \"${input.stem}$${x}${input.ext}.${keep}.txt\"\n";
+    const auto with = [&](std::vector<std::pair<std::string, std::string>> defines) {
+        pipeline::PlanSettings settings;
+        settings.defines = std::move(defines);
+        settings.working_directory = "/work-dir";
+        settings.places.input_base = "/work-dir/pipelines";
+        return planned(text, settings);
+    };
+    const auto good = with({{"input", "scans/a.ply.gz"}, {"keep", "25%"}});
+    CHECK(good.problems.empty());
+    CHECK(good.plan.steps.at(0).given.text == "../scans/a.ply.gz");
+    CHECK(good.plan.steps.at(2).given.text == "a${x}.ply.gz.25%.txt");
+    CHECK(good.plan.params.dump() ==
+          R"({"input":"scans/a.ply.gz","keep":"25%","method":"fast","note":null})");
+    CHECK(with({}).problems == "p.yaml:3:3: error[E-PARAM]: the parameter 'input' has no value\n"
+                               "    input: {type: path, help: The scan to read}\n"
+                               "    ^~~~~\n"
+                               "  hint: give it with -D input=... (The scan to read)");
+    CHECK(with({{"input", "a"}, {"kep", "1%"}}).problems ==
+          "-D:1:1: error[E-PARAM]: the pipeline has no parameter 'kep'\n"
+          "  kep=1%\n"
+          "  ^~~~~~\n"
+          "  hint: did you mean 'keep'?");
+    CHECK(with({{"input", "a"}, {"keep", "60%"}}).problems ==
+          "-D:1:6: error[E-RANGE]: the parameter 'keep' must be at most 50%, found '60%'\n"
+          "  keep=60%\n"
+          "       ^~~");
+    CHECK(with({{"input", "a"}, {"method", "slow"}}).problems ==
+          "-D:1:8: error[E-CHOICE]: 'method' is one of fast, exact, found 'slow'\n"
+          "  method=slow\n"
+          "         ^~~~");
+    CHECK(with({{"input", "a"}, {"keep", "lots"}}).problems ==
+          "-D:1:6: error[E-TYPE]: expected a ratio (25% or 0.25), found 'lots'\n"
+          "  keep=lots\n"
+          "       ^~~~");
+}
+
+TEST_CASE("check accepts a pipeline whose parameters are not given", "[pipeline]") {
+    pipeline::PlanSettings settings;
+    settings.parameters_needed = false;
+    CHECK(planned("facetmill: 1\nparams: {n: {type: integer}, file: {type: path}}\nstages:\n  - test-load: "
+                  "\"${file}\"\n  - test-cut: \"${n}\"\n  - test-write: \"${file.stem}.${n}.x\"\n",
+                  settings)
+              .problems.empty());
+}

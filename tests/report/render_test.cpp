@@ -1,0 +1,194 @@
+#include "support/catch.hpp"
+
+#include "mesh/shapes.hpp"
+#include "report/markup.hpp"
+#include "report/numbers.hpp"
+#include "report/render.hpp"
+#include "support/failure.hpp"
+#include "support/temporary.hpp"
+
+#include <cstdlib>
+#include <fmt/format.h>
+
+using namespace facetmill;
+using namespace facetmill::report;
+
+namespace {
+
+Scene cube_scene() {
+    Scene scene;
+    Part part;
+    part.name = "cube";
+    part.mesh = shapes::uv_cube();
+    scene.parts.push_back(std::move(part));
+    scene.materials.resize(1);
+    scene.materials[0].name = "steel";
+    return scene;
+}
+
+/// A record with something everywhere.
+RunRecord full_record() {
+    RunRecord record;
+    record.pipeline = "p.yaml";
+    record.about = "Mills <cubes> & more";
+    record.params = {{"keep", "10%"}};
+    record.inputs = {{"a.ply", 1234, std::string(64, 'a'), {}}};
+    record.outputs = {{"b.glb", 56789, std::string(64, 'b'), {{"faces", 12}}}};
+    const Json brief = {
+        {"parts", 1}, {"vertices", 8}, {"faces", 1200}, {"bounds", {{"min", {0, 0, 0}}, {"max", {1, 1, 1}}}}};
+    StageRecord cut;
+    cut.name = "cut";
+    cut.stage = "clip";
+    cut.path = "stages[0]";
+    cut.before = cut.after = brief;
+    cut.after["faces"] = 12;
+    cut.ledger = {{"cube", {"NORMAL", Domain::wedge, Fate::Kind::dropped, "the format has none"}}};
+    cut.warnings = {{Severity::warning, "W-CAP", "one loop stays open", file_mark("p.yaml"), "close it"}};
+    cut.resolved = {{"depth", {{"given", "1%"}, {"is", 0.01}}}};
+    cut.seconds = 0.25;
+    StageRecord skipped;
+    skipped.name = skipped.stage = "relax";
+    skipped.path = "stages[1]";
+    skipped.skipped = true;
+    record.stages = {cut, skipped};
+    record.checks = {{"closed", "validate", true, Severity::error, "true", "true", "", {}, {}},
+                     {"euler", "validate", false, Severity::error, "2", "0", "cube",
+                      Json::array({{{"face", 3}}}), file_mark("p.yaml")},
+                     {"area", "validate", false, Severity::warning, "at most 5", "6", "", {}, {}}};
+    record.errors = {{Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), ""},
+                     {Severity::error, "E-WRITE", "the disk is full", {}, "make room"}};
+    record.exit_code = 4;
+    record.seconds = 1.5;
+    record.peak_memory = 123456789;
+    record.threads = 2;
+    const Scene scene = cube_scene();
+    record.final_properties = scene_json(scene, inspect(scene));
+    return record;
+}
+
+/// Validates documents by schemas with python's jsonschema. Without it the test says so, unless it must not
+/// be missing.
+void validate(const std::vector<std::pair<Json, Json>>& schemas_and_documents) {
+    if (std::system("python3 -c 'import jsonschema' 2>/dev/null") != 0) {
+        if (std::getenv("FACETMILL_REQUIRE_VALIDATOR")) FAIL("python3 has no jsonschema");
+        WARN("skipped: python3 has no jsonschema");
+        return;
+    }
+    test::TemporaryDirectory directory;
+    Json pairs = Json::array();
+    for (const auto& [schema, document] : schemas_and_documents) pairs.push_back({schema, document});
+    test::put(directory / "pairs.json", pairs.dump());
+    test::put(directory / "validate.py", "import json, jsonschema, sys\n"
+                                         "for schema, document in json.load(open(sys.argv[1])):\n"
+                                         "    jsonschema.Draft202012Validator.check_schema(schema)\n"
+                                         "    jsonschema.Draft202012Validator(schema).validate(document)\n");
+    const auto command = fmt::format("python3 '{}' '{}'", (directory / "validate.py").string(),
+                                     (directory / "pairs.json").string());
+    CHECK(std::system(command.c_str()) == 0);
+}
+
+} // namespace
+
+TEST_CASE("reports and info are valid by their published schemas", "[report]") {
+    const Scene scene = cube_scene();
+    const Json info = scene_json(scene, inspect(scene));
+    validate({{schema(), to_json(full_record())},
+              {schema(), to_json(RunRecord{})},
+              {info_schema(), info},
+              {info_schema(), scene_json(Scene{}, inspect(Scene{}))}});
+}
+
+TEST_CASE("the schema names every key of a report, and nothing else", "[report]") {
+    const auto keys = [](const Json& object) {
+        std::vector<std::string> names;
+        for (const auto& [name, value] : object.items()) names.push_back(name);
+        std::sort(names.begin(), names.end());
+        return names;
+    };
+    const Json document = to_json(full_record()), published = schema();
+    CHECK(keys(published["properties"]) == keys(document));
+    CHECK(keys(published["$defs"]["stage"]["properties"]) == keys(document["stages"][0]));
+    CHECK(keys(published["$defs"]["check"]["properties"]) == keys(document["checks"][0]));
+    CHECK(keys(published["$defs"]["scene"]["properties"]) == keys(document["properties"]));
+    CHECK(published["additionalProperties"] == false);
+}
+
+TEST_CASE("what varies is under one key", "[report]") {
+    RunRecord slow = full_record();
+    slow.seconds = 99, slow.peak_memory = 1, slow.threads = 64, slow.stages[0].seconds = 7;
+    Json a = to_json(full_record()), b = to_json(slow);
+    CHECK(a.dump() != b.dump());
+    a.erase("run"), b.erase("run");
+    CHECK(a.dump() == b.dump());
+}
+
+TEST_CASE("the text for the terminal", "[report]") {
+    CHECK(to_text(full_record(), false) ==
+          "p.yaml: Mills <cubes> & more\n"
+          "  cut       1,200 -> 12 faces                     0.25 s\n"
+          "            warning[W-CAP]: one loop stays open\n"
+          "  relax     skipped\n"
+          "checks: 1 passed, 2 failed\n"
+          "  failed euler (validate, part cube): expected 2, found 0\n"
+          "  warned area (validate): expected at most 5, found 6\n"
+          "wrote b.glb (56.8 kB)\n"
+          "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); no output was written; exit code 4\n");
+    RunRecord good;
+    good.pipeline = "p.yaml";
+    good.seconds = 0.5;
+    good.peak_memory = 2'000'000;
+    CHECK(to_text(good, true) == "\033[1mp.yaml\033[0m\n\033[1;32mok\033[0m in 0.50 s, peak memory 2.0 MB\n");
+}
+
+TEST_CASE("JUnit: checks and errors are cases", "[report]") {
+    CHECK(to_junit(full_record()) == "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                                     "<testsuites>\n"
+                                     "  <testsuite name=\"p.yaml\" tests=\"4\" failures=\"1\" errors=\"1\">\n"
+                                     "    <testcase classname=\"validate\" name=\"closed\"/>\n"
+                                     "    <testcase classname=\"validate\" name=\"euler [cube]\">\n"
+                                     "      <failure message=\"expected 2, found 0\">p.yaml</failure>\n"
+                                     "    </testcase>\n"
+                                     "    <testcase classname=\"validate\" name=\"area\">\n"
+                                     "      <system-out>warning: expected at most 5, found 6</system-out>\n"
+                                     "    </testcase>\n"
+                                     "    <testcase classname=\"run\" name=\"E-WRITE\">\n"
+                                     "      <error message=\"the disk is full\"></error>\n"
+                                     "    </testcase>\n"
+                                     "  </testsuite>\n"
+                                     "</testsuites>\n");
+}
+
+TEST_CASE("HTML is one page that escapes what others wrote", "[report]") {
+    const std::string html = to_html(full_record());
+    CHECK(html.starts_with("<!DOCTYPE html>"));
+    CHECK(html.find("Mills &lt;cubes&gt; &amp; more") != std::string::npos);
+    CHECK(html.find("<cubes>") == std::string::npos);
+    CHECK(html.find("src=") == std::string::npos); // nothing is fetched
+    CHECK(html.find("href=") == std::string::npos);
+    CHECK(html.find("prefers-color-scheme: dark") != std::string::npos);
+}
+
+TEST_CASE("a report's suffix chooses its form", "[report]") {
+    CHECK(Json::parse(render_for("a/b.json", {}))["format"] == 1);
+    CHECK(render_for("b.xml", {}).starts_with("<?xml"));
+    CHECK(test::failure([] { render_for("b.pdf", {}); }) ==
+          "usage [E-REPORT] a report is .json, .html, .xml (JUnit) or .txt, found 'b.pdf'");
+}
+
+TEST_CASE("bytes that are no UTF-8 do not break a report", "[report]") {
+    RunRecord record;
+    record.about = "\xFF";
+    CHECK_NOTHROW(render_for("r.json", record));
+}
+
+TEST_CASE("numbers for people", "[report]") {
+    CHECK(grouped(0) == "0");
+    CHECK(grouped(1234567) == "1,234,567");
+    CHECK(grouped(999) == "999");
+    CHECK(sized(999) == "999 bytes");
+    CHECK(sized(999'990) == "1.0 MB");
+    CHECK(sized(12'345) == "12.3 kB");
+    CHECK(timed(0.1234) == "0.12 s");
+    CHECK(timed(125) == "2 min 05 s");
+    CHECK(escaped("<a b='c'>&\x01") == "&lt;a b=&#39;c&#39;&gt;&amp;\xEF\xBF\xBD");
+}

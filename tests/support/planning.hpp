@@ -1,0 +1,30 @@
+#pragma once
+// A pipeline in a text, planned: for tests of the language.
+
+#include "pipeline/document.hpp"
+#include "pipeline/plan.hpp"
+
+namespace facetmill {
+
+struct Planned {
+    pipeline::Plan plan;
+    std::string problems; ///< rendered, one after the other
+};
+
+inline Planned planned(const std::string& text, pipeline::PlanSettings settings = {}) {
+    Problems problems;
+    settings.name = "p.yaml";
+    const auto source = std::make_shared<const SourceText>(SourceText{"p.yaml", text});
+    const Value document = pipeline::parse_yaml(source, problems);
+    Planned out;
+    if (!problems.any_errors()) out.plan = pipeline::make_plan(document, settings, problems);
+    for (const auto& d : problems.all()) out.problems += (out.problems.empty() ? "" : "\n") + render(d);
+    return out;
+}
+
+/// The same with the two lines that every pipeline begins with, the stages being indented.
+inline Planned planned_stages(const std::string& stages, pipeline::PlanSettings settings = {}) {
+    return planned("facetmill: 1\nstages:\n" + stages, std::move(settings));
+}
+
+} // namespace facetmill
