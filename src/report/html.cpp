@@ -117,8 +117,8 @@ std::string property_rows(const Json& properties) {
 std::string verdict(const RunRecord& record) {
     if (record.exit_code == 0)
         return "<p class=\"verdict good\">ok: everything held, and all outputs were written</p>\n";
-    return fmt::format("<p class=\"verdict bad\">failed with exit code {}: no output was written</p>\n",
-                       record.exit_code);
+    return fmt::format("<p class=\"verdict bad\">failed with exit code {}{}</p>\n", record.exit_code,
+                       record.outputs.empty() ? ": no output was written" : "");
 }
 
 std::string run_section(const RunRecord& record) {

@@ -76,8 +76,10 @@ std::string to_text(const RunRecord& record, bool colour) {
                                                                 record.errors.front().message);
     const std::string more =
         record.errors.size() > 1 ? fmt::format(" (and {} more)", record.errors.size() - 1) : "";
-    return out + fmt::format("{}{}{}; no output was written; exit code {}\n", paint("1;31", "failed"), why,
-                             more, record.exit_code);
+    const char* outputs =
+        record.outputs.empty() ? "; no output was written" : ""; // a report may fail after them
+    return out + fmt::format("{}{}{}{}; exit code {}\n", paint("1;31", "failed"), why, more, outputs,
+                             record.exit_code);
 }
 
 } // namespace facetmill::report

@@ -288,3 +288,23 @@ TEST_CASE("check accepts a pipeline whose parameters are not given", "[pipeline]
                   settings)
               .problems.empty());
 }
+
+TEST_CASE("a report that cannot be written fails the run, and says nothing untrue of the outputs",
+          "[pipeline]") {
+    Ground ground;
+    const auto record =
+        ground.run("  - test-load: a.ply\n  - test-write: b.txt\n", {}, "report: a.ply/r.json\n");
+    CHECK(record.exit_code == 4);
+    CHECK(ground.file("b.txt") == "a 12\n");
+    CHECK(report::to_text(record, false).find("no output was written") == std::string::npos);
+}
+
+TEST_CASE("a pipeline is read from a file, whose folder its inputs are relative to", "[pipeline]") {
+    Ground ground;
+    test::put(ground.directory / "p.yaml", "facetmill: 1\nstages:\n  - test-load: a.ply\n");
+    Problems problems;
+    const auto plan = pipeline::load_plan(ground.directory / "p.yaml", {}, problems);
+    CHECK(problems.size() == 0);
+    CHECK(planned_inputs(plan) == std::vector<std::filesystem::path>{ground.directory / "a.ply"});
+    CHECK_THROWS_AS(pipeline::load_plan(ground.directory / "q.yaml", {}, problems), Error);
+}

@@ -132,7 +132,7 @@ TEST_CASE("the text for the terminal", "[report]") {
           "  failed euler (validate, part cube): expected 2, found 0\n"
           "  warned area (validate): expected at most 5, found 6\n"
           "wrote b.glb (56.8 kB)\n"
-          "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); no output was written; exit code 4\n");
+          "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); exit code 4\n");
     RunRecord good;
     good.pipeline = "p.yaml";
     good.seconds = 0.5;
