@@ -1,7 +1,7 @@
 #include "geometry/polygon.hpp"
 
 #include "base/predicates.hpp"
-#include "geometry/cgal/triangulate_rings.hpp"
+#include "geometry/triangulate_rings.hpp"
 #include "geometry/ring_tree.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "support/catch.hpp"
 
-#include "geometry/cgal/triangulate_rings.hpp"
+#include "geometry/triangulate_rings.hpp"
 #include "geometry/polygon.hpp"
 #include "support/polygons.hpp"
 

@@ -2,16 +2,11 @@
 // Fills closed contours in the plane: any number of them, nested, touching, crossing or running along each
 // other. Free of CGAL, which does the work behind it.
 
-#include "mesh/mesh.hpp"
+#include "geometry/polygon.hpp"
 
 #include <array>
 
 namespace facetmill {
-
-struct Vec2 {
-    double x = 0, y = 0;
-    bool operator==(const Vec2&) const = default;
-};
 
 /// Directed edges between points, counted: at every point as many arrive as leave.
 struct Contours {
