@@ -1,0 +1,103 @@
+#include "io/drawing.hpp"
+
+#include "base/error.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::io {
+
+namespace {
+
+Json list(const Vec2& p) { return Json::array({p.x, p.y}); }
+Json list(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
+Json second_moments(const polygon::SecondMoments& m) { return {{"x", m.x}, {"y", m.y}, {"xy", m.xy}}; }
+
+Json contour_json(const Section& s, const Contour& c) {
+    Json j = {{"role", spelled(c.role)}};
+    if (c.parent != none) j["parent"] = c.parent;
+    j["points"] = c.end - c.begin;
+    j["length"] = c.length;
+    if (c.role == ContourRole::open) return j;
+    j["orientation"] = c.orientation > 0 ? "anticlockwise" : "clockwise";
+    j["kind"] = polygon::spelled(c.kind);
+    j["area"] = c.area;
+    if (!c.moments) {
+        j["centroid"] = nullptr;
+        j["why"] = "the contour intersects itself, so its centroid and moments would mean nothing";
+        return j;
+    }
+    const auto& m = *c.moments;
+    j["centroid"] = {{"plane", list(m.centroid)}, {"world", list(s.frame.point(m.centroid))}};
+    j["second_moments"] = {{"about_origin", second_moments(m.about_origin)},
+                           {"about_centroid", second_moments(m.about_centroid)}};
+    j["principal_axes"] = {{"largest", m.axes.largest},
+                           {"smallest", m.axes.smallest},
+                           {"plane", {{"largest", list(m.axes.major)}, {"smallest", list(m.axes.minor)}}},
+                           {"world",
+                            {{"largest", list(s.frame.direction(m.axes.major))},
+                             {"smallest", list(s.frame.direction(m.axes.minor))}}}};
+    return j;
+}
+
+std::string extension_of(const std::string& path) {
+    const auto dot = path.rfind('.');
+    std::string extension = dot == std::string::npos ? "" : path.substr(dot + 1);
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension;
+}
+
+} // namespace
+
+Json frame_json(const SectionFrame& f) {
+    return {{"origin", list(f.origin)}, {"u", list(f.u)}, {"v", list(f.v)}, {"normal", list(f.normal)}};
+}
+
+Json contours_json(const Section& section, bool points) {
+    Json all = Json::array();
+    for (const Contour& c : section.contours) {
+        Json j = contour_json(section, c);
+        if (points) {
+            Json list_of = Json::array();
+            for (const Vec2& p : section.ring(c)) list_of.push_back(list(p));
+            j["points"] = std::move(list_of);
+        }
+        all.push_back(std::move(j));
+    }
+    return all;
+}
+
+std::string to_json(const Drawing& drawing) {
+    Json sheets = Json::array();
+    for (const Sheet& sheet : drawing.sheets) {
+        Json parts = Json::array();
+        for (const DrawnPart& part : sheet.parts) {
+            Json hatch = Json::array();
+            for (const auto& s : part.hatch) hatch.push_back(Json::array({s.a.x, s.a.y, s.b.x, s.b.y}));
+            parts.push_back({{"name", part.name},
+                             {"area", part.section.area},
+                             {"contours", contours_json(part.section, true)},
+                             {"hatch", std::move(hatch)}});
+        }
+        sheets.push_back(
+            {{"height", sheet.height}, {"frame", frame_json(sheet.frame)}, {"parts", std::move(parts)}});
+    }
+    const Json document = {
+        {"title", drawing.title}, {"unit", spelled(drawing.unit)}, {"sections", std::move(sheets)}};
+    return document.dump(1) + "\n";
+}
+
+bool is_drawing(const std::string& path) {
+    const std::string e = extension_of(path);
+    return e == "svg" || e == "dxf" || e == "json";
+}
+
+std::string drawing_for(const std::string& path, const Drawing& drawing) {
+    const std::string e = extension_of(path);
+    if (e == "svg") return to_svg(drawing);
+    if (e == "dxf") return to_dxf(drawing);
+    if (e == "json") return to_json(drawing);
+    throw Error(ErrorKind::usage, "E-DRAWING", fmt::format("sections are not written as '{}'", path),
+                "the formats are .svg, .dxf and .json");
+}
+
+} // namespace facetmill::io

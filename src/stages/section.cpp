@@ -1,0 +1,190 @@
+#include "base/functions.hpp"
+#include "geometry/inspect.hpp"
+#include "geometry/section_stack.hpp"
+#include "io/drawing_summary.hpp"
+#include "stage/plane_option.hpp"
+#include "stage/stage.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+struct Hatch {
+    Length spacing = Length::percent(1);
+    Angle angle = Angle::degrees(45);
+    polygon::Keep keep = polygon::Keep::inside;
+};
+
+struct SectionOptions {
+    std::optional<PlaneOption> plane;
+    std::optional<Length> every;
+    std::optional<std::int64_t> count;
+    std::optional<Hatch> hatch;
+    std::vector<PathText> to;
+};
+
+void declare(Declare<SectionOptions>& d) {
+    d.group("plane", &SectionOptions::plane, "The plane, or the first of a stack; z=50% when not given.",
+            declare_plane)
+        .primary();
+    d.option("every", &SectionOptions::every, "Distance between the planes of a stack, along the normal.")
+        .above(0);
+    d.option("count", &SectionOptions::count,
+             "How many planes: from the plane on with every; without it in the middles of as many equal "
+             "slices of the "
+             "extent.")
+        .between(1, most_planes);
+    d.group("hatch", &SectionOptions::hatch, "Parallel lines, clipped to the sections.",
+            [](Declare<Hatch>& h) {
+                h.option("spacing", &Hatch::spacing, "Distance between lines.").above(0).primary();
+                h.option("angle", &Hatch::angle, "From the frame's u axis to the lines, anticlockwise.");
+                h.choice<polygon::Keep>(
+                    "keep", &Hatch::keep,
+                    {{"inside", polygon::Keep::inside, "hatch the material"},
+                     {"outside", polygon::Keep::outside, "hatch around it, within its bounds"}},
+                    "Which parts of the lines are kept.");
+            });
+    d.option("to", &SectionOptions::to, "Drawings to write, to scale: .svg, .dxf or .json.");
+}
+
+Transform world_of(const Part& part) { return part.skinned ? Transform{} : part.transform; }
+
+void verify(const SectionOptions& o, const Value& given, Problems& problems) {
+    const Value* to = given.is_map() ? given.find("to") : nullptr;
+    for (const auto& path : o.to)
+        if (!io::is_drawing(path.text))
+            problems.add(to ? to->mark : given.mark, "E-DRAWING",
+                         fmt::format("section: drawings are not written as '{}'", path.text),
+                         "the formats are .svg, .dxf and .json");
+}
+
+Stack stack_of(const SectionOptions& o, const Scene& scene, const Plane& plane, Context& context) {
+    if (!o.every && !o.count) return {};
+    std::optional<double> every;
+    if (o.every) every = context.resolve(*o.every, scene, "every");
+    if (every && !(*every > 0))
+        throw Error(ErrorKind::usage, "E-SECTION", "'every' must be above zero, and it is 0 in this scene",
+                    "give a length in scene units, or count");
+    Extent extent;
+    for (const Part& part : scene.parts)
+        if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, world_of(part)));
+    return stack_of(extent, every, o.count);
+}
+
+std::vector<polygon::Segment> hatched(const SectionOptions& o, double spacing, const Section& s) {
+    if (!o.hatch) return {};
+    const Vec2 along{cosine(o.hatch->angle.radians), sine(o.hatch->angle.radians)};
+    return polygon::hatch(s.filled(), {.spacing = spacing, .direction = along, .keep = o.hatch->keep});
+}
+
+void add_part(io::Drawing& drawing, const Part& part, const Plane& plane, const Stack& stack,
+              const SectionOptions& o, double spacing) {
+    auto sections = section(part.mesh, {plane, stack.heights, world_of(part)});
+    for (std::size_t k = 0; k < sections.size(); ++k) {
+        auto lines = hatched(o, spacing, sections[k]);
+        drawing.sheets[k].parts.push_back({part.name, std::move(sections[k]), std::move(lines)});
+    }
+}
+
+void add_volume(Json& result, const Scene& scene, const io::DrawingTotals& totals, const Stack& stack,
+                Context& context) {
+    if (!(stack.spacing > 0)) return;
+    std::optional<double> volume = 0.0;
+    for (const Part& part : scene.parts) {
+        if (!context.selects(part, scene)) continue;
+        const auto own = inspect(part.mesh).volume;
+        volume = volume && own ? std::optional(*volume + *own * std::abs(world_of(part).determinant()))
+                               : std::nullopt;
+    }
+    const double sum = totals.area * stack.spacing;
+    result["spacing"] = stack.spacing;
+    result["area_times_spacing"] = sum;
+    result["volume"] = volume ? Json(*volume) : Json(nullptr);
+    if (volume && *volume != 0) result["ratio"] = sum / *volume;
+}
+
+void warn(const io::DrawingTotals& totals, Context& context) {
+    if (totals.open > 0)
+        context.warn(
+            "W-OPEN-SECTION",
+            fmt::format("{} of {} contours are open: the mesh has a boundary where the plane cuts it",
+                        totals.open, totals.contours),
+            "close the mesh, or weld it (clean), before");
+    if (!totals.oriented)
+        context.warn("W-UNORIENTED",
+                     "neighbouring faces disagree, so outlines and holes were told by nesting",
+                     "orient the mesh before");
+    const auto crossed = totals.count(polygon::Kind::self_intersecting);
+    if (crossed > 0)
+        context.warn(
+            "W-SECTION-CROSSES",
+            fmt::format("{} contours intersect themselves: no centroid and moments for them", crossed));
+}
+
+Scene run(Scene scene, const SectionOptions& o, Context& context) {
+    PlaneOption middle;
+    middle.axis = 2;
+    middle.height = Length::percent(50);
+    const Plane plane = resolve(o.plane.value_or(middle), scene, scene.bounds(), context);
+    const Stack stack = stack_of(o, scene, plane, context);
+    const double spacing = o.hatch ? context.resolve(o.hatch->spacing, scene, "hatch.spacing") : 0;
+    if (o.hatch && !(spacing > 0))
+        throw Error(ErrorKind::usage, "E-HATCH", "the spacing of 'hatch' is 0 in this scene");
+    io::Drawing drawing{context.name(), scene.unit, {}};
+    const SectionFrame frame = frame_of(plane);
+    for (const double h : stack.heights) {
+        drawing.sheets.push_back({h, frame, {}});
+        drawing.sheets.back().frame.origin += frame.normal * h;
+    }
+    for (const Part& part : scene.parts)
+        if (context.selects(part, scene)) add_part(drawing, part, plane, stack, o, spacing);
+    const auto totals = io::totals_of(drawing);
+    context.result() = io::summary_json(drawing, totals);
+    add_volume(context.result(), scene, totals, stack, context);
+    warn(totals, context);
+    for (const auto& path : o.to) {
+        const std::string text = io::drawing_for(path.text, drawing);
+        context.run().outputs.add(context.places().output(path.text), std::as_bytes(std::span(text)));
+    }
+    return scene;
+}
+
+const RegisterStage registered{make_stage<SectionOptions>(
+    {.name = "section",
+     .about = "Cuts plane sections: contours with areas, centroids and moments, and drawings to scale",
+     .details = "A plane, or a stack of parallel ones, gives polygons with their holes, in the frame that "
+                "the report states: its "
+                "origin is the foot of the world's origin on the plane, u is the axis after the normal's "
+                "longest component, v is "
+                "normal x u. Each contour has its orientation, kind (triangle, quad, convex, concave, "
+                "complex, self-intersecting), "
+                "area, centroid, second moments about the origin and the centroid, and principal axes in the "
+                "plane and the world. "
+                "Over a stack, areas times distance are compared with the volume. A plane that misses the "
+                "mesh gives an empty "
+                "section, which is a result.\n\n"
+                "Vertices are classified once, by exact signs; one on the plane counts as above it, so a "
+                "section is that just "
+                "below the plane: of a cube on the floor z = 0 gives nothing and the top gives a square.\n\n"
+                "Drawings are SVG (sections side by side), DXF (one layer a section) and JSON (all points "
+                "and measures). The "
+                "scene passes on unchanged. Sources: the notes on polygon types, ordering, area, centroid "
+                "and moments of polygons, "
+                "and on clipping a line to a complex polygon (hatch).",
+     .examples = {"section: z=50%",
+                  "section: {plane: {normal: [1, 0, 1], through: centre}, to: cut.svg, hatch: 2%}",
+                  "section: {plane: z=0, every: 2mm, to: [layers.svg, layers.dxf, layers.json]}",
+                  "section: {count: 20}"}},
+    declare, run,
+    StageHooks<SectionOptions>{.files =
+                                   [](const SectionOptions& o) {
+                                       return StageFiles{{}, o.to};
+                                   },
+                               .verify = verify})};
+
+} // namespace
+
+} // namespace facetmill

@@ -1,0 +1,97 @@
+#include "support/catch.hpp"
+
+#include "mesh/shapes.hpp"
+#include "support/failure.hpp"
+#include "support/run_stage.hpp"
+#include "support/temporary.hpp"
+
+using namespace facetmill;
+using test::failure;
+using test::run_stage;
+using test::scene_of;
+
+TEST_CASE("section reports one plane and passes the scene on", "[stages]") {
+    const auto run = run_stage("section", "z=25%", scene_of(shapes::cube()));
+    const Json& r = run.record.result;
+    CHECK(r["planes"] == 1);
+    CHECK(r["contours"] == 1);
+    CHECK(r["area"] == 1.0);
+    CHECK(r["kinds"]["quad"] == 1);
+    CHECK(r["sections"][0]["origin"] == Json::array({0.0, 0.0, 0.25}));
+    CHECK(r["sections"][0]["parts"][0]["contours"][0]["centroid"]["plane"] == Json::array({0.5, 0.5}));
+    CHECK(run.scene.parts[0].mesh.face_count() == 12);
+    CHECK_FALSE(run.scene.parts[0].changed);
+}
+
+TEST_CASE("section takes planes in every form", "[stages]") {
+    for (const char* plane : {"{plane: z=0.5}", "{plane: {normal: [0, 0, 3], through: [9, 9, 0.5]}}",
+                              "{plane: {normal: [0, 0, 1], through: 50%}}",
+                              "{plane: {coefficients: [0, 0, 2, -1]}}", "{plane: {normal: [0, 0, 1]}}", ""})
+        CHECK(run_stage("section", plane, scene_of(shapes::cube())).record.result["area"] == 1.0);
+}
+
+TEST_CASE("a count of sections is spread over the extent and meets the volume", "[stages]") {
+    const auto run = run_stage("section", "{count: 5}", scene_of(shapes::cube()));
+    const Json& r = run.record.result;
+    CHECK(r["planes"] == 5);
+    CHECK(r["spacing"].get<double>() == Approx(0.2));
+    CHECK(r["sections"][0]["height"].get<double>() == Approx(-0.4));
+    CHECK(r["volume"].get<double>() == Approx(1));
+    CHECK(r["ratio"].get<double>() == Approx(1));
+}
+
+TEST_CASE("every distance through the whole extent, or from the plane on with count", "[stages]") {
+    CHECK(run_stage("section", "{plane: z=0.1, every: 0.25}", scene_of(shapes::cube()))
+              .record.result["planes"] == 4);
+    const auto run = run_stage("section", "{plane: z=0.1, every: 0.5, count: 3}", scene_of(shapes::cube()));
+    CHECK(run.record.result["planes"] == 3);
+    CHECK(run.record.result["empty"] == 1); // z = 1.1 misses
+    CHECK(run_stage("section", "{every: 2mm, plane: z=1mm}", scene_of(shapes::cube(), Unit::cm))
+              .record.result["planes"] == 5);
+}
+
+TEST_CASE("an empty section is a result", "[stages]") {
+    const auto run = run_stage("section", "z=7", scene_of(shapes::cube()));
+    CHECK(run.record.result["empty"] == 1);
+    CHECK(run.record.result["area"] == 0.0);
+    CHECK(run.record.warnings.empty());
+}
+
+TEST_CASE("an open mesh is said", "[stages]") {
+    const auto run = run_stage("section", "x=0.5", scene_of(shapes::grid(2, 2)));
+    REQUIRE(run.record.warnings.size() == 1);
+    CHECK(run.record.warnings[0].id == "W-OPEN-SECTION");
+    CHECK(run.record.result["open"] == 1);
+}
+
+TEST_CASE("sections are written as drawings", "[stages]") {
+    const test::TemporaryDirectory directory;
+    const std::string at = directory.path().string();
+    const auto run = run_stage("section",
+                               "{plane: z=0.5, hatch: {spacing: 0.1, angle: 30}, to: ['" + at + "/a.svg', '" +
+                                   at + "/a.dxf', '" + at + "/a.json']}",
+                               scene_of(shapes::cube()));
+    run.state->outputs.commit();
+    for (const char* name : {"a.svg", "a.dxf", "a.json"})
+        CHECK(std::filesystem::file_size(directory.path() / name) > 200);
+}
+
+TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
+    const auto refusal = [](const char* options) {
+        return failure([&] { run_stage("section", options, scene_of(shapes::cube())); });
+    };
+    CHECK(refusal("{to: a.pdf}") ==
+          "usage [E-DRAWING] test.yaml:1:6: section: drawings are not written as 'a.pdf' | the formats "
+          "are .svg, .dxf and .json");
+    CHECK(refusal("{plane: {normal: [0, 0, 0]}}") ==
+          "usage [E-PLANE] the plane's normal must be finite and not zero | for example normal: [0, 0, 1]");
+    CHECK(refusal("w=2") ==
+          "usage [E-PLANE] test.yaml:1:1: expected a plane, found 'w=2' | for example z=0.2, z=50%, "
+          "{normal: [0, 0, 1], through: centre} or {coefficients: [A, B, C, D]}");
+    CHECK(refusal("{every: 9.5367431640625e-07}") ==
+          "limit [E-SECTION] the stack would have 1048577 planes, and at most 100000 are cut | "
+          "choose a larger distance in 'every'");
+    CHECK(refusal("{plane: z=2mm}") ==
+          "usage [E-UNIT] 'plane' is 2mm, but the scene has no unit | say what the numbers of the file "
+          "mean (load: {unit: mm}), or give a bare number or a percentage");
+}
