@@ -1,0 +1,83 @@
+// The attributes that a cap has of its own.
+#include "base/parallel.hpp"
+#include "geometry/clip_assemble.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+namespace {
+
+/// The number of the cap's primitive in the table, which gets it when it is not there.
+Index primitive_number(Mesh& mesh, const std::optional<Primitive>& wanted) {
+    if (!wanted) return 0;
+    if (mesh.primitives.empty()) mesh.primitives.push_back({});
+    const auto at = std::find(mesh.primitives.begin(), mesh.primitives.end(), *wanted);
+    if (at != mesh.primitives.end()) return static_cast<Index>(at - mesh.primitives.begin());
+    mesh.primitives.push_back(*wanted);
+    return static_cast<Index>(mesh.primitives.size() - 1);
+}
+
+void paint_faces(Mesh& mesh, std::size_t first_face, const std::optional<Primitive>& wanted) {
+    for (Attribute& a : mesh.attributes)
+        if (a.domain == Domain::face)
+            for (std::size_t f = first_face; f < mesh.face_count(); ++f)
+                for (int c = 0; c < a.components; ++c) a.set_value(f, c, 0);
+    const Index number = primitive_number(mesh, wanted);
+    if (number == 0) return;
+    Attribute* a = mesh.find(primitive_attribute, Domain::face);
+    if (!a) {
+        mesh.attributes.push_back({std::string(primitive_attribute), Domain::face, Role::index, 1, false,
+                                   std::vector<std::uint32_t>(mesh.face_count())});
+        a = &mesh.attributes.back();
+    }
+    for (std::size_t f = first_face; f < mesh.face_count(); ++f) a->set_value(f, 0, number);
+}
+
+/// Orthonormal directions in the plane: across, up, and the way it looks.
+struct Frame {
+    Vec3 across, up, out;
+
+    explicit Frame(const Vec3& normal) : out(normalised(normal)) {
+        const double x = std::fabs(out.x), y = std::fabs(out.y), z = std::fabs(out.z);
+        const Vec3 helper = z >= x && z >= y ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+        across = normalised(cross(helper, out));
+        up = cross(out, across);
+    }
+};
+
+void set(Attribute& a, Index element, std::initializer_list<double> values) {
+    int c = 0;
+    for (const double v : values)
+        if (c < a.components) a.set_value(element, c++, v);
+}
+
+} // namespace
+
+void paint_cap(Mesh& mesh, std::size_t first_face, std::span<const Index> wedges, const Plane& plane,
+               const std::optional<Primitive>& cap_primitive) {
+    paint_faces(mesh, first_face, cap_primitive);
+    if (wedges.empty()) return;
+    // A normal may be tiny or huge, being as the user gave it; its direction is what counts.
+    const double largest =
+        std::max({std::fabs(plane.normal.x), std::fabs(plane.normal.y), std::fabs(plane.normal.z)});
+    const Frame frame(plane.normal / largest);
+    Box box; // of the coordinates in the plane
+    const auto flat = [&](Index w) {
+        const Vec3& p = mesh.positions[mesh.vertex_of_wedge(w)];
+        return Vec3{dot(p, frame.across), dot(p, frame.up), 0};
+    };
+    for (const Index w : wedges) box.add(flat(w));
+    const double extent = std::max(box.extent().x, box.extent().y), scale = extent > 0 ? 1 / extent : 0;
+    for (Attribute& a : mesh.attributes) {
+        if (a.domain != Domain::wedge) continue;
+        for (const Index w : wedges) {
+            const Vec3 at = (flat(w) - box.min) * scale;
+            if (a.role == Role::normal) set(a, w, {frame.out.x, frame.out.y, frame.out.z});
+            if (a.role == Role::tangent) set(a, w, {frame.across.x, frame.across.y, frame.across.z, 1});
+            if (a.role == Role::uv && a.name == "TEXCOORD_0") set(a, w, {at.x, at.y});
+        }
+    }
+}
+
+} // namespace facetmill

@@ -1,0 +1,23 @@
+#pragma once
+// Puts one side of a cut together: kept faces, pieces, cap, attributes. For clip only.
+
+#include "geometry/cap.hpp"
+#include "geometry/clip.hpp"
+
+namespace facetmill {
+
+struct Side {
+    Mesh mesh;
+    Fates fates;
+};
+
+/// side: 1 front, -1 back. Expects flat faces settled.
+Side assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap,
+              const std::optional<Primitive>& cap_primitive);
+
+/// Sets the attributes that a cap has of its own: the face attributes of faces from first_face on, and the
+/// normals, tangents and first texture coordinates of wedges (empty: the cap shares the walls').
+void paint_cap(Mesh& mesh, std::size_t first_face, std::span<const Index> wedges, const Plane& plane,
+               const std::optional<Primitive>& cap_primitive);
+
+} // namespace facetmill
