@@ -1,6 +1,8 @@
 #include "base/predicates.hpp"
 
+#include <algorithm>
 #include <array>
+#include <initializer_list>
 
 namespace facetmill {
 
@@ -34,13 +36,23 @@ struct Expansion {
     int sign() const { return size == 0 ? 0 : sign_of(parts[static_cast<std::size_t>(size - 1)]); }
 };
 
+/// A power of two that brings the largest of the numbers near 1, so that products neither overflow nor
+/// vanish.
+double scale_for(std::initializer_list<double> numbers) {
+    double most = 0;
+    for (const double x : numbers) most = std::max(most, std::abs(x));
+    return most > 0 && std::isfinite(most) ? std::ldexp(1.0, std::clamp(-std::ilogb(most), -1000, 1000)) : 1;
+}
+
 } // namespace
 
 int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy) {
     const double left = (ax - cx) * (by - cy), right = (ay - cy) * (bx - cx), det = left - right;
-    // Shewchuk's bound of the error of det: (3 + 16 e) e (|left| + |right|), e = 2^-53.
-    constexpr double bound = 3.3306690738754716e-16;
-    if (std::abs(det) > bound * (std::abs(left) + std::abs(right))) return sign_of(det);
+    if (std::abs(det) > orientation_error * (std::abs(left) + std::abs(right)) &&
+        std::abs(det) > orientation_smallest)
+        return sign_of(det);
+    const double sx = scale_for({ax, bx, cx}), sy = scale_for({ay, by, cy});
+    ax *= sx, bx *= sx, cx *= sx, ay *= sy, by *= sy, cy *= sy;
     Expansion exact; // (a-c) x (b-c), multiplied out
     exact.add_product(ax, by);
     exact.add_product(-ax, cy);

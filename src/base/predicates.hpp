@@ -5,6 +5,13 @@
 
 namespace facetmill {
 
+/// The filter's two thresholds, for those who have the products at hand. The sign of left - right, the
+/// products of rounded differences, is sure when |left - right| exceeds orientation_error * (|left| +
+/// |right|), Shewchuk's (3 + 16 e) e with e = 2^-53, and also orientation_smallest, below which products may
+/// have lost bits.
+inline constexpr double orientation_error = 3.3306690738754716e-16;
+inline constexpr double orientation_smallest = 1e-290;
+
 /// The sign (-1, 0, 1) of the area of the triangle a, b, c in the plane: 1 when they turn left. Exact for
 /// finite coordinates, as long as no product of two differences overflows or underflows: a floating-point
 /// filter, then exact expansions (Shewchuk 1997, Adaptive precision floating-point arithmetic).

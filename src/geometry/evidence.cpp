@@ -2,6 +2,8 @@
 
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
+#include "base/random.hpp"
+#include "geometry/self_intersections.hpp"
 
 #include <algorithm>
 #include <array>
@@ -61,25 +63,63 @@ std::vector<Index> degenerate_faces(const Mesh& mesh, std::size_t limit) {
     return found;
 }
 
-std::vector<Index> sorted_vertices(const Mesh& mesh, Index f) {
-    std::vector<Index> all;
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) all.push_back(mesh.vertex(c));
-    std::sort(all.begin(), all.end());
-    return all;
+/// The set of vertices of a face, sorted.
+void vertex_set(const Mesh& mesh, Index f, std::vector<Index>& set) {
+    set.clear();
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) set.push_back(mesh.vertex(c));
+    std::sort(set.begin(), set.end());
+    set.erase(std::unique(set.begin(), set.end()), set.end());
+}
+
+struct HashedFace {
+    std::uint64_t hash;
+    Index face;
+};
+
+/// All faces by a hash of their sets of vertices, equal hashes together and by face.
+std::vector<HashedFace> hashed_faces(const Mesh& mesh) {
+    std::vector<HashedFace> faces(mesh.face_count());
+    parallel_chunks(faces.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<Index> set;
+        for (std::size_t f = begin; f < end; ++f) {
+            vertex_set(mesh, static_cast<Index>(f), set);
+            std::uint64_t h = set.size();
+            for (const Index v : set) h = hashed(h, v);
+            faces[f] = {h, static_cast<Index>(f)};
+        }
+    });
+    radix_sort(faces, [](const HashedFace& f) { return f.hash; });
+    return faces;
+}
+
+/// Whether two faces have the same set of vertices: for faces whose hashes agree.
+bool same_set(const Mesh& mesh, Index a, Index b) {
+    std::vector<Index> set_a, set_b;
+    vertex_set(mesh, a, set_a), vertex_set(mesh, b, set_b);
+    return set_a == set_b;
+}
+
+/// True when the cross product of u and w is sure not to vanish, by the filter of orientation_2d.
+bool surely_not_parallel(const Vec3& u, const Vec3& w) {
+    const auto sure = [](double left, double right) {
+        const double det = std::abs(left - right);
+        return det > orientation_error * (std::abs(left) + std::abs(right)) && det > orientation_smallest;
+    };
+    return sure(u.x * w.y, u.y * w.x) || sure(u.y * w.z, u.z * w.y) || sure(u.z * w.x, u.x * w.z);
 }
 
 } // namespace
 
 bool is_degenerate(const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-    for (Index a = begin; a + 2 < end; ++a)
-        for (Index b = a + 1; b + 1 < end; ++b) {
-            if (mesh.point(a) == mesh.point(b)) continue;
-            // a and b span a line: is there a corner off it?
-            for (Index c = b + 1; c < end; ++c)
-                if (!collinear(mesh.point(a), mesh.point(b), mesh.point(c))) return false;
-            break;
-        }
+    // With the first corner and the first that differs from it, every other corner must be on one line.
+    const Vec3& p = mesh.point(begin);
+    Index other = begin + 1;
+    while (other < end && mesh.point(other) == p) ++other;
+    if (other + 1 >= end) return true;
+    const Vec3& q = mesh.point(other);
+    for (Index c = other + 1; c < end; ++c)
+        if (surely_not_parallel(q - p, mesh.point(c) - p) || !collinear(p, q, mesh.point(c))) return false;
     return true;
 }
 
@@ -117,42 +157,21 @@ std::vector<Index> fans_at_vertices(const Mesh& mesh, const EdgeTable& edges) {
     return fans;
 }
 
-std::vector<Index> duplicate_faces(const Mesh& mesh, const EdgeTable& edges) {
-    // Duplicates share all their edges: compare faces only with those whose lowest edge is the same.
-    const auto faces = corner_faces(mesh);
-    const auto lowest = [&](Index f) {
-        Index low = none;
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
-            low = std::min(low, edges.corner_edge[c]);
-        return low;
-    };
-    using List = std::vector<Index>;
-    auto found = parallel_reduce(
-        edges.size(), List{},
-        [&](std::size_t begin, std::size_t end) {
-            List mine;
-            std::vector<std::pair<List, Index>> here;
-            for (std::size_t e = begin; e < end; ++e) {
-                const auto corners = edges.corners_of(static_cast<Index>(e));
-                if (corners.size() < 2) continue;
-                here.clear();
-                Index last = none;
-                for (const Index c : corners) {
-                    const Index f = faces[c];
-                    if (f != last && lowest(f) == e) here.emplace_back(sorted_vertices(mesh, f), f);
-                    last = f;
+std::vector<Index> duplicate_faces(const Mesh& mesh) {
+    const auto faces = hashed_faces(mesh);
+    std::vector<Index> duplicates;
+    for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
+        while (end < faces.size() && faces[end].hash == faces[begin].hash) ++end;
+        for (std::size_t i = begin + 1; i < end;
+             ++i) // by chance a hash may be shared by different sets: all are compared
+            for (std::size_t j = begin; j < i; ++j)
+                if (same_set(mesh, faces[i].face, faces[j].face)) {
+                    duplicates.push_back(faces[i].face);
+                    break;
                 }
-                if (here.size() < 2) continue;
-                std::sort(here.begin(), here.end());
-                for (std::size_t i = 1; i < here.size(); ++i)
-                    if (here[i].first == here[i - 1].first && here[i].second != here[i - 1].second)
-                        mine.push_back(here[i].second);
-            }
-            return mine;
-        },
-        [](List a, List b) { return a.insert(a.end(), b.begin(), b.end()), a; });
-    std::sort(found.begin(), found.end());
-    return found;
+    }
+    std::sort(duplicates.begin(), duplicates.end());
+    return duplicates;
 }
 
 std::vector<Place> places_against(const Mesh& mesh, std::string_view property, std::size_t limit) {
@@ -168,8 +187,14 @@ std::vector<Place> places_against(const Mesh& mesh, std::string_view property, s
     if (property == "isolated_vertices") return places_of_vertices(mesh, limit, true);
     if (property == "degenerate_faces") return places_of_faces(mesh, degenerate_faces(mesh, limit));
     if (property == "duplicate_faces") {
-        auto faces = duplicate_faces(mesh, build_edges(mesh));
+        auto faces = duplicate_faces(mesh);
         faces.resize(std::min(faces.size(), limit));
+        return places_of_faces(mesh, faces);
+    }
+    if (property == "self_intersections") {
+        std::vector<Index> faces;
+        for (const auto& [low, high] : find_self_intersections(mesh, {.limit = limit}).pairs)
+            faces.push_back(low);
         return places_of_faces(mesh, faces);
     }
     return {};

@@ -11,22 +11,22 @@ struct Place {
     Vec3 at;
 };
 
-/// The first places, in order of edge, face or vertex number, that keep the property (a name of property_table)
-/// from holding as a sound mesh has it: for closed, boundary_edges and boundary_loops the edges whose directions do
-/// not cancel; for edge_manifold edges with more than two faces; for oriented edges that two faces run along the
-/// same way; for vertex_manifold vertices of several fans; for degenerate_faces, duplicate_faces and
-/// isolated_vertices these themselves. Empty for properties that are not about places. O(n log n).
+/// The first places, in order of edge, face or vertex number, that keep the property (a name of
+/// property_table) from holding as a sound mesh has it: for closed, boundary_edges and boundary_loops the
+/// edges whose directions do not cancel; for edge_manifold edges with more than two faces; for oriented edges
+/// that two faces run along the same way; for vertex_manifold vertices of several fans; for degenerate_faces,
+/// duplicate_faces and isolated_vertices these themselves; for self_intersections the lower face of each
+/// pair. Empty for properties that are not about places. O(n log n).
 std::vector<Place> places_against(const Mesh& mesh, std::string_view property, std::size_t limit = 10);
 
-/// Whether face f has exactly zero area: a repeated vertex that leaves fewer than three, or all corners on a line.
+/// Whether face f has exactly zero area: all its corners on one line, decided exactly.
 bool is_degenerate(const Mesh& mesh, Index f);
 
-/// For each vertex, how many fans its faces form: faces at a vertex are in one fan when edges at it link them.
-/// Isolated vertices have none.
+/// For each vertex, how many fans its faces form: faces at a vertex are in one fan when edges at it link
+/// them. Isolated vertices have none.
 std::vector<Index> fans_at_vertices(const Mesh& mesh, const EdgeTable& edges);
 
-/// The faces that have the same set of vertices as an earlier face, ascending. Faces without any edge (all corners
-/// at one vertex) are not compared.
-std::vector<Index> duplicate_faces(const Mesh& mesh, const EdgeTable& edges);
+/// The faces that have the same set of vertices as an earlier face, ascending.
+std::vector<Index> duplicate_faces(const Mesh& mesh);
 
 } // namespace facetmill

@@ -2,184 +2,149 @@
 
 #include "base/parallel.hpp"
 #include "geometry/evidence.hpp"
+#include "geometry/links.hpp"
+#include "geometry/self_intersections.hpp"
 #include "mesh/topology.hpp"
 
-#include <numeric>
+#include <algorithm>
+#include <cstdlib>
 
 namespace facetmill {
 
 namespace {
 
-struct EdgeCounts {
-    std::int64_t boundary = 0;
-    bool closed = true, manifold = true, oriented = true;
-};
-
-EdgeCounts count_edges(const Mesh& mesh, const EdgeTable& edges) {
-    return parallel_reduce(
-        edges.size(), EdgeCounts{},
-        [&](std::size_t begin, std::size_t end) {
-            EdgeCounts counts;
-            for (std::size_t e = begin; e < end; ++e) {
-                const auto corners = edges.corners_of(static_cast<Index>(e));
-                std::int64_t balance = 0;
-                for (const Index c : corners) balance += mesh.vertex(c) == edges.edges[e].low ? 1 : -1;
-                counts.boundary += corners.size() == 1;
-                counts.closed &= balance == 0;
-                counts.manifold &= corners.size() <= 2;
-                counts.oriented &= balance >= -1 && balance <= 1;
-            }
-            return counts;
-        },
-        [](EdgeCounts a, const EdgeCounts& b) {
-            a.boundary += b.boundary;
-            a.closed &= b.closed, a.manifold &= b.manifold, a.oriented &= b.oriented;
-            return a;
-        });
-}
-
-/// How many closed chains the boundary edges form. Where two fans meet at a vertex the chains pass each
-/// other: each goes on along its own fan.
-std::int64_t count_boundary_loops(const Mesh& mesh, const EdgeTable& edges) {
-    const auto faces = corner_faces(mesh);
-    std::vector<Index> boundary;
-    std::vector<Index> place(edges.size(), none);
-    for (Index e = 0; e < edges.size(); ++e)
-        if (edges.corners_of(e).size() == 1)
-            place[e] = static_cast<Index>(boundary.size()), boundary.push_back(e);
-    std::vector<Index> parent(boundary.size());
-    std::iota(parent.begin(), parent.end(), Index{0});
-    const auto root = [&](Index i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    std::int64_t loops = static_cast<std::int64_t>(boundary.size());
-    for (const Index e : boundary) {
-        // Turn around the vertex at the end of the edge's only corner, from face to face, to the fan's other
-        // side.
-        Index c = edges.corners_of(e).front();
-        for (std::size_t turns = 0; turns <= mesh.corner_count(); ++turns) {
-            const Index next = next_corner(mesh, faces[c], c);
-            const Index along = edges.corner_edge[next];
-            if (along == none) break;
-            const auto corners = edges.corners_of(along);
-            if (corners.size() == 1) {
-                const Index a = root(place[e]), b = root(place[along]);
-                if (a != b) parent[std::max(a, b)] = std::min(a, b), --loops;
-                break;
-            }
-            const Index other = corners[0] == next ? corners[1] : corners[0];
-            if (mesh.vertex(other) == mesh.vertex(next)) break; // the neighbour is flipped: no fan to follow
-            c = other;
-        }
+/// Sums over faces, by chunks in order.
+struct FaceSums {
+    std::int64_t triangles = 0, degenerate = 0, repeating = 0;
+    double area = 0, volume = 0; ///< volume: six times
+    void add(const FaceSums& b) {
+        triangles += b.triangles, degenerate += b.degenerate, repeating += b.repeating;
+        area += b.area, volume += b.volume;
     }
-    return loops;
-}
-
-struct Sums {
-    double area = 0, volume = 0;
-    std::int64_t degenerate = 0, triangles = 0;
 };
 
-/// Area of polygons as half the length of their vector area; volume by the divergence theorem about the
-/// centre.
-Sums sum_faces(const Mesh& mesh, const Vec3& centre) {
+bool repeats_a_vertex(const Mesh& mesh, Index f) {
+    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+    for (Index a = begin; a < end; ++a)
+        for (Index b = begin; b < a; ++b)
+            if (mesh.vertex(a) == mesh.vertex(b)) return true;
+    return false;
+}
+
+/// Adds the triangle p, a, b of a polygon to its area vector and to the volume, seen from origin.
+void add_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& origin, Vec3& area,
+                  double& volume) {
+    const Vec3 product = cross(a - p, b - p);
+    area += product;
+    volume += dot(p - origin, product);
+}
+
+FaceSums face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, const Vec3& origin) {
     return parallel_reduce(
-        mesh.face_count(), Sums{},
-        [&](std::size_t begin, std::size_t end) {
-            Sums sums;
-            for (std::size_t i = begin; i < end; ++i) {
-                const Index f = static_cast<Index>(i), first = mesh.face_begin(f), last = mesh.face_end(f);
-                const Vec3 a = mesh.point(first) - centre;
-                Vec3 vector_area;
-                for (Index c = first + 1; c + 1 < last; ++c) {
-                    const Vec3 b = mesh.point(c) - centre, d = mesh.point(c + 1) - centre;
-                    vector_area += cross(b - a, d - a);
-                    sums.volume += dot(a, cross(b, d)) / 6;
-                }
-                sums.area += length(vector_area) / 2;
-                sums.triangles += last - first == 3;
+        mesh.face_count(), FaceSums{},
+        [&](std::size_t first, std::size_t last) {
+            FaceSums sums;
+            for (std::size_t i = first; i < last; ++i) {
+                const auto f = static_cast<Index>(i);
+                const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+                Vec3 area;
+                for (Index c = begin + 1; c + 1 < end; ++c)
+                    add_triangle(positions[mesh.vertex(begin)], positions[mesh.vertex(c)],
+                                 positions[mesh.vertex(c + 1)], origin, area, sums.volume);
+                sums.area += length(area) / 2;
+                sums.triangles += end - begin == 3;
                 sums.degenerate += is_degenerate(mesh, f);
+                sums.repeating += end - begin == 3 && repeats_a_vertex(mesh, f);
             }
             return sums;
         },
-        [](Sums a, const Sums& b) {
-            a.area += b.area, a.volume += b.volume;
-            a.degenerate += b.degenerate, a.triangles += b.triangles;
+        [](FaceSums a, const FaceSums& b) {
+            a.add(b);
             return a;
         });
 }
 
-/// The part's mesh as it stands in the world.
-Mesh in_world(const Part& part) {
-    Mesh mesh;
-    mesh.wedge_vertex = part.mesh.wedge_vertex;
-    mesh.corners = part.mesh.corners;
-    mesh.face_offsets = part.mesh.face_offsets;
-    mesh.positions = part.mesh.positions;
-    apply(mesh, part.transform);
-    return mesh;
+/// positions: the mesh's, or where a transform puts them; one that mirrors turns the faces round, as glTF has
+/// it.
+Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, bool mirrored,
+                          const InspectSettings& settings) {
+    Properties p;
+    p.vertices = static_cast<std::int64_t>(mesh.vertex_count());
+    p.wedges = static_cast<std::int64_t>(mesh.wedge_count());
+    p.faces = static_cast<std::int64_t>(mesh.face_count());
+    p.bounds = box_of(positions);
+    const FaceSums sums = face_sums(mesh, positions, p.bounds.empty() ? Vec3{} : p.bounds.centre());
+    const LinkCounts links = count_links(mesh);
+    p.triangles = sums.triangles;
+    p.degenerate_faces = sums.degenerate;
+    p.area = sums.area;
+    p.edges = links.edges;
+    p.boundary_edges = links.boundary_edges;
+    p.boundary_loops = links.boundary_loops;
+    p.isolated_vertices = links.isolated_vertices;
+    p.closed = links.uncancelled_edges == 0;
+    p.edge_manifold = links.crowded_edges == 0;
+    p.vertex_manifold = links.non_manifold_vertices == 0;
+    p.oriented = links.disagreeing_edges == 0;
+    // Triangles of three different vertices are compared where they meet; all else by the hash of its
+    // vertices.
+    p.duplicate_faces = mesh.all_triangles() && sums.repeating == 0
+                            ? links.duplicate_triangles
+                            : static_cast<std::int64_t>(duplicate_faces(mesh).size());
+    p.components = static_cast<std::int64_t>(component_count(mesh));
+    p.euler = p.vertices - p.isolated_vertices - p.edges + p.faces;
+    if (p.closed) p.volume = (mirrored ? -sums.volume : sums.volume) / 6;
+    if (p.closed && p.edge_manifold && p.vertex_manifold && p.oriented) p.genus = p.components - p.euler / 2;
+    if (settings.self_intersections)
+        p.self_intersections = static_cast<std::int64_t>(find_self_intersections(mesh, {.limit = 0}).count);
+    return p;
 }
 
-void add(Properties& all, const Properties& one) {
-    for (auto member :
-         {&Properties::vertices, &Properties::wedges, &Properties::edges, &Properties::faces,
-          &Properties::triangles, &Properties::components, &Properties::euler, &Properties::boundary_loops,
-          &Properties::boundary_edges, &Properties::degenerate_faces, &Properties::duplicate_faces,
-          &Properties::isolated_vertices})
-        all.*member += one.*member;
-    for (auto member : {&Properties::closed, &Properties::edge_manifold, &Properties::vertex_manifold,
-                        &Properties::oriented})
-        all.*member = all.*member && one.*member;
-    for (auto member : {&Properties::genus, &Properties::self_intersections})
-        all.*member =
-            all.*member && one.*member ? std::optional(*(all.*member) + *(one.*member)) : std::nullopt;
-    all.volume = all.volume && one.volume ? std::optional(*all.volume + *one.volume) : std::nullopt;
-    all.area += one.area;
-    all.bounds.add(one.bounds);
+template <class T>
+void add_optional(std::optional<T>& sum, const std::optional<T>& x) {
+    if (sum && x)
+        *sum += *x;
+    else
+        sum.reset();
+}
+
+void add(Properties& sum, const Properties& p) {
+    sum.vertices += p.vertices, sum.wedges += p.wedges, sum.edges += p.edges;
+    sum.faces += p.faces, sum.triangles += p.triangles, sum.components += p.components, sum.euler += p.euler;
+    sum.boundary_loops += p.boundary_loops, sum.boundary_edges += p.boundary_edges;
+    sum.degenerate_faces += p.degenerate_faces, sum.duplicate_faces += p.duplicate_faces;
+    sum.isolated_vertices += p.isolated_vertices;
+    sum.closed = sum.closed && p.closed, sum.oriented = sum.oriented && p.oriented;
+    sum.edge_manifold = sum.edge_manifold && p.edge_manifold;
+    sum.vertex_manifold = sum.vertex_manifold && p.vertex_manifold;
+    sum.area += p.area;
+    add_optional(sum.genus, p.genus);
+    add_optional(sum.volume, p.volume);
+    add_optional(sum.self_intersections, p.self_intersections);
+    sum.bounds.add(p.bounds);
 }
 
 } // namespace
 
-Properties inspect(const Mesh& mesh, const InspectSettings&) {
-    Properties p;
-    const EdgeTable edges = build_edges(mesh);
-    p.vertices = static_cast<std::int64_t>(mesh.vertex_count());
-    p.wedges = static_cast<std::int64_t>(mesh.wedge_count());
-    p.edges = static_cast<std::int64_t>(edges.size());
-    p.faces = static_cast<std::int64_t>(mesh.face_count());
-    p.components = static_cast<std::int64_t>(face_components(mesh).count);
+Properties inspect(const Mesh& mesh, const InspectSettings& settings) {
+    return inspect_placed(mesh, mesh.positions, false, settings);
+}
 
-    const EdgeCounts counts = count_edges(mesh, edges);
-    p.boundary_edges = counts.boundary;
-    p.closed = counts.closed, p.edge_manifold = counts.manifold, p.oriented = counts.oriented;
-    p.boundary_loops = counts.boundary ? count_boundary_loops(mesh, edges) : 0;
-
-    for (const Index fans : fans_at_vertices(mesh, edges)) {
-        p.isolated_vertices += fans == 0;
-        p.vertex_manifold &= fans <= 1;
-    }
-    p.euler = p.vertices - p.isolated_vertices - p.edges + p.faces;
-    if (p.closed && p.edge_manifold && p.vertex_manifold && p.oriented) p.genus = p.components - p.euler / 2;
-
-    p.bounds = mesh.bounds();
-    const Sums sums = sum_faces(mesh, p.bounds.empty() ? Vec3{} : p.bounds.centre());
-    p.area = sums.area;
-    p.triangles = sums.triangles;
-    p.degenerate_faces = sums.degenerate;
-    p.duplicate_faces = static_cast<std::int64_t>(duplicate_faces(mesh, edges).size());
-    if (p.closed) p.volume = sums.volume;
-    return p;
+Properties inspect(const Part& part, const InspectSettings& settings) {
+    if (part.transform.identity()) return inspect(part.mesh, settings);
+    std::vector<Vec3> world(part.mesh.vertex_count());
+    parallel_for(world.size(),
+                 [&](std::size_t v) { world[v] = part.transform.point(part.mesh.positions[v]); });
+    return inspect_placed(part.mesh, world, part.transform.determinant() < 0, settings);
 }
 
 Properties inspect(const Scene& scene, const InspectSettings& settings) {
-    Properties all;
-    all.genus = 0, all.volume = 0;
-    if (settings.self_intersections) all.self_intersections = 0;
-    for (const auto& part : scene.parts)
-        add(all,
-            part.transform.identity() ? inspect(part.mesh, settings) : inspect(in_world(part), settings));
-    return all;
+    Properties sum;
+    sum.genus = 0;
+    sum.volume = 0;
+    if (settings.self_intersections) sum.self_intersections = 0;
+    for (const Part& part : scene.parts) add(sum, inspect(part, settings));
+    return sum;
 }
 
 } // namespace facetmill

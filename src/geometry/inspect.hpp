@@ -1,5 +1,6 @@
 #pragma once
-// The properties of a mesh that info, validate, ensure, when and the report share: one struct, one table of names.
+// The properties of a mesh that info, validate, ensure, when and the report share: one struct, one table of
+// names.
 
 #include "mesh/scene.hpp"
 
@@ -10,18 +11,20 @@
 
 namespace facetmill {
 
-/// All properties of section 7 of the design that are numbers or truths. Of a scene: sums over its parts, and truths
-/// that hold for every part; bounds, area and volume in world space.
+/// All properties of section 7 of the design that are numbers or truths. Of a scene: sums over its parts, and
+/// truths that hold for every part; bounds, area and volume in world space.
 struct Properties {
     std::int64_t vertices = 0, wedges = 0, edges = 0, faces = 0, triangles = 0;
-    std::int64_t components = 0;      ///< connected through vertices; isolated vertices are not counted
-    std::int64_t euler = 0;           ///< V - E + F, V without isolated vertices
-    std::optional<std::int64_t> genus; ///< when closed, edge- and vertex-manifold and oriented: components - euler / 2
+    std::int64_t components = 0; ///< connected through vertices; isolated vertices are not counted
+    std::int64_t euler = 0;      ///< V - E + F, V without isolated vertices
+    std::optional<std::int64_t>
+        genus; ///< when closed, edge- and vertex-manifold and oriented: components - euler / 2
     std::int64_t boundary_loops = 0, boundary_edges = 0;
     bool closed = true;          ///< at every edge the directions of its faces cancel
     bool edge_manifold = true;   ///< at most two faces at an edge
     bool vertex_manifold = true; ///< the faces around each vertex form one fan: edges link them all
-    bool oriented = true;        ///< neighbours agree: the faces that run along an edge either way differ by at most one
+    bool oriented =
+        true; ///< neighbours agree: the faces that run along an edge either way differ by at most one
     std::int64_t degenerate_faces = 0; ///< exactly zero area (repeated vertex, or collinear: exact test)
     std::int64_t duplicate_faces = 0;  ///< faces beyond the first with the same set of vertices
     std::int64_t isolated_vertices = 0;
@@ -35,15 +38,18 @@ struct InspectSettings {
     bool self_intersections = false;
 };
 
-/// Properties of a mesh in its own space. O(n log n) at most, parallel, never throws for a valid mesh (NaN included).
+/// Properties of a mesh in its own space. O(n log n) at most, parallel, never throws for a valid mesh (NaN
+/// included).
 Properties inspect(const Mesh& mesh, const InspectSettings& settings = {});
+/// Of a part in world space; its transform bears on area, volume and bounds.
+Properties inspect(const Part& part, const InspectSettings& settings = {});
 /// Of all parts in world space (closedness is per part, see the design's section 2).
 Properties inspect(const Scene& scene, const InspectSettings& settings = {});
 
 /// An entry of the table of names that users write in validate, ensure and when.
 struct Property {
     std::string_view name;
-    bool truth = false; ///< true or false rather than a number
+    bool truth = false;  ///< true or false rather than a number
     bool costly = false; ///< needs InspectSettings::self_intersections
     std::string_view help;
     /// The value: truths as 0 and 1; none when it does not apply (volume of an open mesh).

@@ -38,12 +38,12 @@ Index Mesh::primitive_of(Index f) const {
     return indices ? (*indices)[f] : 0;
 }
 
-Box Mesh::bounds() const {
+Box box_of(std::span<const Vec3> points) {
     return parallel_reduce(
-        positions.size(), Box{},
+        points.size(), Box{},
         [&](std::size_t begin, std::size_t end) {
             Box box;
-            for (std::size_t v = begin; v < end; ++v) box.add(positions[v]);
+            for (std::size_t i = begin; i < end; ++i) box.add(points[i]);
             return box;
         },
         [](Box a, const Box& b) {
@@ -51,6 +51,8 @@ Box Mesh::bounds() const {
             return a;
         });
 }
+
+Box Mesh::bounds() const { return box_of(positions); }
 
 void add_face(Mesh& mesh, std::span<const Index> wedges) {
     if (mesh.face_offsets.empty() && wedges.size() != 3) {

@@ -77,6 +77,9 @@ struct Mesh {
     Box bounds() const; ///< of the positions that finite faces and isolated vertices use: all of them
 };
 
+/// The box around points, in parallel.
+Box box_of(std::span<const Vec3> points);
+
 /// Name of the face attribute (Role::index, uint32, 1 component) that indexes Mesh::primitives.
 inline constexpr std::string_view primitive_attribute = "primitive";
 

@@ -1,7 +1,8 @@
 #include "mesh/topology.hpp"
 
-#include "base/parallel.hpp"
+#include "mesh/buckets.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 
@@ -21,52 +22,6 @@ std::vector<Index> corner_faces(const Mesh& mesh) {
 }
 
 namespace {
-
-/// Items in buckets by the high bits of a vertex: one scattering pass, after which each bucket (some thousand
-/// items) is sorted in cache. That is a radix sort whose first digit is wide and whose others never leave the
-/// cache.
-template <class Item>
-struct Buckets {
-    int shift = 0;                  ///< bucket of vertex v: v >> shift
-    std::vector<Item> items;        ///< bucket by bucket, in the order of their faces
-    std::vector<std::size_t> begin; ///< [buckets + 1] into items
-    std::size_t count() const { return begin.size() - 1; }
-};
-
-/// visit(f, emit) calls emit(vertex, item) for what face f contributes.
-template <class Item, class Visit>
-Buckets<Item> fill_buckets(const Mesh& mesh, Visit&& visit) {
-    constexpr std::size_t chunk = std::size_t{1} << 15;
-    const std::size_t faces = mesh.face_count(), vertices = mesh.vertex_count();
-    Buckets<Item> result;
-    const int bits = std::bit_width(vertices > 0 ? vertices - 1 : 0);
-    result.shift = std::max(0, bits - 11);
-    const std::size_t buckets = vertices == 0 ? 0 : ((vertices - 1) >> result.shift) + 1,
-                      chunks = (faces + chunk - 1) / chunk;
-    std::vector<std::size_t> counts(chunks * buckets, 0);
-    const auto for_faces = [&](auto&& body) {
-        parallel_chunks(
-            faces,
-            [&](std::size_t begin, std::size_t end) {
-                std::size_t* mine = counts.data() + begin / chunk * buckets;
-                for (std::size_t f = begin; f < end; ++f)
-                    visit(static_cast<Index>(f),
-                          [&](Index v, const Item& item) { body(mine[v >> result.shift], item); });
-            },
-            chunk);
-    };
-    for_faces([](std::size_t& count, const Item&) { ++count; });
-    result.begin.resize(buckets + 1, 0);
-    std::size_t sum = 0;
-    for (std::size_t b = 0; b < buckets; ++b) {
-        result.begin[b] = sum;
-        for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(counts[c * buckets + b], sum);
-    }
-    result.begin[buckets] = sum;
-    result.items.resize(sum);
-    for_faces([&](std::size_t& at, const Item& item) { result.items[at++] = item; });
-    return result;
-}
 
 struct HalfEdge {
     Index low, high, corner;
@@ -199,38 +154,43 @@ VertexLists corners_at_vertices(const Mesh& mesh) {
 }
 
 namespace {
+Index load(Index& i) { return std::atomic_ref(i).load(std::memory_order_relaxed); }
+} // namespace
 
-/// Sets that are joined from several threads at once. A root only ever points to a lower one, so the root of
-/// a finished set is its lowest member, whatever the order of the joins.
-class DisjointSets {
-  public:
-    explicit DisjointSets(std::size_t n) : parent_(n) {
-        parallel_for(n, [&](std::size_t i) { parent_[i] = static_cast<Index>(i); });
-    }
-    Index find(Index i) {
-        for (;;) {
-            const Index p = load(i), above = load(p);
-            if (p == above) return p;
-            Index expected = p;
-            std::atomic_ref(parent_[i]).compare_exchange_weak(expected, above, std::memory_order_relaxed);
-            i = above;
-        }
-    }
-    void join(Index a, Index b) {
-        for (;;) {
-            a = find(a), b = find(b);
-            if (a == b) return;
-            if (a > b) std::swap(a, b);
-            Index expected = b;
-            if (std::atomic_ref(parent_[b]).compare_exchange_strong(expected, a, std::memory_order_relaxed))
-                return;
-        }
-    }
+DisjointSets::DisjointSets(std::size_t n) : parent_(n) {
+    parallel_for(n, [&](std::size_t i) { parent_[i] = static_cast<Index>(i); });
+}
 
-  private:
-    Index load(Index i) { return std::atomic_ref(parent_[i]).load(std::memory_order_relaxed); }
-    std::vector<Index> parent_;
-};
+Index DisjointSets::find(Index i) {
+    for (;;) {
+        const Index p = load(parent_[i]), above = load(parent_[p]);
+        if (p == above) return p;
+        Index expected = p; // halve the path; another thread may have been faster
+        std::atomic_ref(parent_[i]).compare_exchange_weak(expected, above, std::memory_order_relaxed);
+        i = above;
+    }
+}
+
+void DisjointSets::join(Index a, Index b) {
+    for (;;) {
+        a = find(a), b = find(b);
+        if (a == b) return;
+        if (a > b) std::swap(a, b);
+        Index expected = b;
+        if (std::atomic_ref(parent_[b]).compare_exchange_strong(expected, a, std::memory_order_relaxed))
+            return;
+    }
+}
+
+namespace {
+
+void join_corners(const Mesh& mesh, DisjointSets& vertices) {
+    parallel_for(mesh.face_count(), [&](std::size_t f) {
+        const Index begin = mesh.face_begin(static_cast<Index>(f)),
+                    end = mesh.face_end(static_cast<Index>(f));
+        for (Index c = begin + 1; c < end; ++c) vertices.join(mesh.vertex(c - 1), mesh.vertex(c));
+    });
+}
 
 /// Roots into numbers, in the order of the first face that has them.
 Components numbered(std::vector<Index> roots, std::size_t elements) {
@@ -245,6 +205,18 @@ Components numbered(std::vector<Index> roots, std::size_t elements) {
 }
 
 } // namespace
+
+std::size_t component_count(const Mesh& mesh) {
+    DisjointSets sets(mesh.vertex_count());
+    join_corners(mesh, sets);
+    std::vector<std::uint8_t> is_root(mesh.vertex_count(),
+                                      0); // roots of faces, so isolated vertices stay out
+    parallel_for(mesh.corner_count(), [&](std::size_t c) {
+        const Index v = mesh.vertex(static_cast<Index>(c));
+        if (sets.find(v) == v) std::atomic_ref(is_root[v]).store(1, std::memory_order_relaxed);
+    });
+    return static_cast<std::size_t>(std::count(is_root.begin(), is_root.end(), 1));
+}
 
 Components face_components(const Mesh& mesh, bool by_vertex) {
     const std::size_t faces = mesh.face_count();

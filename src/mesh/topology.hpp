@@ -53,5 +53,20 @@ struct Components {
     std::size_t count = 0;
 };
 Components face_components(const Mesh& mesh, bool by_vertex = true);
+/// face_components(mesh).count, without the numbering.
+std::size_t component_count(const Mesh& mesh);
+
+/// Sets that are joined from several threads at once. A root only ever points to a lower one, so the root of
+/// a finished set is its lowest member, whatever the order of the joins.
+class DisjointSets {
+  public:
+    explicit DisjointSets(std::size_t n);
+    /// The lowest member known of i's set; final once all joins are done.
+    Index find(Index i);
+    void join(Index a, Index b);
+
+  private:
+    std::vector<Index> parent_;
+};
 
 } // namespace facetmill

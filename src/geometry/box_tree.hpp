@@ -1,0 +1,58 @@
+#pragma once
+// A tree of boxes over items along a Morton curve, to find the items whose boxes meet a given one.
+
+#include "base/vec.hpp"
+#include "mesh/mesh.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace facetmill {
+
+/// Built once from the items' boxes, in parallel, the same for any number of threads; then only read. Items
+/// with an empty box are never found.
+class BoxTree {
+  public:
+    explicit BoxTree(std::vector<Box> boxes);
+
+    /// Calls found(item) for every item whose box meets `box`, touching included; in an order that depends on
+    /// the boxes only.
+    template <class Found>
+    void visit(const Box& box, Found&& found) const {
+        if (levels_.empty()) return;
+        struct Node {
+            std::uint32_t level, index;
+        };
+        Node stack[128]; // two children at each of at most 32 levels
+        int size = 0;
+        stack[size++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
+        while (size > 0) {
+            const Node node = stack[--size];
+            if (!meet(levels_[node.level][node.index], box)) continue;
+            if (node.level == 0) {
+                const std::size_t end = std::min(boxes_.size(), std::size_t{node.index + 1} * leaf);
+                for (std::size_t i = std::size_t{node.index} * leaf; i < end; ++i)
+                    if (meet(boxes_[i], box)) found(items_[i]);
+                continue;
+            }
+            const std::uint32_t child = 2 * node.index;
+            if (child + 1 < levels_[node.level - 1].size()) stack[size++] = {node.level - 1, child + 1};
+            stack[size++] = {node.level - 1, child};
+        }
+    }
+
+  private:
+    static constexpr std::size_t leaf = 4; ///< items in a leaf
+
+    static bool meet(const Box& a, const Box& b) {
+        return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+               a.min.z <= b.max.z && b.min.z <= a.max.z;
+    }
+
+    std::vector<Index> items_; ///< along the curve
+    std::vector<Box> boxes_;   ///< of items_
+    std::vector<std::vector<Box>>
+        levels_; ///< leaves first, the root last; node i stands over nodes 2i and 2i + 1
+};
+
+} // namespace facetmill

@@ -1,0 +1,25 @@
+#pragma once
+// What the faces around each vertex tell of a mesh: edges, boundary, manifoldness, orientation, in one pass
+// and without an edge table.
+
+#include "mesh/mesh.hpp"
+
+#include <cstdint>
+
+namespace facetmill {
+
+/// The part of Properties that follows from connectivity alone; the meaning of each is told there.
+struct LinkCounts {
+    std::int64_t edges = 0, boundary_edges = 0, boundary_loops = 0, isolated_vertices = 0;
+    std::int64_t uncancelled_edges = 0; ///< where the directions of the faces do not cancel
+    std::int64_t crowded_edges = 0;     ///< with more than two faces
+    std::int64_t disagreeing_edges = 0; ///< where more than one face is left when opposite ones are paired
+    std::int64_t non_manifold_vertices = 0; ///< whose faces form several fans: edges do not link them all
+    std::int64_t duplicate_triangles =
+        0; ///< of an all-triangle mesh: triangles of three vertices seen before
+};
+
+/// Counts all of it. O(corners log(faces at a vertex)), parallel, the same for any number of threads.
+LinkCounts count_links(const Mesh& mesh);
+
+} // namespace facetmill

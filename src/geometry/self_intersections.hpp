@@ -1,0 +1,30 @@
+#pragma once
+// Which faces of a mesh run into each other.
+
+#include "mesh/mesh.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace facetmill {
+
+struct SelfIntersectionSettings {
+    std::size_t limit = 10; ///< how many pairs are listed; all are counted
+};
+
+struct SelfIntersections {
+    std::size_t count = 0; ///< pairs of faces
+    std::vector<std::pair<Index, Index>>
+        pairs; ///< the first by (lower, higher face), as many as the limit allows
+};
+
+/// Finds the pairs of faces that meet elsewhere than in the vertices and edges they share, decided exactly
+/// (CGAL's exact predicates) on the positions as they are. Sharing is by vertex index: faces that touch at
+/// equal positions of different vertices do meet elsewhere. Neighbours that fold over each other in one plane
+/// count. Faces without area take no part (Properties::degenerate_faces counts them), nor do those with
+/// coordinates that are not finite. Polygons stand for their triangles (mesh/triangulated), which do not
+/// count among themselves. Boxes are searched in a tree along a Morton curve: O(n log n) and the pairs there
+/// are. Parallel; the same for any number of threads.
+SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings = {});
+
+} // namespace facetmill

@@ -1,0 +1,65 @@
+#pragma once
+// Items of the faces of a mesh, gathered by vertex: what edge tables and everything around a vertex are built
+// from.
+
+#include "base/parallel.hpp"
+#include "mesh/mesh.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace facetmill {
+
+/// Items in buckets by the high bits of a vertex: one scattering pass, after which each bucket (some thousand
+/// items) is sorted in cache. That is a radix sort whose first digit is wide and whose others never leave the
+/// cache.
+template <class Item>
+struct Buckets {
+    int shift = 0;                  ///< bucket of vertex v: v >> shift
+    std::vector<Item> items;        ///< bucket by bucket, in the order of their faces
+    std::vector<std::size_t> begin; ///< [buckets + 1] into items
+    std::size_t count() const { return begin.size() - 1; }
+    std::span<const Item> of(std::size_t b) const {
+        return {items.data() + begin[b], items.data() + begin[b + 1]};
+    }
+    /// The vertices of bucket b: [first_vertex(b), first_vertex(b + 1)), the last cut at the number of
+    /// vertices.
+    std::size_t first_vertex(std::size_t b) const { return b << shift; }
+};
+
+/// visit(f, emit) calls emit(vertex, item) for what face f contributes.
+template <class Item, class Visit>
+Buckets<Item> fill_buckets(const Mesh& mesh, Visit&& visit) {
+    constexpr std::size_t chunk = std::size_t{1} << 15;
+    const std::size_t faces = mesh.face_count(), vertices = mesh.vertex_count();
+    Buckets<Item> result;
+    const int bits = std::bit_width(vertices > 0 ? vertices - 1 : 0);
+    result.shift = std::max(0, bits - 11);
+    const std::size_t buckets = vertices == 0 ? 0 : ((vertices - 1) >> result.shift) + 1,
+                      chunks = (faces + chunk - 1) / chunk;
+    std::vector<std::size_t> counts(chunks * buckets, 0);
+    const auto for_faces = [&](auto&& body) {
+        parallel_chunks(
+            faces,
+            [&](std::size_t begin, std::size_t end) {
+                std::size_t* mine = counts.data() + begin / chunk * buckets;
+                for (std::size_t f = begin; f < end; ++f)
+                    visit(static_cast<Index>(f),
+                          [&](Index v, const Item& item) { body(mine[v >> result.shift], item); });
+            },
+            chunk);
+    };
+    for_faces([](std::size_t& count, const Item&) { ++count; });
+    result.begin.resize(buckets + 1, 0);
+    std::size_t sum = 0;
+    for (std::size_t b = 0; b < buckets; ++b) {
+        result.begin[b] = sum;
+        for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(counts[c * buckets + b], sum);
+    }
+    result.begin[buckets] = sum;
+    result.items.resize(sum);
+    for_faces([&](std::size_t& at, const Item& item) { result.items[at++] = item; });
+    return result;
+}
+
+} // namespace facetmill

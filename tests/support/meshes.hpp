@@ -1,0 +1,103 @@
+#pragma once
+// Random meshes for property tests: the same for the same seed, on every machine.
+
+#include "base/functions.hpp"
+#include "base/random.hpp"
+#include "mesh/lineage.hpp"
+#include "mesh/shapes.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace facetmill::testing {
+
+/// A number in (low, high) for a seed and a key.
+inline double between(double low, double high, std::uint64_t seed, std::uint64_t key) {
+    return low + (high - low) * uniform(hashed(seed, key));
+}
+
+/// Moves every vertex along its direction from the origin by up to amount, relative to its distance.
+inline Mesh with_radial_noise(Mesh mesh, double amount, std::uint64_t seed) {
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        mesh.positions[v] *= 1 + between(-amount, amount, seed, v);
+    return mesh;
+}
+
+/// Moves every vertex by up to amount along each axis.
+inline Mesh with_noise(Mesh mesh, double amount, std::uint64_t seed) {
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        for (std::size_t i = 0; i < 3; ++i) mesh.positions[v][i] += between(-amount, amount, seed, 3 * v + i);
+    return mesh;
+}
+
+/// Closed, genus 0, no self-intersections (it is star-shaped), 20 * 4^levels faces.
+inline Mesh noisy_icosphere(int levels, double amount, std::uint64_t seed) {
+    return with_radial_noise(shapes::icosphere(levels), amount, seed);
+}
+
+/// Closed, genus 1; for amounts that are small beside its cells without self-intersections.
+inline Mesh noisy_torus(int around, int across, double amount, std::uint64_t seed) {
+    return with_noise(shapes::torus(around, across), amount, seed);
+}
+
+/// The same surface with wedges: TEXCOORD_0 with seams (each of `charts` slabs along x is a chart of its own,
+/// so that vertices where slabs meet have several wedges) and a smooth NORMAL.
+inline Mesh with_uv_seams(const Mesh& mesh, int charts = 3) {
+    const Box box = mesh.bounds();
+    const auto chart_of = [&](Index f) {
+        Vec3 sum;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
+        const double t = (sum.x / mesh.face_size(f) - box.min.x) / (box.extent().x > 0 ? box.extent().x : 1);
+        return std::min(charts - 1, static_cast<int>(t * charts));
+    };
+    Mesh seamed;
+    seamed.positions = mesh.positions;
+    seamed.face_offsets = mesh.face_offsets;
+    std::map<std::pair<Index, int>, Index> wedges;
+    std::vector<float> uvs, normals;
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+            const Index v = mesh.vertex(c);
+            const auto [at, added] = wedges.try_emplace({v, chart_of(f)}, static_cast<Index>(wedges.size()));
+            seamed.corners.push_back(at->second);
+            if (!added) continue;
+            seamed.wedge_vertex.push_back(v);
+            const Vec3& p = mesh.positions[v];
+            uvs.push_back(static_cast<float>(p.y + 10 * at->first.second));
+            uvs.push_back(static_cast<float>(p.z));
+            const Vec3 n = normalised(p);
+            normals.insert(normals.end(),
+                           {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)});
+        }
+    seamed.attributes.push_back({"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::move(uvs)});
+    seamed.attributes.push_back({"NORMAL", Domain::wedge, Role::normal, 3, false, std::move(normals)});
+    return seamed;
+}
+
+/// Every triangle with vertices of its own, as STL has it: welding brings the mesh back.
+inline Mesh torn_apart(const Mesh& mesh) {
+    Mesh soup;
+    for (Index c = 0; c < mesh.corner_count(); ++c) {
+        soup.corners.push_back(c);
+        soup.positions.push_back(mesh.point(c));
+    }
+    return soup;
+}
+
+/// Triangles of random size at random places, none sharing a vertex: open, crossing each other.
+inline Mesh random_triangles(std::size_t count, double size, std::uint64_t seed) {
+    Mesh mesh;
+    for (std::size_t t = 0; t < count; ++t) {
+        Vec3 centre;
+        for (std::size_t i = 0; i < 3; ++i) centre[i] = between(0, 1, seed, 20 * t + i);
+        for (std::size_t k = 0; k < 3; ++k) {
+            Vec3 p = centre;
+            for (std::size_t i = 0; i < 3; ++i) p[i] += between(-size, size, seed, 20 * t + 3 + 3 * k + i);
+            mesh.corners.push_back(static_cast<Index>(mesh.positions.size()));
+            mesh.positions.push_back(p);
+        }
+    }
+    return mesh;
+}
+
+} // namespace facetmill::testing
