@@ -5,7 +5,7 @@
 # shells, a second Draco reader, and node for the glTF validator.
 set -eu
 
-build="g++ cmake ninja-build pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libyaml-cpp-dev
+build="g++ cmake ninja-build pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
     libcli11-dev libfmt-dev libtbb-dev libeigen3-dev libssl-dev zlib1g-dev"
 test="catch2 python3 python3-jsonschema"
 optional="ccache zsh fish draco nodejs npm mandoc"

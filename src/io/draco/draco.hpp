@@ -1,0 +1,61 @@
+#pragma once
+// Draco's compressed meshes, without Draco's types: its headers are included in this folder only.
+
+#include "io/bytes.hpp"
+#include "io/codec.hpp"
+#include "mesh/mesh.hpp"
+
+namespace facetmill::io {
+
+/// What Draco takes an attribute for: it decides prediction and quantisation.
+enum class DracoKind { position, normal, uv, colour, generic };
+
+/// One attribute of a compressed mesh: a tuple per point.
+struct DracoColumn {
+    std::string name; ///< from the metadata, or empty
+    DracoKind kind = DracoKind::generic;
+    std::uint32_t id = 0; ///< the unique id by which glTF names it
+    int components = 1;
+    bool normalised = false;
+    AttributeData data; ///< [points * components]
+};
+
+/// A decoded mesh. A point is what glTF calls a vertex, here a wedge.
+struct DracoMesh {
+    std::size_t points = 0;
+    std::vector<Index> triangles; ///< three points each
+    std::vector<DracoColumn> columns;
+};
+
+/// True when the bytes begin with Draco's magic number.
+bool is_draco(Span bytes);
+/// Decodes a mesh. Throws malformed (E-DRACO), also for point clouds.
+DracoMesh decode_draco(Span bytes);
+
+/// A mesh to compress.
+struct DracoInput {
+    std::vector<float> vertices; ///< x, y, z: one per vertex and not per point, so that seams do not crack
+    std::vector<Index> point_vertex;  ///< [points]
+    std::vector<Index> triangles;     ///< three points each
+    std::vector<DracoColumn> columns; ///< all but the positions; ids are ignored
+    float origin[3] = {0, 0, 0}; ///< of the grid that positions are quantised to: the same for all primitives
+    float range = 1;             ///< of a mesh, so that their common borders stay together
+    bool keep_order = false; ///< points keep their order (morph targets are not compressed and rely on it)
+};
+
+/// Sets the quantisation grid to the cube of the mesh's bounds, rounded outwards to float32.
+void set_draco_grid(const Mesh& mesh, DracoInput& input);
+
+struct DracoOutput {
+    Bytes bytes;
+    DracoMesh decoded; ///< what a reader will see
+    std::uint32_t position_id = 0;
+    std::vector<std::uint32_t> ids; ///< of the columns, in order
+    bool sequential = false;
+};
+
+/// Compresses with Edgebreaker; with the sequential method when order matters, or when Edgebreaker would drop
+/// faces (it drops degenerate ones). Throws stage (E-DRACO) when Draco cannot do it at all.
+DracoOutput encode_draco(const DracoInput& input, const DracoSettings& settings);
+
+} // namespace facetmill::io

@@ -1,0 +1,139 @@
+#include "io/gltf_patch.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+std::set<std::size_t> animated_nodes(const Json& document) {
+    std::set<std::size_t> nodes;
+    for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
+        const Place channels = item(document, "animations", a).at("channels");
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            const Place target = channels.at(c).at("target");
+            if (target.text_or("path", "") != "weights" && target.find("node"))
+                nodes.insert(target.at("node").index(count_of(document, "nodes"), "node"));
+        }
+    }
+    return nodes;
+}
+
+void remove_mesh(Json& node) {
+    for (const char* key : {"mesh", "skin", "weights"}) node.erase(key);
+}
+
+void set_mesh(Patch& patch, std::size_t node, const Placement& placement, int part, int mesh) {
+    Json& json = patch.builder.json()["nodes"][node];
+    if (part < 0 || mesh < 0) return remove_mesh(json);
+    json["mesh"] = mesh;
+    const Json& object = patch.builder.json()["meshes"][static_cast<std::size_t>(mesh)];
+    const Json& first = object["primitives"][0];
+    const std::size_t targets = first.contains("targets") ? first["targets"].size() : 0;
+    if (json.contains("weights") && json["weights"].size() != targets) json.erase("weights");
+    const std::string& name = patch.scene.parts[static_cast<std::size_t>(part)].name;
+    if (name != placement.name) json["name"] = name;
+}
+
+/// Where each node of the document should be now: parts where they say, everything else where it was.
+std::vector<Transform> wanted_worlds(const Patch& patch) {
+    std::vector<Transform> worlds;
+    for (const auto& frame : patch.frames) worlds.push_back(frame.world);
+    for (std::size_t p = 0; p < patch.placements.size(); ++p) {
+        const auto& placement = patch.placements[p];
+        if (patch.claimed[p] >= 0 && placement.node >= 0 && !placement.skinned)
+            worlds[static_cast<std::size_t>(placement.node)] =
+                patch.scene.parts[static_cast<std::size_t>(patch.claimed[p])].transform;
+    }
+    return worlds;
+}
+
+/// Gives a node a matrix in place of what it had.
+void set_matrix(Json& node, const Transform& local) {
+    for (const char* key : {"translation", "rotation", "scale", "matrix"}) node.erase(key);
+    if (!local.identity()) node["matrix"] = matrix(local);
+}
+
+/// Nodes whose parents and own place are as they were keep their transform as written.
+void move_nodes(Patch& patch) {
+    const auto wanted = wanted_worlds(patch);
+    const auto animated = animated_nodes(patch.builder.json());
+    for (const std::size_t n : parents_first(patch.frames)) {
+        const auto& frame = patch.frames[n];
+        const auto parent = static_cast<std::size_t>(frame.parent);
+        const bool parent_moved = frame.parent >= 0 && wanted[parent] != patch.frames[parent].world;
+        if (!parent_moved && wanted[n] == frame.world) continue;
+        const auto up = frame.parent < 0 ? Transform{} : inverse(wanted[parent]);
+        if (animated.count(n) || !up) {
+            patch.warn("W-TRANSFORM",
+                       fmt::format("nodes[{}] is {} and keeps its transform, although its part has moved", n,
+                                   up ? "animated" : "under a node without volume"));
+            continue;
+        }
+        set_matrix(patch.builder.json()["nodes"][n], *up * wanted[n]);
+    }
+}
+
+/// The scene that new nodes are put into: the default one.
+Json& root_nodes(Json& document) {
+    if (count_of(document, "scenes") == 0) {
+        document["scenes"] = Json::array({Json::object()});
+        document["scene"] = 0;
+    }
+    const std::size_t index = document.contains("scene")
+                                  ? Place(document, "").at("scene").index(document["scenes"].size(), "scene")
+                                  : 0;
+    Json& nodes = document["scenes"][index]["nodes"];
+    if (!nodes.is_array()) nodes = Json::array();
+    return nodes;
+}
+
+void add_node(Patch& patch, const Part& part, int mesh) {
+    Json node = {{"name", part.name}};
+    if (mesh >= 0) node["mesh"] = mesh;
+    Json& document = patch.builder.json();
+    if (part.skinned && mesh >= 0 && part.document == patch.base && part.node >= 0 &&
+        static_cast<std::size_t>(part.node) < patch.frames.size()) {
+        const Json& source = patch.builder.source().json()["nodes"][static_cast<std::size_t>(part.node)];
+        if (source.contains("skin")) node["skin"] = source["skin"];
+    } else if (!part.transform.identity()) {
+        node["matrix"] = matrix(part.transform);
+    }
+    const std::size_t index = patch.builder.add("nodes", std::move(node));
+    root_nodes(document).push_back(index);
+}
+
+} // namespace
+
+void claim_placements(Patch& patch) {
+    if (patch.base < 0) return;
+    patch.frames = node_frames(patch.builder.json());
+    patch.placements = placements(patch.builder.json(), patch.frames);
+    patch.claimed.assign(patch.placements.size(), -1);
+    std::map<std::pair<int, int>, std::size_t> placement_at; // by node and mesh
+    for (std::size_t p = 0; p < patch.placements.size(); ++p)
+        placement_at[{patch.placements[p].node, patch.placements[p].mesh}] = p;
+    for (std::size_t i = 0; i < patch.scene.parts.size(); ++i) {
+        const Part& part = patch.scene.parts[i];
+        const auto found = placement_at.find({part.node, part.source_mesh});
+        // The first part of a placement keeps its node; parts split off it get new ones.
+        if (part.document == patch.base && found != placement_at.end() && patch.claimed[found->second] < 0)
+            patch.claimed[found->second] = static_cast<int>(i);
+    }
+}
+
+void patch_nodes(Patch& patch, const std::vector<int>& mesh_of_part) {
+    std::vector<char> placed(patch.scene.parts.size());
+    for (std::size_t p = 0; p < patch.placements.size(); ++p) {
+        const int part = patch.claimed[p], node = patch.placements[p].node;
+        if (part >= 0) placed[static_cast<std::size_t>(part)] = true;
+        if (node >= 0)
+            set_mesh(patch, static_cast<std::size_t>(node), patch.placements[p], part,
+                     part < 0 ? -1 : mesh_of_part[static_cast<std::size_t>(part)]);
+    }
+    if (patch.base >= 0) move_nodes(patch);
+    for (std::size_t i = 0; i < patch.scene.parts.size(); ++i)
+        if (!placed[i]) add_node(patch, patch.scene.parts[i], mesh_of_part[i]);
+}
+
+} // namespace facetmill::io::gltf

@@ -1,0 +1,11 @@
+#!/bin/sh
+# setup.sh DIRECTORY
+# Installs the Khronos glTF validator (npm package gltf-validator) into DIRECTORY, a folder of the build tree. Does
+# nothing when it is there. The tests that need it say so when it is missing.
+set -eu
+[ $# = 1 ] || { echo "usage: setup.sh DIRECTORY" >&2; exit 2; }
+[ -d "$1/node_modules/gltf-validator" ] && exit 0
+command -v npm >/dev/null || { echo "setup.sh: npm is missing: apt-get install nodejs npm" >&2; exit 1; }
+mkdir -p "$1"
+cd "$1"
+npm install --no-save --no-audit --no-fund --loglevel=error gltf-validator@2.0.0-dev.3.10
