@@ -24,8 +24,8 @@ std::string type_text(const Option& o) {
 
 void collect(const Declaration& declaration, const std::string& prefix, std::vector<OptionRow>& out) {
     for (const auto& o : declaration.options) {
-        OptionRow row{prefix + o.name, type_text(o), o.default_text, o.required,
-                      o.primary && prefix.empty(), o.repeatable, o.help, o.choices, o.dimension};
+        OptionRow row{prefix + o.name, type_text(o), o.default_text, o.required, o.primary && prefix.empty(),
+                      o.repeatable,    o.help,       o.choices,      o.dimension};
         if (o.fields && !o.fields->shorthand_help.empty()) row.help += " Short: " + o.fields->shorthand_help;
         out.push_back(std::move(row));
         if (o.fields) collect(*o.fields, prefix + o.name + ".", out);
@@ -54,12 +54,17 @@ std::vector<std::string> rules(const Declaration& declaration) {
 std::string spelling_help(Dimension dimension) {
     switch (dimension) {
     case Dimension::length:
-        return "A length is a number in scene units, has a physical unit (2mm, 0.1in), or is a percentage of the "
-               "bounding-box diagonal of the scene entering the stage (0.5%; '0.5% of part' and '0.5% of load' say "
+        return "A length is a number in scene units, has a physical unit (2mm, 0.1in), or is a percentage of "
+               "the "
+               "bounding-box diagonal of the scene entering the stage (0.5%; '0.5% of part' and '0.5% of "
+               "load' say "
                "otherwise).";
-    case Dimension::angle: return "An angle is in degrees (30, 30deg) or radians (0.5rad).";
-    case Dimension::ratio: return "A ratio is a percentage (25%) or a number with a point (0.25).";
-    default: return {};
+    case Dimension::angle:
+        return "An angle is in degrees (30, 30deg) or radians (0.5rad).";
+    case Dimension::ratio:
+        return "A ratio is a percentage (25%) or a number with a point (0.25).";
+    default:
+        return {};
     }
 }
 

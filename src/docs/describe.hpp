@@ -7,11 +7,11 @@ namespace facetmill::docs {
 
 /// An option as people read it. Fields of a group follow it, with dotted names.
 struct OptionRow {
-    std::string name;           ///< "iterations", "plane.normal"
-    std::string type;           ///< "integer, x >= 1", "one of fast, exact", "length"
-    std::string default_text;   ///< empty: none
+    std::string name;         ///< "iterations", "plane.normal"
+    std::string type;         ///< "integer, x >= 1", "one of fast, exact", "length"
+    std::string default_text; ///< empty: none
     bool required = false, primary = false, repeatable = false;
-    std::string help;           ///< with the shorthand of a group
+    std::string help; ///< with the shorthand of a group
     std::vector<Choice> choices;
     Dimension dimension = Dimension::none;
 };
@@ -24,8 +24,8 @@ std::string spelling_help(Dimension dimension);
 /// spelling_help of every dimension that the rows use, once each.
 std::vector<std::string> spelling_helps(const std::vector<OptionRow>& rows);
 
-/// Text broken at blanks into lines of at most width characters, each led by indent blanks. Words longer than a
-/// line stand alone; line breaks in the text are kept.
+/// Text broken at blanks into lines of at most width characters, each led by indent blanks. Words longer than
+/// a line stand alone; line breaks in the text are kept.
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width = 100);
 
 } // namespace facetmill::docs

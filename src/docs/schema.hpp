@@ -5,9 +5,9 @@
 
 namespace facetmill::docs {
 
-/// The whole language: params, stages with all their options, branch, foreach, common keys, report. Wherever a value
-/// stands, an expression (${x}) may stand too. It accepts what `facetmill check` accepts, and more: ranges, exclusive
-/// options and names are judged by check.
+/// The whole language: params, stages with all their options, branch, foreach, common keys, report. Wherever
+/// a value stands, an expression (${x}) may stand too. It accepts what `facetmill check` accepts, and more:
+/// ranges, exclusive options and names are judged by check.
 Json pipeline_schema();
 
 } // namespace facetmill::docs

@@ -14,15 +14,19 @@ std::string roff(std::string_view text) {
     for (std::size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
         if ((c == '.' || c == '\'') && (i == 0 || text[i - 1] == '\n')) out += "\\&";
-        if (c == '\\') out += "\\e";
-        else if (c == '-') out += "\\-";
-        else out += c;
+        if (c == '\\')
+            out += "\\e";
+        else if (c == '-')
+            out += "\\-";
+        else
+            out += c;
     }
     return out;
 }
 
 std::string upper(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'a' && c <= 'z' ? c - 32 : c; });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'a' && c <= 'z' ? c - 32 : c; });
     return text;
 }
 
@@ -40,7 +44,8 @@ std::string option_entry(const OptionRow& row) {
 std::string section(const StageInfo& s) {
     std::string text = fmt::format(".SH {}\n{}\n", roff(upper(s.name)), roff(s.about));
     if (!s.details.empty()) text += fmt::format(".PP\n{}\n", roff(s.details));
-    if (!s.options.shorthand_help.empty()) text += fmt::format(".PP\nA bare value: {}\n", roff(s.options.shorthand_help));
+    if (!s.options.shorthand_help.empty())
+        text += fmt::format(".PP\nA bare value: {}\n", roff(s.options.shorthand_help));
     for (const auto& row : rows(s.options)) text += option_entry(row);
     for (const auto& rule : rules(s.options)) text += fmt::format(".PP\nGiven: {}.\n", roff(rule));
     if (!s.examples.empty()) text += ".PP\nExamples:\n.PP\n.nf\n.RS\n";
@@ -52,13 +57,16 @@ std::string section(const StageInfo& s) {
 } // namespace
 
 std::string stages_man() {
-    std::string text = fmt::format(".TH FACETMILL\\-STAGES 7 \"\" \"facetmill {}\" \"facetmill\"\n", FACETMILL_VERSION);
-    text += ".SH NAME\nfacetmill\\-stages \\- the stages of a facetmill pipeline and their options\n"
-            ".SH DESCRIPTION\nEach item of a pipeline is one stage with its options.\n"
-            "In a pipeline file an option is a key, in\n.B facetmill pipe\nit is\n.BI \\-\\-option \" value\"\n"
-            "with the fields of groups dotted.\n";
+    std::string text =
+        fmt::format(".TH FACETMILL\\-STAGES 7 \"2026-11-21\" \"facetmill {}\" \"facetmill\"\n", FACETMILL_VERSION);
+    text +=
+        ".SH NAME\nfacetmill\\-stages \\- the stages of a facetmill pipeline and their options\n"
+        ".SH DESCRIPTION\nEach item of a pipeline is one stage with its options.\n"
+        "In a pipeline file an option is a key, in\n.B facetmill pipe\nit is\n.BI \\-\\-option \" value\"\n"
+        "with the fields of groups dotted.\n";
     text += "Every stage also takes these keys:\n";
-    for (const auto& key : common_keys()) text += fmt::format(".TP\n.B {}\n{}\n", roff(key.name), roff(key.help));
+    for (const auto& key : common_keys())
+        text += fmt::format(".TP\n.B {}\n{}\n", roff(key.name), roff(key.help));
     for (const auto d : {Dimension::length, Dimension::angle, Dimension::ratio})
         text += fmt::format(".PP\n{}\n", roff(spelling_help(d)));
     for (const auto& s : stages()) text += section(s);

@@ -11,9 +11,12 @@ namespace {
 std::string cell(std::string_view text) {
     std::string out;
     for (const char c : text) {
-        if (c == '|') out += "\\|";
-        else if (c == '<') out += "&lt;";
-        else out += c == '\n' ? ' ' : c;
+        if (c == '|')
+            out += "\\|";
+        else if (c == '<')
+            out += "&lt;";
+        else
+            out += c == '\n' ? ' ' : c;
     }
     return out;
 }
@@ -25,8 +28,8 @@ std::string option_row(const OptionRow& row) {
     const std::string preset = row.required               ? "needed"
                                : row.default_text.empty() ? ""
                                                           : fmt::format("`{}`", cell(row.default_text));
-    return fmt::format("| `{}`{} | {} | {} | {} |\n", row.name, row.primary ? " (bare value)" : "", cell(row.type),
-                       preset, cell(help));
+    return fmt::format("| `{}`{} | {} | {} | {} |\n", row.name, row.primary ? " (bare value)" : "",
+                       cell(row.type), preset, cell(help));
 }
 
 } // namespace
@@ -39,11 +42,13 @@ std::string stages_markdown_table() {
 
 std::string stages_markdown() {
     std::string text = "# The stages of facetmill\n\nGenerated from their declarations by `facetmill stages "
-                       "--markdown`.\n\n" + stages_markdown_table();
+                       "--markdown`.\n\n" +
+                       stages_markdown_table();
     for (const auto& s : stages()) {
         text += fmt::format("\n## {}\n\n{}\n", s.name, s.about);
         if (!s.details.empty()) text += fmt::format("\n{}\n", s.details);
-        if (!s.options.shorthand_help.empty()) text += fmt::format("\nA bare value: {}\n", s.options.shorthand_help);
+        if (!s.options.shorthand_help.empty())
+            text += fmt::format("\nA bare value: {}\n", s.options.shorthand_help);
         const auto options = rows(s.options);
         if (!options.empty()) text += "\n| option | type | default | |\n|---|---|---|---|\n";
         for (const auto& row : options) text += option_row(row);

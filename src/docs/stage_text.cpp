@@ -8,7 +8,8 @@ namespace facetmill::docs {
 const std::vector<Choice>& common_keys() {
     static const std::vector<Choice> keys{
         {"name", "How the report, --set and messages call this step. Unique in the pipeline."},
-        {"when", "Runs the step only when this holds: a bool param, ${a} == value, or properties as in ensure."},
+        {"when",
+         "Runs the step only when this holds: a bool param, ${a} == value, or properties as in ensure."},
         {"only", "The parts it works on: names or globs of parts or materials; \"!glob\" excludes."},
         {"ensure", "A contract on the scene that leaves the step: {closed: true, faces: {max: 5000}}."},
     };
@@ -70,8 +71,12 @@ Json stages_json() {
             for (const auto& c : row.choices) option["choices"][c.name] = c.help;
             options.push_back(std::move(option));
         }
-        all.push_back({{"name", s.name}, {"about", s.about}, {"details", s.details}, {"options", options},
-                       {"rules", rules(s.options)}, {"examples", s.examples}});
+        all.push_back({{"name", s.name},
+                       {"about", s.about},
+                       {"details", s.details},
+                       {"options", options},
+                       {"rules", rules(s.options)},
+                       {"examples", s.examples}});
     }
     return all;
 }

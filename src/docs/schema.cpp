@@ -1,0 +1,131 @@
+#include "docs/schema.hpp"
+
+#include "docs/stages.hpp"
+#include "stage/assertions.hpp"
+
+namespace facetmill::docs {
+
+namespace {
+
+Json ref(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; }
+
+Json with_expressions(Json schema);
+
+/// The schema or an expression in its place.
+Json or_expression(Json schema) {
+    schema = with_expressions(std::move(schema));
+    Json described;
+    if (schema.contains("description")) {
+        described["description"] = schema["description"];
+        schema.erase("description");
+    }
+    described["anyOf"] = Json::array({std::move(schema), ref("expression")});
+    return described;
+}
+
+/// The schema with expressions allowed at every value inside it.
+Json with_expressions(Json schema) {
+    if (schema.contains("properties"))
+        for (auto& [name, property] : schema["properties"].items())
+            property = or_expression(std::move(property));
+    if (schema.contains("items")) schema["items"] = or_expression(std::move(schema["items"]));
+    for (const char* combiner : {"anyOf", "oneOf", "allOf"})
+        if (schema.contains(combiner))
+            for (auto& form : schema[combiner]) form = with_expressions(std::move(form));
+    return schema;
+}
+
+/// A map with one stage (or branch, foreach) key, and the common keys beside it.
+Json step_schema(const std::string& key, Json value, Json beside = Json::object()) {
+    Json properties = {{key, std::move(value)}};
+    properties.update(beside);
+    for (const auto& common : common_keys()) properties[common.name] = ref(common.name.c_str());
+    return {{"type", "object"},
+            {"required", Json::array({key})},
+            {"properties", properties},
+            {"additionalProperties", false}};
+}
+
+Json stage_step(const StageInfo& stage) {
+    Json value = or_expression(stage.options.schema());
+    value["anyOf"].push_back({{"type", "null"}});
+    value["description"] = stage.about;
+    return step_schema(stage.name, std::move(value));
+}
+
+Json branch_step() {
+    const Json arms = {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", ref("stages")}};
+    return step_schema("branch", arms, {{"join", {{"type", "boolean"}}}});
+}
+
+Json foreach_step() {
+    const Json values = {{"type", Json::array({"array", "string", "number", "boolean"})}};
+    const Json variables = {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", values}};
+    Json step = step_schema("foreach", variables, {{"do", ref("stages")}, {"join", {{"type", "boolean"}}}});
+    step["required"].push_back("do");
+    return step;
+}
+
+Json step_forms() {
+    Json forms = Json::array(), bare = Json::array();
+    for (const auto& s : stages()) bare.push_back(s.name);
+    forms.push_back({{"enum", bare}});
+    for (const auto& s : stages()) forms.push_back(stage_step(s));
+    forms.push_back(branch_step());
+    forms.push_back(foreach_step());
+    return {{"anyOf", forms}};
+}
+
+Json param_schema() {
+    const Json types = {{"enum", Json::array({"path", "text", "integer", "number", "bool", "ratio", "length",
+                                              "angle", "choice"})}};
+    const Json limit = {{"type", Json::array({"number", "string"})}};
+    const Json whole = {{"type", "object"},
+                        {"required", Json::array({"type"})},
+                        {"properties",
+                         {{"type", types},
+                          {"default", true},
+                          {"help", {{"type", "string"}}},
+                          {"required", {{"type", "boolean"}}},
+                          {"min", limit},
+                          {"max", limit},
+                          {"choices", {{"type", "array"}}}}},
+                        {"additionalProperties", false}};
+    return {{"anyOf", Json::array({types, whole})}};
+}
+
+Json definitions() {
+    const Json assertions = with_expressions(assertions_schema());
+    const Json names = {{"type", "string"}};
+    return {{"expression", {{"type", "string"}, {"pattern", "\\$\\{"}}},
+            {"name", names},
+            {"only", {{"anyOf", Json::array({names, {{"type", "array"}, {"items", names}}})}}},
+            {"when", {{"anyOf", Json::array({{{"type", Json::array({"boolean", "string"})}}, assertions})}}},
+            {"ensure", assertions},
+            {"param", param_schema()},
+            {"step", step_forms()},
+            {"stages", {{"type", "array"}, {"items", ref("step")}}}};
+}
+
+} // namespace
+
+Json pipeline_schema() {
+    const Json path = {{"type", "string"}, {"minLength", 1}};
+    return {
+        {"$schema", "https://json-schema.org/draft/2020-12/schema"},
+        {"title", "facetmill pipeline, format 1"},
+        {"type", "object"},
+        {"required", Json::array({"facetmill", "stages"})},
+        {"properties",
+         {{"facetmill", {{"const", 1}, {"description", "The version of the pipeline format."}}},
+          {"requires", {{"type", "string"}, {"description", "The releases that may run it: \">=0.3,<2\"."}}},
+          {"about", {{"type", "string"}, {"description", "What the pipeline is for, in a sentence."}}},
+          {"params", {{"type", "object"}, {"additionalProperties", ref("param")}}},
+          {"stages", ref("stages")},
+          {"report", {{"anyOf", Json::array({path, {{"type", "array"}, {"items", path}}})}}}}},
+        {"patternProperties", {{"^x-", true}}},
+        {"additionalProperties", false},
+        {"$defs", definitions()}};
+}
+
+} // namespace facetmill::docs
