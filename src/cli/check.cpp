@@ -1,0 +1,54 @@
+// facetmill check: are the pipelines right? Opens no mesh.
+
+#include "cli/pipeline_options.hpp"
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* check_examples =
+    R"(All errors of all files are reported. Params without a value stand for any value unless -D gives one. Exit code 2
+when something is wrong.
+
+Examples
+  facetmill check pipelines/*.yaml
+  facetmill check scan.yaml -D keep=10% --log json
+)";
+
+int check(const std::vector<std::string>& pipelines, const PipelineOptions& options, const CommandLine& line,
+          const Console& console) {
+    Problems problems;
+    auto settings = plan_settings(options, line, problems);
+    settings.parameters_needed = false;
+    for (const auto& pipeline : pipelines) {
+        Problems of_this;
+        plan_of(pipeline, settings, of_this);
+        if (!of_this.any_errors()) console.say(pipeline + ": ok");
+        for (const auto& d : of_this.all()) {
+            if (d.severity == Severity::error)
+                problems.add(d.where, d.id, d.message, d.hint);
+            else
+                problems.warn(d.where, d.id, d.message, d.hint);
+        }
+    }
+    settle(problems, console);
+    return 0;
+}
+
+} // namespace
+
+Command check_command() {
+    return {"check", "Checks pipeline files without opening a mesh.", check_examples, false,
+            [](CLI::App& app, Console& console) {
+                auto options = std::make_shared<PipelineOptions>();
+                auto pipelines = std::make_shared<std::vector<std::string>>();
+                app.add_option("PIPELINE", *pipelines, "YAML files, - or ready pipelines.")->required();
+                add_value_options(app, *options);
+                add_message_options(app, console);
+                return [=, &console](const Invocation& invocation) {
+                    return check(*pipelines, *options, invocation.line, console);
+                };
+            }};
+}
+
+} // namespace facetmill::cli

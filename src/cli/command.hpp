@@ -1,0 +1,64 @@
+#pragma once
+// A command of the command line: one file each, one entry in commands().
+
+#include "cli/console.hpp"
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace facetmill::cli {
+
+/// The arguments as a text that messages can point into: "facetmill run a.yaml --ouput-dir out".
+class CommandLine {
+  public:
+    explicit CommandLine(std::vector<std::string> arguments);
+    const std::vector<std::string>& arguments() const { return arguments_; }
+    Mark mark(std::size_t argument) const;
+    /// The mark of the first argument that starts with this text, or of the line as a whole.
+    Mark find(const std::string& start) const;
+
+  private:
+    std::vector<std::string> arguments_;
+    std::vector<Mark> marks_;
+    Mark whole_;
+};
+
+/// What a command's work gets.
+struct Invocation {
+    const CommandLine& line;
+    std::size_t rest = 0; ///< for pipe: index of the first argument that CLI11 did not take
+};
+
+struct Command {
+    std::string name, about;
+    std::string examples;        ///< worked examples and whatever else --help says at its end
+    bool takes_the_rest = false; ///< pipe: CLI11 reads options only up to the first stage
+    /// Adds the options to the command's parser; what it returns is called after parsing, for the exit code.
+    std::function<std::function<int(const Invocation&)>(CLI::App&, Console&)> declare;
+};
+
+/// In the order of --help.
+const std::vector<Command>& commands();
+
+Command run_command();
+Command plan_command();
+Command pipe_command();
+Command check_command();
+Command info_command();
+Command stages_command();
+Command schema_command();
+Command formats_command();
+
+/// --quiet, -v, --log.
+void add_message_options(CLI::App& app, Console& console);
+
+/// The whole program. Throws Error; the exit code is returned. quiet, colours and so on are left in console
+/// for whoever catches.
+int program(std::vector<std::string> arguments, Console& console);
+
+/// Version, and the libraries with --json.
+std::string version_text(bool json);
+
+} // namespace facetmill::cli

@@ -1,0 +1,128 @@
+#include "cli/console.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace facetmill::cli {
+
+void print(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
+    if (errno == EPIPE) { // the reader went away: end as a filter does
+        std::signal(SIGPIPE, SIG_DFL);
+        std::raise(SIGPIPE);
+    }
+    throw Error(ErrorKind::output, "E-WRITE", fmt::format("standard output: {}", std::strerror(errno)));
+}
+
+namespace {
+
+bool terminal() {
+    const char* kind = std::getenv("TERM");
+    return isatty(STDERR_FILENO) && !(kind && std::string_view(kind) == "dumb");
+}
+
+void line(const Json& object) {
+    const std::string text = object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::fputs(text.c_str(), stderr);
+}
+
+/// One line, redrawn: "[3/8] simplify".
+class Bar : public Progress {
+  public:
+    ~Bar() override { done(); }
+    void stage(int number, int number_of, const std::string& name) override {
+        constexpr int width = 24;
+        const int filled = number_of > 0 ? width * (number - 1) / number_of : 0;
+        fmt::print(stderr, "\r\033[K[{}{}] {}/{} {}", std::string(filled, '#'),
+                   std::string(width - filled, '.'), number, number_of, name);
+        std::fflush(stderr);
+        drawn_ = true;
+    }
+    void done() override {
+        if (drawn_) std::fputs("\r\033[K", stderr);
+        drawn_ = false;
+    }
+
+  private:
+    bool drawn_ = false;
+};
+
+/// A line per stage, with the time since the start.
+class Lines : public Progress {
+  public:
+    explicit Lines(bool json) : json_(json) {}
+    void stage(int number, int number_of, const std::string& name) override {
+        const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
+        if (json_)
+            line({{"level", "info"},
+                  {"stage", name},
+                  {"number", number},
+                  {"of", number_of},
+                  {"seconds", since.count()}});
+        else
+            fmt::print(stderr, "{:7.2f}s  {}/{} {}\n", since.count(), number, number_of, name);
+    }
+    void done() override {}
+
+  private:
+    bool json_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+bool Console::colour() const {
+    const char* no_colour = std::getenv("NO_COLOR");
+    return !json && terminal() && !(no_colour && *no_colour);
+}
+
+void Console::diagnostic(const Diagnostic& d) const {
+    if (quiet && d.severity == Severity::note) return;
+    if (!json) {
+        // A progress bar may stand on the line.
+        fmt::print(stderr, "{}{}\n", terminal() ? "\r\033[K" : "", render(d, colour()));
+        return;
+    }
+    const char* level = d.severity == Severity::error     ? "error"
+                        : d.severity == Severity::warning ? "warning"
+                                                          : "note";
+    Json object = {{"level", level}, {"id", d.id}, {"message", d.message}};
+    if (d.where.known()) {
+        object["file"] = d.where.source->name;
+        if (d.where.line > 0) object["line"] = d.where.line;
+        if (d.where.column > 0) object["column"] = d.where.column;
+    }
+    if (!d.hint.empty()) object["hint"] = d.hint;
+    line(object);
+}
+
+void Console::diagnostics(const Error& error) const {
+    for (const auto& d : error.diagnostics()) diagnostic(d);
+}
+
+void Console::say(std::string_view text) const {
+    if (quiet) return;
+    while (text.ends_with('\n')) text.remove_suffix(1);
+    if (json)
+        line({{"level", "info"}, {"message", text}});
+    else
+        fmt::print(stderr, "{}\n", text);
+}
+
+void Console::event(Json object) const {
+    if (json && !quiet) line(object);
+}
+
+std::unique_ptr<Progress> Console::progress() const {
+    if (quiet) return {};
+    if (verbose) return std::make_unique<Lines>(json);
+    if (!json && terminal()) return std::make_unique<Bar>();
+    return {};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,37 @@
+#pragma once
+// Where words go: results to standard output, everything else to standard error, as text or as JSON lines.
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+#include "base/progress.hpp"
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace facetmill::cli {
+
+/// Writes a result to standard output. Throws output (E-WRITE) when that fails, so that a full disk is no
+/// success.
+void print(std::string_view text);
+
+/// What goes to standard error.
+class Console {
+  public:
+    bool quiet = false;   ///< only warnings and errors
+    bool verbose = false; ///< also what was resolved, and every stage
+    bool json = false;    ///< one JSON object per line
+
+    /// Whether standard error is a terminal that takes colours (NO_COLOR and TERM=dumb are respected).
+    bool colour() const;
+    void diagnostic(const Diagnostic& diagnostic) const;
+    void diagnostics(const Error& error) const;
+    /// For people; left out with quiet. In JSON: {"level": "info", "message": ...}.
+    void say(std::string_view text) const;
+    /// The same for programs: an object of its own, only with --log json.
+    void event(Json object) const;
+    /// A bar on a terminal, lines with verbose, else null.
+    std::unique_ptr<Progress> progress() const;
+};
+
+} // namespace facetmill::cli

@@ -1,0 +1,57 @@
+#include "cli/depfile.hpp"
+
+#include "io/outputs.hpp"
+
+#include <algorithm>
+
+namespace facetmill::cli {
+
+std::string make_spelling(const std::string& path) {
+    std::string text;
+    std::size_t backslashes = 0;
+    for (const char c : path) {
+        if (c == '\n' || c == '\r')
+            throw Error(ErrorKind::output, "E-DEPFILE",
+                        "a depfile cannot name a path with a line break: " + path);
+        // Backslashes before a blank or # would escape it, so they are doubled; elsewhere they are plain.
+        if (c == ' ' || c == '#' || c == '\t') text.append(backslashes + 1, '\\');
+        if (c == '$') text += '$';
+        text += c;
+        backslashes = c == '\\' ? backslashes + 1 : 0;
+    }
+    return text;
+}
+
+std::string depfile_text(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+    std::string text;
+    for (const auto& output : outputs) text += (text.empty() ? "" : " ") + make_spelling(output);
+    text += ":";
+    for (const auto& input : inputs) text += " \\\n  " + make_spelling(input);
+    text += "\n";
+    for (const auto& input : inputs) // a % would make it a pattern
+        if (input.find('%') == input.npos) text += make_spelling(input) + ":\n";
+    return text;
+}
+
+namespace {
+
+void add_once(std::vector<std::string>& all, const std::string& path) {
+    if (path != "-" && std::find(all.begin(), all.end(), path) == all.end()) all.push_back(path);
+}
+
+} // namespace
+
+void write_depfile(const std::string& depfile, const pipeline::Plan& plan, const report::RunRecord& record,
+                   const std::string& pipeline) {
+    std::vector<std::string> outputs, inputs;
+    for (const auto& file : record.outputs) add_once(outputs, file.path);
+    for (const auto& report : plan.reports) add_once(outputs, plan.places.output(report).string());
+    if (!pipeline.empty()) add_once(inputs, pipeline);
+    for (const auto& file : record.inputs) add_once(inputs, file.path);
+    // A gate writes nothing; its rule is for the depfile itself.
+    if (outputs.empty()) outputs.push_back(depfile);
+    const std::string text = depfile_text(outputs, inputs);
+    io::write_now(depfile, std::as_bytes(std::span(text)));
+}
+
+} // namespace facetmill::cli

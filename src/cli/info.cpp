@@ -1,0 +1,113 @@
+// facetmill info: the properties of mesh files.
+
+#include "base/parallel.hpp"
+#include "cli/command.hpp"
+#include "io/codec.hpp"
+#include "report/render.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* info_examples =
+    R"(The names are those of validate, ensure, when and the report. A property that does not apply (the volume of an
+open mesh) is null. With several files --json prints a list.
+
+Examples
+  facetmill info scan.ply
+  facetmill info --json part.stl | jq .closed
+  facetmill info --self-intersections part.stl
+  zcat scan.ply.gz | facetmill info -
+)";
+
+struct InfoOptions {
+    std::vector<std::string> meshes;
+    std::string format;
+    bool json = false, self_intersections = false;
+    int threads = 0;
+};
+
+std::string text_of(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_null()) return "-";
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    return value.dump();
+}
+
+/// "NORMAL (wedge, float32)" for an attribute, the name of a part or material.
+std::string entry_text(const Json& entry) {
+    if (!entry.is_object()) return text_of(entry);
+    std::string text = entry.contains("name") ? text_of(entry["name"]) : "", more;
+    if (text.empty()) text = "(unnamed)";
+    for (const auto& [key, value] : entry.items())
+        if (key != "name" && value.is_primitive())
+            more += (more.empty() ? "" : ", ") + (key == "domain" || key == "type" ? "" : key + " ") +
+                    text_of(value);
+    return more.empty() ? text : fmt::format("{} ({})", text, more);
+}
+
+std::string as_text(const std::string& name, const Json& info) {
+    std::string text = name + "\n";
+    for (const auto& [key, value] : info.items()) {
+        if (value.is_array()) {
+            text += fmt::format("  {:<20}{}\n", key, value.empty() ? "none" : std::to_string(value.size()));
+            for (const auto& entry : value) text += fmt::format("    {}\n", entry_text(entry));
+        } else if (key == "bounds" && value.is_object())
+            text += fmt::format("  {:<20}{} to {}\n", key, value["min"].dump(), value["max"].dump());
+        else
+            text += fmt::format("  {:<20}{}\n", key, text_of(value));
+    }
+    return text;
+}
+
+Json info_of(const std::string& mesh, const InfoOptions& options, const Console& console) {
+    const auto* codec = options.format.empty() ? nullptr : io::codec_named(options.format);
+    io::ReadLog log;
+    const Scene scene = io::read_scene(io::Input::open(mesh), {}, log, codec);
+    for (const auto& warning : log.warnings) console.diagnostic(warning);
+    return report::scene_json(scene, inspect(scene, {options.self_intersections}));
+}
+
+int info(const InfoOptions& options, const Console& console) {
+    set_threads(options.threads);
+    Json all = Json::array();
+    std::string text;
+    for (const auto& mesh : options.meshes) {
+        all.push_back(info_of(mesh, options, console));
+        if (!options.json) text += as_text(mesh, all.back());
+    }
+    if (options.json)
+        text = (all.size() == 1 ? all[0] : all).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    print(text);
+    return 0;
+}
+
+std::vector<std::string> readable_formats() {
+    std::vector<std::string> names;
+    for (const auto& codec : io::codecs())
+        if (codec.read) names.push_back(codec.name);
+    return names;
+}
+
+} // namespace
+
+Command info_command() {
+    return {"info", "Shows the properties of mesh files.", info_examples, false,
+            [](CLI::App& app, Console& console) {
+                auto options = std::make_shared<InfoOptions>();
+                app.add_option("MESH", options->meshes, "Mesh files, or - for standard input.")->required();
+                app.add_flag("--json", options->json, "As JSON (facetmill schema info).");
+                app.add_flag("--self-intersections", options->self_intersections,
+                             "Count them too; it costs time.");
+                app.add_option("--format", options->format, "Read as this format, whatever the content says.")
+                    ->check(CLI::IsMember(readable_formats()));
+                app.add_option("-j,--threads", options->threads, "How many threads. Default: all cores.")
+                    ->check(CLI::Range(1, 4096));
+                add_message_options(app, console);
+                return [=, &console](const Invocation&) { return info(*options, console); };
+            }};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,86 @@
+// facetmill pipe: a pipeline as a one-liner.
+
+#include "cli/pipe_syntax.hpp"
+#include "cli/pipeline_options.hpp"
+#include "docs/stages.hpp"
+#include "io/outputs.hpp"
+#include "pipeline/document.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* pipe_examples =
+    R"(The same language as a pipeline file. Options of facetmill pipe itself come first; then the stages, parted by ! or +.
+A stage is its name, a bare value for its primary option, and --key value, --key=value or --flag for the others.
+Nested keys are dotted (--plane.normal=0,0,1), and so are --ensure.closed and --when.closed; --name and --only as in
+a file. Lists are given by commas or by repetition. @{x} stands for ${x}, and 50pct for 50%.
+
+  foreach VARIABLE=VALUE,VALUE... [ STAGE ! STAGE ]
+  branch NAME [ STAGE ! STAGE ] NAME [ STAGE ]
+
+Examples
+  facetmill pipe load scan.ply ! simplify 25% ! write web.glb
+  facetmill pipe load a.stl --unit mm ! clip --plane z=0 --cap ! relax 3 ! write a.glb --draco
+  facetmill pipe load a.ply ! foreach lod=50%,10% [ simplify @{lod} ! write a.@{lod.index}.glb ]
+  facetmill pipe load - + validate --closed < part.stl
+  facetmill pipe --save part.yaml load part.stl ! write part.glb       (then: facetmill run part.yaml)
+)";
+
+/// Writes the pipeline as a file that run reproduces: what it reads is made relative to the file, what it
+/// writes stays relative to the working directory, as run takes it.
+void save(Value document, const std::vector<std::string>& reports, const std::string& target) {
+    const auto here = std::filesystem::current_path();
+    if (target != "-") rebase_inputs(document, here, std::filesystem::absolute(target).parent_path());
+    for (const auto& report : reports) {
+        Value& all =
+            document.find("report") ? *document.find("report") : document.set("report", Value::list({}));
+        all.items.push_back(Value::scalar(report));
+    }
+    const std::string text = pipeline::emit_yaml(document);
+    io::write_now(target, std::as_bytes(std::span(text)));
+}
+
+/// A stage's own help: facetmill pipe clip --help.
+bool help_wanted(const Invocation& invocation) {
+    const auto& all = invocation.line.arguments();
+    for (std::size_t i = invocation.rest + 1; i < all.size(); ++i)
+        if (all[i] == "--help")
+            for (std::size_t j = i; j-- > invocation.rest;)
+                if (const auto* stage = stage_named(all[j])) return print(docs::stage_page(*stage)), true;
+    return false;
+}
+
+int pipe(const PipelineOptions& options, const std::string& save_to, const Invocation& invocation,
+         const Console& console) {
+    if (help_wanted(invocation)) return 0;
+    Problems problems;
+    auto settings = plan_settings(options, invocation.line, problems);
+    settings.name = "pipe";
+    const Value document = parse_pipe(invocation.line, invocation.rest, problems);
+    problems.throw_if_any(ErrorKind::usage);
+    const auto plan = pipeline::make_plan(document, settings, problems);
+    problems.throw_if_any(ErrorKind::usage); // warnings come with the run
+    if (!save_to.empty()) save(document, options.reports, save_to);
+    return run_with_messages(plan, options, console, "");
+}
+
+} // namespace
+
+Command pipe_command() {
+    return {"pipe", "Runs a pipeline written on the command line.", pipe_examples, true,
+            [](CLI::App& app, Console& console) {
+                auto options = std::make_shared<PipelineOptions>();
+                auto save_to = std::make_shared<std::string>();
+                app.add_option("--save", *save_to, "Also write the pipeline as a file that run takes.");
+                add_run_options(app, *options);
+                add_message_options(app, console);
+                return [=, &console](const Invocation& invocation) {
+                    return pipe(*options, *save_to, invocation, console);
+                };
+            }};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,313 @@
+#include "cli/pipe_syntax.hpp"
+
+#include "docs/stages.hpp"
+#include "geometry/inspect.hpp"
+#include "stage/stage.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+bool is_separator(const std::string& a) { return a == "!" || a == "+"; }
+bool is_bracket(const std::string& a) { return a == "[" || a == "]"; }
+bool is_option(const std::string& a) { return a.size() > 2 && a.starts_with("--"); }
+
+bool is_common(std::string_view key) {
+    for (const auto& common : docs::common_keys())
+        if (common.name == key) return true;
+    return key == "join";
+}
+
+/// Reads the arguments from left to right; every function leaves at_ behind what it read.
+class Parser {
+  public:
+    Parser(const CommandLine& line, std::size_t first, Problems& problems)
+        : line_(line), all_(line.arguments()), at_(first), problems_(problems) {}
+
+    Value document() {
+        Value stages = steps();
+        if (at_ < all_.size()) wrong("']' without '['");
+        return Value::map({{"facetmill", {}, Value::scalar("1")}, {"stages", {}, std::move(stages)}},
+                          line_.mark(0));
+    }
+
+  private:
+    /// Stages up to the end or a closing bracket.
+    Value steps() {
+        Value list = Value::list({}, mark());
+        while (true) {
+            if (done() || is_separator(all_[at_]) || all_[at_] == "]") {
+                wrong("a stage is missing here", "load a.stl ! relax 3 ! write a.glb");
+                if (done() || all_[at_] == "]") return list;
+            } else
+                list.items.push_back(step());
+            if (done() || all_[at_] == "]") return list;
+            ++at_; // the separator
+        }
+    }
+
+    Value step() {
+        const std::string name = all_[at_];
+        const Mark where = mark();
+        if (name == "foreach") return foreach_step(where);
+        if (name == "branch") return branch_step(where);
+        if (is_option(name) || is_bracket(name)) wrong(fmt::format("expected a stage, found '{}'", name));
+        ++at_;
+        return stage_step(name, where);
+    }
+
+    Value stage_step(const std::string& name, const Mark& where) {
+        const StageInfo* stage = stage_named(name);
+        Value item = Value::map({{name, where, Value{}}}, where);
+        item.entries[0].value.mark = where;
+        std::vector<Value> bare;
+        const Option* primary = stage ? stage->options.primary() : nullptr;
+        while (!at_end_of_step()) {
+            if (is_option(all_[at_]))
+                option(item, stage);
+            else if (all_[at_] == "[")
+                wrong(fmt::format("'{}' takes no '['", name)), ++at_;
+            else
+                bare.push_back(pipe_value(all_[at_], primary, mark())), ++at_;
+        }
+        if (!bare.empty()) set_bare(item.entries[0].value, std::move(bare), stage, where);
+        return item;
+    }
+
+    /// Gives a stage its bare values: alone, or as the primary option beside the others.
+    void set_bare(Value& value, std::vector<Value> bare, const StageInfo* stage, const Mark& where) {
+        const Option* primary = stage ? stage->options.primary() : nullptr;
+        Value one = bare[0];
+        if (bare.size() > 1) {
+            if (primary && !primary->repeatable && primary->type != "vector")
+                problems_.add(bare[1].mark, "E-PIPE",
+                              fmt::format("'{}' takes one value, found {}", stage->name, bare.size()),
+                              "stages are parted by ! or +");
+            Value list = Value::list({}, bare[0].mark);
+            for (auto& b : bare)
+                if (b.is_list())
+                    list.items.insert(list.items.end(), b.items.begin(), b.items.end());
+                else
+                    list.items.push_back(std::move(b));
+            one = std::move(list);
+        }
+        if (value.is_null())
+            value = std::move(one);
+        else if (primary)
+            add(value, primary->name, std::move(one), one.mark, primary);
+        else
+            problems_.add(one.mark, "E-PIPE", "a bare value does not go with options here",
+                          "give it by its option's name");
+        if (!value.mark.known()) value.mark = where;
+    }
+
+    /// --key value, --key=value, --key, --no-key; dotted keys nest.
+    void option(Value& item, const StageInfo* stage) {
+        const std::string argument = all_[at_].substr(2);
+        const auto equals = argument.find('=');
+        std::string key = argument.substr(0, equals);
+        Mark key_mark = mark();
+        if (equals != argument.npos) key_mark.length = static_cast<int>(key.size()) + 2;
+        const Option* known = stage ? find_dotted(stage->options, key) : nullptr;
+        const bool negated =
+            !known && key.starts_with("no-") && stage && find_dotted(stage->options, key.substr(3));
+        if (negated) key = key.substr(3), known = find_dotted(stage->options, key);
+        const bool common = !known && is_common(key.substr(0, key.find('.')));
+        Value value;
+        if (equals != argument.npos)
+            value = given(argument.substr(equals + 1), key, known, inside(equals + 3));
+        ++at_;
+        if (negated)
+            value = Value::scalar("false", key_mark);
+        else if (equals == argument.npos && wants_value(key, known))
+            value = given(all_[at_], key, known, mark()), ++at_;
+        else if (equals == argument.npos)
+            value = flag(key, known, key_mark);
+        if (!common && item.entries[0].value.is_null()) {
+            const Mark where = item.entries[0].value.mark;
+            item.entries[0].value = Value::map({}, where);
+        }
+        add(common ? item : item.entries[0].value, key, std::move(value), key_mark, known);
+    }
+
+    Value given(const std::string& text, const std::string& key, const Option* known, const Mark& where) {
+        if (key != "only") return pipe_value(text, known, where);
+        Option list;
+        list.repeatable = true;
+        list.schema = OptionType<std::vector<std::string>>::schema();
+        return pipe_value(text, &list, where);
+    }
+
+    /// Whether the next argument is the option's value. A truth takes only true or false; so does a property.
+    bool wants_value(const std::string& key, const Option* known) const {
+        if (at_end_of_step() || is_option(all_[at_]) || is_bracket(all_[at_])) return false;
+        const bool truth = is_truth(key, known);
+        return !truth || all_[at_] == "true" || all_[at_] == "false";
+    }
+
+    /// Whether true and false are all that the key may be: a flag of a stage, or a property that is a truth.
+    static bool is_truth(const std::string& key, const Option* known) {
+        if (known && known->type != "bound") return known->type == "bool";
+        const auto* property = property_named(std::string_view(key).substr(key.rfind('.') + 1));
+        return key == "join" || (property && property->truth);
+    }
+
+    /// A key without a value: true, where that may be meant.
+    Value flag(const std::string& key, const Option* known, const Mark& where) {
+        if (known && known->type != "group" && known->type != "assertions" && !is_truth(key, known))
+            problems_.add(where, "E-PIPE", fmt::format("'--{}' needs a value", key), known->help);
+        return Value::scalar("true", where);
+    }
+
+    /// Puts a value at a dotted key; a repeatable option gathers its values.
+    void add(Value& map, const std::string& key, Value value, const Mark& key_mark, const Option* known) {
+        const auto dot = key.find('.');
+        const std::string head = key.substr(0, dot);
+        Value* slot = map.find(head);
+        if (dot != key.npos) {
+            if (!slot) slot = &map.set(head, Value::map({}, key_mark), key_mark);
+            if (slot->is_map()) return add(*slot, key.substr(dot + 1), std::move(value), key_mark, known);
+        } else if (!slot) {
+            map.set(head, std::move(value), key_mark);
+            return;
+        } else if ((known && known->repeatable) || head == "only") {
+            Value list = slot->is_list() ? *slot : Value::list({*slot}, slot->mark);
+            if (value.is_list())
+                list.items.insert(list.items.end(), value.items.begin(), value.items.end());
+            else
+                list.items.push_back(std::move(value));
+            *slot = std::move(list);
+            return;
+        }
+        problems_.add(key_mark, "E-PIPE", fmt::format("'--{}' is given twice", head));
+    }
+
+    /// foreach lod=50%,10% name=a,b [ ... ]
+    Value foreach_step(const Mark& where) {
+        Value item = Value::map({{"foreach", where, Value::map({}, where)}}, where);
+        for (++at_; !at_end_of_step() && all_[at_] != "["; ++at_) {
+            if (is_option(all_[at_])) {
+                option_of_block(item);
+                continue;
+            }
+            const auto equals = all_[at_].find('=');
+            if (equals == std::string::npos || equals == 0) {
+                wrong(fmt::format("foreach takes variable=value,value, found '{}'", all_[at_]));
+                continue;
+            }
+            const std::string variable = all_[at_].substr(0, equals);
+            variable_values(item.entries[0].value, variable, all_[at_].substr(equals + 1), equals + 1);
+        }
+        item.set("do", block("foreach lod=50%,10% [ simplify @{lod} ! write o.@{lod.index}.glb ]"), where);
+        while (!at_end_of_step()) trailing_option(item);
+        return item;
+    }
+
+    void variable_values(Value& variables, const std::string& variable, const std::string& text,
+                         std::size_t offset) {
+        Option list;
+        list.repeatable = true;
+        list.schema = OptionType<std::vector<std::string>>::schema();
+        const bool parts = variable == "part" && text.find(',') == text.npos;
+        Value values = pipe_value(text, parts ? nullptr : &list, inside(offset));
+        if (parts)
+            values.quoted = true; // a bare * would be an alias in YAML
+        else if (!values.is_list())
+            values = Value::list({values}, values.mark);
+        if (variables.find(variable))
+            wrong(fmt::format("'{}' is given twice", variable));
+        else
+            variables.set(variable, std::move(values), mark());
+    }
+
+    /// branch near [ ... ] far [ ... ]
+    Value branch_step(const Mark& where) {
+        Value item = Value::map({{"branch", where, Value::map({}, where)}}, where);
+        ++at_;
+        while (!at_end_of_step()) {
+            if (is_option(all_[at_])) {
+                trailing_option(item);
+                continue;
+            }
+            const std::string arm = all_[at_];
+            const Mark arm_mark = mark();
+            if (arm != "[")
+                ++at_;
+            else
+                wrong("a branch needs a name before '['", "branch near [ ... ] far [ ... ]");
+            Value body = block("branch near [ ... ] far [ ... ]");
+            Value& arms = item.entries[0].value;
+            if (arms.find(arm))
+                problems_.add(arm_mark, "E-PIPE", fmt::format("there are two branches '{}'", arm));
+            else
+                arms.set(arm, std::move(body), arm_mark);
+        }
+        return item;
+    }
+
+    /// [ stages ]
+    Value block(const char* example) {
+        if (done() || all_[at_] != "[") {
+            wrong("'[' is missing here", example);
+            if (!at_end_of_step()) ++at_;
+            return Value::list({}, mark());
+        }
+        const Mark opening = mark();
+        ++at_;
+        Value body = steps();
+        if (done())
+            problems_.add(opening, "E-PIPE", "this '[' is not closed", example);
+        else
+            ++at_;
+        return body;
+    }
+
+    void trailing_option(Value& item) {
+        if (is_option(all_[at_]))
+            option_of_block(item), ++at_;
+        else
+            wrong(fmt::format("expected ! or the end, found '{}'", all_[at_])), ++at_;
+    }
+
+    /// A common key of a branch or foreach; at_ ends on its last argument.
+    void option_of_block(Value& item) {
+        const std::string argument = all_[at_].substr(2);
+        const std::string key = argument.substr(0, argument.find_first_of(".="));
+        if (!is_common(key)) wrong(fmt::format("'{}' has no option '--{}'", item.entries[0].key, key));
+        const StageInfo none{};
+        const bool known = is_common(key);
+        Value scratch = known ? std::move(item) : Value::map({{"x", {}, Value{}}});
+        option(scratch, &none);
+        if (known) item = std::move(scratch);
+        --at_;
+    }
+
+    bool done() const { return at_ >= all_.size(); }
+    bool at_end_of_step() const { return done() || is_separator(all_[at_]) || all_[at_] == "]"; }
+    Mark mark() const { return line_.mark(std::min(at_, all_.size() - 1)); }
+    /// The part of the current argument from that byte on.
+    Mark inside(std::size_t offset) const {
+        Mark m = mark();
+        if (m.length != static_cast<int>(all_[at_].size()) || m.length <= static_cast<int>(offset)) return m;
+        m.column += static_cast<int>(offset), m.length -= static_cast<int>(offset);
+        return m;
+    }
+    void wrong(std::string message, std::string hint = {}) {
+        problems_.add(mark(), "E-PIPE", std::move(message), std::move(hint));
+    }
+
+    const CommandLine& line_;
+    const std::vector<std::string>& all_;
+    std::size_t at_;
+    Problems& problems_;
+};
+
+} // namespace
+
+Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems) {
+    return Parser(line, first, problems).document();
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,27 @@
+#pragma once
+// The one-liner as a document: "load a.stl ! relax 3 ! write a.glb" becomes the tree that the same pipeline
+// in YAML becomes, with marks that point into the command line. What stages and options there are, the plan
+// judges.
+
+#include "cli/command.hpp"
+#include "options/declaration.hpp"
+
+namespace facetmill::cli {
+
+/// The stages from argument first on, as a document of format 1. Problems of the one-liner's own syntax
+/// (E-PIPE) are added.
+Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems);
+
+/// An argument as a value of that option (null: unknown): "@{x}" is "${x}", "50pct" is "50%", vectors and
+/// lists are split at commas (lists of paths are not: a path may hold a comma).
+Value pipe_value(std::string text, const Option* option, const Mark& mark);
+
+/// The options of a stage by dotted name: "plane.normal". Null when there is none.
+const Option* find_dotted(const Declaration& declaration, std::string_view name);
+
+/// Rewrites the relative paths that stages of the document read so that they mean the same from another
+/// folder: what a pipeline file reads is relative to that file. Throws usage (E-SAVE) when a path is known
+/// only at run time.
+void rebase_inputs(Value& document, const std::filesystem::path& from, const std::filesystem::path& to);
+
+} // namespace facetmill::cli

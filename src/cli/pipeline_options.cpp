@@ -1,0 +1,140 @@
+#include "cli/pipeline_options.hpp"
+
+#include "base/parallel.hpp"
+#include "base/spelling.hpp"
+#include "cli/depfile.hpp"
+#include "docs/ready.hpp"
+#include "io/outputs.hpp"
+#include "pipeline/document.hpp"
+#include "report/render.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace fs = std::filesystem;
+
+void add_message_options(CLI::App& app, Console& console) {
+    app.add_flag("-q,--quiet", console.quiet, "Only warnings and errors.")->group("Messages");
+    app.add_flag("-v,--verbose", console.verbose, "Also every stage as it starts, and what was resolved.")
+        ->group("Messages");
+    app.add_option_function<std::string>(
+           "--log", [&console](const std::string& form) { console.json = form == "json"; },
+           "How messages are written: text, or json (one object per line).")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->group("Messages");
+}
+
+void add_value_options(CLI::App& app, PipelineOptions& options) {
+    app.add_option("-D,--define", options.defines, "A param of the pipeline: -D name=value.")
+        ->allow_extra_args(false);
+    app.add_option("--set", options.sets, "An option of a stage: --set simplify.ratio=10%.")
+        ->allow_extra_args(false);
+}
+
+void add_run_options(CLI::App& app, PipelineOptions& options) {
+    app.add_option("-j,--threads", options.threads,
+                   "How many threads; the result is the same. Default: all cores.")
+        ->check(CLI::Range(1, 4096));
+    app.add_option("-o,--output-dir", options.output_dir, "Where written paths start. Default: here.");
+    app.add_option("--report", options.reports,
+                   "Also write a report: F.json, F.html, F.xml (JUnit) or F.txt.")
+        ->allow_extra_args(false);
+    app.add_option("--depfile", options.depfile, "Write what was read and written as a Make rule.");
+    app.add_option("--strict", options.strict, "Make warnings fail: --strict for all, --strict=ID for one.")
+        ->allow_extra_args(false);
+    app.add_flag("--check-invariants", options.check_invariants, "Check every mesh after every stage.")
+        ->group("");
+}
+
+namespace {
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+Pairs split_pairs(const std::vector<std::string>& texts, const char* option, const CommandLine& line,
+                  Problems& problems) {
+    Pairs pairs;
+    for (const auto& text : texts) {
+        const auto at = text.find('=');
+        if (at != text.npos && at > 0) {
+            pairs.emplace_back(text.substr(0, at), text.substr(at + 1));
+            continue;
+        }
+        problems.add(line.find(text), "E-ARGUMENT",
+                     fmt::format("{} takes name=value, found '{}'", option, text));
+    }
+    return pairs;
+}
+
+} // namespace
+
+pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,
+                                     Problems& problems) {
+    pipeline::PlanSettings settings;
+    settings.defines = split_pairs(options.defines, "-D", line, problems);
+    settings.sets = split_pairs(options.sets, "--set", line, problems);
+    settings.places.output_base = options.output_dir;
+    settings.working_directory = fs::current_path();
+    settings.extra_reports = options.reports;
+    return settings;
+}
+
+pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems) {
+    std::error_code ignored;
+    const auto* ready =
+        pipeline == "-" || fs::exists(pipeline, ignored) ? nullptr : docs::ready_pipeline(pipeline);
+    if (pipeline != "-" && !ready) return pipeline::load_plan(pipeline, std::move(settings), problems);
+    settings.name = ready ? pipeline : "standard input";
+    std::string text(ready ? ready->text : io::as_text(io::Input::open("-").bytes()));
+    auto source = std::make_shared<const SourceText>(SourceText{settings.name, std::move(text)});
+    const Value document = pipeline::parse_yaml(std::move(source), problems);
+    return pipeline::make_plan(document, settings, problems);
+}
+
+namespace {
+
+/// What was done, for people or as an object. Warnings and errors have been told where they arose.
+void summarise(report::RunRecord record, const Console& console) {
+    Json outputs = Json::array();
+    for (const auto& file : record.outputs) outputs.push_back(file.path);
+    console.event({{"level", "info"},
+                   {"event", "end"},
+                   {"pipeline", record.pipeline},
+                   {"exit_code", record.exit_code},
+                   {"outputs", outputs},
+                   {"seconds", record.seconds}});
+    if (console.json) return;
+    record.warnings.clear();
+    for (auto& stage : record.stages) stage.warnings.clear();
+    console.say(report::to_text(record, console.colour()));
+}
+
+} // namespace
+
+int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
+                      const std::string& pipeline) {
+    set_threads(options.threads);
+    const auto progress = console.progress();
+    pipeline::RunSettings settings;
+    settings.progress = progress.get();
+    settings.strict = options.strict;
+    settings.check_invariants = options.check_invariants;
+    settings.on_warning = [&](const Diagnostic& warning) { console.diagnostic(warning); };
+    const auto record = pipeline::run_plan(plan, settings);
+    if (progress) progress->done();
+    for (const auto& error : record.errors) console.diagnostic(error);
+    summarise(record, console);
+    if (record.exit_code == 0 && !options.depfile.empty())
+        write_depfile(options.depfile, plan, record, pipeline);
+    return record.exit_code;
+}
+
+void settle(const Problems& problems, const Console& console) {
+    if (problems.any_errors()) {
+        problems.throw_if_any(ErrorKind::usage);
+        return;
+    }
+    for (const auto& warning : problems.all()) console.diagnostic(warning);
+}
+
+} // namespace facetmill::cli

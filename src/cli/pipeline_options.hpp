@@ -1,0 +1,38 @@
+#pragma once
+// The options that run, plan, pipe and check share, and how a PIPELINE argument becomes a plan.
+
+#include "cli/command.hpp"
+#include "pipeline/run.hpp"
+
+namespace facetmill::cli {
+
+struct PipelineOptions {
+    std::vector<std::string> defines, sets; ///< "name=value", as given
+    std::vector<std::string> reports, strict;
+    std::string output_dir, depfile;
+    int threads = 0;
+    bool check_invariants = false;
+};
+
+/// -D and --set.
+void add_value_options(CLI::App& app, PipelineOptions& options);
+/// -j, --output-dir, --report, --depfile, --strict.
+void add_run_options(CLI::App& app, PipelineOptions& options);
+
+/// Settings for a plan: values split at "=", with problems that point into the command line.
+pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,
+                                     Problems& problems);
+
+/// The plan of a file, of standard input ("-"), or of a ready pipeline by name. Problems are added; a file
+/// that cannot be read throws missing.
+pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems);
+
+/// Runs a plan with messages and progress, and writes the depfile when all went well. Returns the exit code.
+/// pipeline: the file that the plan came from, for the depfile; empty when there is none.
+int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
+                      const std::string& pipeline);
+
+/// Shows warnings; throws usage when there are errors.
+void settle(const Problems& problems, const Console& console);
+
+} // namespace facetmill::cli

@@ -1,0 +1,61 @@
+// facetmill plan: everything resolved, nothing run.
+
+#include "cli/pipeline_options.hpp"
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* plan_examples = R"(Examples
+  facetmill plan scan.yaml -D input=scan.ply
+  facetmill plan scan.yaml --inputs       (the files it reads, one per line)
+  facetmill plan scan.yaml --json
+)";
+
+struct PlanOptions {
+    PipelineOptions common;
+    std::string pipeline;
+    bool inputs = false, outputs = false, json = false;
+};
+
+std::string lines(const std::vector<std::filesystem::path>& paths) {
+    std::string text;
+    for (const auto& path : paths) text += path.string() + "\n";
+    return text;
+}
+
+int plan(const PlanOptions& options, const CommandLine& line, const Console& console) {
+    Problems problems;
+    const auto plan = plan_of(options.pipeline, plan_settings(options.common, line, problems), problems);
+    settle(problems, console);
+    std::string text;
+    if (options.inputs) text += lines(pipeline::planned_inputs(plan));
+    if (options.outputs) text += lines(pipeline::planned_outputs(plan));
+    if (options.json) text = pipeline::describe_json(plan).dump(2) + "\n";
+    if (!options.inputs && !options.outputs && !options.json) text = pipeline::describe(plan);
+    print(text);
+    return 0;
+}
+
+} // namespace
+
+Command plan_command() {
+    return {
+        "plan", "Shows what a pipeline would do, everything resolved; runs nothing.", plan_examples, false,
+        [](CLI::App& app, Console& console) {
+            auto options = std::make_shared<PlanOptions>();
+            app.add_option("PIPELINE", options->pipeline, "A YAML file, - or a ready pipeline.")->required();
+            app.add_flag("--inputs", options->inputs, "Only the files it reads, one per line.");
+            app.add_flag("--outputs", options->outputs, "Only the files it writes, one per line.");
+            app.add_flag("--json", options->json, "As JSON.");
+            app.add_option("-o,--output-dir", options->common.output_dir,
+                           "Where written paths start. Default: here.");
+            add_value_options(app, options->common);
+            add_message_options(app, console);
+            return [=, &console](const Invocation& invocation) {
+                return plan(*options, invocation.line, console);
+            };
+        }};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,72 @@
+// facetmill run: the pipelines in order, all planned before the first one starts.
+
+#include "cli/pipeline_options.hpp"
+
+#include <fmt/format.h>
+#include <set>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* run_examples =
+    R"(A PIPELINE is a YAML file, "-" for standard input, or the name of a ready pipeline (quickstart, scan-to-web,
+lod-chain).
+
+Examples
+  facetmill run scan.yaml
+  facetmill run scan-to-web -D input=scan.ply -D keep=10% --output-dir web
+  facetmill run scan.yaml --set simplify.ratio=5% --report scan.html --strict
+  facetmill run scan.yaml --depfile scan.d          (for Make and Ninja)
+)";
+
+/// Two pipelines of one run must not write the same file: the second would replace what the first one made.
+void refuse_common_outputs(const std::vector<pipeline::Plan>& plans, Problems& problems) {
+    std::set<std::filesystem::path> seen;
+    for (const auto& plan : plans)
+        for (const auto& output : pipeline::planned_outputs(plan))
+            if (output != "-" && !seen.insert(output.lexically_normal()).second)
+                problems.add({}, "E-TWICE",
+                             fmt::format("{}: '{}' is written by another pipeline of this run too", plan.name,
+                                         output.string()));
+}
+
+int run(const std::vector<std::string>& pipelines, const PipelineOptions& options, const CommandLine& line,
+        const Console& console) {
+    Problems problems;
+    const auto settings = plan_settings(options, line, problems);
+    for (const char* single : {"--depfile", "--report"})
+        if (pipelines.size() > 1 && (single[2] == 'd' ? !options.depfile.empty() : !options.reports.empty()))
+            problems.add(line.find(single), "E-ARGUMENT",
+                         fmt::format("{} takes one pipeline, found {}", single, pipelines.size()),
+                         "run them one by one");
+    std::vector<pipeline::Plan> plans;
+    for (const auto& pipeline : pipelines) plans.push_back(plan_of(pipeline, settings, problems));
+    if (!problems.any_errors() && plans.size() > 1) refuse_common_outputs(plans, problems);
+    problems.throw_if_any(ErrorKind::usage); // warnings come with the run
+    int worst = 0;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const bool file = pipelines[i] != "-" && std::filesystem::exists(pipelines[i]);
+        const int code = run_with_messages(plans[i], options, console, file ? pipelines[i] : "");
+        if (worst == 0) worst = code;
+    }
+    return worst;
+}
+
+} // namespace
+
+Command run_command() {
+    return {"run", "Runs pipelines.", run_examples, false, [](CLI::App& app, Console& console) {
+                auto options = std::make_shared<PipelineOptions>();
+                auto pipelines = std::make_shared<std::vector<std::string>>();
+                app.add_option("PIPELINE", *pipelines, "YAML files, - or ready pipelines.")->required();
+                add_value_options(app, *options);
+                add_run_options(app, *options);
+                add_message_options(app, console);
+                return [=, &console](const Invocation& invocation) {
+                    return run(*pipelines, *options, invocation.line, console);
+                };
+            }};
+}
+
+} // namespace facetmill::cli

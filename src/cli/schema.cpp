@@ -1,0 +1,35 @@
+// facetmill schema: the published JSON Schemas.
+
+#include "docs/schema.hpp"
+#include "cli/command.hpp"
+#include "report/render.hpp"
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* schema_examples = R"(Examples
+  facetmill schema > facetmill.schema.json
+  facetmill schema report
+  # yaml-language-server: $schema=facetmill.schema.json      (the first line of a pipeline, for editors)
+)";
+
+} // namespace
+
+Command schema_command() {
+    return {"schema", "Prints the JSON Schema of pipelines, reports or info.", schema_examples, false,
+            [](CLI::App& app, Console&) {
+                auto what = std::make_shared<std::string>("pipeline");
+                app.add_option("WHAT", *what, "pipeline (default), report or info.")
+                    ->check(CLI::IsMember({"pipeline", "report", "info"}));
+                return [=](const Invocation&) {
+                    const Json schema = *what == "report" ? report::schema()
+                                        : *what == "info" ? report::info_schema()
+                                                          : docs::pipeline_schema();
+                    print(schema.dump(2) + "\n");
+                    return 0;
+                };
+            }};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,56 @@
+// facetmill stages: the stages and their options, from the registry.
+
+#include "docs/stages.hpp"
+#include "base/spelling.hpp"
+#include "cli/command.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* stages_examples = R"(Examples
+  facetmill stages
+  facetmill stages simplify
+  facetmill stages --markdown > stages.md
+)";
+
+struct StagesOptions {
+    std::string name;
+    bool markdown = false, man = false, json = false;
+};
+
+int list_stages(const StagesOptions& options, const CommandLine& line) {
+    if (!options.name.empty()) {
+        const auto* stage = stage_named(options.name);
+        if (!stage)
+            throw Error(ErrorKind::usage, "E-STAGE", fmt::format("there is no stage '{}'", options.name),
+                        suggestion(options.name, stage_names()), line.find(options.name));
+        print(docs::stage_page(*stage));
+    } else if (options.json)
+        print(docs::stages_json().dump(2) + "\n");
+    else if (options.markdown)
+        print(docs::stages_markdown());
+    else if (options.man)
+        print(docs::stages_man());
+    else
+        print(docs::stage_list());
+    return 0;
+}
+
+} // namespace
+
+Command stages_command() {
+    return {"stages", "Lists the stages, or tells all about one.", stages_examples, false,
+            [](CLI::App& app, Console&) {
+                auto options = std::make_shared<StagesOptions>();
+                app.add_option("NAME", options->name, "A stage.");
+                app.add_flag("--json", options->json, "All of them as JSON.");
+                app.add_flag("--markdown", options->markdown, "All of them as a Markdown page.");
+                app.add_flag("--man", options->man, "All of them as the manual page facetmill-stages(7).");
+                return [=](const Invocation& invocation) { return list_stages(*options, invocation.line); };
+            }};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,62 @@
+#include "cli/command.hpp"
+
+#include "support/catch.hpp"
+
+using namespace facetmill;
+using namespace facetmill::cli;
+
+namespace {
+std::string message(std::vector<std::string> arguments) {
+    Console console;
+    console.quiet = true;
+    try {
+        return "exit " + std::to_string(program(std::move(arguments), console));
+    } catch (const Error& e) {
+        std::string text;
+        for (const auto& d : e.diagnostics()) text += render(d) + "\n";
+        return text;
+    }
+}
+} // namespace
+
+TEST_CASE("the command line is a text that marks point into", "[cli]") {
+    const CommandLine line({"run", "a b.yaml", "--x=1"});
+    CHECK(render({Severity::error, "E-X", "no", line.mark(1), {}}) == "command line:1:15: error[E-X]: no\n"
+                                                                      "  facetmill run 'a b.yaml' --x=1\n"
+                                                                      "                ^~~~~~~~~~");
+    CHECK(spelled(line.find("--x")) == "command line:1:26");
+}
+
+TEST_CASE("an unknown command is answered with the nearest one", "[cli]") {
+    CHECK(message({"rnu", "a.yaml"}) == "command line:1:11: error[E-COMMAND]: there is no command 'rnu'\n"
+                                        "  facetmill rnu a.yaml\n"
+                                        "            ^~~\n"
+                                        "  hint: did you mean 'run'?\n");
+}
+
+TEST_CASE("an unknown option is answered with the nearest one", "[cli]") {
+    CHECK(message({"run", "a.yaml", "--ouput-dir=x"}) ==
+          "command line:1:22: error[E-OPTION]: 'run' has no option '--ouput-dir'\n"
+          "  facetmill run a.yaml --ouput-dir=x\n"
+          "                       ^~~~~~~~~~~~~\n"
+          "  hint: did you mean '--output-dir'?\n");
+    CHECK(message({"pipe", "--sav", "load", "a.stl"}) ==
+          "command line:1:16: error[E-OPTION]: 'pipe' has no option '--sav'\n"
+          "  facetmill pipe --sav load a.stl\n"
+          "                 ^~~~~\n"
+          "  hint: did you mean '--save'?\n");
+}
+
+TEST_CASE("options before the command are answered with where they go", "[cli]") {
+    CHECK(message({"--quiet", "run"}) ==
+          "command line:1:11: error[E-OPTION]: facetmill itself has no option '--quiet'\n"
+          "  facetmill --quiet run\n"
+          "            ^~~~~~~\n"
+          "  hint: options come after the command: facetmill run ... --quiet\n");
+}
+
+TEST_CASE("one JSON document names the release and its libraries", "[cli]") {
+    CHECK(version_text(false) == "facetmill " FACETMILL_VERSION "\n");
+    CHECK(version_text(true).find("\"CGAL\"") != std::string::npos);
+    CHECK(version_text(true).find("unknown") == std::string::npos);
+}
