@@ -1,2 +1,34 @@
+# cmake --install and the Debian package: the executable, manual pages, shell completions, ready pipelines as examples.
 include(GNUInstallDirs)
 install(TARGETS facetmill RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY pipelines examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES man/facetmill.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES man/facetmill-pipeline.5 DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
+
+# The page of the stages comes from their declarations, so the executable writes it.
+set(stages_page ${CMAKE_CURRENT_BINARY_DIR}/man/facetmill-stages.7)
+add_custom_command(OUTPUT ${stages_page}
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/man
+  COMMAND $<TARGET_FILE:facetmill> stages --man > ${stages_page}.part
+  COMMAND ${CMAKE_COMMAND} -E rename ${stages_page}.part ${stages_page}
+  DEPENDS facetmill COMMENT "Writing the manual page of the stages" VERBATIM)
+add_custom_target(manual ALL DEPENDS ${stages_page})
+install(FILES ${stages_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man7)
+
+install(FILES tools/completion/facetmill.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+        RENAME facetmill)
+install(FILES tools/completion/facetmill.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
+set(CPACK_PACKAGE_NAME facetmill)
+set(CPACK_PACKAGE_VENDOR facetmill)
+set(CPACK_PACKAGE_CONTACT "facetmill maintainers")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_RESOURCE_FILE_LICENSE ${CMAKE_CURRENT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${CPACK_PACKAGE_CONTACT}")
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+include(CPack)
