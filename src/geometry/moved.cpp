@@ -1,0 +1,49 @@
+#include "geometry/moved.hpp"
+
+#include "base/parallel.hpp"
+
+namespace facetmill {
+
+namespace {
+
+/// Takes the part along the normal out of each tangent; one that lies along the normal stays as it is.
+template <class Number>
+void straighten(std::vector<Number>& tangents, const Attribute& normals) {
+    parallel_for(tangents.size() / 4, [&](std::size_t i) {
+        const Vec3 n{normals.value(i, 0), normals.value(i, 1), normals.value(i, 2)};
+        Number* t = &tangents[4 * i];
+        const Vec3 old{double(t[0]), double(t[1]), double(t[2])};
+        const Vec3 flat = old - n * dot(n, old);
+        const double size = length(flat);
+        if (!(size > 1e-6 * length(old))) return;
+        for (std::size_t c = 0; c < 3; ++c) t[c] = static_cast<Number>(flat[c] / size);
+    });
+}
+
+bool straighten(Attribute& tangent, const Attribute& normals) {
+    if (auto* floats = std::get_if<std::vector<float>>(&tangent.data))
+        return straighten(*floats, normals), true;
+    if (auto* doubles = std::get_if<std::vector<double>>(&tangent.data))
+        return straighten(*doubles, normals), true;
+    return false;
+}
+
+} // namespace
+
+Fates settle_moved(Mesh& mesh) {
+    const auto normals = recompute_normals(mesh);
+    const Attribute* normal = normals ? mesh.find("NORMAL", Domain::wedge) : nullptr;
+    Fates fates;
+    for (auto& a : mesh.attributes) {
+        Fate fate{a.name, a.domain, Fate::Kind::kept, ""};
+        if (normals && a.name == normals->attribute && a.domain == normals->domain)
+            fate = *normals;
+        else if (normal && a.role == Role::tangent && a.domain == Domain::wedge && a.components == 4 &&
+                 straighten(a, *normal))
+            fate = {a.name, a.domain, Fate::Kind::recomputed, "made perpendicular to the new normals"};
+        fates.push_back(std::move(fate));
+    }
+    return fates;
+}
+
+} // namespace facetmill

@@ -1,0 +1,237 @@
+// One collapse: the tests that keep the guarantees, and the edit.
+
+#include "geometry/simplify_surface.hpp"
+
+namespace facetmill::simplification {
+
+namespace {
+
+constexpr double least_cosine = 0.5; // no face turns by more than 60 degrees
+// A face whose height is below this share of its longest edge counts as flat: far above what rounding can do,
+// far below what anyone wants.
+constexpr double least_height = 1e-5;
+
+/// The live corners at a vertex; false when there are too many.
+bool gather(const Surface& s, Index v, std::array<Index, Rings::most>& ring, int& size) {
+    size = 0;
+    for (Index c = s.first[v]; c != none; c = s.next[c]) {
+        if (!s.live(c / 3)) continue;
+        if (size == Rings::most) return false;
+        ring[static_cast<std::size_t>(size++)] = c;
+    }
+    return true;
+}
+
+/// A face on the edge: its corners at the two ends, and the vertex across.
+struct Side {
+    Index at_a, at_b, opposite;
+};
+
+/// An edge about to go: b into a.
+class Collapse {
+  public:
+    Collapse(Surface& s, Index a, Index b, Rings& rings) : s_(s), a_(a), b_(b), r_(rings) {}
+
+    /// 0, or why the collapse to `to` is not allowed.
+    std::uint8_t refusal(const Vec3& to, bool a_stays, bool along, bool boundary, std::uint32_t stamp) {
+        if (!gather(s_, a_, r_.a, r_.a_size) || !gather(s_, b_, r_.b, r_.b_size)) return blocked_topology;
+        find_sides();
+        if (sides_ != (boundary ? 1 : 2)) return blocked_topology;
+        if (!link_condition(along, stamp)) return blocked_topology;
+        if (!s_.wedge.empty() && !pair_wedges(a_stays)) return blocked_border;
+        if (!a_stays && !keeps_facing(a_, r_.a, r_.a_size, b_, to)) return blocked_flip;
+        return keeps_facing(b_, r_.b, r_.b_size, a_, to) ? 0 : blocked_flip;
+    }
+
+    /// Makes it. t: where on the edge attributes are taken, 0 at a.
+    void make(double t, Log& log) {
+        const Index source_a = s_.source[a_], source_b = s_.source[b_];
+        if (s_.log_vertices) log.vertices.push_back({source_a, source_b, t});
+        if (!s_.wedge.empty()) log_wedges(t, log);
+        join_lists();
+        for (int i = 0; i < sides_; ++i) {
+            const Index f = side_[i].at_a / 3;
+            if (s_.has_features) pass_on_features(side_[i]);
+            s_.tri[3 * f] = none;
+        }
+    }
+
+    int sides() const { return sides_; }
+
+  private:
+    std::span<const Index> ring_a() const { return {r_.a.data(), static_cast<std::size_t>(r_.a_size)}; }
+    std::span<const Index> ring_b() const { return {r_.b.data(), static_cast<std::size_t>(r_.b_size)}; }
+
+    void find_sides() {
+        sides_ = 0;
+        for (const Index c : ring_a()) {
+            const Index n = after(c), p = before(c);
+            const bool leads = s_.tri[n] == b_;
+            if (!leads && s_.tri[p] != b_) continue;
+            if (sides_ < 2) side_[sides_] = leads ? Side{c, n, s_.tri[p]} : Side{c, p, s_.tri[n]};
+            ++sides_;
+        }
+    }
+
+    /// The ends' links meet in nothing but the opposite vertices (Dey et al. 1999; the outside of a boundary,
+    /// and both sides of a feature line, count as one more vertex).
+    bool link_condition(bool along, std::uint32_t stamp) {
+        for (const Index c : ring_a()) s_.mark[s_.tri[after(c)]] = s_.mark[s_.tri[before(c)]] = stamp;
+        int common = 0;
+        for (const Index c : ring_b())
+            for (const Index v : {s_.tri[after(c)], s_.tri[before(c)]})
+                if (v != a_ && s_.mark[v] == stamp) s_.mark[v] = stamp + 1, ++common;
+        if (common != sides_) return false;
+        if (sides_ == 2 && joined(ring_a()) && joined(ring_b())) return false; // the last tetrahedron
+        if (!along) return true;
+        for (int i = 0; i < sides_; ++i) // a loop of three feature edges would close on itself
+            if (edge_flags(side_[i].at_a, side_[i].opposite) & edge_flags(side_[i].at_b, side_[i].opposite) &
+                feature_edge)
+                return false;
+        return true;
+    }
+
+    /// Whether a face of the ring has both opposite vertices.
+    bool joined(std::span<const Index> ring) const {
+        const Index x = side_[0].opposite, y = side_[1].opposite;
+        for (const Index c : ring) {
+            const Index n = s_.tri[after(c)], p = s_.tri[before(c)];
+            if ((n == x && p == y) || (n == y && p == x)) return true;
+        }
+        return false;
+    }
+
+    /// Flags of the edge of c's face between c's vertex and v.
+    std::uint8_t edge_flags(Index c, Index v) const {
+        return s_.flags[s_.tri[after(c)] == v ? c : before(c)];
+    }
+
+    /// Finds for each wedge at b the one at a that takes its faces.
+    bool pair_wedges(bool a_stays) {
+        pairs_ = 0;
+        for (int i = 0; i < sides_; ++i) {
+            const Index to = s_.wedge[side_[i].at_a], from = s_.wedge[side_[i].at_b];
+            if (pairs_ == 1 && from == pair_[0][1]) {
+                if (to != pair_[0][0]) return false;
+                continue;
+            }
+            // Two wedges may end in one only when that one keeps its own attributes.
+            if (pairs_ == 1 && to == pair_[0][0] && !a_stays) return false;
+            pair_[pairs_][0] = to, pair_[pairs_][1] = from;
+            ++pairs_;
+        }
+        for (const Index c : ring_b())
+            if (taker(s_.wedge[c]) == none) return false;
+        return true;
+    }
+
+    Index taker(Index wedge) const {
+        for (int i = 0; i < pairs_; ++i)
+            if (pair_[i][1] == wedge) return pair_[i][0];
+        return none;
+    }
+
+    /// Whether the faces of the ring that stay keep their side when v moves.
+    bool keeps_facing(Index v, const std::array<Index, Rings::most>& ring, int size, Index other,
+                      const Vec3& to) const {
+        const Vec3& from = s_.at[v];
+        for (int i = 0; i < size; ++i) {
+            const Index n = s_.tri[after(ring[static_cast<std::size_t>(i)])];
+            const Index p = s_.tri[before(ring[static_cast<std::size_t>(i)])];
+            if (n == other || p == other) continue;
+            const Vec3 &x = s_.at[n], &y = s_.at[p];
+            const Vec3 old = cross(x - from, y - from), now = cross(x - to, y - to);
+            const double was = dot(old, old), is = dot(now, now), turn = dot(old, now);
+            if (!(was > 0)) continue; // degenerate before: nothing to keep
+            if (!(turn > 0 && turn * turn >= least_cosine * least_cosine * was * is)) return false;
+            const double longest = std::max({dot(x - to, x - to), dot(y - to, y - to), dot(x - y, x - y)});
+            const double least = least_height * longest;
+            if (is < least * least && is < was) return false;
+        }
+        return true;
+    }
+
+    void log_wedges(double t, Log& log) {
+        for (int i = 0; i < pairs_; ++i)
+            if (pair_[i][0] != pair_[i][1]) log.wedges.push_back({pair_[i][0], pair_[i][1], t});
+        for (const Index c : ring_b()) s_.wedge[c] = taker(s_.wedge[c]);
+    }
+
+    /// a's list becomes the corners that stay, b's becomes empty.
+    void join_lists() {
+        Index* link = &s_.first[a_];
+        const auto add = [&](Index c, Index other) {
+            if (s_.tri[after(c)] == other || s_.tri[before(c)] == other) return;
+            *link = c;
+            link = &s_.next[c];
+        };
+        for (const Index c : ring_a()) add(c, b_);
+        for (const Index c : ring_b()) add(c, a_);
+        *link = none;
+        for (const Index c : ring_b())
+            if (s_.tri[after(c)] != a_ && s_.tri[before(c)] != a_) s_.tri[c] = a_;
+        s_.first[b_] = none;
+    }
+
+    /// The edges from a and b to the opposite vertex become one: a feature if either was.
+    void pass_on_features(const Side& side) {
+        const auto either = static_cast<std::uint8_t>(
+            (edge_flags(side.at_a, side.opposite) | edge_flags(side.at_b, side.opposite)) &
+            (boundary_edge | feature_edge));
+        if (!either) return;
+        for (Index c = s_.first[a_]; c != none; c = s_.next[c]) {
+            if (s_.tri[after(c)] == side.opposite) s_.flags[c] |= either;
+            if (s_.tri[before(c)] == side.opposite) s_.flags[before(c)] |= either;
+        }
+    }
+
+    Surface& s_;
+    Index a_, b_;
+    Rings& r_;
+    Side side_[2] = {};
+    int sides_ = 0;
+    Index pair_[2][2] = {}; // wedge at a, wedge at b
+    int pairs_ = 0;
+};
+
+/// Where `to` is nearest on the edge from a (0) to b (1).
+double along_edge(const Vec3& a, const Vec3& b, const Vec3& to) {
+    const Vec3 edge = b - a;
+    const double squared = dot(edge, edge);
+    return squared > 0 ? std::clamp(dot(to - a, edge) / squared, 0.0, 1.0) : 0.5;
+}
+
+} // namespace
+
+bool collapse(Surface& s, Index c, std::uint32_t pass, std::uint32_t stamp, Rings& rings, Tally& tally) {
+    const Index u = s.tri[c], v = s.tri[after(c)];
+    const std::uint8_t flags = s.flags[c];
+    const Placement p = place(s, u, v, flags);
+    const Index a = p.keep_second ? v : u, b = p.keep_second ? u : v;
+    const bool stays = p.keep_first || p.keep_second;
+    Collapse edit(s, a, b, rings);
+    if (const auto why = edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge, stamp)) {
+        s.flags[c] |= why;
+        s.cost[c] = never;
+        ++tally.refused;
+        return false;
+    }
+    const double squared = dot(s.at[a] - s.at[b], s.at[a] - s.at[b]);
+    edit.make(stays ? 0.0 : along_edge(s.at[a], s.at[b], p.at), tally.log);
+    s.at[a] = p.at;
+    s.moved[a] |= !stays;
+    s.kind[a] = std::max(s.kind[a], s.kind[b]);
+    s.touched[a] = s.touched[b] = pass;
+    if (s.quadrics.empty()) {
+        tally.largest = std::max(tally.largest, squared / 4);
+    } else {
+        s.quadrics[a] += s.quadrics[b];
+        if (s.quadrics[a].weight > 0)
+            tally.largest = std::max(tally.largest, s.quadrics[a](p.at) / s.quadrics[a].weight);
+    }
+    ++tally.collapses;
+    tally.faces += static_cast<std::size_t>(edit.sides());
+    return true;
+}
+
+} // namespace facetmill::simplification

@@ -1,0 +1,139 @@
+// Which vertices may move how: found once, since every collapse that is allowed keeps the answer.
+
+#include "base/parallel.hpp"
+#include "geometry/simplify_surface.hpp"
+
+namespace facetmill::simplification {
+
+namespace {
+
+/// A corner at a vertex: its face runs from the neighbour `in` through the vertex to the neighbour `out`, so
+/// the edge of the corner leads to `out`.
+struct Spoke {
+    Index out, in, corner;
+};
+
+/// The primitive of each face in the surface's order; empty when there is only one.
+std::vector<Index> primitives_of(const Surface& s, const Mesh& mesh) {
+    const Attribute* a = mesh.find(primitive_attribute, Domain::face);
+    if (!a || mesh.primitives.size() < 2) return {};
+    std::vector<Index> list(s.face_slots());
+    parallel_for(list.size(),
+                 [&](std::size_t f) { list[f] = static_cast<Index>(a->value(s.face_source[f], 0)); });
+    return list;
+}
+
+class Classifier {
+  public:
+    Classifier(Surface& s, const std::vector<Index>& primitives, bool locked)
+        : s_(s), primitives_(primitives), locked_(locked) {}
+
+    Kind operator()(Index v) {
+        const Kind kind = look(v);
+        if (kind == Kind::pinned) flag_open_edges(v);
+        return kind;
+    }
+
+  private:
+    Kind look(Index v) {
+        spokes_.clear(), ins_.clear();
+        for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
+            const Index out = s_.tri[after(c)], in = s_.tri[before(c)];
+            if (out == v || in == v || out == in) return Kind::pinned;
+            spokes_.push_back({out, in, c});
+            ins_.push_back(in);
+        }
+        std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
+            return a.out != b.out ? a.out < b.out : a.corner < b.corner;
+        });
+        std::sort(ins_.begin(), ins_.end());
+        for (std::size_t i = 1; i < spokes_.size(); ++i)
+            if (spokes_[i].out == spokes_[i - 1].out || ins_[i] == ins_[i - 1]) return Kind::pinned;
+        return walk();
+    }
+
+    /// Flags the edges that lead out of a pinned vertex and have one face: its neighbours' loops need to
+    /// know.
+    void flag_open_edges(Index v) {
+        ins_.clear();
+        for (Index c = s_.first[v]; c != none; c = s_.next[c])
+            ins_.push_back(s_.tri[after(c)]), ins_.push_back(s_.tri[before(c)]);
+        std::sort(ins_.begin(), ins_.end());
+        for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
+            const auto [low, high] = std::equal_range(ins_.begin(), ins_.end(), s_.tri[after(c)]);
+            if (high - low == 1) s_.flags[c] |= boundary_edge | feature_edge;
+        }
+    }
+
+    /// Goes around the fan; flags the edges that lead out of the vertex.
+    Kind walk() {
+        const Spoke* start = nullptr;
+        for (const Spoke& spoke : spokes_) {
+            if (std::binary_search(ins_.begin(), ins_.end(), spoke.out)) continue;
+            if (start) return Kind::pinned; // two fans
+            start = &spoke;
+        }
+        const bool open = start != nullptr;
+        if (!open) start = spokes_.data();
+        int features = open ? 2 : 0;
+        const Spoke* now = start;
+        features_.clear();
+        for (std::size_t steps = 1;; ++steps) {
+            const Spoke* then = leading_to(now->in);
+            if (!then || (then == start && !open)) {
+                if (steps != spokes_.size()) return Kind::pinned; // a fan and more
+                if (then && differ(*now, *then)) features_.push_back(then->corner);
+                break;
+            }
+            if (differ(*now, *then)) features_.push_back(then->corner);
+            now = then;
+        }
+        for (const Index c : features_) s_.flags[c] |= feature_edge;
+        if (open) s_.flags[start->corner] |= boundary_edge | feature_edge;
+        features += static_cast<int>(features_.size());
+        if (features == 0) return Kind::smooth;
+        return features == 2 && !(open && locked_) ? Kind::curve : Kind::corner;
+    }
+
+    const Spoke* leading_to(Index other) const {
+        const auto at = std::lower_bound(spokes_.begin(), spokes_.end(), other,
+                                         [](const Spoke& a, Index o) { return a.out < o; });
+        return at != spokes_.end() && at->out == other ? &*at : nullptr;
+    }
+
+    /// Whether the edge between two neighbouring faces of the fan is a seam or the border of a primitive.
+    bool differ(const Spoke& now, const Spoke& then) const {
+        if (!primitives_.empty() && primitives_[now.corner / 3] != primitives_[then.corner / 3]) return true;
+        if (s_.wedge.empty()) return false;
+        return s_.wedge[now.corner] != s_.wedge[then.corner] ||
+               s_.wedge[before(now.corner)] != s_.wedge[after(then.corner)];
+    }
+
+    Surface& s_;
+    const std::vector<Index>& primitives_;
+    bool locked_;
+    std::vector<Spoke> spokes_;
+    std::vector<Index> ins_, features_;
+};
+
+} // namespace
+
+void classify(Surface& s, const Mesh& mesh, SimplifySettings::Boundary boundary) {
+    const std::vector<Index> primitives = primitives_of(s, mesh);
+    s.kind.resize(s.vertex_slots());
+    parallel_chunks(s.vertex_slots(), [&](std::size_t begin, std::size_t end) {
+        Classifier kind_of(s, primitives, boundary == SimplifySettings::Boundary::locked);
+        for (std::size_t v = begin; v < end; ++v) s.kind[v] = kind_of(static_cast<Index>(v));
+    });
+    s.has_features = parallel_reduce(
+                         s.kind.size(), 0,
+                         [&](std::size_t begin, std::size_t end) {
+                             int any = 0;
+                             for (std::size_t v = begin; v < end; ++v)
+                                 any |= s.kind[v] == Kind::curve || s.kind[v] == Kind::corner;
+                             return any;
+                         },
+                         [](int a, int b) { return a | b; }) != 0;
+}
+
+} // namespace facetmill::simplification

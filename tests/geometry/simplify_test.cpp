@@ -1,0 +1,294 @@
+#include "geometry/simplify.hpp"
+
+#include "base/error.hpp"
+#include "geometry/crumple.hpp"
+#include "mesh/invariants.hpp"
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/failure.hpp"
+#include "support/surface.hpp"
+
+using namespace facetmill;
+using Boundary = SimplifySettings::Boundary;
+using Method = SimplifySettings::Method;
+using Stop = SimplifyResult::Stop;
+using test::count;
+using test::sound;
+
+namespace {
+
+Mesh rough(Mesh m, double amplitude) { return crumple(std::move(m), {.amplitude = amplitude}).mesh; }
+
+/// The two halves of a grid as UV islands: wedges are doubled along the middle column.
+Mesh seamed_grid(Index n) {
+    Mesh m = shapes::grid(static_cast<int>(n), static_cast<int>(n));
+    m.wedge_vertex.resize(m.positions.size());
+    for (Index v = 0; v < m.positions.size(); ++v) m.wedge_vertex[v] = v;
+    std::map<Index, Index> twin;
+    for (Index f = 0; f < m.face_count(); ++f) {
+        double x = 0;
+        for (Index c = 3 * f; c < 3 * f + 3; ++c) x += m.positions[m.wedge_vertex[m.corners[c]]].x / 3;
+        if (x < n / 2.0) continue;
+        for (Index c = 3 * f; c < 3 * f + 3; ++c) {
+            const Index v = m.wedge_vertex[m.corners[c]];
+            if (m.positions[v].x != n / 2.0) continue;
+            const auto [at, fresh] = twin.emplace(v, static_cast<Index>(m.wedge_vertex.size()));
+            if (fresh) m.wedge_vertex.push_back(v);
+            m.corners[c] = at->second;
+        }
+    }
+    Attribute uv;
+    uv.name = "TEXCOORD_0", uv.role = Role::uv, uv.components = 2;
+    std::vector<double> data;
+    for (Index w = 0; w < m.wedge_count(); ++w) {
+        const Vec3& p = m.positions[m.wedge_vertex[w]];
+        data.push_back(p.x + (w >= m.positions.size() ? 100 : 0)), data.push_back(p.y);
+    }
+    uv.data = std::move(data);
+    m.attributes.push_back(std::move(uv));
+    return m;
+}
+
+} // namespace
+
+TEST_CASE("a sphere is simplified to the count asked for and stays a sphere", "[geometry]") {
+    const Mesh m = shapes::icosphere(4); // 5120 faces
+    for (const Method method : {Method::quadric, Method::shortest_edge}) {
+        Mesh now = m;
+        for (const std::size_t target : {4000u, 3000u, 2000u, 1000u}) {
+            const auto r = simplify(now, {.method = method, .faces = target});
+            CHECK(r.stop == Stop::faces);
+            CHECK(r.faces_after == target);
+            CHECK(r.mesh.face_count() == target);
+            CHECK(broken_invariants(r.mesh).empty());
+            CHECK(sound(r.mesh, 2));
+            now = r.mesh;
+        }
+        // 1000 faces inscribed in the sphere lack about 1 % of its volume; midpoints cut off some more.
+        CHECK(test::volume(now) == Approx(test::volume(m)).epsilon(method == Method::quadric ? 0.005 : 0.02));
+        for (const Vec3& p : now.positions) CHECK(std::abs(length(p) - 1) < 0.04);
+    }
+}
+
+TEST_CASE("a torus keeps its hole down to where topology stops it", "[geometry]") {
+    const Mesh m = rough(shapes::torus(60, 30), 0.005);
+    for (const Method method : {Method::quadric, Method::shortest_edge}) {
+        CHECK(sound(simplify(m, {.method = method, .ratio = 0.1}).mesh, 0));
+        const auto least = simplify(m, {.method = method, .faces = 2});
+        CHECK(least.stop == Stop::stuck);
+        CHECK(least.blocked.topology + least.blocked.flips > 0);
+        CHECK(sound(least.mesh, 0));
+        CHECK(least.faces_after < 100);
+    }
+}
+
+TEST_CASE("no component vanishes", "[geometry]") {
+    Mesh m = shapes::icosphere(2);
+    Mesh small = shapes::icosphere(1);
+    for (auto& p : small.positions) p = p * 0.01 + Vec3{3, 0, 0};
+    append(m, small);
+    const auto r = simplify(m, {.faces = 1});
+    CHECK(r.stop == Stop::stuck);
+    CHECK(sound(r.mesh, 4));
+    CHECK(sound(simplify(shapes::tetrahedron(), {.faces = 1}).mesh, 2));
+}
+
+TEST_CASE("a flat part of a cube goes, its edges and corners stay", "[geometry]") {
+    // A cube with gridded faces: every face of the quad cube as 8 x 8 squares.
+    Mesh m;
+    const Mesh sheet = shapes::grid(8, 8);
+    const Vec3 frames[6][3] = {{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {{0, 0, 8}, {1, 0, 0}, {0, 1, 0}},
+                               {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 8, 0}, {0, 0, 1}, {1, 0, 0}},
+                               {{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}, {{8, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    for (const auto& f : frames) {
+        Mesh side = sheet;
+        for (auto& p : side.positions) p = f[0] + f[1] * p.x + f[2] * p.y;
+        append(m, side);
+    }
+    weld_exact(m);
+    REQUIRE(sound(m, 2));
+    const auto r = simplify(m, {.faces = 12});
+    CHECK(r.faces_after == 12);
+    CHECK(sound(r.mesh, 2));
+    CHECK(test::volume(r.mesh) == Approx(512).epsilon(1e-6));
+    CHECK(r.largest_error < 0.01);
+}
+
+TEST_CASE("the boundary of an open sheet keeps its shape", "[geometry]") {
+    const Mesh m = shapes::grid(16, 16);
+    const auto r = simplify(m, {.ratio = 0.02});
+    CHECK(r.stop == Stop::ratio);
+    CHECK(count(r.mesh).euler == 1);
+    CHECK(count(r.mesh).crowded == 0);
+    CHECK(test::area(r.mesh) == Approx(256).epsilon(1e-6));
+    // The note's method knows no shape: it moves along the boundary's edges, and cuts corners.
+    const auto note = simplify(m, {.method = Method::shortest_edge, .ratio = 0.25});
+    CHECK(count(note.mesh).euler == 1);
+    CHECK(test::area(note.mesh) > 0.95 * 256);
+}
+
+TEST_CASE("a locked boundary stays vertex by vertex", "[geometry]") {
+    const Mesh m = rough(shapes::grid(12, 12), 0.05);
+    for (const Method method : {Method::quadric, Method::shortest_edge}) {
+        const auto r = simplify(m, {.method = method, .boundary = Boundary::locked, .faces = 1});
+        CHECK(r.stop == Stop::stuck);
+        CHECK(r.blocked.borders > 0);
+        CHECK(count(r.mesh).open == 48);
+        CHECK(count(r.mesh).euler == 1);
+        std::set<std::array<double, 3>> places;
+        for (const Vec3& p : r.mesh.positions) places.insert({p.x, p.y, p.z});
+        const Mesh flat = shapes::grid(12, 12);
+        for (std::size_t v = 0; v < m.positions.size(); ++v) {
+            const Vec3 &p = m.positions[v], &q = flat.positions[v];
+            if (q.x == 0 || q.y == 0 || q.x == 12 || q.y == 12) CHECK(places.count({p.x, p.y, p.z}) == 1);
+        }
+    }
+}
+
+TEST_CASE("what is not manifold stays, the rest is simplified", "[geometry]") {
+    Mesh m = shapes::icosphere(3);
+    append(m, shapes::fan3());
+    append(m, shapes::hourglass());
+    append(m, shapes::bowtie());
+    const auto before = count(m);
+    const auto r = simplify(m, {.ratio = 0.2});
+    CHECK(r.stop == Stop::ratio);
+    const auto after = count(r.mesh);
+    CHECK(after.euler == before.euler);
+    CHECK(after.crowded == before.crowded);
+    CHECK(after.pinched == before.pinched);
+    CHECK(after.duplicates == 0);
+    CHECK(broken_invariants(r.mesh).empty());
+}
+
+TEST_CASE("doubled and degenerate faces are carried along", "[geometry]") {
+    Mesh m = shapes::icosphere(3);
+    add_face(m, std::array<Index, 3>{m.corners[0], m.corners[1], m.corners[2]});
+    add_face(m, std::array<Index, 3>{m.corners[90], m.corners[90], m.corners[91]});
+    const auto r = simplify(m, {.ratio = 0.2});
+    CHECK(r.stop == Stop::ratio);
+    CHECK(broken_invariants(r.mesh).empty());
+    CHECK(count(r.mesh).duplicates == 1);
+}
+
+TEST_CASE("meshes without area or faces are no trouble", "[geometry]") {
+    Mesh line;
+    for (int i = 0; i < 50; ++i) line.positions.push_back({double(i), 0, 0});
+    for (Index i = 0; i + 2 < 50; ++i) add_face(line, std::array<Index, 3>{i, i + 1, i + 2});
+    CHECK(broken_invariants(simplify(line, {.ratio = 0.1}).mesh).empty());
+    Mesh point;
+    point.positions.assign(9, {1, 2, 3});
+    for (Index i = 0; i + 2 < 9; ++i) add_face(point, std::array<Index, 3>{i, i + 1, i + 2});
+    CHECK(broken_invariants(simplify(point, {.ratio = 0.1}).mesh).empty());
+    CHECK(simplify(Mesh{}, {.ratio = 0.1}).stop == Stop::nothing);
+}
+
+TEST_CASE("a fan with thousands of faces at one vertex ends", "[geometry]") {
+    const auto r = simplify(shapes::open_cone(5000), {.ratio = 0.05});
+    CHECK(r.stop == Stop::ratio);
+    CHECK(count(r.mesh).euler == 1);
+}
+
+TEST_CASE("seams stay seams, matched, and UVs follow the place", "[geometry]") {
+    const Mesh m = seamed_grid(16);
+    const auto r = simplify(m, {.ratio = 0.1});
+    CHECK(r.stop == Stop::ratio);
+    CHECK(broken_invariants(r.mesh).empty());
+    CHECK(test::area(r.mesh) == Approx(256).epsilon(1e-6));
+    const Attribute* uv = r.mesh.find("TEXCOORD_0", Domain::wedge);
+    REQUIRE(uv);
+    std::map<Index, int> wedges;
+    for (Index w = 0; w < r.mesh.wedge_count(); ++w) {
+        const Vec3& p = r.mesh.positions[r.mesh.vertex_of_wedge(w)];
+        ++wedges[r.mesh.vertex_of_wedge(w)];
+        CHECK(uv->value(w, 1) == Approx(p.y).margin(0.3));
+        const double u = uv->value(w, 0);
+        CHECK((u < 50 ? u : u - 100) == Approx(p.x).margin(0.3));
+    }
+    for (const auto& [v, n] : wedges) CHECK((n == 2) == (std::abs(r.mesh.positions[v].x - 8) < 1e-3));
+    REQUIRE(r.fates.size() == 1);
+    CHECK(r.fates[0].kind == Fate::Kind::interpolated);
+}
+
+TEST_CASE("borders of primitives stay where they are", "[geometry]") {
+    Mesh m = shapes::grid(16, 16);
+    m.primitives.resize(2);
+    m.primitives[1].material = 1;
+    Attribute a;
+    a.name = primitive_attribute, a.domain = Domain::face, a.role = Role::index;
+    std::vector<std::uint32_t> of(m.face_count());
+    for (Index f = 0; f < m.face_count(); ++f) {
+        const double x = (m.point(3 * f).x + m.point(3 * f + 1).x + m.point(3 * f + 2).x) / 3;
+        of[f] = x > 8;
+    }
+    a.data = of;
+    m.attributes.push_back(a);
+    const auto r = simplify(m, {.ratio = 0.1});
+    double left = 0;
+    for (Index f = 0; f < r.mesh.face_count(); ++f)
+        if (r.mesh.primitive_of(f) == 0)
+            left += cross(r.mesh.point(3 * f + 1) - r.mesh.point(3 * f),
+                          r.mesh.point(3 * f + 2) - r.mesh.point(3 * f))
+                        .z /
+                    2;
+    CHECK(left == Approx(128).epsilon(1e-4));
+}
+
+TEST_CASE("an attribute that is linear in the position stays with the position", "[geometry]") {
+    Mesh m = rough(shapes::icosphere(4), 0.002);
+    test::add_coordinates(m);
+    const auto r = simplify(m, {.ratio = 0.25});
+    const Attribute* a = r.mesh.find("coordinates", Domain::wedge);
+    REQUIRE(a);
+    double worst = 0;
+    for (Index w = 0; w < r.mesh.wedge_count(); ++w) {
+        const Vec3 p = r.mesh.positions[w], q{a->value(w, 0), a->value(w, 1), a->value(w, 2)};
+        worst = std::max(worst, length(p - q));
+    }
+    CHECK(worst < 0.05);
+}
+
+TEST_CASE("the first target met is reported", "[geometry]") {
+    const Mesh m = shapes::icosphere(3); // 1280 faces, 642 vertices
+    CHECK(simplify(m, {.ratio = 0.5, .faces = 100}).stop == Stop::ratio);
+    CHECK(simplify(m, {.ratio = 0.5, .faces = 1000}).stop == Stop::faces);
+    const auto r = simplify(m, {.faces = 10, .vertices = 300});
+    CHECK(r.stop == Stop::vertices);
+    CHECK(r.vertices_after == 300);
+    CHECK(r.mesh.vertex_count() == 300);
+}
+
+TEST_CASE("a mesh at its target comes back as it was", "[geometry]") {
+    const Mesh m = shapes::quad_cube();
+    const auto r = simplify(m, {.faces = 12});
+    CHECK(r.stop == Stop::nothing);
+    CHECK(test::same(r.mesh, m));
+    CHECK(r.faces_given == 6);
+    CHECK(r.faces_before == 12);
+}
+
+TEST_CASE("units and place do not matter", "[geometry]") {
+    const Mesh m = rough(shapes::icosphere(4), 0.01);
+    const auto plain = simplify(m, {.ratio = 0.2});
+    Mesh far = m;
+    for (auto& p : far.positions) p = p * 0x1p-40;
+    const auto tiny = simplify(far, {.ratio = 0.2});
+    CHECK(tiny.mesh.corners == plain.mesh.corners);
+    CHECK(tiny.largest_error == plain.largest_error * 0x1p-40);
+    for (auto& p : far.positions) p = p * 0x1p1000;
+    CHECK(sound(simplify(far, {.ratio = 0.2}).mesh, 2));
+}
+
+TEST_CASE("simplification gives the same bytes for any number of threads", "[geometry]") {
+    Mesh m = rough(shapes::icosphere(6), 0.002); // several stretches
+    test::add_coordinates(m);
+    for (const Method method : {Method::quadric, Method::shortest_edge})
+        CHECK(test::same_for_any_threads([&] { return simplify(m, {.method = method, .ratio = 0.1}).mesh; }));
+}
+
+TEST_CASE("simplification refuses to guess a target", "[geometry]") {
+    CHECK(test::failure([] { simplify(shapes::cube(), {}); }) ==
+          "usage [E-RANGE] simplify: a target is needed: ratio, faces or vertices");
+    CHECK(test::failure([] { simplify(shapes::cube(), {.ratio = 2}); }) ==
+          "usage [E-RANGE] simplify: ratio is 0 < x <= 1, not 2");
+}

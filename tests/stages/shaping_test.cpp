@@ -1,0 +1,117 @@
+// The stages that shape: what they pass on to geometry, and what they report.
+#include "mesh/invariants.hpp"
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/stage.hpp"
+#include "support/surface.hpp"
+
+using namespace facetmill;
+using test::options;
+using test::problems_of;
+using test::run_stage;
+using test::scene_of;
+
+TEST_CASE("relax: a bare number is the iterations", "[stages]") {
+    const auto once = run_stage("relax", Value::scalar("2"), scene_of(shapes::icosphere(2)));
+    const auto twice = run_stage("relax", {}, run_stage("relax", {}, scene_of(shapes::icosphere(2))).scene);
+    CHECK(test::same(once.mesh(), twice.mesh()));
+    CHECK(once.record.result["parts"][0]["moved_vertices"] == 162);
+    CHECK(once.scene.parts[0].changed);
+}
+
+TEST_CASE("relax: the ledger has every attribute", "[stages]") {
+    const auto r = run_stage("relax", {}, scene_of(shapes::uv_cube()));
+    CHECK(r.record.ledger.size() == 2);
+}
+
+TEST_CASE("relax: options out of range are refused with the range", "[stages]") {
+    CHECK(problems_of("relax", options({{"factor", "0"}})).substr(0, 8) == "E-RANGE ");
+    CHECK(problems_of("relax", options({{"iterations", "-1"}})).substr(0, 8) == "E-RANGE ");
+}
+
+TEST_CASE("crumple: splits, displaces, and resolves its amplitude", "[stages]") {
+    const auto r =
+        run_stage("crumple", options({{"amplitude", "1%"}, {"seed", "7"}}), scene_of(shapes::quad_cube()));
+    CHECK(r.mesh().face_count() == 54);
+    CHECK(test::sound(r.mesh(), 2));
+    CHECK(r.record.resolved["amplitude"]["is"].get<double>() == Approx(std::sqrt(3.0) / 100));
+    const double most = r.record.result["parts"][0]["largest_move"];
+    CHECK(most > 0);
+    CHECK(most < 3 * std::sqrt(3.0) * std::sqrt(3.0) / 100);
+}
+
+TEST_CASE("crumple: triangulate leaves no bent quads", "[stages]") {
+    const auto r = run_stage("crumple", options({{"grid", "2"}, {"triangulate", "true"}}),
+                             scene_of(shapes::quad_cube()));
+    CHECK(r.mesh().all_triangles());
+    CHECK(r.mesh().face_count() == 48);
+}
+
+TEST_CASE("crumple: the ledger tells of splitting and of moving", "[stages]") {
+    const auto r = run_stage("crumple", {}, scene_of(shapes::uv_cube()));
+    REQUIRE(r.record.ledger.size() == 2);
+    for (const auto& entry : r.record.ledger)
+        CHECK(entry.fate.kind ==
+              (entry.fate.attribute == "NORMAL" ? Fate::Kind::recomputed : Fate::Kind::interpolated));
+}
+
+TEST_CASE("crumple: parts that meet stay together", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts.push_back(scene.parts.front());
+    scene.parts[1].name = "other";
+    scene.parts[1].transform.m[0][3] = 1; // its face x = 0 lies on the first one's x = 1
+    for (auto& p : scene.parts[0].mesh.positions) p.x += 0;
+    const auto r = run_stage("crumple", options({{"grid", "1"}, {"amplitude", "0.05"}}), scene);
+    int met = 0;
+    const Mesh cube = shapes::cube();
+    for (std::size_t i = 0; i < 8; ++i)
+        for (std::size_t j = 0; j < 8; ++j) {
+            if (cube.positions[i] != cube.positions[j] + Vec3{1, 0, 0}) continue;
+            ++met;
+            const Vec3 a = r.scene.parts[0].mesh.positions[i];
+            const Vec3 b = r.scene.parts[1].transform.point(r.scene.parts[1].mesh.positions[j]);
+            CHECK(length(a - b) < 1e-15);
+        }
+    CHECK(met == 4);
+}
+
+TEST_CASE("simplify: a bare ratio, and what is reported", "[stages]") {
+    const auto r = run_stage("simplify", Value::scalar("25%"), scene_of(shapes::icosphere(3)));
+    CHECK(r.mesh().face_count() == 320);
+    const Json& part = r.record.result["parts"][0];
+    CHECK(part["triangles_before"] == 1280);
+    CHECK(part["triangles_after"] == 320);
+    CHECK(part["stopped_by"] == "ratio");
+    CHECK(r.warnings().empty());
+}
+
+TEST_CASE("simplify: a target at or above the input is said, and is no failure", "[stages]") {
+    const auto r = run_stage("simplify", options({{"faces", "5000"}}), scene_of(shapes::cube()));
+    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-NOTHING"});
+    CHECK(r.record.warnings[0].message ==
+          "part 'part' has 12 triangles and 8 vertices, at or below the target: nothing to do");
+    CHECK(test::same(r.mesh(), shapes::cube()));
+}
+
+TEST_CASE("simplify: what topology does not allow is said, and is no failure", "[stages]") {
+    const auto r = run_stage("simplify", options({{"faces", "2"}}), scene_of(shapes::tetrahedron()));
+    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-STOPPED"});
+    CHECK(r.record.warnings[0].message == "part 'part' stopped at 4 triangles, above the target: of the "
+                                          "edges left, 0 are held by borders, 6 by "
+                                          "topology, 0 would flip a face");
+    CHECK(r.record.result["parts"][0]["stopped_by"] == "stuck");
+}
+
+TEST_CASE("simplify: a count is shared among the parts", "[stages]") {
+    Scene scene = scene_of(shapes::icosphere(3));
+    scene.parts.push_back(scene_of(shapes::icosphere(2)).parts.front());
+    const auto r = run_stage("simplify", options({{"faces", "400"}}), scene);
+    CHECK(r.scene.parts[0].mesh.face_count() == 320);
+    CHECK(r.scene.parts[1].mesh.face_count() == 80);
+}
+
+TEST_CASE("simplify: needs a target, and a bare 1 or 5000 is no ratio", "[stages]") {
+    CHECK(problems_of("simplify", {}) != "");
+    CHECK(problems_of("simplify", Value::scalar("1")) != "");
+    CHECK(problems_of("simplify", Value::scalar("5000")) != "");
+}
