@@ -1,110 +1,211 @@
 #include "stage/plane_option.hpp"
 
 #include "base/numbers.hpp"
+#include "base/parallel.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill {
 
 namespace {
 
-using Through = PlaneOption::Through;
+bool refuse(const Value& value, std::string_view expected, Problems& problems) {
+    problems.add(value.mark, "E-TYPE", fmt::format("expected {}, found {}", expected, value.described()));
+    return false;
+}
 
-/// "30%" or "30pct" -> 30.
+/// "25%" or "25pct" as a percentage.
 std::optional<double> percentage(std::string_view text) {
     for (const std::string_view sign : {"%", "pct"})
         if (text.ends_with(sign)) return parse_real(text.substr(0, text.size() - sign.size()));
     return {};
 }
 
+bool is_centre(std::string_view text) { return text == "centre" || text == "center"; }
+
+constexpr std::string_view short_forms =
+    "a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, [A, B, C, D])";
+
+/// "z=0.2": an axis and where on it.
 bool parse_short(const Value& value, PlaneOption& out, Problems& problems) {
-    const auto wrong = [&](std::string hint) {
-        problems.add(value.mark, "E-PLANE", fmt::format("expected a plane, found {}", value.described()),
-                     std::move(hint));
-        return false;
-    };
-    const std::string hint =
-        "for example z=0.2, z=50%, {normal: [0, 0, 1], through: centre} or {coefficients: [A, B, C, D]}";
-    const std::string& text = value.text;
-    if (!value.is_scalar() || text.size() < 3 || text[1] != '=' || text[0] < 'x' || text[0] > 'z')
-        return wrong(hint);
-    out = {};
-    out.axis = text[0] - 'x';
-    Problems inner;
-    if (OptionType<Length>::parse(Value::scalar(text.substr(2), value.mark), out.height, inner)) return true;
-    return wrong(hint);
+    if (value.is_list() || value.text.find(',') != std::string::npos)
+        return OptionType<PlaneCoefficients>::parse(value, out.coefficients.emplace(), problems);
+    const auto equals = value.text.find('=');
+    const auto axis = std::string_view("xyz").find(value.text.empty() ? '?' : value.text[0]);
+    if (equals != 1 || axis == std::string_view::npos) return refuse(value, short_forms, problems);
+    out.normal.emplace();
+    (*out.normal)[axis] = 1;
+    const std::string text = value.text.substr(2);
+    if (is_centre(text)) return out.through.kind = PlanePlace::Kind::centre, true;
+    if (const auto percent = percentage(text))
+        return out.through.kind = PlanePlace::Kind::extent, out.through.percent = *percent, true;
+    Problems unheard; // of the part behind the equals sign, which has no place of its own
+    out.through.kind = PlanePlace::Kind::level;
+    if (OptionType<Length>::parse(Value::scalar(text, value.mark), out.through.level, unheard)) return true;
+    return refuse(value, short_forms, problems);
 }
 
-/// The plane across n at a percentage of the box's extent along n.
-Vec3 point_along(const Vec3& n, double percent, const Box& bounds) {
-    if (bounds.empty()) return {};
-    Vec3 low = bounds.min, high = bounds.max;
-    for (std::size_t i = 0; i < 3; ++i)
-        if (n[i] < 0) std::swap(low[i], high[i]);
-    return percent == 50 ? bounds.centre() : mix(low, high, percent / 100);
+const Declaration& plane_declaration() {
+    static const Declaration declaration = [] {
+        Declare<PlaneOption> d;
+        declare_plane(d);
+        return d.declaration;
+    }();
+    return declaration;
+}
+
+/// Least and greatest of n . p, and the box, over what a plane is placed in.
+struct Reach {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    Box box;
+
+    void add(const Mesh& mesh, const Transform& map, const Vec3& n) {
+        const Reach all = parallel_reduce(
+            mesh.vertex_count(), Reach{},
+            [&](std::size_t begin, std::size_t end) {
+                Reach r;
+                for (std::size_t v = begin; v < end; ++v) {
+                    const Vec3 p = map.identity() ? mesh.positions[v] : map.point(mesh.positions[v]);
+                    r.box.add(p);
+                    r.low = std::min(r.low, dot(n, p)), r.high = std::max(r.high, dot(n, p));
+                }
+                return r;
+            },
+            [](Reach a, const Reach& b) { return a.join(b), a; });
+        join(all);
+    }
+    void join(const Reach& b) {
+        low = std::min(low, b.low), high = std::max(high, b.high);
+        box.add(b.box);
+    }
+};
+
+Reach reach_of(const Scene& scene, const Part* local, const Vec3& normal) {
+    Reach reach;
+    if (local)
+        reach.add(local->mesh, {}, normal);
+    else
+        for (const Part& part : scene.parts)
+            reach.add(part.mesh, part.skinned ? Transform{} : part.transform, normal);
+    if (reach.box.empty()) reach.box.add(Vec3{}), reach.low = reach.high = 0;
+    return reach;
 }
 
 } // namespace
 
-bool OptionType<Through>::parse(const Value& value, Through& out, Problems& problems) {
+bool OptionType<PlanePlace>::parse(const Value& value, PlanePlace& out, Problems& problems) {
     if (value.deferred) return true;
-    out = {};
-    if (value.is_scalar() && (value.text == "centre" || value.text == "center")) return true;
+    if (value.is_scalar() && is_centre(value.text)) return out.kind = PlanePlace::Kind::centre, true;
     if (value.is_scalar())
-        if (const auto percent = percentage(value.text)) return out.percent = *percent, true;
-    Problems inner;
-    Vec3 point;
-    if (OptionType<Vec3>::parse(value, point, inner)) return out.point = point, true;
-    problems.add(
-        value.mark, "E-TYPE",
-        fmt::format("expected centre, a percentage or a point ([0, 0, 1]), found {}", value.described()));
-    return false;
+        if (const auto percent = percentage(value.text))
+            return out.kind = PlanePlace::Kind::extent, out.percent = *percent, true;
+    out.kind = PlanePlace::Kind::point;
+    Problems unheard;
+    if (OptionType<Vec3>::parse(value, out.point, unheard)) return true;
+    return refuse(value, "a point ([0, 0, 1]), centre, or a percentage of the extent along the normal (25%)",
+                  problems);
 }
-std::string OptionType<Through>::print(const Through& t) {
-    if (t.point) return OptionType<Vec3>::print(*t.point);
-    return t.percent == 50 ? "centre" : spelled(t.percent) + "%";
+std::string OptionType<PlanePlace>::print(const PlanePlace& value) {
+    if (value.kind == PlanePlace::Kind::centre) return "centre";
+    if (value.kind == PlanePlace::Kind::extent) return spelled(value.percent) + "%";
+    return OptionType<Vec3>::print(value.point);
 }
-Json OptionType<Through>::schema() {
-    return {{"anyOf", Json::array({OptionType<Vec3>::schema(),
-                                   {{"type", "string"},
-                                    {"pattern", "^(centre|center|[0-9.eE+-]+(%|pct)|.*,.*,.*)$"}}})}};
+Json OptionType<PlanePlace>::schema() {
+    return {
+        {"anyOf", Json::array({OptionType<Vec3>::schema(),
+                               {{"type", "string"}, {"pattern", "^(cent(re|er)|[0-9.eE+-]+ *(%|pct))$"}}})}};
+}
+
+bool OptionType<PlaneCoefficients>::parse(const Value& value, PlaneCoefficients& out, Problems& problems) {
+    if (value.deferred) return true;
+    if (value.is_scalar() &&
+        value.text.find(',') != std::string::npos) { // "0,0,1,-2", as the one-liner writes it
+        Value list = Value::list({}, value.mark);
+        for (std::size_t at = 0; at <= value.text.size();) {
+            const auto end = std::min(value.text.find(',', at), value.text.size());
+            list.items.push_back(Value::scalar(value.text.substr(at, end - at), value.mark));
+            at = end + 1;
+        }
+        return parse(list, out, problems);
+    }
+    if (!value.is_list() || value.items.size() != 4)
+        return refuse(value, "four numbers ([A, B, C, D])", problems);
+    bool good = true;
+    for (std::size_t i = 0; i < 4; ++i)
+        good &= OptionType<double>::parse(value.items[i], out.abcd[i], problems);
+    return good;
+}
+std::string OptionType<PlaneCoefficients>::print(const PlaneCoefficients& value) {
+    const auto& v = value.abcd;
+    return fmt::format("[{}, {}, {}, {}]", spelled(v[0]), spelled(v[1]), spelled(v[2]), spelled(v[3]));
+}
+Json OptionType<PlaneCoefficients>::schema() {
+    return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 4}, {"maxItems", 4}};
 }
 
 void declare_plane(Declare<PlaneOption>& d) {
-    d.option("normal", &PlaneOption::normal, "The direction across the plane; its length does not matter.");
+    d.option("normal", &PlaneOption::normal,
+             "Which way the plane looks; its length does not matter, but not zero.");
     d.option("through", &PlaneOption::through,
-             "A point of the plane in world space: centre (of the bounds), [x, y, z] in scene units, or a "
-             "percentage of the "
-             "extent along the normal.");
+             "A point of the plane in scene units, centre (of the bounding box), or a percentage of the "
+             "extent along the "
+             "normal, 0% being behind everything.");
     d.option("coefficients", &PlaneOption::coefficients,
-             "A, B, C and D of A x + B y + C z + D = 0, in scene units.");
-    d.exactly_one({"normal", "coefficients"});
+             "A, B, C, D of A x + B y + C z + D = 0, in scene units; its normal is (A, B, C).");
+    d.at_most_one({"normal", "coefficients"});
     d.at_most_one({"through", "coefficients"});
+    const Json text = {{"type", "string"}, {"pattern", "^[xyz]="}};
     d.shorthand(
-        "x=, y= or z= and a length or a percentage of the extent along that axis: z=0.2, z=2mm, z=50%.",
-        {{"type", "string"}, {"pattern", "^[xyz]=.+$"}}, parse_short);
+        "z=0.2, x=10%, y=2mm or z=centre: the plane across that axis there; [A, B, C, D]: its coefficients",
+        {{"anyOf", Json::array({text, OptionType<PlaneCoefficients>::schema()})}},
+        [](const Value& value, PlaneOption& out, Problems& problems) {
+            return parse_short(value, out, problems);
+        });
 }
 
-Plane resolve(const PlaneOption& o, const Scene& scene, const Box& bounds, Context& context) {
+bool OptionType<PlaneOption>::parse(const Value& value, PlaneOption& out, Problems& problems) {
+    return plane_declaration().parse(value, &out, "planes", problems);
+}
+Json OptionType<PlaneOption>::schema() { return plane_declaration().schema(); }
+
+void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problems) {
+    if (!plane.normal && !plane.coefficients) {
+        problems.add(where, "E-PLANE", "a plane needs a normal or coefficients",
+                     "for example normal: [0, 0, 1]");
+        return;
+    }
+    const auto zero = [](double x) { return x == 0; };
+    if (plane.normal
+            ? *plane.normal == Vec3{}
+            : std::all_of(plane.coefficients->abcd.begin(), plane.coefficients->abcd.begin() + 3, zero))
+        problems.add(where, "E-PLANE", "the plane's normal is zero, so it has no direction",
+                     "for example normal: [0, 0, 1]");
+}
+
+Plane resolve_plane(const PlaneOption& option, const Scene& scene, Context& context, std::string_view name,
+                    const Part* local) {
     Plane plane;
-    if (o.axis >= 0) {
-        const auto axis = static_cast<std::size_t>(o.axis);
-        plane.normal = {};
-        plane.normal[axis] = 1;
-        if (o.height.kind == Length::Kind::percent)
-            plane.through[axis] = point_along(plane.normal, o.height.amount, bounds)[axis];
-        else
-            plane.through[axis] = context.resolve(o.height, scene, "plane");
-    } else if (!o.coefficients.empty()) {
-        if (o.coefficients.size() != 4)
-            throw Error(
-                ErrorKind::usage, "E-PLANE",
-                fmt::format("coefficients are four numbers, A, B, C and D, found {}", o.coefficients.size()));
-        plane = {{o.coefficients[0], o.coefficients[1], o.coefficients[2]}, {}, o.coefficients[3]};
+    if (option.coefficients) {
+        const auto& v = option.coefficients->abcd;
+        plane = {{v[0], v[1], v[2]}, {}, v[3]};
+        check_plane(plane);
+        return plane;
+    }
+    plane.normal = option.normal.value_or(Vec3{});
+    check_plane(plane);
+    if (option.through.kind == PlanePlace::Kind::point) {
+        plane.through = option.through.point;
+    } else if (option.through.kind == PlanePlace::Kind::level) {
+        const double level = context.resolve(option.through.level, scene, name, local);
+        plane.through = plane.normal * level; // the short form's normal is an axis of length one
     } else {
-        plane.normal = o.normal.value_or(Vec3{0, 0, 1});
-        plane.through =
-            o.through.point ? *o.through.point : point_along(plane.normal, o.through.percent, bounds);
+        const Reach reach = reach_of(scene, local, plane.normal);
+        plane.through = reach.box.centre();
+        if (option.through.kind == PlanePlace::Kind::extent) {
+            const double level = reach.low + (reach.high - reach.low) * (option.through.percent / 100);
+            plane.through = plane.normal * (level / dot(plane.normal, plane.normal));
+        }
     }
     check_plane(plane);
     return plane;

@@ -1,43 +1,75 @@
 #pragma once
-// The option `plane` of clip and section: a plane as users write it, which waits for a scene to become one.
+// A plane as users write it, and the plane that it means for a scene.
 
 #include "geometry/plane.hpp"
 #include "options/declaration.hpp"
 #include "stage/context.hpp"
 
+#include <array>
+
 namespace facetmill {
 
-/// A plane as written, in one of three forms:
-///   {normal: [0, 0, 1], through: centre}           through: centre, 30%, or a point [x, y, z]
-///   {coefficients: [A, B, C, D]}                   A x + B y + C z + D = 0
-///   z=0.2, z=2mm, z=50%                            across an axis, at a height or a percentage of the extent
-struct PlaneOption {
-    /// A point, or a percentage of the extent along the normal (centre: 50%).
-    struct Through {
-        std::optional<Vec3> point;
-        double percent = 50;
-    };
-    std::optional<Vec3> normal;
-    Through through;
-    std::vector<double> coefficients;
-    int axis = -1; ///< of the short form
-    Length height; ///< ... and its place; a percentage is of the extent along the axis
+/// Where a plane stands: a point, the centre of the scene's box, a percentage of the scene's extent along the
+/// plane's normal, or (short form) a length on the normal's axis.
+struct PlanePlace {
+    enum class Kind { point, centre, extent, level };
+    Kind kind = Kind::point;
+    Vec3 point;
+    double percent = 0;
+    Length level;
 };
 
+template <>
+struct OptionType<PlanePlace> {
+    static constexpr const char* name = "point";
+    static constexpr Dimension dimension = Dimension::length;
+    static bool parse(const Value& value, PlanePlace& out, Problems& problems);
+    static std::string print(const PlanePlace& value);
+    static Json schema();
+    static std::optional<double> magnitude(const PlanePlace&) { return {}; }
+};
+
+/// The coefficients of A x + B y + C z + D = 0.
+struct PlaneCoefficients {
+    std::array<double, 4> abcd{};
+};
+
+template <>
+struct OptionType<PlaneCoefficients> {
+    static constexpr const char* name = "coefficients";
+    static constexpr Dimension dimension = Dimension::none;
+    static bool parse(const Value& value, PlaneCoefficients& out, Problems& problems);
+    static std::string print(const PlaneCoefficients& value);
+    static Json schema();
+    static std::optional<double> magnitude(const PlaneCoefficients&) { return {}; }
+};
+
+/// A plane by normal and point, by coefficients, or in a short form.
+struct PlaneOption {
+    std::optional<Vec3> normal;
+    PlanePlace through;
+    std::optional<PlaneCoefficients> coefficients;
+};
+
+/// Declares the group and its short forms: "z=0.2", "x=10%", "y=2mm", "z=centre" and [A, B, C, D].
 void declare_plane(Declare<PlaneOption>& d);
 
 template <>
-struct OptionType<PlaneOption::Through> {
-    static constexpr const char* name = "point";
+struct OptionType<PlaneOption> {
+    static constexpr const char* name = "plane";
     static constexpr Dimension dimension = Dimension::none;
-    static bool parse(const Value& value, PlaneOption::Through& out, Problems& problems);
-    static std::string print(const PlaneOption::Through& through);
+    static bool parse(const Value& value, PlaneOption& out, Problems& problems);
+    static std::string print(const PlaneOption&) { return {}; }
     static Json schema();
-    static std::optional<double> magnitude(const PlaneOption::Through&) { return {}; }
+    static std::optional<double> magnitude(const PlaneOption&) { return {}; }
 };
 
-/// The plane in world space. Percentages run from the lowest to the highest of the bounds along the normal.
-/// Throws usage (E-PLANE, E-UNIT).
-Plane resolve(const PlaneOption& option, const Scene& scene, const Box& bounds, Context& context);
+/// Adds E-PLANE for what is no plane: nothing given, or a zero normal.
+void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problems);
+
+/// The plane in world space, or, given a part, in that part's own space with its own centre and extent.
+/// Records lengths under the option's name. Throws usage (E-UNIT, E-PLANE).
+Plane resolve_plane(const PlaneOption& plane, const Scene& scene, Context& context, std::string_view option,
+                    const Part* local = nullptr);
 
 } // namespace facetmill

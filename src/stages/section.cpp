@@ -53,6 +53,7 @@ void declare(Declare<SectionOptions>& d) {
 Transform world_of(const Part& part) { return part.skinned ? Transform{} : part.transform; }
 
 void verify(const SectionOptions& o, const Value& given, Problems& problems) {
+    if (o.plane) verify_plane(*o.plane, given.mark, problems);
     const Value* to = given.is_map() ? given.find("to") : nullptr;
     for (const auto& path : o.to)
         if (!io::is_drawing(path.text))
@@ -126,9 +127,9 @@ void warn(const io::DrawingTotals& totals, Context& context) {
 
 Scene run(Scene scene, const SectionOptions& o, Context& context) {
     PlaneOption middle;
-    middle.axis = 2;
-    middle.height = Length::percent(50);
-    const Plane plane = resolve(o.plane.value_or(middle), scene, scene.bounds(), context);
+    middle.normal = Vec3{0, 0, 1};
+    middle.through.kind = PlanePlace::Kind::centre;
+    const Plane plane = resolve_plane(o.plane.value_or(middle), scene, context, "plane");
     const Stack stack = stack_of(o, scene, plane, context);
     const double spacing = o.hatch ? context.resolve(o.hatch->spacing, scene, "hatch.spacing") : 0;
     if (o.hatch && !(spacing > 0))

@@ -24,9 +24,10 @@ TEST_CASE("section reports one plane and passes the scene on", "[stages]") {
 }
 
 TEST_CASE("section takes planes in every form", "[stages]") {
-    for (const char* plane : {"{plane: z=0.5}", "{plane: {normal: [0, 0, 3], through: [9, 9, 0.5]}}",
-                              "{plane: {normal: [0, 0, 1], through: 50%}}",
-                              "{plane: {coefficients: [0, 0, 2, -1]}}", "{plane: {normal: [0, 0, 1]}}", ""})
+    for (const char* plane :
+         {"{plane: z=0.5}", "{plane: {normal: [0, 0, 3], through: [9, 9, 0.5]}}",
+          "{plane: {normal: [0, 0, 1], through: 50%}}", "{plane: {coefficients: [0, 0, 2, -1]}}",
+          "{plane: {normal: [0, 0, 1], through: centre}}", ""})
         CHECK(run_stage("section", plane, scene_of(shapes::cube())).record.result["area"] == 1.0);
 }
 
@@ -84,10 +85,11 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
           "usage [E-DRAWING] test.yaml:1:6: section: drawings are not written as 'a.pdf' | the formats "
           "are .svg, .dxf and .json");
     CHECK(refusal("{plane: {normal: [0, 0, 0]}}") ==
-          "usage [E-PLANE] the plane's normal must be finite and not zero | for example normal: [0, 0, 1]");
+          "usage [E-PLANE] test.yaml:1:1: the plane's normal is zero, so it has no direction | for example "
+          "normal: [0, 0, 1]");
     CHECK(refusal("w=2") ==
-          "usage [E-PLANE] test.yaml:1:1: expected a plane, found 'w=2' | for example z=0.2, z=50%, "
-          "{normal: [0, 0, 1], through: centre} or {coefficients: [A, B, C, D]}");
+          "usage [E-TYPE] test.yaml:1:1: expected a plane ({normal: [0, 0, 1], through: centre}, z=0.2, "
+          "x=10%, [A, B, C, D]), found 'w=2'");
     CHECK(refusal("{every: 9.5367431640625e-07}") ==
           "limit [E-SECTION] the stack would have 1048577 planes, and at most 100000 are cut | "
           "choose a larger distance in 'every'");
