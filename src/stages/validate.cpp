@@ -2,6 +2,8 @@
 #include "stage/assertions.hpp"
 #include "stage/stage.hpp"
 
+#include <span>
+
 namespace facetmill {
 
 namespace {
@@ -61,19 +63,27 @@ void judge(const Scene& scene, const std::string& part_name, const Assertions& a
     }
 }
 
+/// Lends the parts at the given places to body as a scene of their own, without a copy.
+template <class Body>
+void with_parts(Scene& scene, std::span<const std::size_t> places, Body&& body) {
+    Scene chosen{{}, {}, scene.unit, scene.up, {}};
+    for (const std::size_t i : places) chosen.parts.push_back(std::move(scene.parts[i]));
+    body(chosen);
+    for (std::size_t k = 0; k < places.size(); ++k) scene.parts[places[k]] = std::move(chosen.parts[k]);
+}
+
 Scene run(Scene scene, const ValidateOptions& o, Context& context) {
     const Assertions assertions = or_sound(o.assertions, context.where());
-    Scene chosen{{}, {}, scene.unit, scene.up, {}};
-    for (const auto& part : scene.parts)
-        if (context.selects(part, scene)) chosen.parts.push_back(part);
-    if (o.per == Per::scene) {
-        judge(chosen, "", assertions, o.severity, context);
-        return scene;
-    }
-    for (auto& part : chosen.parts) {
-        const std::string name = part.name;
-        judge({{std::move(part)}, {}, scene.unit, scene.up, {}}, name, assertions, o.severity, context);
-    }
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < scene.parts.size(); ++i)
+        if (context.selects(scene.parts[i], scene)) places.push_back(i);
+    if (o.per == Per::scene)
+        with_parts(scene, places, [&](const Scene& all) { judge(all, "", assertions, o.severity, context); });
+    else
+        for (const std::size_t i : places)
+            with_parts(scene, {&i, 1}, [&](const Scene& one) {
+                judge(one, one.parts[0].name, assertions, o.severity, context);
+            });
     return scene;
 }
 
