@@ -1,0 +1,184 @@
+#include "mesh/shapes.hpp"
+#include "stage/stage.hpp"
+#include "support/catch.hpp"
+#include "support/failure.hpp"
+#include "support/measure.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+Value text(const char* t) { return Value::scalar(t); }
+Value numbers(std::initializer_list<const char*> all) {
+    std::vector<Value> items;
+    for (const char* n : all) items.push_back(Value::scalar(n));
+    return Value::list(std::move(items));
+}
+Value map(std::initializer_list<std::pair<const char*, Value>> entries) {
+    Value m = Value::map({});
+    for (const auto& [key, value] : entries) m.set(key, value);
+    return m;
+}
+
+Scene scene_of(Mesh mesh) {
+    Scene scene;
+    scene.parts.emplace_back();
+    scene.parts[0].name = "body";
+    scene.parts[0].mesh = std::move(mesh);
+    return scene;
+}
+
+/// A stage run on a scene with options as written, and what it recorded.
+struct StageRun {
+    Scene scene;
+    report::StageRecord record;
+
+    StageRun(const char* stage, const Value& given, Scene in) {
+        const StageInfo* info = stage_named(stage);
+        auto options = info->make_options();
+        Problems problems;
+        info->options.parse(given, options.get(), stage, problems);
+        if (!problems.any_errors() && info->verify) info->verify(options.get(), given, problems);
+        problems.throw_if_any(ErrorKind::usage);
+        RunState state;
+        const PartFilter all;
+        const Mark nowhere;
+        Context context(state, record, all, in.bounds(), nowhere);
+        scene = info->run(std::move(in), options.get(), context);
+    }
+};
+
+std::string refusal(const Value& given) {
+    return test::failure([&] { StageRun("clip", given, scene_of(shapes::cube())); });
+}
+
+double volume_after(const Value& given, Scene scene) {
+    return test::volume(StageRun("clip", given, std::move(scene)).scene.parts[0].mesh);
+}
+
+} // namespace
+
+TEST_CASE("clip reads planes in every form", "[stages]") {
+    const Value yes = text("true");
+    const auto volume = [&](Value plane) {
+        return volume_after(map({{"plane", std::move(plane)}, {"cap", yes}}), scene_of(shapes::cube()));
+    };
+    CHECK(volume(text("z=0.25")) == Approx(0.75));
+    CHECK(volume(text("y=10%")) == Approx(0.9));
+    CHECK(volume(text("x=centre")) == Approx(0.5));
+    CHECK(volume(numbers({"2", "0", "0", "-0.5"})) == Approx(0.75));
+    CHECK(volume(text("2,0,0,-0.5")) == Approx(0.75));
+    CHECK(volume(map({{"normal", numbers({"0", "0", "-3"})}, {"through", numbers({"0", "0", "0.25"})}})) ==
+          Approx(0.25));
+    CHECK(volume(map({{"normal", numbers({"0", "0", "-3"})}, {"through", text("25%")}})) == Approx(0.75));
+    CHECK(volume(map({{"normal", numbers({"1", "1", "1"})}, {"through", text("centre")}})) == Approx(0.5));
+    CHECK(volume(map({{"coefficients", numbers({"0", "0", "1", "-0.5"})}})) == Approx(0.5));
+}
+
+TEST_CASE("clip takes several planes", "[stages]") {
+    const Value planes = Value::list({text("x=25%"), text("y=0.5"), numbers({"0", "0", "-1", "0.5"})});
+    CHECK(volume_after(map({{"planes", planes}, {"cap", text("true")}}), scene_of(shapes::cube())) ==
+          Approx(0.75 * 0.25));
+}
+
+TEST_CASE("a length with a unit needs a scene with one", "[stages]") {
+    const Value given = map({{"plane", text("z=250mm")}, {"cap", text("true")}});
+    Scene scene = scene_of(shapes::cube());
+    scene.unit = Unit::m;
+    CHECK(volume_after(given, scene) == Approx(0.75));
+    CHECK(refusal(given).starts_with("usage [E-UNIT]"));
+}
+
+TEST_CASE("planes stand in the world unless space is local", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts[0].transform.m[2][3] = 10;
+    const auto volume = [&](const char* plane, const char* space) {
+        return volume_after(map({{"plane", text(plane)}, {"cap", text("true")}, {"space", text(space)}}),
+                            scene);
+    };
+    CHECK(volume("z=10.25", "world") == Approx(0.75));
+    CHECK(volume("z=0.25", "local") == Approx(0.75));
+    CHECK(volume("z=25%", "world") == Approx(0.75));
+    CHECK(volume("z=25%", "local") == Approx(0.75));
+}
+
+TEST_CASE("keep: both makes two parts", "[stages]") {
+    Scene two = scene_of(shapes::cube());
+    two.parts.push_back(two.parts[0]);
+    two.parts[1].name = "other";
+    const StageRun run("clip",
+                       map({{"plane", text("z=0.25")}, {"cap", text("true")}, {"keep", text("both")}}), two);
+    REQUIRE(run.scene.parts.size() == 4);
+    const char* names[] = {"body.front", "body.back", "other.front", "other.back"};
+    for (std::size_t i = 0; i < 4; ++i) {
+        CHECK(run.scene.parts[i].name == names[i]);
+        CHECK(test::volume(run.scene.parts[i].mesh) == Approx(i % 2 == 0 ? 0.75 : 0.25));
+        CHECK(run.scene.parts[i].changed);
+    }
+}
+
+TEST_CASE("caps have a material of their own, made once and only when needed", "[stages]") {
+    const Value given = map({{"plane", text("z=0.25")}, {"cap", text("true")}});
+    StageRun once("clip", given, scene_of(shapes::cube()));
+    REQUIRE(once.scene.materials.size() == 1);
+    CHECK(once.scene.materials[0].name == "cap");
+    CHECK(once.scene.parts[0].mesh.primitives.at(1).material == 0);
+    CHECK(once.record.result["cap_faces"] == 6);
+    CHECK(once.record.warnings.empty());
+    StageRun twice("clip", map({{"plane", text("x=0.25")}, {"cap", text("true")}}), once.scene);
+    CHECK(twice.scene.materials.size() == 1);
+    CHECK(StageRun("clip", text("z=0.25"), scene_of(shapes::cube())).scene.materials.empty());
+}
+
+TEST_CASE("clip says when everything or nothing stays, and names open contours", "[stages]") {
+    const auto warnings = [](const Value& given, Mesh mesh) {
+        std::string all;
+        for (const auto& w : StageRun("clip", given, scene_of(std::move(mesh))).record.warnings)
+            all += w.id + " " + w.message + "\n";
+        return all;
+    };
+    CHECK(warnings(text("z=-1"), shapes::cube()) ==
+          "W-CLIP-ALL clip: no plane met part 'body', all of it was kept\n");
+    CHECK(warnings(text("z=2"), shapes::cube()) == "W-CLIP-NOTHING clip: nothing of part 'body' was kept\n");
+    CHECK(warnings(map({{"plane", text("x=1.5")}, {"cap", text("true")}}), shapes::grid(3, 1)) ==
+          "W-CAP-OPEN clip: a contour of 2 edges of part 'body' is open and was not capped; it ends at (1.5, "
+          "0, 0)\n");
+}
+
+TEST_CASE("clip refuses what is no plane", "[stages]") {
+    CHECK(
+        refusal(map({{"plane", map({{"normal", numbers({"0", "0", "0"})}})}})) ==
+        "usage [E-PLANE] the plane's normal is zero, so it has no direction | for example normal: [0, 0, 1]");
+    CHECK(
+        refusal(numbers({"0", "0", "0", "1"})) ==
+        "usage [E-PLANE] the plane's normal is zero, so it has no direction | for example normal: [0, 0, 1]");
+    CHECK(refusal(map({{"plane", map({{"through", text("centre")}})}})) ==
+          "usage [E-PLANE] a plane needs a normal or coefficients | for example normal: [0, 0, 1]");
+    CHECK(refusal(text("w=3")) ==
+          "usage [E-TYPE] expected a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, "
+          "[A, B, C, D]), found 'w=3'");
+    CHECK(refusal(map({{"planes", Value::list({text("x=1"), text("y=1")})}, {"keep", text("both")}})) ==
+          "usage [E-PLANE] clip: keep: both takes exactly one plane | clip once for every plane, or keep the "
+          "front or "
+          "the back");
+    CHECK(refusal(map({{"cap", text("true")}})) == "usage [E-MISSING] clip: one of plane, planes is needed");
+}
+
+TEST_CASE("split takes a method or a grid", "[stages]") {
+    const auto faces = [](const Value& given) {
+        return StageRun("split", given, scene_of(shapes::cube())).scene.face_count();
+    };
+    CHECK(faces(Value{}) == 48);
+    CHECK(faces(text("centroid")) == 36);
+    CHECK(faces(map({{"grid", text("3")}})) == 108);
+    CHECK(faces(map({{"method", text("midpoint")}, {"passes", text("2")}})) == 192);
+    CHECK(
+        test::failure([&] {
+            faces(map({{"method", text("bisect")}, {"grid", text("3")}}));
+        }) ==
+        "usage [E-EXCLUSIVE] split: 'grid' goes with the method grid only | leave out either method or grid");
+    CHECK(test::failure([&] { faces(text("grid")); }) ==
+          "usage [E-MISSING] split: the method grid needs 'grid', the number of pieces per edge | for "
+          "example split: "
+          "{grid: 3}");
+}
