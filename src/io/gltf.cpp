@@ -22,7 +22,7 @@ int recognises_gltf(Span bytes) {
 
 const RegisterCodec glb{{"glb",
                          "glTF 2.0 in one binary file, with Draco on request",
-                         {"glb", "vrm"},
+                         {"glb"},
                          Unit::m,
                          UpAxis::y,
                          recognises_glb,

@@ -1,6 +1,7 @@
 #pragma once
 // Helpers of the glTF tests: scenes of one mesh, writing and reading in memory, comparing what is drawn.
 
+#include "base/json.hpp"
 #include "io/codec.hpp"
 #include "mesh/invariants.hpp"
 
@@ -26,7 +27,7 @@ inline io::Written written(const Scene& scene, const char* codec, io::WriteSetti
     return io::codec_named(codec)->write(scene, settings);
 }
 
-inline io::Bytes bytes_of(std::string_view text) {
+inline io::Bytes to_bytes(std::string_view text) {
     const auto bytes = std::as_bytes(std::span(text.data(), text.size()));
     return {bytes.begin(), bytes.end()};
 }
@@ -37,7 +38,7 @@ inline Scene read_bytes(io::Bytes bytes, const char* codec, io::ReadLog* log = n
 }
 
 inline Scene read_text(std::string_view text, io::ReadLog* log = nullptr) {
-    return read_bytes(bytes_of(text), "gltf", log);
+    return read_bytes(to_bytes(text), "gltf", log);
 }
 
 /// Written as GLB and read again.

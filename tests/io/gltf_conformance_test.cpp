@@ -1,0 +1,105 @@
+// Other people's readers on what we write: the Khronos validator, and draco_decoder for what it cannot look
+// into.
+#include "io/codec.hpp"
+#include "io/outputs.hpp"
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/gltf.hpp"
+#include "support/temporary.hpp"
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <iostream>
+
+using namespace facetmill;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// True when the tool is there; else says so, and fails when it is required.
+bool available(bool there, const char* what) {
+    if (there) return true;
+    std::cout << "skipped: " << what << "\n";
+    CHECK_FALSE(std::getenv("FACETMILL_REQUIRE_VALIDATOR"));
+    return false;
+}
+
+int run(const std::string& command) { return std::system(command.c_str()); }
+
+std::string put(const fs::path& folder, const io::Written& written) {
+    for (const auto& file : written.files) {
+        fs::create_directories((folder / file.name).parent_path());
+        io::write_now(folder / file.name, file.bytes);
+    }
+    return fmt::format(" '{}'", (folder / written.files[0].name).string());
+}
+
+std::vector<Scene> scenes() {
+    std::vector<Scene> all;
+    for (const Mesh& mesh :
+         {shapes::tetrahedron(), shapes::uv_cube(), shapes::quad_cube(), shapes::torus(8, 6), shapes::fan3(),
+          shapes::hourglass(), shapes::folded_quad(), shapes::open_cone(7), Mesh{}})
+        all.push_back(test::scene_of(mesh));
+    for (const char* name : {"box-textured.glb", "morph-cube/AnimatedMorphCube.gltf", "box-meshopt.glb",
+                             "box-draco.glb", "box-ext-mesh-manifold.glb"}) {
+        io::ReadLog log;
+        all.push_back(io::read_scene(io::Input::open(std::string(FACETMILL_SOURCE_DIR "/tests/data/") + name),
+                                     {}, log));
+        all.push_back(all.back());
+        for (auto& part : all.back().parts) part.changed = true;
+    }
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("the Khronos validator finds no error in what is written", "[io]") {
+    const bool there = run("command -v node >/dev/null") == 0 &&
+                       fs::exists(FACETMILL_VALIDATOR_DIR "/node_modules/gltf-validator");
+    if (!available(
+            there,
+            "the Khronos validator is not installed (tests/conformance/setup.sh " FACETMILL_VALIDATOR_DIR
+            ")"))
+        return;
+    const test::TemporaryDirectory folder;
+    std::string files;
+    int number = 0;
+    for (const Scene& scene : scenes())
+        for (const bool draco : {false, true})
+            for (const bool manifold : {false, true})
+                for (const char* codec : {"glb", "gltf"}) {
+                    io::WriteSettings settings;
+                    settings.draco.on = draco;
+                    settings.mesh_manifold = manifold;
+                    settings.title = "f";
+                    files += put(folder / std::to_string(number++), test::written(scene, codec, settings));
+                }
+    CHECK(run("node '" FACETMILL_SOURCE_DIR "/tests/conformance/validate.mjs' '" FACETMILL_VALIDATOR_DIR "'" +
+              files) == 0);
+}
+
+TEST_CASE("draco_decoder reads what is compressed", "[io]") {
+    if (!available(run("command -v draco_decoder >/dev/null") == 0,
+                   "draco_decoder is not installed (package draco)"))
+        return;
+    io::WriteSettings settings;
+    settings.draco.on = true;
+    const test::TemporaryDirectory folder;
+    for (const Mesh& mesh : {shapes::uv_cube(), shapes::torus(8, 6)}) {
+        const Scene glb = test::again(test::scene_of(mesh), settings);
+        const Json json = Json::parse(glb.documents[0]->json);
+        const Json& primitive = json["meshes"][0]["primitives"][0];
+        const auto view =
+            primitive["extensions"]["KHR_draco_mesh_compression"]["bufferView"].get<std::size_t>();
+        const auto& bytes = glb.documents[0]->buffers[0];
+        const std::size_t offset = json["bufferViews"][view]["byteOffset"],
+                          size = json["bufferViews"][view]["byteLength"];
+        io::write_now(folder / "a.drc", io::Span(bytes).subspan(offset, size));
+        REQUIRE(run(fmt::format("draco_decoder -i '{0}/a.drc' -o '{0}/a.obj' >/dev/null",
+                                folder.path().string())) == 0);
+        io::ReadLog log;
+        const Scene obj = io::read_scene(io::Input::open(folder / "a.obj"), {}, log);
+        CHECK(obj.face_count() == mesh.face_count());
+        CHECK(obj.face_count() * 3 == json["accessors"][primitive["indices"].get<std::size_t>()]["count"]);
+    }
+}

@@ -1,0 +1,155 @@
+// A glTF document that is read and written again keeps everything that was not asked to change.
+#include "io/codec.hpp"
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/gltf.hpp"
+
+using namespace facetmill;
+using test::drawn;
+
+namespace {
+
+Scene read_data(const char* name) {
+    io::ReadLog log;
+    return io::read_scene(io::Input::open(std::string(FACETMILL_SOURCE_DIR "/tests/data/") + name), {}, log);
+}
+
+Json written_json(const Scene& scene, const io::WriteSettings& settings = {}) {
+    return Json::parse(test::json_of(test::written(scene, "glb", settings).files.at(0).bytes));
+}
+
+/// A triangle, with much around it that nobody here understands.
+const char* const rich =
+    R"({"asset":{"version":"2.0","extras":{"big":9007199254740993,"none":null,"empty":{}}},
+ "unknown":[18446744073709551615,-1,{}],"extensionsUsed":["KHR_lights_punctual"],
+ "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}},
+ "scene":0,"scenes":[{"nodes":[0,1]}],
+ "nodes":[{"mesh":0,"translation":[1,2,3],"extras":[]},{"name":"lamp","extensions":{"KHR_lights_punctual":{"light":0}}}],
+ "meshes":[{"name":"m","extras":{"a":1},"primitives":[{"attributes":{"POSITION":0},"extras":{"b":2}}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0],"name":"p"}],
+ "bufferViews":[{"buffer":0,"byteLength":36}],
+ "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+
+} // namespace
+
+TEST_CASE("an untouched document keeps all but its buffers", "[io]") {
+    Json before = Json::parse(rich), after = written_json(test::read_text(rich));
+    for (Json* json : {&before, &after}) json->erase("buffers"), json->erase("bufferViews");
+    CHECK(after == before);
+}
+
+TEST_CASE("a changed part changes its mesh only", "[io]") {
+    Scene scene = test::read_text(rich);
+    scene.parts[0].mesh = shapes::cube();
+    scene.parts[0].changed = true;
+    Json before = Json::parse(rich), after = written_json(scene);
+    CHECK(after["meshes"][0]["name"] == "m");
+    CHECK(after["meshes"][0]["extras"] == before["meshes"][0]["extras"]);
+    CHECK(after["accessors"].size() == 2); // the old positions are gone
+    for (Json* json : {&before, &after})
+        for (const char* key : {"meshes", "accessors", "bufferViews", "buffers"}) json->erase(key);
+    CHECK(after == before);
+}
+
+TEST_CASE("a part that moved gets a matrix, its neighbours keep their words", "[io]") {
+    Scene scene = test::read_text(rich);
+    CHECK(scene.parts[0].transform.m[2][3] == 3);
+    scene.parts[0].transform.m[2][3] = 7;
+    const Json after = written_json(scene);
+    CHECK_FALSE(after["nodes"][0].contains("translation"));
+    CHECK(after["nodes"][0]["matrix"] == Json::parse("[1,0,0,0,0,1,0,0,0,0,1,0,1,2,7,1]"));
+    CHECK(after["nodes"][1] == Json::parse(rich)["nodes"][1]);
+}
+
+TEST_CASE("instances share a mesh until they differ", "[io]") {
+    Json document = Json::parse(rich);
+    document["nodes"].push_back({{"mesh", 0}, {"name", "twin"}});
+    document["scenes"][0]["nodes"].push_back(2);
+    Scene scene = test::read_text(document.dump());
+    REQUIRE(scene.parts.size() == 2);
+    CHECK(written_json(scene)["meshes"].size() == 1);
+    for (auto& part : scene.parts) part.mesh = shapes::tetrahedron(), part.changed = true;
+    CHECK(written_json(scene)["meshes"].size() == 1);
+    scene.parts[1].mesh = shapes::cube();
+    const io::Written written = test::written(scene, "glb");
+    CHECK(Json::parse(test::json_of(written.files[0].bytes))["meshes"].size() == 2);
+    REQUIRE(written.warnings.size() == 1);
+    CHECK(written.warnings[0].message ==
+          "the instances of meshes[0] differ now: 1 of them has a mesh of its own");
+}
+
+TEST_CASE("a part that is gone leaves its node behind", "[io]") {
+    Scene scene = test::read_text(rich);
+    scene.parts.clear();
+    const Json after = written_json(scene);
+    CHECK(after["nodes"].size() == 2);
+    CHECK_FALSE(after["nodes"][0].contains("mesh"));
+    CHECK_FALSE(after.contains("meshes"));
+    CHECK_FALSE(after.contains("accessors"));
+}
+
+TEST_CASE("embedded textures come along", "[io]") {
+    Scene scene = read_data("box-textured.glb");
+    scene.parts[0].changed = true;
+    const Scene read = test::again(scene);
+    CHECK(drawn(read.parts[0].mesh) == drawn(scene.parts[0].mesh));
+    const Json before = Json::parse(scene.documents[0]->json), after = Json::parse(read.documents[0]->json);
+    CHECK(after["textures"] == before["textures"]);
+    CHECK(after["materials"] == before["materials"]);
+    const auto image = [](const Scene& s, const Json& json) {
+        const Json& view = json["bufferViews"][json["images"][0]["bufferView"].get<std::size_t>()];
+        const auto& bytes = s.documents[0]->buffers[0];
+        const auto from = bytes.begin() + view.value("byteOffset", 0);
+        return io::Bytes(from, from + view["byteLength"].get<int>());
+    };
+    CHECK(image(read, after) == image(scene, before));
+}
+
+TEST_CASE("morph targets survive, plain and beside Draco", "[io]") {
+    Scene scene = read_data("morph-cube/AnimatedMorphCube.gltf");
+    scene.parts[0].changed = true;
+    CHECK(drawn(test::again(scene).parts[0].mesh) == drawn(scene.parts[0].mesh));
+    io::WriteSettings settings;
+    settings.draco.on = true;
+    const Scene read = test::again(scene, settings);
+    CHECK(read.parts[0].mesh.find("TARGET_1_POSITION", Domain::wedge));
+    CHECK(read.parts[0].mesh.face_count() == 12);
+}
+
+TEST_CASE("compressed documents are read", "[io]") {
+    for (const char* name : {"box-meshopt.glb", "box-draco.glb", "box-ext-mesh-manifold.glb"}) {
+        INFO(name);
+        const Scene scene = read_data(name);
+        REQUIRE(scene.parts.size() == 1);
+        CHECK(scene.parts[0].mesh.face_count() == 12);
+        CHECK(scene.parts[0].mesh.vertex_count() == 8);
+        CHECK(test::again(scene).parts[0].mesh.vertex_count() == 8);
+    }
+}
+
+TEST_CASE("a second document brings its textures", "[io]") {
+    Scene scene = test::read_text(rich);
+    Scene other = read_data("box-textured.glb");
+    for (auto& part : other.parts) {
+        part.document = 1;
+        for (auto& p : part.mesh.primitives) p.material += static_cast<Index>(scene.materials.size());
+        scene.parts.push_back(part);
+    }
+    for (auto& material : other.materials) material.document = 1, scene.materials.push_back(material);
+    scene.documents.push_back(other.documents[0]);
+    const Json after = written_json(scene);
+    CHECK(after["meshes"].size() == 2);
+    CHECK(after["images"].size() == 1);
+    CHECK(after["meshes"][1]["primitives"][0]["material"] == 0);
+    CHECK(after["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] == 0);
+}
+
+TEST_CASE("the same scene gives the same bytes", "[io]") {
+    const Scene scene = read_data("box-textured.glb");
+    io::WriteSettings settings;
+    for (const bool draco : {false, true}) {
+        settings.draco.on = draco;
+        CHECK(test::written(scene, "glb", settings).files[0].bytes ==
+              test::written(scene, "glb", settings).files[0].bytes);
+    }
+}

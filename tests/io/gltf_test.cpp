@@ -1,0 +1,204 @@
+#include "io/codec.hpp"
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/failure.hpp"
+#include "support/gltf.hpp"
+
+using namespace facetmill;
+using test::drawn;
+
+namespace {
+
+Mesh two_materials() {
+    Mesh mesh = shapes::uv_cube();
+    mesh.primitives = {{0, {}, ""}, {1, {}, ""}};
+    std::vector<std::uint32_t> of_face(mesh.face_count());
+    for (std::size_t f = 0; f < of_face.size(); ++f) of_face[f] = f % 2;
+    mesh.attributes.push_back(
+        {std::string(primitive_attribute), Domain::face, Role::index, 1, false, of_face});
+    return mesh;
+}
+
+Scene scene_of_two_materials() {
+    Scene scene = test::scene_of(two_materials());
+    scene.materials = {{"red", {1, 0, 0, 1}, false, -1, -1}, {"blue", {0, 0, 1, 1}, true, -1, -1}};
+    return scene;
+}
+
+const Mesh& only_mesh(const Scene& scene) {
+    REQUIRE(scene.parts.size() == 1);
+    CHECK(broken_invariants(scene).empty());
+    return scene.parts[0].mesh;
+}
+
+} // namespace
+
+TEST_CASE("shapes are the same after writing and reading a GLB", "[io]") {
+    for (const Mesh& mesh :
+         {shapes::tetrahedron(), shapes::cube(), shapes::uv_cube(), shapes::icosphere(2), shapes::torus(9, 7),
+          shapes::grid(3, 4), shapes::bowtie(), shapes::fan3(), shapes::crossing()}) {
+        const Scene read = test::again(test::scene_of(mesh));
+        CHECK(drawn(only_mesh(read)) == drawn(mesh));
+        CHECK(read.parts[0].mesh.vertex_count() == mesh.vertex_count());
+        CHECK(read.parts[0].mesh.wedge_count() == mesh.wedge_count());
+    }
+}
+
+TEST_CASE("a written glTF is in metres with y up", "[io]") {
+    const Scene read = test::again(test::scene_of(shapes::cube()));
+    CHECK(read.unit == Unit::m);
+    CHECK(read.up == UpAxis::y);
+}
+
+TEST_CASE("polygons are written as triangles", "[io]") {
+    CHECK(only_mesh(test::again(test::scene_of(shapes::quad_cube()))).face_count() == 12);
+}
+
+TEST_CASE("a part without faces is a node without mesh", "[io]") {
+    const Json json = Json::parse(test::json_of(test::written(test::scene_of(Mesh{}), "glb").files[0].bytes));
+    CHECK(json["nodes"] == Json::parse(R"([{"name":"thing"}])"));
+    CHECK_FALSE(json.contains("meshes"));
+}
+
+TEST_CASE("primitives come apart by material and together again", "[io]") {
+    const Scene scene = scene_of_two_materials();
+    const io::Written written = test::written(scene, "glb");
+    const Json json = Json::parse(test::json_of(written.files[0].bytes));
+    CHECK(json["meshes"][0]["primitives"].size() == 2);
+    const Scene read = test::read_bytes(written.files[0].bytes, "glb");
+    CHECK(drawn(only_mesh(read)) == drawn(scene.parts[0].mesh));
+    CHECK(read.materials.at(1).name == "blue");
+    CHECK(read.materials.at(1).double_sided);
+    CHECK(read.parts[0].mesh.wedge_count() == scene.parts[0].mesh.wedge_count());
+}
+
+TEST_CASE("node transforms and names survive", "[io]") {
+    Scene scene = test::scene_of(shapes::cube(), "first");
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].name = "second";
+    scene.parts[1].transform.m[0][3] = 5;
+    scene.parts[1].transform.m[1][1] = 2;
+    const Scene read = test::again(scene);
+    REQUIRE(read.parts.size() == 2);
+    CHECK(read.parts[0].transform.identity());
+    CHECK(read.parts[1].transform == scene.parts[1].transform);
+    CHECK(read.parts[1].name == "second");
+}
+
+TEST_CASE("Draco keeps faces, closedness and seams", "[io]") {
+    io::WriteSettings settings;
+    settings.draco.on = true;
+    for (const Mesh& mesh : {shapes::uv_cube(), shapes::icosphere(3), shapes::torus(12, 8)}) {
+        const Scene read = test::again(test::scene_of(mesh), settings);
+        CHECK(only_mesh(read).face_count() == mesh.face_count());
+        CHECK(read.parts[0].mesh.vertex_count() == mesh.vertex_count());
+        CHECK(read.parts[0].mesh.wedge_count() == mesh.wedge_count());
+        CHECK(length(read.parts[0].mesh.bounds().max - mesh.bounds().max) <
+              2.0 / 16383); // one step of 14 bits
+    }
+}
+
+TEST_CASE("Draco primitives of one mesh meet without cracks", "[io]") {
+    io::WriteSettings settings;
+    settings.draco.on = true;
+    settings.draco.position_bits = 6;
+    Scene scene = scene_of_two_materials();
+    for (auto& p : scene.parts[0].mesh.positions) p = p * 0.7 + Vec3{0.1, 0.2, 0.3};
+    CHECK(only_mesh(test::again(scene, settings)).vertex_count() == 8);
+}
+
+TEST_CASE("Draco keeps degenerate faces", "[io]") {
+    Mesh mesh = shapes::tetrahedron();
+    mesh.corners.insert(mesh.corners.end(), {0, 0, 1});
+    io::WriteSettings settings;
+    settings.draco.on = true;
+    CHECK(only_mesh(test::again(test::scene_of(mesh), settings)).face_count() == 5);
+}
+
+TEST_CASE("plain Draco files are written and read", "[io]") {
+    const Mesh mesh = shapes::uv_cube();
+    const io::Written written = test::written(test::scene_of(mesh), "drc");
+    const Scene read = test::read_bytes(written.files[0].bytes, "drc");
+    CHECK(only_mesh(read).face_count() == 12);
+    CHECK(read.parts[0].mesh.vertex_count() == 8);
+    CHECK(read.parts[0].mesh.find("TEXCOORD_0", Domain::wedge));
+}
+
+TEST_CASE("EXT_mesh_manifold gives the same vertices back, and says when a mesh is none", "[io]") {
+    io::WriteSettings settings;
+    settings.mesh_manifold = true;
+    // Two tetrahedra at the same corner point: apart by the extension, together by position.
+    Mesh mesh = shapes::tetrahedron();
+    append(mesh, shapes::tetrahedron());
+    for (std::size_t v = 4; v < 8; ++v)
+        mesh.positions[v] = mesh.positions[0] + (mesh.positions[0] - mesh.positions[v]);
+    for (std::size_t c = 12; c < 24; c += 3) std::swap(mesh.corners[c], mesh.corners[c + 1]);
+    CHECK(only_mesh(test::again(test::scene_of(mesh), settings)).vertex_count() == 8);
+    CHECK(only_mesh(test::again(test::scene_of(mesh))).vertex_count() == 7);
+    const io::Written open = test::written(test::scene_of(shapes::grid(1, 1)), "glb", settings);
+    REQUIRE(open.warnings.size() == 1);
+    CHECK(open.warnings[0].message == "part 'thing' is not manifold, so EXT_mesh_manifold is not written");
+}
+
+TEST_CASE("attributes of types that glTF lacks are converted, face attributes dropped, and both said",
+          "[io]") {
+    Mesh mesh = shapes::tetrahedron();
+    mesh.attributes.push_back(
+        {"quality", Domain::vertex, Role::generic, 1, false, std::vector<double>{0.5, 1, 2, 3}});
+    mesh.attributes.push_back(
+        {"cell", Domain::face, Role::generic, 1, false, std::vector<float>{1, 2, 3, 4}});
+    const io::Written written = test::written(test::scene_of(mesh), "glb");
+    CHECK(written.fates == Fates{{"quality", Domain::vertex, Fate::Kind::kept,
+                                  "written as float32, because glTF has no float64 there"},
+                                 {"cell", Domain::face, Fate::Kind::dropped, "glTF has no face attributes"}});
+    const Scene read = test::read_bytes(written.files[0].bytes, "glb");
+    const Attribute* quality = read.parts[0].mesh.find("_quality", Domain::wedge);
+    REQUIRE(quality);
+    CHECK(quality->value(2, 0) == 2);
+}
+
+TEST_CASE("a .gltf names its .bin after the title", "[io]") {
+    io::WriteSettings settings;
+    settings.title = "my part";
+    const io::Written written = test::written(test::scene_of(shapes::cube()), "gltf", settings);
+    REQUIRE(written.files.size() == 2);
+    CHECK(written.files[0].name == "my part.gltf");
+    CHECK(written.files[1].name == "my part.bin");
+    const auto& text = written.files[0].bytes;
+    CHECK(Json::parse(reinterpret_cast<const char*>(text.data()),
+                      reinterpret_cast<const char*>(text.data()) + text.size())["buffers"][0]["uri"] ==
+          "my%20part.bin");
+}
+
+TEST_CASE("glTF that must not be read is refused with the place", "[io]") {
+    const auto refuse = [](std::string_view text) { return test::failure([&] { test::read_text(text); }); };
+    const std::string head = R"({"asset":{"version":"2.0"},)";
+    CHECK(refuse("{") == "malformed [E-JSON] test: not valid JSON at byte 2");
+    CHECK(refuse(R"({"asset":{"version":"1.0"}})") ==
+          "malformed [E-VERSION] test: asset.version: expected glTF 2.x, found \"1.0\"");
+    CHECK(refuse(head + R"("extensionsRequired":["XX_other"]})") ==
+          "malformed [E-EXTENSION] test: extensionsRequired[0]: the extension \"XX_other\" is required and "
+          "not supported");
+    CHECK(refuse(head + R"("nodes":[{"children":[1]},{"children":[0]}]})") ==
+          "malformed [E-NODES] test: nodes[0]: the node is its own ancestor");
+    CHECK(refuse(head + R"("meshes":[{"primitives":[{"attributes":{"POSITION":7}}]}]})") ==
+          "malformed [E-GLTF] test: meshes[0].primitives[0].attributes.POSITION: refers to accessor 7, but "
+          "there are 0");
+    for (const char* uri : {"../a.bin", "/etc/passwd", "http://a.b/c.bin", "file:///a.bin", "%2e%2e/a.bin",
+                            "a/../../b.bin", ".."})
+        CHECK(refuse(head + R"("buffers":[{"byteLength":4,"uri":")" + uri + R"("}]})") ==
+              std::string("malformed [E-URI] test: buffers[0].uri: \"") + uri +
+                  "\" is not a file in the document's directory | only relative URIs to files beside or "
+                  "below the glTF are read");
+    CHECK(refuse(std::string(100000, '[')) ==
+          "malformed [E-JSON] test: the JSON is nested deeper than 256 levels at byte 256");
+}
+
+TEST_CASE("counts are not believed", "[io]") {
+    CHECK(
+        test::failure([] {
+            test::read_text(
+                R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"type":"VEC3","count":1000000000}],
+                                "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})");
+        }) == "limit [E-LIMIT] test: accessors[0]: 1000000000 elements of zeros, without bytes in the file");
+}
