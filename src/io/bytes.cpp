@@ -154,10 +154,24 @@ Input Input::of(std::string name, Bytes bytes) {
     return input;
 }
 
-Input Input::named(std::string name) const {
+Input Input::staged_as(const std::filesystem::path& target, std::shared_ptr<const Instead> instead) const {
     Input other = *this;
-    other.name_ = std::move(name);
+    other.name_ = target.string();
+    other.path_ = target;
+    other.instead_ = std::move(instead);
     return other;
+}
+
+std::filesystem::path Input::path_beside(const std::filesystem::path& relative) const {
+    const std::filesystem::path path = path_.parent_path() / relative;
+    if (instead_)
+        if (const auto staged = instead_->find(path.lexically_normal()); staged != instead_->end())
+            return staged->second;
+    return path;
+}
+
+Input Input::beside(const std::filesystem::path& relative) const {
+    return open(path_beside(relative)).staged_as(path_.parent_path() / relative, instead_);
 }
 
 void Input::inflate(std::size_t limit) {

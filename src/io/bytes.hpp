@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -27,8 +28,14 @@ class Input {
     /// (E-SIZE, when a stream goes beyond max_stream bytes). Gzip (.gz) is inflated, within the same limit.
     static Input open(const std::filesystem::path& path, std::size_t max_stream = std::size_t{4} << 30);
     static Input of(std::string name, Bytes bytes);
-    /// The same bytes under another name (a staged output under its target's).
-    Input named(std::string name) const;
+    /// The same bytes under another name, for a staged output: that of its target. `instead` says which file
+    /// to open for a neighbour (by its whole path), since neighbours are staged too.
+    using Instead = std::map<std::filesystem::path, std::filesystem::path>;
+    Input staged_as(const std::filesystem::path& target, std::shared_ptr<const Instead> instead) const;
+    /// A file named relative to this one: a glTF's buffers and images, an OBJ's materials. Throws as open.
+    Input beside(const std::filesystem::path& relative) const;
+    /// ... and the path to open for it.
+    std::filesystem::path path_beside(const std::filesystem::path& relative) const;
 
     const std::string& name() const { return name_; }           ///< for messages and the report
     const std::filesystem::path& path() const { return path_; } ///< empty for streams
@@ -41,6 +48,7 @@ class Input {
     std::string name_;
     std::filesystem::path path_;
     std::shared_ptr<const void> owner_, stored_owner_;
+    std::shared_ptr<const Instead> instead_;
     Span bytes_, stored_;
 };
 

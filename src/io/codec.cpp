@@ -122,6 +122,7 @@ Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
     for (auto& part : scene.parts) {
         if (part.name.empty()) part.name = stem_of(input);
         check_finite(part, input.name());
+        if (settings.weld == Weld::exact) weld_exact(part.mesh);
         mend_attributes(part, input.name(), log);
         any |= part.mesh.vertex_count() > 0;
     }

@@ -16,7 +16,12 @@ struct ReadLog {
     std::vector<std::filesystem::path> files; ///< neighbours that were read (buffers, images, .mtl)
 };
 
+/// Whether vertices at exactly the same place become one: as the format needs it (STL and glTF do), never, or
+/// always.
+enum class Weld { automatic, off, exact };
+
 struct ReadSettings {
+    Weld weld = Weld::automatic;
     std::optional<Unit> unit; ///< overrides what the format says
     std::optional<UpAxis> up;
     std::size_t max_vertices = std::size_t{1} << 31;
@@ -33,9 +38,9 @@ struct WriteSettings {
     bool big_endian = false; ///< PLY
     bool double_positions =
         false;                  ///< PLY, OBJ, OFF: positions with all their digits, else rounded to float32
-    DracoSettings draco;        ///< glTF
+    DracoSettings draco{};      ///< glTF
     bool mesh_manifold = false; ///< glTF: EXT_mesh_manifold
-    std::string title;          ///< the output's stem, for names inside the file
+    std::string title{};        ///< the output's stem, for names inside the file
 };
 
 /// A written file: the main one first, then its neighbours (a .gltf's .bin and images, an .obj's .mtl).

@@ -76,7 +76,7 @@ std::optional<fs::path> neighbour_path(const Input& input, const fs::path& relat
     if (failed) return std::nullopt;
     const auto mismatch = std::mismatch(base.begin(), base.end(), real.begin(), real.end());
     if (mismatch.first != base.end()) return std::nullopt;
-    return path;
+    return input.path_beside(relative);
 }
 
 Bytes resolve_with_tinygltf(const Place& buffer, const std::string& uri, Neighbour neighbour) {

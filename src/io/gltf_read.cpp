@@ -58,6 +58,14 @@ Material read_material(const Place& place, std::size_t index) {
     return material;
 }
 
+/// The mesh as the file has it: a vertex for every one of glTF's, whatever their places.
+void unmerge(Mesh& mesh) {
+    std::vector<Vec3> positions;
+    for (const Index v : mesh.wedge_vertex) positions.push_back(mesh.positions[v]);
+    if (mesh.has_seams()) mesh.positions = std::move(positions);
+    mesh.wedge_vertex.clear();
+}
+
 void read_parts(Scene& scene, Source& source, const ReadSettings& settings, ReadLog& log) {
     const auto frames = node_frames(source.json(), [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, ""});
@@ -72,6 +80,7 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
             DecodedMesh decoded =
                 decode_mesh(source, static_cast<std::size_t>(placement.mesh), settings.max_vertices);
             part.mesh = std::move(decoded.mesh);
+            if (settings.weld == Weld::off) unmerge(part.mesh);
             log.warnings.insert(log.warnings.end(), decoded.warnings.begin(), decoded.warnings.end());
             first_part[placement.mesh] = scene.parts.size();
         }

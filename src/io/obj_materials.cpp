@@ -16,15 +16,15 @@ void warn(ReadLog& log, const std::string& name, std::string message) {
     log.warnings.push_back({Severity::warning, "W-MTL", std::move(message), file_mark(name), ""});
 }
 
-/// A library's path, when it stays in the directory of the input: a mesh file does not choose what else is
-/// read.
+/// A library's path beside the input, when it stays in the directory of the input: a mesh file does not
+/// choose what else is read.
 std::optional<fs::path> inside(const Input& input, std::string name) {
     for (char& c : name)
         if (c == '\\') c = '/';
     const fs::path relative = fs::path(name).lexically_normal();
     if (input.path().empty() || relative.empty() || relative.is_absolute() || *relative.begin() == "..")
         return {};
-    return input.path().parent_path() / relative;
+    return relative;
 }
 
 double fraction(double x) { return std::clamp(x, 0.0, 1.0); }
@@ -78,8 +78,8 @@ void read_materials(const Input& input, const std::vector<Event>& events, std::v
             continue;
         }
         try {
-            const Input library = Input::open(*path);
-            log.files.push_back(*path);
+            const Input library = input.beside(*path);
+            log.files.push_back(library.path());
             read_library(library, materials, log);
         } catch (const Error& error) {
             warn(log, input.name(),

@@ -3,6 +3,7 @@
 #include "io/attributes.hpp"
 #include "io/text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>

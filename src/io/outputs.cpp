@@ -234,7 +234,10 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes) {
 
 Input Outputs::staged(const File& file) const {
     if (file.temporary.empty()) return Input::of(file.target.string(), file.stream);
-    return Input::open(file.temporary).named(file.target.string());
+    auto instead = std::make_shared<Input::Instead>();
+    for (const auto& other : files_)
+        if (!other->temporary.empty()) instead->emplace(other->target.lexically_normal(), other->temporary);
+    return Input::open(file.temporary).staged_as(file.target, std::move(instead));
 }
 
 void Outputs::rename_all() {

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "io/text.hpp"
 
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cstring>

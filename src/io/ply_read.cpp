@@ -5,6 +5,7 @@
 #include "io/text.hpp"
 #include "io/wedges.hpp"
 
+#include <array>
 #include <bit>
 #include <fmt/format.h>
 #include <limits>

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "io/flatten.hpp"
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>

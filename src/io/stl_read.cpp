@@ -28,9 +28,10 @@ bool has_binary_size(Span bytes) {
 }
 
 /// The triangles lie three corners a face: one vertex per place, and no attributes to keep wedges apart for.
-void index_by_position(Mesh& mesh) {
+void index_by_position(Mesh& mesh, const ReadSettings& settings) {
     mesh.corners.resize(mesh.positions.size());
     std::iota(mesh.corners.begin(), mesh.corners.end(), Index{0});
+    if (settings.weld == Weld::off) return;
     weld_exact(mesh);
     if (!mesh.has_seams()) return;
     parallel_for(mesh.corners.size(),
@@ -80,7 +81,7 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
                   fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected finite numbers",
                               t, head + t * record, bad->x, bad->y, bad->z));
     }
-    index_by_position(part.mesh);
+    index_by_position(part.mesh, settings);
     if (std::any_of(extra.begin(), extra.end(), [](std::uint16_t x) { return x != 0; }))
         part.mesh.attributes.push_back({"attribute", Domain::face, Role::index, 1, false, std::move(extra)});
     return part;
@@ -99,7 +100,7 @@ class TextReader {
             text_.next_line();
             read_solid(part.mesh);
             check_count(input, settings, part.mesh.positions.size());
-            index_by_position(part.mesh);
+            index_by_position(part.mesh, settings);
             scene.parts.push_back(std::move(part));
         }
         return scene;

@@ -75,7 +75,8 @@ TEST_CASE("every text mesh of the corpus is read with its counts, or refused whe
         if (row.path.starts_with("malformed/")) continue;
         std::size_t vertices = 0;
         for (const auto& part : scene.parts) vertices += part.mesh.vertex_count();
-        if (row.path == "off/whitespace.off") continue; // the manifest's reader takes "OFF8 6 12" for its counts
+        if (row.path == "off/whitespace.off")
+            continue; // the manifest's reader takes "OFF8 6 12" for its counts
         if (row.faces >= 0) CHECK(scene.face_count() == static_cast<std::size_t>(row.faces));
         // The manifest counts three vertices a triangle for STL, and only what faces use for some others.
         if (suffix != ".stl" && row.vertices >= 0) CHECK(vertices >= static_cast<std::size_t>(row.vertices));

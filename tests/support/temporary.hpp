@@ -1,6 +1,7 @@
 #pragma once
 // A directory of its own for a test, and files in it.
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>

@@ -1,0 +1,82 @@
+#include "io/convert.hpp"
+
+#include "io/flatten.hpp"
+
+#include <fmt/format.h>
+#include <set>
+#include <utility>
+
+namespace facetmill::io {
+
+namespace {
+
+Transform scaling(double factor) {
+    Transform t;
+    for (int i = 0; i < 3; ++i) t.m[i][i] = factor;
+    return t;
+}
+
+/// A quarter turn about x that brings the one axis to where the other was.
+Transform turn(UpAxis from, UpAxis to) {
+    Transform t;
+    if (from == to) return t;
+    const double s = to == UpAxis::y ? 1 : -1; // z up to y up: (x, y, z) -> (x, z, -y)
+    t.m[1][1] = t.m[2][2] = 0;
+    t.m[1][2] = s;
+    t.m[2][1] = -s;
+    return t;
+}
+
+} // namespace
+
+Conversion convert(Scene& scene, const Convention& target) {
+    Conversion done;
+    if (target.unit != Unit::unknown) {
+        done.unit_guessed = scene.unit == Unit::unknown;
+        if (!done.unit_guessed) done.factor = metres(scene.unit) / metres(target.unit);
+        scene.unit = target.unit;
+    }
+    if (target.up != UpAxis::unknown) {
+        done.up_guessed = scene.up == UpAxis::unknown;
+        done.turned = !done.up_guessed && scene.up != target.up;
+        if (done.turned) done.transform = turn(scene.up, target.up);
+        scene.up = target.up;
+    }
+    if (done.factor != 1) done.transform = scaling(done.factor) * done.transform;
+    if (done.transform.identity()) return done;
+    for (auto& part : scene.parts) {
+        part.transform = done.transform * effective(part);
+        part.skinned = false;
+    }
+    return done;
+}
+
+Conversion add_scene(Scene& scene, Scene more) {
+    Conversion done;
+    if (scene.parts.empty()) {
+        scene.unit = more.unit;
+        scene.up = more.up;
+    } else {
+        done = convert(more, {scene.unit, scene.up});
+    }
+    const auto materials = static_cast<Index>(scene.materials.size());
+    const int documents = static_cast<int>(scene.documents.size());
+    for (auto& m : more.materials) {
+        if (m.document >= 0) m.document += documents;
+        scene.materials.push_back(std::move(m));
+    }
+    for (auto& d : more.documents) scene.documents.push_back(std::move(d));
+    std::set<std::string> taken;
+    for (const auto& part : scene.parts) taken.insert(part.name);
+    for (auto& part : more.parts) {
+        for (auto& p : part.mesh.primitives)
+            if (p.material != none) p.material += materials;
+        if (part.document >= 0) part.document += documents;
+        const std::string name = part.name;
+        for (int n = 2; !taken.insert(part.name).second; ++n) part.name = fmt::format("{}_{}", name, n);
+        scene.parts.push_back(std::move(part));
+    }
+    return done;
+}
+
+} // namespace facetmill::io

@@ -1,0 +1,23 @@
+#pragma once
+// What is claimed is measured: a written file is decoded again and compared with what it was to hold.
+
+#include "base/json.hpp"
+#include "io/codec.hpp"
+
+namespace facetmill::io {
+
+struct ReadBack {
+    Scene scene; ///< the file as decoded
+    std::size_t vertices = 0, faces = 0;
+    double position_error = 0; ///< how far a vertex that faces use moved at most, in the file's units
+    double tolerance = 0;      ///< how far the format and its settings may move one
+    Json json() const;         ///< vertices, faces, position_error
+};
+
+/// Decodes the file and compares it with the scene (in the file's convention): the number of faces (polygons,
+/// or the triangles that they are cut into), and the distance from every vertex that faces use to the nearest
+/// one of the other side, within what float32 or Draco's bits allow. Throws output (E-READBACK) when it does
+/// not hold what was written.
+ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings);
+
+} // namespace facetmill::io

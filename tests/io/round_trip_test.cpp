@@ -1,0 +1,246 @@
+#include "support/catch.hpp"
+
+#include "io/codec.hpp"
+#include "io/read_back.hpp"
+#include "mesh/invariants.hpp"
+#include "mesh/shapes.hpp"
+#include "support/failure.hpp"
+#include "support/temporary.hpp"
+
+#include <cmath>
+
+using namespace facetmill;
+using namespace facetmill::test;
+
+namespace {
+
+Scene scene_of(Mesh mesh, std::string name = "part") {
+    Scene scene;
+    Part& part = scene.parts.emplace_back();
+    part.name = std::move(name);
+    part.mesh = std::move(mesh);
+    return scene;
+}
+
+struct Trip {
+    Scene scene;
+    io::Written written;
+    io::ReadLog log;
+};
+
+/// Writes the scene and reads it again.
+Trip trip(const Scene& scene, const char* format, io::WriteSettings settings = {}) {
+    const io::Codec& codec = *io::codec_named(format);
+    settings.title = "mesh";
+    Trip t;
+    t.written = codec.write(scene, settings);
+    const io::Input input = io::Input::of(std::string("mesh.") + format, t.written.files.front().bytes);
+    CHECK(io::read_back(input, codec, scene, settings).faces >= scene.face_count());
+    t.scene = io::read_scene(input, {}, t.log);
+    CHECK(broken_invariants(t.scene).empty());
+    return t;
+}
+
+std::string fates(const io::Written& written) {
+    std::string text;
+    for (const auto& f : written.fates)
+        text += fmt::format("{} {} {}: {}\n", spelled(f.domain), f.attribute, spelled(f.kind), f.why);
+    return text;
+}
+
+const std::vector<io::WriteSettings> ply_settings{
+    {}, {.ascii = true}, {.big_endian = true}, {.double_positions = true}};
+
+} // namespace
+
+TEST_CASE("PLY holds polygons and shared vertices in every encoding", "[io]") {
+    for (const auto& settings : ply_settings)
+        for (const Mesh& mesh : {shapes::quad_cube(), shapes::cube(), shapes::fan3(), shapes::moebius(5)}) {
+            const Trip t = trip(scene_of(mesh), "ply", settings);
+            const Mesh& back = t.scene.parts.at(0).mesh;
+            CHECK(back.corners == mesh.corners);
+            CHECK(back.face_offsets == mesh.face_offsets);
+            CHECK(back.vertex_count() == mesh.vertex_count());
+            CHECK(fates(t.written).empty());
+        }
+}
+
+TEST_CASE("PLY holds positions with all their digits on request", "[io]") {
+    Mesh mesh = shapes::tetrahedron();
+    mesh.positions[0] = {1.0 / 3, std::nextafter(2.0, 3.0), 1e-300};
+    for (const bool ascii : {false, true}) {
+        const Trip t = trip(scene_of(mesh), "ply", {.ascii = ascii, .double_positions = true});
+        CHECK(t.scene.parts.at(0).mesh.positions == mesh.positions);
+    }
+}
+
+TEST_CASE("PLY holds attributes of every type and domain", "[io]") {
+    Mesh mesh = shapes::tetrahedron();
+    mesh.attributes = {
+        {"NORMAL", Domain::wedge, Role::normal, 3, false,
+         std::vector<float>{0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, -1}},
+        {"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::vector<float>{0, 0, 0.5, 0.25, 1, 0.75, 1, 1}},
+        {"COLOR_0", Domain::wedge, Role::colour, 4, true,
+         std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 255}},
+        {"quality", Domain::wedge, Role::generic, 1, false, std::vector<double>{0.1, 0.2, 1e300, -4}},
+        {"flags", Domain::wedge, Role::index, 1, false,
+         std::vector<std::int32_t>{-1, 2, INT32_MAX, INT32_MIN}},
+        {"WEIGHTS_0", Domain::wedge, Role::weights, 4, false, std::vector<float>(16, 0.25F)},
+        {"COLOR_0", Domain::face, Role::colour, 3, true,
+         std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}},
+        {"group", Domain::face, Role::index, 1, false, std::vector<std::uint32_t>{0, 1, 2, UINT32_MAX}},
+    };
+    for (const auto& settings : ply_settings) {
+        const Trip t = trip(scene_of(mesh), "ply", settings);
+        const auto& back = t.scene.parts.at(0).mesh.attributes;
+        REQUIRE(back.size() == mesh.attributes.size());
+        for (const auto& a : mesh.attributes) {
+            INFO(a.name);
+            const Attribute* b = t.scene.parts[0].mesh.find(a.name, a.domain);
+            REQUIRE(b);
+            CHECK(b->data == a.data);
+            CHECK(b->role == a.role);
+            CHECK(b->components == a.components);
+            CHECK(b->normalised == a.normalised);
+        }
+    }
+}
+
+TEST_CASE("PLY keeps a surface whole over texture seams, and splits it at others", "[io]") {
+    Mesh mesh = shapes::uv_cube();
+    const Trip split = trip(scene_of(mesh), "ply");
+    CHECK(split.scene.parts.at(0).mesh.vertex_count() == mesh.wedge_count());
+    CHECK(fates(split.written) == "vertex vertices recomputed: 8 vertices became 24: PLY has one set of "
+                                  "attributes at a vertex, so seams split\n");
+    mesh.drop("NORMAL", Domain::wedge);
+    for (const auto& settings : ply_settings) {
+        const Trip whole = trip(scene_of(mesh), "ply", settings);
+        const Mesh& back = whole.scene.parts.at(0).mesh;
+        CHECK(back.vertex_count() == 8);
+        CHECK(fates(whole.written).empty());
+        for (Index c = 0; c < mesh.corner_count(); ++c) {
+            CHECK(back.vertex(c) == mesh.vertex(c));
+            for (int k = 0; k < 2; ++k)
+                CHECK(back.find("TEXCOORD_0", Domain::wedge)->value(back.corners[c], k) ==
+                      mesh.find("TEXCOORD_0", Domain::wedge)->value(mesh.corners[c], k));
+        }
+    }
+}
+
+TEST_CASE("PLY holds a face of many corners and a cloud of points", "[io]") {
+    Mesh disc, cloud;
+    std::vector<Index> rim;
+    for (Index i = 0; i < 300; ++i) {
+        disc.positions.push_back({static_cast<double>(i), static_cast<double>(i * i), 0});
+        rim.push_back(i);
+    }
+    add_face(disc, rim);
+    cloud.positions = disc.positions;
+    for (const auto& settings : ply_settings) {
+        CHECK(trip(scene_of(disc), "ply", settings).scene.parts.at(0).mesh.corners == disc.corners);
+        CHECK(trip(scene_of(cloud), "ply", settings).scene.parts.at(0).mesh.vertex_count() == 300);
+    }
+}
+
+TEST_CASE("STL holds triangles, welded again on reading", "[io]") {
+    for (const bool ascii : {false, true}) {
+        const Trip t = trip(scene_of(shapes::icosphere(1)), "stl", {.ascii = ascii});
+        CHECK(t.scene.parts.at(0).mesh.vertex_count() == shapes::icosphere(1).vertex_count());
+        const Trip quads = trip(scene_of(shapes::quad_cube()), "stl", {.ascii = ascii});
+        CHECK(quads.scene.face_count() == 12);
+        CHECK(fates(quads.written) == "face polygons recomputed: STL holds triangles: cut into them\n");
+    }
+    CHECK(fates(trip(scene_of(shapes::uv_cube()), "stl").written).find("STL holds positions only") !=
+          std::string::npos);
+}
+
+TEST_CASE("parts are placed in the world, and are solids in STL text and objects in OBJ", "[io]") {
+    Scene scene = scene_of(shapes::cube(), "one");
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].name = "the other";
+    scene.parts[1].transform.m[0][3] = 5;
+    for (const auto& [format, ascii] : {std::pair{"stl", true}, std::pair{"obj", false}}) {
+        const Trip t = trip(scene, format, {.ascii = ascii});
+        REQUIRE(t.scene.parts.size() == 2);
+        CHECK(t.scene.parts[1].name == "the other");
+        CHECK(t.scene.parts[1].mesh.bounds().min == Vec3{5, 0, 0});
+        CHECK(t.scene.parts[1].mesh.vertex_count() == 8);
+    }
+    for (const char* format : {"ply", "off", "stl"}) {
+        const Trip t = trip(scene, format);
+        CHECK(t.scene.parts.size() == 1);
+        CHECK(t.scene.bounds().max == Vec3{6, 1, 1});
+    }
+}
+
+TEST_CASE("OBJ holds seams, polygons, groups and materials", "[io]") {
+    Scene scene = scene_of(shapes::uv_cube());
+    Mesh& mesh = scene.parts[0].mesh;
+    scene.materials.resize(2);
+    scene.materials[0].name = "red";
+    scene.materials[0].base_colour[1] = 0.25;
+    scene.materials[1].name = "blue sky";
+    mesh.primitives = {{0, {}, {}}, {1, {}, {}}};
+    std::vector<std::uint32_t> primitive(12, 0), group(12, 0);
+    for (std::size_t f = 6; f < 12; ++f) primitive[f] = 1;
+    for (std::size_t f = 3; f < 12; ++f) group[f] = 1;
+    mesh.attributes.push_back(
+        {std::string(primitive_attribute), Domain::face, Role::index, 1, false, primitive});
+    mesh.attributes.push_back({"group", Domain::face, Role::index, 1, false, group});
+
+    const TemporaryDirectory dir;
+    const io::Written written = io::codec_named("obj")->write(scene, {.title = "a"});
+    REQUIRE(written.files.size() == 2);
+    for (const auto& file : written.files) put(dir / file.name.string(), io::as_text(file.bytes));
+    io::ReadLog log;
+    const Scene back = io::read_scene(io::Input::open(dir / "a.obj"), {}, log);
+    REQUIRE(back.parts.size() == 1);
+    const Mesh& m = back.parts[0].mesh;
+    CHECK(broken_invariants(back).empty());
+    CHECK(m.vertex_count() == 8);
+    CHECK(m.wedge_count() == 24);
+    CHECK(m.find("NORMAL", Domain::wedge));
+    CHECK(std::get<std::vector<std::uint32_t>>(m.find("group", Domain::face)->data) == group);
+    CHECK(std::get<std::vector<std::uint32_t>>(m.find("primitive", Domain::face)->data) == primitive);
+    REQUIRE(back.materials.size() == 2);
+    CHECK(back.materials[0].name == "red");
+    CHECK(back.materials[0].base_colour[1] == 0.25);
+    CHECK(back.materials[1].name == "blue_sky");
+    CHECK(log.files == std::vector<std::filesystem::path>{dir / "a.mtl"});
+}
+
+TEST_CASE("OFF holds polygons and colours", "[io]") {
+    Mesh mesh = shapes::quad_cube();
+    mesh.attributes.push_back(
+        {"COLOR_0", Domain::face, Role::colour, 3, true, std::vector<std::uint8_t>(18, 200)});
+    mesh.attributes.push_back(
+        {"COLOR_0", Domain::wedge, Role::colour, 4, false, std::vector<float>(32, 0.5F)});
+    const Trip t = trip(scene_of(mesh), "off");
+    const Mesh& back = t.scene.parts.at(0).mesh;
+    CHECK(back.corners == mesh.corners);
+    CHECK(back.find("COLOR_0", Domain::face)->data == mesh.attributes[0].data);
+    CHECK(back.find("COLOR_0", Domain::wedge)->data == mesh.attributes[1].data);
+    CHECK(trip(scene_of(shapes::torus(8, 5)), "off").scene.parts.at(0).mesh.corners ==
+          shapes::torus(8, 5).corners);
+}
+
+TEST_CASE("a file that does not hold what was written is found out", "[io]") {
+    const Scene scene = scene_of(shapes::cube());
+    Scene moved = scene, fewer = scene;
+    moved.parts[0].mesh.positions[3].x += 1e-3;
+    fewer.parts[0].mesh.corners.resize(33);
+    for (const char* format : {"ply", "stl", "obj", "off"}) {
+        const io::Codec& codec = *io::codec_named(format);
+        const auto back = [&](const Scene& other) {
+            return failure([&] {
+                io::read_back(io::Input::of("out", codec.write(other, {.title = "a"}).files[0].bytes), codec,
+                              scene, {});
+            });
+        };
+        CHECK(back(scene) == "nothing");
+        CHECK(back(moved).starts_with(
+            "output [E-READBACK] 'out' does not hold what was written: a vertex moved farther than "));
+        CHECK(back(fewer).starts_with(
+            "output [E-READBACK] 'out' does not hold what was written: 11 faces, expected 12"));
+    }
+}

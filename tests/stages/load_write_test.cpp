@@ -1,0 +1,145 @@
+#include "support/catch.hpp"
+
+#include "mesh/shapes.hpp"
+#include "stage/stage.hpp"
+#include "support/failure.hpp"
+#include "support/temporary.hpp"
+
+using namespace facetmill;
+using namespace facetmill::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A run of single stages in a directory of its own.
+struct Bench {
+    TemporaryDirectory dir;
+    RunState state;
+    report::StageRecord record;
+    Scene scene;
+
+    Bench() {
+        state.places = {dir.path(), dir.path()};
+        state.record.inputs.clear();
+    }
+
+    void run(const char* stage, Value given) {
+        const StageInfo& info = *stage_named(stage);
+        const auto options = info.make_options();
+        Problems problems;
+        info.options.parse(given, options.get(), stage, problems);
+        if (info.verify) info.verify(options.get(), given, problems);
+        problems.throw_if_any(ErrorKind::usage);
+        const PartFilter all;
+        Context context(state, record, all, scene.bounds(), {});
+        scene = info.run(std::move(scene), options.get(), context);
+    }
+};
+
+Value options(std::vector<std::pair<std::string, std::string>> given) {
+    std::vector<Value::Entry> entries;
+    for (auto& [key, text] : given) entries.push_back({key, {}, Value::scalar(text)});
+    return Value::map(std::move(entries));
+}
+
+const char* const triangle_stl = "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 10 0 "
+                                 "0\nvertex 0 0 20\nendloop\nendfacet\nendsolid\n";
+
+} // namespace
+
+TEST_CASE("load adds parts with names of their own and records what it read", "[stages]") {
+    Bench b;
+    put(b.dir / "t.stl", triangle_stl);
+    b.run("load", Value::scalar("t.stl"));
+    b.run("load", Value::scalar("*.stl"));
+    REQUIRE(b.scene.parts.size() == 2);
+    CHECK(b.scene.parts[0].name == "t");
+    CHECK(b.scene.parts[1].name == "t_2");
+    REQUIRE(b.state.record.inputs.size() == 2);
+    CHECK(b.state.record.inputs[0].path == (b.dir / "t.stl").string());
+    CHECK(b.state.record.inputs[0].bytes == std::string_view(triangle_stl).size());
+    CHECK(b.state.record.inputs[0].sha256.size() == 64);
+    CHECK(b.state.load_diagonal == std::sqrt(500.0));
+    CHECK(failure([&] { b.run("load", Value::scalar("no_*.stl")); }) ==
+          "missing [E-FILE] no file matches 'no_*.stl'");
+    CHECK(failure([&] {
+              b.run("load", options({{"path", "t.stl"}, {"format", "stll"}}));
+          }) == "usage [E-FORMAT] there is no format 'stll' | did you mean 'stl'?");
+}
+
+TEST_CASE("later files are converted to the unit and axis of the first", "[stages]") {
+    Bench b;
+    put(b.dir / "t.stl", triangle_stl);
+    b.run("load", options({{"path", "t.stl"}, {"unit", "m"}, {"up", "y"}}));
+    b.run("load", options({{"path", "t.stl"}, {"unit", "cm"}, {"up", "z"}}));
+    CHECK(b.scene.unit == Unit::m);
+    const Transform& t = b.scene.parts[1].transform;
+    const Vec3 p = t.point({0, 0, 20});
+    CHECK(p == Vec3{0, 20 * 0.01, 0});
+    b.run("load", Value::scalar("t.stl"));
+    REQUIRE(b.record.warnings.size() == 1);
+    CHECK(b.record.warnings[0].id == "W-UNITS");
+}
+
+TEST_CASE("weld says whether places make vertices", "[stages]") {
+    for (const auto& [weld, vertices] :
+         {std::pair{"auto", 8U}, std::pair{"exact", 8U}, std::pair{"none", 36U}}) {
+        Bench b;
+        b.scene.parts.emplace_back().mesh = shapes::cube();
+        b.run("write", Value::scalar("c.stl"));
+        b.state.outputs.commit();
+        b.scene = {};
+        b.run("load", options({{"path", "c.stl"}, {"weld", weld}}));
+        CHECK(b.scene.parts.at(0).mesh.vertex_count() == vertices);
+    }
+}
+
+TEST_CASE("write stages a file, reads it back, and passes the scene on as it was", "[stages]") {
+    Bench b;
+    Part& part = b.scene.parts.emplace_back();
+    part.name = "cube";
+    part.mesh = shapes::cube();
+    part.transform.m[0][3] = 2;
+    b.scene.unit = Unit::m, b.scene.up = UpAxis::z;
+    b.run("write", options({{"path", "out/c.ply"}, {"unit", "mm"}, {"up", "y"}, {"ascii", "true"}}));
+    CHECK_FALSE(fs::exists(b.dir / "out/c.ply"));
+    b.state.outputs.commit();
+    CHECK(fs::exists(b.dir / "out/c.ply"));
+    REQUIRE(b.scene.parts.size() == 1);
+    CHECK(b.scene.parts[0].name == "cube");
+    CHECK(b.scene.parts[0].mesh.vertex_count() == 8);
+    CHECK(b.scene.parts[0].transform.m[0][3] == 2);
+    CHECK(b.scene.unit == Unit::m);
+    REQUIRE(b.state.record.outputs.size() == 1);
+    CHECK(b.state.record.outputs[0].read_back.dump() == R"({"vertices":8,"faces":12,"position_error":0.0})");
+
+    Bench again;
+    again.state.places = b.state.places;
+    again.run("load", Value::scalar("out/c.ply"));
+    CHECK(again.scene.bounds().min == Vec3{2000, 0, -1000});
+    CHECK(again.scene.bounds().max == Vec3{3000, 1000, 0});
+}
+
+TEST_CASE("write refuses what it cannot mean", "[stages]") {
+    Bench b;
+    b.scene.parts.emplace_back().mesh = shapes::cube();
+    CHECK(failure([&] { b.run("write", Value::scalar("c.xyz")); })
+              .starts_with(
+                  "usage [E-FORMAT] the suffix of 'c.xyz' names no format | say it with 'format', one of: "));
+    CHECK(failure([&] {
+              b.run("write", options({{"path", "c.stl"}, {"unit", "mm"}}));
+          }) == "stage [E-UNIT] the scene has no unit, so it cannot be written in mm | say what was loaded: "
+                "load: {path: ..., unit: mm}");
+}
+
+TEST_CASE("a name that ends in .gz is compressed, and read so", "[stages]") {
+    Bench b;
+    b.scene.parts.emplace_back().mesh = shapes::icosphere(2);
+    b.run("write", Value::scalar("s.obj.gz"));
+    b.state.outputs.commit();
+    b.scene = {};
+    b.run("load", Value::scalar("s.obj.gz"));
+    CHECK(b.scene.face_count() == 320);
+    CHECK(b.scene.parts[0].name == "s");
+    CHECK(get(b.dir / "s.obj.gz").starts_with("\x1f\x8b"));
+}
