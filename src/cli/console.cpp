@@ -21,6 +21,14 @@ void print(std::string_view text) {
 
 namespace {
 
+/// A message on standard error. When nobody reads it any more (facetmill run ... 2>&1 | head), the run goes on: what
+/// counts is the outputs and the exit code.
+template <class... Args>
+void tell(fmt::format_string<Args...> format, Args&&... args) {
+    const std::string text = fmt::format(format, std::forward<Args>(args)...);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
 bool terminal() {
     const char* kind = std::getenv("TERM");
     return isatty(STDERR_FILENO) && !(kind && std::string_view(kind) == "dumb");
@@ -38,7 +46,7 @@ class Bar : public Progress {
     void stage(int number, int number_of, const std::string& name) override {
         constexpr int width = 24;
         const int filled = number_of > 0 ? width * (number - 1) / number_of : 0;
-        fmt::print(stderr, "\r\033[K[{}{}] {}/{} {}", std::string(filled, '#'),
+        tell("\r\033[K[{}{}] {}/{} {}", std::string(filled, '#'),
                    std::string(width - filled, '.'), number, number_of, name);
         std::fflush(stderr);
         drawn_ = true;
@@ -65,7 +73,7 @@ class Lines : public Progress {
                   {"of", number_of},
                   {"seconds", since.count()}});
         else
-            fmt::print(stderr, "{:7.2f}s  {}/{} {}\n", since.count(), number, number_of, name);
+            tell("{:7.2f}s  {}/{} {}\n", since.count(), number, number_of, name);
     }
     void done() override {}
 
@@ -85,7 +93,7 @@ void Console::diagnostic(const Diagnostic& d) const {
     if (quiet && d.severity == Severity::note) return;
     if (!json) {
         // A progress bar may stand on the line.
-        fmt::print(stderr, "{}{}\n", terminal() ? "\r\033[K" : "", render(d, colour()));
+        tell("{}{}\n", terminal() ? "\r\033[K" : "", render(d, colour()));
         return;
     }
     const char* level = d.severity == Severity::error     ? "error"
@@ -111,7 +119,7 @@ void Console::say(std::string_view text) const {
     if (json)
         line({{"level", "info"}, {"message", text}});
     else
-        fmt::print(stderr, "{}\n", text);
+        tell("{}\n", text);
 }
 
 void Console::event(Json object) const {

@@ -97,7 +97,7 @@ class Parser {
             value = std::move(one);
         else if (primary)
             add(value, primary->name, std::move(one), one.mark, primary);
-        else
+        else if (stage) // an unknown stage has its own error
             problems_.add(one.mark, "E-PIPE", "a bare value does not go with options here",
                           "give it by its option's name");
         if (!value.mark.known()) value.mark = where;
@@ -147,8 +147,10 @@ class Parser {
         return !truth || all_[at_] == "true" || all_[at_] == "false";
     }
 
-    /// Whether true and false are all that the key may be: a flag of a stage, or a property that is a truth.
+    /// Whether true and false are all that a value of the key may be: a flag of a stage, a group that is
+    /// switched on by true (--draco), or a property that is a truth.
     static bool is_truth(const std::string& key, const Option* known) {
+        if (known && known->fields) return known->fields->shorthand_schema == OptionType<bool>::schema();
         if (known && known->type != "bound") return known->type == "bool";
         const auto* property = property_named(std::string_view(key).substr(key.rfind('.') + 1));
         return key == "join" || (property && property->truth);

@@ -31,7 +31,7 @@ class Resolver {
         std::vector<Value::Entry> kept;
         for (auto& entry : out.entries) {
             Value inner = value(entry.value);
-            if (inner.is_null() && !entry.value.is_null())
+            if (inner.is_null() && !inner.deferred && !entry.value.is_null())
                 continue; // an optional parameter that was not given
             kept.push_back({std::move(entry.key), std::move(entry.key_mark), std::move(inner)});
         }

@@ -1,0 +1,130 @@
+#include "cli/pipe_syntax.hpp"
+
+#include "pipeline/document.hpp"
+#include "support/catch.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+/// The one-liner as the YAML that says the same; messages instead when something is wrong.
+std::string yaml(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "pipe");
+    const cli::CommandLine line(std::move(arguments));
+    Problems problems;
+    const Value document = cli::parse_pipe(line, 1, problems);
+    if (problems.size() == 0) return pipeline::emit_yaml(*document.find("stages"));
+    std::string text;
+    for (const auto& d : problems.all()) text += render(d) + "\n";
+    return text;
+}
+
+/// The same from a line without quotes.
+std::string yaml(const std::string& line) {
+    std::vector<std::string> arguments;
+    std::istringstream words(line);
+    for (std::string word; words >> word;) arguments.push_back(word);
+    return yaml(arguments);
+}
+
+/// Whether the one-liner and the YAML are the same stages.
+bool same(const std::string& line, const std::string& text) {
+    std::vector<std::string> arguments{"pipe"};
+    std::istringstream words(line);
+    for (std::string word; words >> word;) arguments.push_back(word);
+    const cli::CommandLine command(arguments);
+    Problems problems;
+    const Value document = cli::parse_pipe(command, 1, problems);
+    const Value expected =
+        pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{"expected", text}), problems);
+    for (const auto& d : problems.all()) UNSCOPED_INFO(render(d));
+    UNSCOPED_INFO(pipeline::emit_yaml(*document.find("stages")));
+    return problems.size() == 0 && same_content(*document.find("stages"), expected);
+}
+
+} // namespace
+
+TEST_CASE("bare values, options and separators become steps", "[cli]") {
+    CHECK(same("load a.stl ! relax 3 ! write a.glb", "[{load: a.stl}, {relax: 3}, {write: a.glb}]"));
+    CHECK(same("load a.stl + relax", "[{load: a.stl}, {relax: null}]"));
+    CHECK(same("relax 3 --factor 0.5", "[{relax: {factor: 0.5, iterations: 3}}]"));
+    CHECK(same("relax --factor=0.5", "[{relax: {factor: 0.5}}]"));
+}
+
+TEST_CASE("values may begin with a dash", "[cli]") {
+    CHECK(same("load - ! relax --factor -0.5", "[{load: '-'}, {relax: {factor: -0.5}}]"));
+}
+
+TEST_CASE("dotted keys nest, vectors and lists are split at commas", "[cli]") {
+    CHECK(same("clip --plane.normal=0,0,1 --plane.offset 2",
+               "[{clip: {plane: {normal: [0, 0, 1], offset: 2}}}]"));
+    CHECK(same("relax --only head,arm* --only !hand", "[{relax: null, only: [head, arm*, '!hand']}]"));
+}
+
+TEST_CASE("flags of truths take a value only when it is one", "[cli]") {
+    CHECK(same("clip z=0 --cap ! relax", "[{clip: {cap: true, plane: z=0}}, {relax: null}]"));
+    CHECK(same("clip z=0 --cap false", "[{clip: {cap: false, plane: z=0}}]"));
+    CHECK(same("clip z=0 --no-cap", "[{clip: {cap: false, plane: z=0}}]"));
+}
+
+TEST_CASE("common keys stand beside the stage", "[cli]") {
+    CHECK(same("relax 3 --name soft --ensure.closed --ensure.faces.max 500 --when.closed false",
+               "[{relax: 3, name: soft, ensure: {closed: true, faces: {max: 500}}, when: {closed: false}}]"));
+}
+
+TEST_CASE("an at sign stands for the dollar, pct for the percent sign", "[cli]") {
+    CHECK(same("simplify 25pct ! write o.@{x.index}.glb ! write @@{x}",
+               "[{simplify: 25%}, {write: '${x}'}, {write: '@{x}'}]") == false);
+    CHECK(same("simplify 25pct ! write o.@{x.index}.glb ! write @@{x}",
+               "[{simplify: 25%}, {write: 'o.${x.index}.glb'}, {write: '@{x}'}]"));
+}
+
+TEST_CASE("foreach and branch nest in brackets", "[cli]") {
+    CHECK(same("load a ! foreach lod=50%,10pct [ simplify @{lod} ! write o.@{lod.index}.glb ]",
+               "[{load: a}, {foreach: {lod: [50%, 10%]}, do: [{simplify: '${lod}'}, {write: "
+               "'o.${lod.index}.glb'}]}]"));
+    CHECK(same("foreach part=* [ write @{part}.stl ]",
+               "[{foreach: {part: '*'}, do: [{write: '${part}.stl'}]}]"));
+    CHECK(same("foreach a=1 b=x,y [ relax @{a} ] --join",
+               "[{foreach: {a: [1], b: [x, y]}, do: [{relax: '${a}'}], join: true}]"));
+    CHECK(same("load a ! branch near [ write n.glb ] far [ simplify 10% ! write f.glb ] ! relax",
+               "[{load: a}, {branch: {near: [{write: n.glb}], far: [{simplify: 10%}, {write: f.glb}]}}, "
+               "{relax: null}]"));
+}
+
+TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
+    CHECK(yaml("load a ! ! write b") == "command line:1:25: error[E-PIPE]: a stage is missing here\n"
+                                        "  facetmill pipe load a ! ! write b\n"
+                                        "                          ^\n"
+                                        "  hint: load a.stl ! relax 3 ! write a.glb\n");
+    CHECK(yaml("foreach lod [ relax ]") ==
+          "command line:1:24: error[E-PIPE]: foreach takes variable=value,value, found 'lod'\n"
+          "  facetmill pipe foreach lod [ relax ]\n"
+          "                         ^~~\n");
+    CHECK(yaml("branch near [ relax")
+              .starts_with("command line:1:28: error[E-PIPE]: this '[' is not closed\n"));
+    CHECK(yaml("relax ]").starts_with("command line:1:22: error[E-PIPE]: ']' without '['\n"));
+    CHECK(yaml("relax --factor 1 --factor 2")
+              .starts_with("command line:1:33: error[E-PIPE]: '--factor' is given twice\n"));
+    CHECK(yaml("relax --factor").starts_with("command line:1:22: error[E-PIPE]: '--factor' needs a value\n"));
+}
+
+TEST_CASE("no line of brackets, separators and options crashes the parser", "[cli][property]") {
+    const std::vector<std::string> words{"[",      "]",   "!",     "relax",  "foreach",
+                                         "branch", "a=1", "--cap", "--join", "3"};
+    for (std::size_t n = 0; n < 20000; ++n) {
+        std::vector<std::string> arguments{"pipe"};
+        for (std::size_t rest = n * 2654435761U % 1000000007U; arguments.size() < 8; rest /= 10)
+            arguments.push_back(words[rest % 10]);
+        const cli::CommandLine line(arguments);
+        Problems problems;
+        cli::parse_pipe(line, 1, problems);
+    }
+    SUCCEED();
+}
+
+TEST_CASE("a group that true switches on is a flag", "[cli]") {
+    CHECK(same("write --draco a.glb", "[{write: {draco: true, path: a.glb}}]"));
+    CHECK(same("write a.glb --draco --ascii false", "[{write: {draco: true, ascii: false, path: a.glb}}]"));
+    CHECK(same("write a.glb --draco.position_bits 12", "[{write: {draco: {position_bits: 12}, path: a.glb}}]"));
+}
