@@ -1,7 +1,7 @@
 # cmake --install and the Debian package: the executable, manual pages, shell completions, ready pipelines as examples.
 include(GNUInstallDirs)
 install(TARGETS facetmill RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY pipelines examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES man/facetmill.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES man/facetmill-pipeline.5 DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)

@@ -177,7 +177,7 @@ Scene run(Scene scene, const ClipOptions& o, Context& context) {
 
 const RegisterStage clip_stage = make_stage<ClipOptions>(
     {.name = "clip",
-     .about = "Clips by planes, with watertight caps",
+     .about = "Clips by planes, with watertight caps.",
      .details =
          "Every vertex is classified once, by the exact sign of its distance, so neighbours always agree and "
          "a "

@@ -85,7 +85,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context) {
 
 const RegisterStage registered = make_stage<CrumpleOptions>(
     {.name = "crumple",
-     .about = "Roughens a surface: faces are split n x n and every vertex is displaced by a Gaussian amount",
+     .about = "Roughens a surface: faces are split n x n and every vertex is displaced by a Gaussian amount.",
      .details = "Each vertex moves once, by normally distributed amounts of mean 0 and the given standard "
                 "deviation, cut off "
                 "at `truncate`. Faces that share a vertex move with it, so nothing tears and the topology "

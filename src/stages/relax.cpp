@@ -50,7 +50,7 @@ Scene run(Scene scene, const RelaxSettings& settings, Context& context) {
 
 const RegisterStage registered = make_stage<RelaxSettings>(
     {.name = "relax",
-     .about = "Smooths a surface: every vertex moves towards the mean of its neighbours",
+     .about = "Smooths a surface: every vertex moves towards the mean of its neighbours.",
      .details =
          "In each iteration P becomes P + factor / n * sum(Pj - P) over its n neighbours Pj, for all "
          "vertices at the "

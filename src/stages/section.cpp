@@ -155,7 +155,7 @@ Scene run(Scene scene, const SectionOptions& o, Context& context) {
 
 const RegisterStage registered{make_stage<SectionOptions>(
     {.name = "section",
-     .about = "Cuts plane sections: contours with areas, centroids and moments, and drawings to scale",
+     .about = "Cuts plane sections: contours with areas, centroids and moments, and drawings to scale.",
      .details = "A plane, or a stack of parallel ones, gives polygons with their holes, in the frame that "
                 "the report states: its "
                 "origin is the foot of the world's origin on the plane, u is the axis after the normal's "

@@ -116,7 +116,7 @@ Scene run(Scene scene, const SimplifyOptions& o, Context& context) {
 
 const RegisterStage registered = make_stage<SimplifyOptions>(
     {.name = "simplify",
-     .about = "Reduces the number of faces and keeps the shape, the topology and the attributes",
+     .about = "Reduces the number of faces and keeps the shape, the topology and the attributes.",
      .details = "Edges are collapsed, cheapest first, until a target is met; with several targets the first "
                 "one met stops "
                 "the work, and the report names it. Polygons are triangulated first. The method quadric "

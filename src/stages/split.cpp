@@ -66,7 +66,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context) {
 
 const RegisterStage split_stage = make_stage<SplitOptions>(
     {.name = "split",
-     .about = "Splits faces into smaller ones, without cracks",
+     .about = "Splits faces into smaller ones, without cracks.",
      .details =
          "The surface stays where it is and becomes finer. A point on an edge is one vertex for all faces at "
          "that edge, on open, closed and non-manifold meshes, so there are no cracks and no T-vertices; "

@@ -71,7 +71,7 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context) {
 
 const RegisterStage registered{make_stage<TriangulateOptions>(
     {.name = "triangulate",
-     .about = "Cuts faces of any kind into triangles, or pairs triangles to quads",
+     .about = "Cuts faces of any kind into triangles, or pairs triangles to quads.",
      .details =
          "Every face of n corners becomes n - 2 triangles without new points, so that closed stays closed. "
          "Convex quads are "

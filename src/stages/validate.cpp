@@ -34,6 +34,7 @@ Assertions or_sound(Assertions given, const Mark& where) {
     for (const char* name : {"closed", "edge_manifold", "vertex_manifold", "oriented"})
         given.all.push_back({name, {.min = {}, .max = {}, .truth = true}, where});
     given.all.push_back({"degenerate_faces", {.min = 0, .max = 0, .truth = {}}, where});
+    given.all.push_back({"faces", {.min = 1, .max = {}, .truth = {}}, where});
     return given;
 }
 
@@ -94,7 +95,7 @@ const RegisterStage registered{make_stage<ValidateOptions>(
          "Every option but severity and per is a property with a bound: a value (euler: 2), a truth (closed: "
          "true) "
          "or a range (faces: {max: 5000}). Without any, the mesh is to be closed, edge- and vertex-manifold, "
-         "oriented and free of degenerate faces. A failed assertion carries evidence: the first faces and "
+         "oriented, free of degenerate faces and not empty. A failed assertion carries evidence: the first faces and "
          "points "
          "that speak against it. The mesh is passed on as it is.\n\n"
          "`euler: 2` is the notes' test for a closed surface; it is one only for genus 0 in one piece: V - E "

@@ -1,0 +1,81 @@
+"""Every example runs as it stands, in a copy of the tree, with facetmill found on PATH."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import time
+
+from support import FACETMILL, SOURCE, Case, main
+
+
+class Examples(Case):
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(SOURCE / "examples", self.dir / "examples")
+        (self.dir / "bin").mkdir()
+        (self.dir / "bin/facetmill").symlink_to(FACETMILL)
+        self.env = {**os.environ, "PATH": f"{self.dir / 'bin'}:{os.environ['PATH']}"}
+
+    def run_in(self, folder, *command):
+        run = subprocess.run(command, cwd=self.dir / "examples" / folder, env=self.env, capture_output=True, text=True,
+                             timeout=900)
+        self.assertEqual(run.returncode, 0, f"{command}\n{run.stdout}\n{run.stderr}")
+        return run.stdout + run.stderr
+
+    def made(self, folder):
+        return {p.name for p in (self.dir / "examples" / folder).rglob("*") if p.is_file()}
+
+    def touch_scan(self, name="nefertiti.ply"):
+        later = time.time() + 10
+        os.utime(self.dir / "examples/data" / name, (later, later))
+
+    def shell(self, shell):
+        path = self.need(shell)
+        # Stop at the first failure: bash and zsh by -e, fish by a word after every line.
+        script = self.dir / "examples/shell/one-liners.sh"
+        if shell == "fish":
+            lines = script.read_text().splitlines()
+            script.write_text("\n".join(l + "; or exit 1" if l and not l.startswith("#") else l for l in lines) + "\n")
+            self.run_in("shell", path, "--no-config", script.name)
+        else:
+            self.run_in("shell", path, "-e", script.name)
+        made = self.made("shell")
+        for name in ("web.glb", "plus.glb", "bust.stl", "lod0.glb", "lod2.glb", "smooth.ply", "rough.ply", "info.txt",
+                     "kept.glb", "kept.yaml"):
+            self.assertIn(name, made)
+        folder = self.dir / "examples/shell"
+        self.assertEqual((folder / "web.glb").read_bytes(), (folder / "plus.glb").read_bytes())
+
+    def test_bash(self):
+        self.shell("bash")
+
+    def test_zsh(self):
+        self.shell("zsh")
+
+    def test_fish(self):
+        self.shell("fish")
+
+    def test_make(self):
+        self.run_in("make", "make")
+        self.assertLessEqual({"nefertiti.glb", "nefertiti.json", "nefertiti.d"}, self.made("make"))
+        self.assertIn("Nothing to be done", self.run_in("make", "make"))
+        self.touch_scan()
+        self.assertIn("facetmill run", self.run_in("make", "make"))
+
+    def test_cmake(self):
+        self.run_in("cmake", "cmake", "-G", "Ninja", "-B", "build")
+        self.run_in("cmake", "cmake", "--build", "build")
+        self.assertIn("bust.glb", self.made("cmake"))
+        self.assertIn("no work to do", self.run_in("cmake", "cmake", "--build", "build"))
+
+    def test_ninja(self):
+        self.run_in("ninja", "ninja")
+        self.assertIn("nefertiti.glb", self.made("ninja"))
+        self.assertIn("no work to do", self.run_in("ninja", "ninja"))
+        self.touch_scan()
+        self.assertNotIn("no work to do", self.run_in("ninja", "ninja"))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,97 @@
+"""Golden runs of every file in pipelines/ through the real executable: it runs, its report follows the published
+schema, and its bytes depend neither on the number of threads nor on the processor."""
+
+import json
+import unittest
+
+from support import SCAN, SLOW, SOURCE, Case, main
+
+try:
+    import jsonschema
+except ImportError:  # the notice is printed by the test that needs it
+    jsonschema = None
+
+PIPELINES = sorted((SOURCE / "pipelines").glob("*.yaml"))
+# Hides what libm would choose by the processor. Names differ between releases of glibc; unknown ones are ignored.
+OLD_PROCESSOR = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-AVX2_Usable,-FMA_Usable"}
+# What varies from run to run stands under these keys of a report, and nowhere else.
+VARYING = {"run"}
+
+
+def stable(report):
+    return {key: value for key, value in report.items() if key not in VARYING}
+
+
+class Golden(Case):
+    def run_pipeline(self, pipeline, out, *arguments, env=None):
+        folder = self.dir / out
+        self.mill("run", pipeline, "-D", f"input={SCAN}", "--output-dir", folder, "--quiet", *arguments, env=env)
+        files = self.files(folder)
+        reports = {name for name in files if name.endswith((".json", ".html"))}
+        self.assertTrue(files.keys() - reports, "the pipeline wrote nothing")
+        self.assertFalse([name for name in files if name.endswith("~")], "a temporary is left")
+        same = {name: digest for name, digest in files.items() if name not in reports}
+        contents = {name: json.loads((folder / name).read_text()) for name in reports if name.endswith(".json")}
+        return same, contents
+
+    def check_report(self, report, files):
+        self.assertTrue(all(check["passed"] for check in report["checks"]))
+        for output in report["outputs"]:
+            name = output["path"].rsplit("/", 1)[-1]
+            self.assertEqual(output["sha256"], files[name], name)
+        if jsonschema is None:
+            self.fail("python3-jsonschema is missing (make deps installs it)")
+        schema = json.loads(self.mill("schema", "report").stdout)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        jsonschema.Draft202012Validator(schema).validate(report)
+
+    def check_pipeline(self, pipeline):
+        files, reports = self.run_pipeline(pipeline, "j1", "-j", "1")
+        self.assertTrue(reports, "the pipeline wrote no report")
+        for report in reports.values():
+            self.check_report(report, files)
+        variants = [] if SLOW else [("j2", ("-j", "2"), None), ("j3", ("-j", "3"), None), ("old", (), OLD_PROCESSOR)]
+        for name, arguments, env in variants:
+            other, other_reports = self.run_pipeline(pipeline, name, *arguments, env=env)
+            self.assertEqual(other, files, f"{name} gives other bytes than j1")
+            for report in reports:
+                mine, theirs = stable(reports[report]), stable(other_reports[report])
+                text = json.dumps(theirs).replace(f"{self.dir}/{name}/", f"{self.dir}/j1/")
+                self.assertEqual(json.loads(text), mine, f"{name} gives another report than j1")
+
+
+for path in PIPELINES:
+    def test(self, path=path):
+        self.check_pipeline(path)
+    setattr(Golden, "test_" + path.stem.replace("-", "_"), test)
+
+
+class Language(Case):
+    def test_every_pipeline_passes_check(self):
+        self.mill("check", *PIPELINES)
+
+    @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
+    def test_the_schema_of_pipelines_is_a_schema(self):
+        schema = json.loads(self.mill("schema").stdout)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        validator = jsonschema.Draft202012Validator(schema)
+        good = {"facetmill": 1, "x-anchors": 3, "params": {"keep": {"type": "ratio", "default": "10%"}},
+                "stages": [{"load": "a.ply"}, "relax", {"relax": None}, {"relax": {"iterations": "${n}"}, "name": "soft"},
+                           {"foreach": {"lod": ["50%", "10%"]}, "do": [{"simplify": "${lod}"}]},
+                           {"branch": {"near": [{"write": "n.glb"}]}, "when": "${a} == b"}]}
+        validator.validate(good)
+        for wrong in ({"stages": []}, {"facetmill": 2, "stages": []}, {"facetmill": 1, "stages": ["relux"]},
+                      {"facetmill": 1, "stages": [{"relax": {"iteratons": 2}}]},
+                      {"facetmill": 1, "stages": [], "stagse": []}):
+            self.assertTrue(list(validator.iter_errors(wrong)), wrong)
+
+    @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
+    def test_info_follows_its_schema(self):
+        schema = json.loads(self.mill("schema", "info").stdout)
+        info = json.loads(self.mill("info", "--json", SCAN).stdout)
+        jsonschema.Draft202012Validator(schema).validate(info)
+        self.assertEqual((info["vertices"], info["faces"], info["euler"], info["closed"]), (35002, 70000, 2, True))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,201 @@
+"""The executable among other processes: signals, full disks, unwritable targets, streams. All outputs or none."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import time
+
+from support import FACETMILL, SCAN, Case, main
+
+# Writes early and works long, so that a signal finds a temporary.
+LONG = """facetmill: 1
+stages:
+  - load: {scan}
+  - write: early.ply
+  - split: midpoint
+  - relax: 100000
+  - write: late.ply
+"""
+TRIANGLE = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+
+
+class Process(Case):
+    def start_long_run(self):
+        pipeline = self.write("long.yaml", LONG.format(scan=SCAN))
+        out = self.dir / "out"
+        out.mkdir()
+        (out / "early.ply").write_text("older")
+        run = subprocess.Popen([str(FACETMILL), "run", str(pipeline), "--output-dir", str(out)],
+                               stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.stderr.close)
+        deadline = time.monotonic() + 120
+        while not self.temporaries(out):
+            self.assertIsNone(run.poll(), "it ended before anything was written")
+            self.assertLess(time.monotonic(), deadline, "no temporary appeared")
+            time.sleep(0.01)
+        return run, out
+
+    def temporaries(self, folder):
+        return [p.name for p in folder.iterdir() if p.name.endswith("~")]
+
+    def test_an_interrupted_run_leaves_nothing(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            run, out = self.start_long_run()
+            run.send_signal(number)
+            run.wait(60)
+            self.assertEqual(run.returncode, -number)  # a shell says 128 + n
+            self.assertEqual([p.name for p in out.iterdir()], ["early.ply"])
+            self.assertEqual((out / "early.ply").read_text(), "older")
+            (out / "early.ply").unlink()
+            out.rmdir()
+
+    def test_a_shell_sees_130(self):
+        self.write("long.yaml", LONG.format(scan=SCAN))
+        script = f"""sh -c 'echo $$ >pid; exec "{FACETMILL}" run long.yaml --output-dir shell'; echo $?"""
+        shell = subprocess.Popen(["bash", "-c", script], cwd=self.dir, stdout=subprocess.PIPE,
+                                 stderr=subprocess.DEVNULL, text=True)
+        out = self.dir / "shell"
+        while not (out.exists() and self.temporaries(out)):
+            time.sleep(0.01)
+        os.kill(int((self.dir / "pid").read_text()), signal.SIGINT)
+        self.assertEqual(shell.communicate(timeout=60)[0].strip(), "130")
+        self.assertFalse(out.exists(), "a folder made for the run is left")
+
+    def test_what_a_killed_run_leaves_the_next_one_removes(self):
+        run, out = self.start_long_run()
+        run.kill()
+        run.wait()
+        left = self.temporaries(out)
+        self.assertEqual(sorted(p.name for p in out.iterdir()), sorted(["early.ply", *left]))
+        self.assertEqual((out / "early.ply").read_text(), "older")
+        self.write("t.off", TRIANGLE)
+        self.mill("pipe", "--output-dir", out, "load", "t.off", "!", "write", "early.ply")
+        self.assertEqual([p.name for p in out.iterdir()], ["early.ply"])
+
+    def test_a_failed_check_leaves_older_outputs(self):
+        self.write("t.off", TRIANGLE)
+        self.write("t.ply", "older")
+        self.mill("pipe", "--report", "r.json", "load", "t.off", "!", "write", "t.ply", "!", "validate", "--closed",
+                  expect=1)
+        self.assertEqual((self.dir / "t.ply").read_text(), "older")
+        self.assertTrue((self.dir / "r.json").exists(), "a report is always written")
+
+    def test_a_full_disk(self):
+        disk = self.dir / "disk"
+        disk.mkdir()
+        mount = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "tmpfs", str(disk)], capture_output=True)
+        if mount.returncode:
+            self.mill("pipe", "load", SCAN, "!", "write", "--path", "/dev/full", "--format", "ply", expect=4)
+            return
+        self.addCleanup(subprocess.run, ["umount", str(disk)], check=False)
+        (disk / "scan.ply").write_text("older")
+        run = self.mill("pipe", "--output-dir", disk, "load", SCAN, "!", "write", "scan.ply", expect=4)
+        self.assertIn("E-SPACE", run.stderr)
+        self.assertEqual([p.name for p in disk.iterdir()], ["scan.ply"])
+        self.assertEqual((disk / "scan.ply").read_text(), "older")
+
+    def test_full_standard_output_is_no_success(self):
+        with open("/dev/full", "w") as full:
+            run = subprocess.run([str(FACETMILL), "stages"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(run.returncode, 4)
+        self.assertIn("E-WRITE", run.stderr)
+
+    def test_unwritable_targets(self):
+        self.write("t.off", TRIANGLE)
+        self.write("file", "a file")
+        (self.dir / "folder.ply").mkdir()
+        self.mill("pipe", "load", "t.off", "!", "write", "file/t.ply", expect=4)
+        self.mill("pipe", "load", "t.off", "!", "write", "folder.ply", expect=4)
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["file", "folder.ply", "t.off"])
+
+    def test_bad_inputs_have_their_exit_codes(self):
+        self.write("cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n"
+                              "property float y\nproperty float z\nend_header\n")
+        self.write("t.off", TRIANGLE)
+        self.mill("pipe", "load", "none.ply", "!", "write", "a.glb", expect=3)
+        self.mill("pipe", "load", "cut.ply", "!", "write", "a.glb", expect=6)
+        self.mill("pipe", "load", "t.off", "!", "write", "a.xyz123", expect=2)
+        self.mill("info", "none.ply", expect=3)
+        self.mill("info", "cut.ply", expect=6)
+        self.mill("run", "none.yaml", expect=3)
+        self.mill("stages", "relux", expect=2)
+        self.mill("pipe", "load", "t.off", "!", "relux", expect=2)
+        self.assertEqual(self.mill(expect=2).stdout, "")
+
+    def test_standard_input_and_output(self):
+        run = self.mill("pipe", "load", "-", "!", "write", "-", "--format", "ply", stdin=TRIANGLE.encode(), text=False)
+        self.assertTrue(run.stdout.startswith(b"ply\n"))
+        again = self.mill("info", "--json", "-", stdin=run.stdout, text=False)
+        self.assertIn(b'"faces": 1', again.stdout)
+        pipeline = "facetmill: 1\nstages: [{load: t.off}, {write: out.ply}]\n"
+        self.write("t.off", TRIANGLE)
+        self.mill("run", "-", stdin=pipeline)
+        self.assertTrue((self.dir / "out.ply").exists())
+
+    def test_messages_as_json_and_quiet(self):
+        import json
+        self.write("t.off", TRIANGLE)
+        run = self.mill("pipe", "--log", "json", "-v", "load", "t.off", "!", "write", "a.ply")
+        for line in run.stderr.splitlines():
+            self.assertIn("level", json.loads(line))
+        self.assertEqual(self.mill("pipe", "--quiet", "load", "t.off", "!", "write", "a.ply").stderr, "")
+        self.assertNotIn("\033", self.mill("pipe", "load", "t.off", "!", "write", "a.ply").stderr)
+
+    def test_several_pipelines(self):
+        self.write("t.off", TRIANGLE)
+        for name in "ab":
+            self.write(f"{name}.yaml", f"facetmill: 1\nstages: [{{load: t.off}}, {{write: {name}.ply}}]\n")
+        self.mill("run", "a.yaml", "b.yaml")
+        self.assertTrue((self.dir / "a.ply").exists() and (self.dir / "b.ply").exists())
+        self.write("c.yaml", "facetmill: 1\nstages: [{load: t.off}, {write: a.ply}]\n")
+        run = self.mill("run", "a.yaml", "c.yaml", expect=2)
+        self.assertIn("E-TWICE", run.stderr)
+        self.write("d.yaml", "facetmill: 1\nstages: [{laod: t.off}]\n")
+        self.write("e.yaml", "facetmill: 1\nstages: [{load: t.off}, {wirte: a.ply}]\n")
+        run = self.mill("check", "d.yaml", "e.yaml", expect=2)
+        self.assertIn("laod", run.stderr)
+        self.assertIn("wirte", run.stderr)
+
+    def test_a_depfile_is_good_for_make(self):
+        self.write("my scan.off", TRIANGLE)
+        self.write("p.yaml", 'facetmill: 1\nstages: [{load: "my scan.off"}, {write: out.ply}]\n')
+        self.mill("run", "p.yaml", "--depfile", "p.d", "--report", "r.json")
+        text = (self.dir / "p.d").read_text()
+        self.assertIn("out.ply", text.split(":")[0])
+        self.assertIn("my\\ scan.off", text)
+        self.write("Makefile", "out.ply:\n\tfalse\n-include p.d\n")
+        make = ["make", "-q", "out.ply"]
+        self.assertEqual(subprocess.run(make, cwd=self.dir).returncode, 0, text)
+        later = time.time() + 10
+        os.utime(self.dir / "my scan.off", (later, later))
+        self.assertEqual(subprocess.run(make, cwd=self.dir).returncode, 1, text)
+
+
+class Save(Case):
+    def check_saved(self, target, *line):
+        self.write("t.off", TRIANGLE)
+        (self.dir / "sub").mkdir(exist_ok=True)
+        self.mill("pipe", "--save", target, "--output-dir", "one", *line)
+        self.mill("run", target, "--output-dir", "two")
+        self.assertEqual(self.files(self.dir / "one"), self.files(self.dir / "two"))
+        self.assertTrue(self.files(self.dir / "one"))
+        return (self.dir / target).read_text()
+
+    def test_a_saved_one_liner_gives_the_same_bytes(self):
+        text = self.check_saved("p.yaml", "load", "t.off", "!", "split", "midpoint", "!", "clip", "--plane.normal=1,0,0",
+                                "--plane.through=0.3,0,0", "--name", "cut", "!", "write", "a.glb", "--draco", "!",
+                                "foreach", "n=1,2", "[", "relax", "@{n}", "!", "write", "o@{n.index}.ply", "]")
+        self.assertTrue(text.startswith("facetmill: 1\n"))
+
+    def test_a_pipeline_saved_elsewhere_reads_the_same_files(self):
+        text = self.check_saved("sub/p.yaml", "load", "t.off", "!", "write", "a.ply")
+        self.assertIn("../t.off", text)
+
+    def test_a_real_scan(self):
+        self.check_saved("p.yaml", "load", SCAN, "--unit", "mm", "!", "clip", "y=-150", "--cap", "!", "simplify", "10pct",
+                         "!", "write", "a.glb", "--draco")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,60 @@
+"""What the tests of the real executable share. Only the standard library."""
+
+import hashlib
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+FACETMILL = pathlib.Path(os.environ.get("FACETMILL", SOURCE / "build/release/facetmill")).resolve()
+SCAN = SOURCE / "examples/data/nefertiti.ply"
+# CI sets it: nothing may be skipped there for want of a tool.
+STRICT = os.environ.get("FACETMILL_REQUIRE_VALIDATOR") == "1"
+# Under sanitizers everything is ten times slower; the variants of a run are compared in the release build.
+SLOW = os.environ.get("FACETMILL_SLOW") == "1"
+
+
+class Case(unittest.TestCase):
+    """A test in a folder of its own."""
+
+    def setUp(self):
+        self.dir = pathlib.Path(tempfile.mkdtemp(prefix="facetmill-test-"))
+        self.addCleanup(shutil.rmtree, self.dir, ignore_errors=True)
+
+    def mill(self, *arguments, expect=0, cwd=None, env=None, stdin=None, text=True):
+        """Runs facetmill and checks its exit code (None: any)."""
+        run = subprocess.run([str(FACETMILL), *map(str, arguments)], cwd=cwd or self.dir, capture_output=True,
+                             input=stdin, text=text, env={**os.environ, **(env or {})}, timeout=600)
+        if expect is not None:
+            self.assertEqual(run.returncode, expect, f"facetmill {' '.join(map(str, arguments))}\n{run.stderr}")
+        return run
+
+    def write(self, name, text):
+        path = self.dir / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def files(self, folder=None):
+        """Every file under the folder, by relative name, with its SHA-256."""
+        folder = folder or self.dir
+        return {p.relative_to(folder).as_posix(): hashlib.sha256(p.read_bytes()).hexdigest()
+                for p in sorted(folder.rglob("*")) if p.is_file()}
+
+    def need(self, tool):
+        """The path of an optional tool. Without it the test is skipped, with a notice, unless CI forbids that."""
+        path = shutil.which(tool)
+        if path is None:
+            if STRICT:
+                self.fail(f"{tool} is missing (tools/deps.sh --all installs it)")
+            print(f"notice: {tool} is missing, skipped {self.id()}", file=sys.stderr)
+            self.skipTest(f"{tool} is missing")
+        return path
+
+
+def main():
+    unittest.main(verbosity=2)
