@@ -108,7 +108,9 @@ std::string from_working_directory(const std::string& text, const PlanSettings& 
     const fs::path given(text);
     if (text == "-" || text.empty() || given.is_absolute()) return text;
     const fs::path here = fs::absolute(settings.working_directory / given).lexically_normal();
-    const fs::path base = fs::absolute(settings.places.input_base).lexically_normal();
+    // Empty when the pipeline's file is named without a folder; absolute() refuses that.
+    const fs::path folder = settings.working_directory / settings.places.input_base;
+    const fs::path base = (folder.empty() ? fs::current_path() : fs::absolute(folder)).lexically_normal();
     const fs::path near = here.lexically_relative(base);
     std::error_code ignored;
     const bool same_file =

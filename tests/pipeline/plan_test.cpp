@@ -308,3 +308,19 @@ TEST_CASE("plan shows everything resolved", "[pipeline]") {
           R"({"ratio":"10%","depth":"1%","cap":"false","method":"fast"})");
     CHECK(json["outputs"].dump() == R"(["b.glb"])");
 }
+
+TEST_CASE("a path given with -D is found from a pipeline that is named without a folder", "[pipeline]") {
+    PlanSettings settings;
+    settings.defines = {{"input", "x.ply"}};
+    settings.working_directory = std::filesystem::current_path();
+    CHECK(outline_of("facetmill: 1\nparams: {input: path}\nstages:\n  - test-load: \"${input}\"\n",
+                     settings) == "test-load x.ply");
+}
+
+TEST_CASE("a param without a value stands for any value, as an option too", "[pipeline]") {
+    PlanSettings settings;
+    settings.parameters_needed = false;
+    CHECK(planned("facetmill: 1\nparams: {input: path}\nstages:\n  - test-load: {file: \"${input}\"}\n",
+                  settings)
+              .problems.empty());
+}
