@@ -2,6 +2,7 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -16,20 +17,31 @@ namespace facetmill {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 struct FaceInfo {
     int turns = 0;
     bool known = false;
 };
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
-using PlainFaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel, PlainFaceBase>;
-using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
-using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
-using Triangulation = CGAL::Constrained_triangulation_plus_2<Delaunay>;
-using Vertex = Triangulation::Vertex_handle;
-using Face = Triangulation::Face_handle;
-using Constraint = Triangulation::Constraint_id;
+
+/// The triangulation over a kernel, and what to call its parts.
+template <class K, class Intersections>
+struct Types {
+    using Kernel = K;
+    using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, Kernel>;
+    using PlainFaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
+    using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel, PlainFaceBase>;
+    using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+    using Delaunay = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, Intersections>;
+    using Triangulation = CGAL::Constrained_triangulation_plus_2<Delaunay>;
+    using Vertex = typename Triangulation::Vertex_handle;
+    using Face = typename Triangulation::Face_handle;
+    using Constraint = typename Triangulation::Constraint_id;
+};
+
+/// Rounds the points where edges cross: fast, and right but for edges that cross so near to others that the
+/// rounded point lies on their wrong side; CGAL then loses an edge.
+using Rounded = Types<CGAL::Exact_predicates_inexact_constructions_kernel, CGAL::Exact_predicates_tag>;
+/// Keeps those points exact. Right always, and several times slower.
+using Exact = Types<CGAL::Exact_predicates_exact_constructions_kernel, CGAL::Exact_intersections_tag>;
 
 std::vector<Index> lowest_at_same_place(const std::vector<Vec2>& points) {
     std::vector<Index> order(points.size()), same(points.size());
@@ -44,16 +56,18 @@ std::vector<Index> lowest_at_same_place(const std::vector<Vec2>& points) {
 }
 
 /// Inserts the distinct points, along a Hilbert curve for speed. Returns the vertex of each.
-std::vector<Vertex> insert_points(Triangulation& t, const std::vector<Vec2>& points,
-                                  const std::vector<Index>& same) {
-    using Item = std::pair<Kernel::Point_2, Index>;
+template <class T>
+std::vector<typename T::Vertex> insert_points(typename T::Triangulation& t, const std::vector<Vec2>& points,
+                                              const std::vector<Index>& same) {
+    using Kernel = typename T::Kernel;
+    using Item = std::pair<typename Kernel::Point_2, Index>;
     using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::First_of_pair_property_map<Item>>;
     std::vector<Item> items;
     for (Index i = 0; i < points.size(); ++i)
-        if (same[i] == i) items.emplace_back(Kernel::Point_2(points[i].x, points[i].y), i);
+        if (same[i] == i) items.emplace_back(typename Kernel::Point_2(points[i].x, points[i].y), i);
     CGAL::hilbert_sort(items.begin(), items.end(), Traits());
-    std::vector<Vertex> vertices(points.size());
-    Face near;
+    std::vector<typename T::Vertex> vertices(points.size());
+    typename T::Face near;
     for (const auto& [point, i] : items) {
         vertices[i] = t.insert(point, near);
         near = vertices[i]->face();
@@ -61,16 +75,24 @@ std::vector<Vertex> insert_points(Triangulation& t, const std::vector<Vec2>& poi
     return vertices;
 }
 
+template <class T>
 class Filler {
+    using Triangulation = typename T::Triangulation;
+    using Vertex = typename T::Vertex;
+    using Face = typename T::Face;
+    using Constraint = typename T::Constraint;
+
   public:
     explicit Filler(const Contours& contours) : in_(contours) {}
 
-    Filling run() {
+    /// None when an edge got lost.
+    std::optional<Filling> run() {
         out_.same = lowest_at_same_place(in_.points);
-        vertices_ = insert_points(t_, in_.points, out_.same);
+        vertices_ = insert_points<T>(t_, in_.points, out_.same);
         insert_edges();
         number_vertices();
         walk_paths();
+        if (lost_) return {};
         if (t_.dimension() < 2) return std::move(out_);
         count_turns();
         emit();
@@ -101,9 +123,15 @@ class Filler {
             for_path(e, [&](Vertex v) {
                 if (v->info() != none) return;
                 v->info() = static_cast<Index>(in_.points.size() + out_.added.size());
-                const Vec2 at{v->point().x(), v->point().y()};
+                const Vec2 at{rounded(v->point().x()), rounded(v->point().y())};
                 out_.added.push_back({at, static_cast<Index>(e), parameter(in_.edges[e], at)});
             });
+    }
+
+    static double rounded(double x) { return x; }
+    template <class Number>
+    static double rounded(const Number& x) {
+        return CGAL::to_double(CGAL::exact(x)); // of a lazy number alone, it depends on what was asked before
     }
 
     double parameter(const Contours::Edge& e, const Vec2& at) const {
@@ -129,7 +157,10 @@ class Filler {
         for (std::size_t e = 0; e < in_.edges.size(); ++e) {
             const Index from = out_.same[in_.edges[e].from], to = out_.same[in_.edges[e].to];
             Index last = from;
+            Vertex before;
             for_path(e, [&](Vertex v) {
+                lost_ |= before != Vertex() && !t_.is_edge(before, v);
+                before = v;
                 const Index i = v->info();
                 if (i == last) return;
                 along_[{std::min(last, i), std::max(last, i)}] +=
@@ -179,6 +210,7 @@ class Filler {
     }
 
     const Contours& in_;
+    bool lost_ = false; ///< the path of an edge is not made of edges of the triangulation
     Filling out_;
     Triangulation t_;
     std::vector<Vertex> vertices_; ///< [points], of the lowest at each place
@@ -190,6 +222,9 @@ class Filler {
 
 } // namespace
 
-Filling fill(const Contours& contours) { return Filler(contours).run(); }
+Filling fill(const Contours& contours) {
+    if (auto filling = Filler<Rounded>(contours).run()) return std::move(*filling);
+    return Filler<Exact>(contours).run().value();
+}
 
 } // namespace facetmill

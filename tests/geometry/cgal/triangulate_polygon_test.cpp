@@ -1,5 +1,6 @@
 #include "geometry/cgal/triangulate_polygon.hpp"
 
+#include "base/random.hpp"
 #include "support/catch.hpp"
 
 #include <map>
@@ -113,4 +114,18 @@ TEST_CASE("contours without area are bounded by nothing", "[geometry]") {
     CHECK(fill(point).triangles.empty());
     CHECK(fill(point).same == std::vector<Index>{0, 0, 0});
     CHECK(fill({}).triangles.empty());
+}
+
+TEST_CASE("contours that cross all over, almost in the same places, are filled exactly", "[geometry]") {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        Contours contours;
+        const auto number = [&](std::uint64_t key) { return uniform(hashed(seed, key)); };
+        for (std::uint64_t loop = 0; loop < 12; ++loop) { // slivers through nearly one point
+            const double x = number(4 * loop) - 0.5, y = number(4 * loop + 1) - 0.5,
+                         off = number(4 * loop + 2) * 1e-15;
+            add_loop(contours, {{-x, -y + off}, {x, y + off}, {x + 1e-15, y - off}, {-x - 1e-16, -y}});
+        }
+        CAPTURE(seed);
+        CHECK(bounded_by_contours(contours, fill(contours)));
+    }
 }
