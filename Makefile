@@ -5,6 +5,7 @@
 #   make demo     build, then mill a real scan and say where to look
 #   make test     build and run all tests                    (PRESET=debug, asan or ci for other builds)
 #   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
+#   make bench    build and run the benchmarks               (FILTER=clip for some of them)
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
 #   make format   run clang-format over the sources
@@ -12,10 +13,11 @@
 PRESET ?= release
 JOBS ?= $(shell n=$$(nproc); [ $$n -gt 2 ] && echo 2 || echo $$n)
 PREFIX ?= /usr/local
+FILTER ?= .
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all build deps demo test asan install deb format check-layers clean
+.PHONY: all build deps demo test asan bench install deb format check-layers clean
 all: build
 
 deps:
@@ -38,6 +40,12 @@ test: build
 
 asan:
 	@$(MAKE) --no-print-directory test PRESET=asan
+
+bench:
+	@tools/deps.sh --bench
+	@cmake --preset release -DFACETMILL_BENCH=ON --log-level=NOTICE
+	@cmake --build --preset release -j $(JOBS)
+	$(BUILD)/bench/facetmill_bench --benchmark_filter='$(FILTER)' --benchmark_counters_tabular=true
 
 install: build
 	cmake --install $(BUILD) --prefix $(PREFIX)

@@ -25,3 +25,11 @@ target_include_directories(facetmill_dependencies SYSTEM INTERFACE ${TINYGLTF_IN
 
 add_library(facetmill_cgal_dependencies INTERFACE)
 target_link_libraries(facetmill_cgal_dependencies INTERFACE CGAL::CGAL TBB::tbb fmt::fmt)
+
+# OpenMesh by its files: the names of its CMake targets differ between Debian 12 and 13.
+find_path(OPENMESH_INCLUDE_DIR OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh REQUIRED)
+find_library(OPENMESH_CORE_LIBRARY OpenMeshCore REQUIRED)
+find_library(OPENMESH_TOOLS_LIBRARY OpenMeshTools REQUIRED)
+add_library(facetmill_openmesh_dependencies INTERFACE)
+target_include_directories(facetmill_openmesh_dependencies SYSTEM INTERFACE ${OPENMESH_INCLUDE_DIR})
+target_link_libraries(facetmill_openmesh_dependencies INTERFACE ${OPENMESH_TOOLS_LIBRARY} ${OPENMESH_CORE_LIBRARY} fmt::fmt)

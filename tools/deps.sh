@@ -1,21 +1,23 @@
 #!/bin/sh
-# deps.sh [--list] [--all]
+# deps.sh [--list] [--all] [--bench]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
-# shells, a second Draco reader, and node for the glTF validator.
+# shells, a second Draco reader, and node for the glTF validator; --bench adds what the benchmarks use.
 set -eu
 
 build="g++ cmake ninja-build pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
-    libcli11-dev libfmt-dev libtbb-dev libeigen3-dev libssl-dev zlib1g-dev"
+    libcli11-dev libfmt-dev libtbb-dev libeigen3-dev libopenmesh-dev libssl-dev zlib1g-dev"
 test="catch2 python3 python3-jsonschema"
+bench="libbenchmark-dev"
 optional="ccache zsh fish draco nodejs npm mandoc"
 
 list=no wanted="$build $test"
 for argument in "$@"; do
     case $argument in
     --list) list=yes ;;
-    --all) wanted="$build $test $optional" ;;
-    *) echo "usage: deps.sh [--list] [--all]" >&2; exit 2 ;;
+    --all) wanted="$wanted $optional" ;;
+    --bench) wanted="$wanted $bench" ;;
+    *) echo "usage: deps.sh [--list] [--all] [--bench]" >&2; exit 2 ;;
     esac
 done
 
