@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fails when an include breaks the layers of the house, or a library is included outside its place.
+"""Fails when an include breaks the layers of the house, a library is included outside its place, or two headers
+define types of one name in one namespace (which no compiler sees, and no program survives).
 
 A layer includes itself and the layers above it in LAYERS, never one below. main.cpp of the command line is no
 exception; tests may include everything."""
@@ -30,6 +31,18 @@ VERSION_HEADERS = {"CGAL/version.h", "CLI/Version.hpp", "draco/core/draco_versio
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.M)
 
 
+NAMESPACE = re.compile(r"^namespace ([\w:]+) \{", re.M)
+TYPE = re.compile(r"^(?:struct|class|enum class|enum) (\w+)(?: final)?(?: :[^:;{]*)? \{", re.M)
+
+
+def types_in(text):
+    """(namespace, name, line) of each type that is defined at the outermost level of a namespace."""
+    spaces = [(m.start(), m.group(1)) for m in NAMESPACE.finditer(text)]
+    for match in TYPE.finditer(text):
+        around = [space for start, space in spaces if start < match.start()]
+        yield around[-1] if around else "", match.group(1), text.count("\n", 0, match.start()) + 1
+
+
 def problems_in(path, name, text):
     layer = name.split("/")[1]
     for match in INCLUDE.finditer(text):
@@ -48,14 +61,19 @@ def problems_in(path, name, text):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     files = sorted(p for p in (root / "src").rglob("*") if p.suffix in (".hpp", ".cpp", ".h"))
-    found = []
+    found, types = [], {}
     for path in files:
         name = path.relative_to(root).as_posix()
         if name.count("/") < 2:
             continue  # src/precompiled.hpp
         if name.split("/")[1] not in LAYERS:
             found.append(f"{name}: {name.split('/')[1]}/ is no layer")
-        found.extend(problems_in(path, name, path.read_text(encoding="utf-8")))
+        text = path.read_text(encoding="utf-8")
+        found.extend(problems_in(path, name, text))
+        for space, type_name, line in types_in(text) if path.suffix != ".cpp" else ():
+            first = types.setdefault((space, type_name), f"{name}:{line}")
+            if first != f"{name}:{line}":
+                found.append(f"{name}:{line}: {space}::{type_name} is also defined at {first}")
     for problem in found:
         print(problem)
     print(f"layers: {len(files)} files, {len(found)} problems")

@@ -237,7 +237,7 @@ class Capper {
     PlaneCut& cut_;
     int side_;
     Pieces& pieces_;
-    Section section_;
+    CutSection section_;
     std::size_t dropped_ = 2, first_ = 0, second_ = 1; ///< axes: not seen, and those of the contours' plane
     std::vector<Index> local_;                         ///< [points of the contours] -> vertex, ascending
     Contours contours_;

@@ -8,7 +8,7 @@
 
 namespace facetmill {
 
-Index Section::number(Index low, Index high) const {
+Index CutSection::number(Index low, Index high) const {
     const auto it = std::lower_bound(edges.begin(), edges.end(), std::pair{low, high},
                                      [](const Edge& e, const auto& key) {
                                          return e.low != key.first ? e.low < key.first : e.high < key.second;
@@ -17,8 +17,8 @@ Index Section::number(Index low, Index high) const {
                                                                    : none;
 }
 
-Section find_section(const PlaneCut& cut, int side, const Pieces& pieces) {
-    std::vector<Section::Edge> uses;
+CutSection find_section(const PlaneCut& cut, int side, const Pieces& pieces) {
+    std::vector<CutSection::Edge> uses;
     const auto collect = [&](std::span<const Index> polygon) {
         for_polygon_edges(polygon, [&](Index a, Index b) {
             if (cut.sign_of(a) != 0 || cut.sign_of(b) != 0) return;
@@ -33,11 +33,11 @@ Section find_section(const PlaneCut& cut, int side, const Pieces& pieces) {
             if (cut.stays(f, side)) collect(cut.mesh->face_wedges(f));
     const int bits = static_cast<int>(std::bit_width(cut.first_extra_vertex()));
     radix_sort(
-        uses, [&](const Section::Edge& e) { return static_cast<std::uint64_t>(e.low) << bits | e.high; },
+        uses, [&](const CutSection::Edge& e) { return static_cast<std::uint64_t>(e.low) << bits | e.high; },
         2 * bits);
-    Section section;
+    CutSection section;
     for (std::size_t i = 0; i < uses.size();) {
-        Section::Edge sum = uses[i++];
+        CutSection::Edge sum = uses[i++];
         while (i < uses.size() && uses[i].low == sum.low && uses[i].high == sum.high)
             sum.count += uses[i++].count;
         if (sum.count != 0) section.edges.push_back(sum);
@@ -52,7 +52,7 @@ struct SectionGraph {
     std::vector<Index> vertices, root;
     std::vector<long long> balance;
 
-    explicit SectionGraph(const Section& section) {
+    explicit SectionGraph(const CutSection& section) {
         for (const auto& e : section.edges) vertices.push_back(e.low), vertices.push_back(e.high);
         std::sort(vertices.begin(), vertices.end());
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
@@ -77,7 +77,7 @@ struct SectionGraph {
 
 } // namespace
 
-std::vector<OpenEnd> drop_open_contours(Section& section, const PlaneCut& cut) {
+std::vector<OpenEnd> drop_open_contours(CutSection& section, const PlaneCut& cut) {
     SectionGraph graph(section);
     std::vector<Index> number(graph.vertices.size(), none); // of the open contour with that root
     std::vector<OpenEnd> open;
@@ -87,7 +87,7 @@ std::vector<OpenEnd> drop_open_contours(Section& section, const PlaneCut& cut) {
         open.push_back({0, cut.point(graph.vertices[i])});
     }
     if (open.empty()) return open;
-    std::erase_if(section.edges, [&](const Section::Edge& e) {
+    std::erase_if(section.edges, [&](const CutSection::Edge& e) {
         const Index n = number[graph.find(graph.local(e.low))];
         if (n != none) ++open[n].edges;
         return n != none;

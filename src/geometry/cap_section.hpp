@@ -7,7 +7,7 @@ namespace facetmill {
 
 /// Undirected edges in the plane with the net count of kept faces that run along them, ascending by (low,
 /// high).
-struct Section {
+struct CutSection {
     struct Edge {
         Index low, high;             ///< vertices
         Index low_wedge, high_wedge; ///< of the first kept face along the edge
@@ -21,10 +21,10 @@ struct Section {
 
 /// The section of one side: at every edge outside of it the directions of the kept faces cancel, when they do
 /// so in the mesh.
-Section find_section(const PlaneCut& cut, int side, const Pieces& pieces);
+CutSection find_section(const PlaneCut& cut, int side, const Pieces& pieces);
 
 /// Removes contours that do not close (connected edges with a vertex where not as many arrive as leave), and
 /// says where they end, in order of their lowest vertex.
-std::vector<OpenEnd> drop_open_contours(Section& section, const PlaneCut& cut);
+std::vector<OpenEnd> drop_open_contours(CutSection& section, const PlaneCut& cut);
 
 } // namespace facetmill

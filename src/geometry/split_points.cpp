@@ -74,15 +74,15 @@ void EdgePoints::number_bundles() {
 
 void EdgePoints::describe(Lineage& vertices, Lineage& wedges) const {
     const auto n = static_cast<std::size_t>(points_);
-    const auto fill = [&](Lineage::Edge* out, Index low, Index high) {
+    const auto fill = [&](std::vector<Lineage::Edge>& out, std::size_t at, Index low, Index high) {
         for (std::size_t i = 0; i < n; ++i)
-            out[i] = {low, high, static_cast<double>(i + 1) / static_cast<double>(points_ + 1)};
+            out[at + i] = {low, high, static_cast<double>(i + 1) / static_cast<double>(points_ + 1)};
     };
     const std::size_t first = vertices.edges.size();
     vertices.edges.resize(first + vertex_points());
     parallel_for(table_->size(), [&](std::size_t e) {
         const Index r = rank(static_cast<Index>(e));
-        if (r != none) fill(&vertices.edges[first + r * n], table_->edges[e].low, table_->edges[e].high);
+        if (r != none) fill(vertices.edges, first + r * n, table_->edges[e].low, table_->edges[e].high);
     });
     if (bundles_.empty()) return;
     const std::size_t first_wedge = wedges.edges.size();
@@ -91,7 +91,7 @@ void EdgePoints::describe(Lineage& vertices, Lineage& wedges) const {
         const Index c = bundle_corner_[b], e = table_->corner_edge[c];
         Index low = mesh_->corners[c], high = mesh_->corners[next_[c]];
         if (mesh_->vertex(c) != table_->edges[e].low) std::swap(low, high);
-        fill(&wedges.edges[first_wedge + b * n], low, high);
+        fill(wedges.edges, first_wedge + b * n, low, high);
     });
 }
 
