@@ -1,0 +1,18 @@
+#pragma once
+// How much memory there still is, so that what cannot fit is refused before it starts.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace facetmill {
+
+/// Bytes that this process may still take: the least of what the machine has available, what its cgroups
+/// leave, and what RLIMIT_AS leaves. None where the system does not say.
+std::optional<std::uint64_t> available_memory();
+
+/// Throws limit (E-MEMORY) when bytes are more than are available: "WHAT needs about 3.2 GiB, 1.9 GiB are
+/// available".
+void require_memory(double bytes, const std::string& what, const std::string& hint);
+
+} // namespace facetmill

@@ -1,0 +1,58 @@
+#pragma once
+// Shapes from numbers: what pipelines and figures start from when there is no file.
+
+#include "mesh/mesh.hpp"
+
+namespace facetmill {
+
+enum class Shape {
+    sphere,    ///< latitude and longitude, poles on the z axis: faces crowd there
+    icosphere, ///< an icosahedron refined on the sphere: faces of nearly one size
+    cube,      ///< gridded faces
+    grid,      ///< a square in the plane z = 0
+    torus,     ///< around the z axis
+    cylinder,  ///< around the z axis, with or without caps
+    cone,      ///< around the z axis, apex up, with or without its base
+    gaussian,  ///< the height field h exp(-r^2 / 2 s^2) over a square
+    menger,    ///< the outer surface of a Menger sponge
+};
+
+/// Lengths in scene units, all above zero. Each shape is centred on the origin (grid and gaussian stand on z
+/// = 0) and uses the members that are named with it.
+struct GenerateSettings {
+    Shape shape = Shape::sphere;
+    double radius = 1;   ///< sphere, icosphere, cylinder, cone; torus: of the circle that the tube follows
+    double tube = 0.4;   ///< torus: of the tube, below radius
+    double size = 2;     ///< side of cube, grid, gaussian, menger
+    double height = 2;   ///< cylinder, cone; gaussian: of the peak
+    double spread = 0.3; ///< gaussian: its standard deviation s
+    std::int64_t around = 48; ///< sphere, torus, cylinder, cone: pieces around the axis, at least 3
+    std::int64_t across = 24; ///< sphere: bands from pole to pole, at least 2; torus: pieces around the tube,
+                              ///< at least 3; cylinder, cone: rows, at least 1
+    std::int64_t cells = 10; ///< cube, grid, gaussian: cells along a side, at least 1
+    std::int64_t level = 3;  ///< icosphere 0 to 12: refinements; menger 1 to 4
+    bool caps = true;        ///< cylinder, cone: closed by fans
+    bool quads = false;      ///< quads where the shape has them, rather than triangles
+    double noise = 0;       ///< standard deviation of Gaussian noise on x, y and z of each vertex; at least 0
+    std::uint64_t seed = 0; ///< of the noise
+};
+
+/// A mesh without attributes, every face seen anticlockwise from outside (grid and gaussian: from above).
+/// Sphere, icosphere, cube, torus, menger, and cylinder and cone with caps are closed and manifold.
+/// Quads are cut along the shorter diagonal. Noise is crumple's: the same for vertices at one place. Throws
+/// usage (E-RANGE) for a setting out of range, limit (E-LIMIT) for more than 2^31 corners, (E-MEMORY) for
+/// more than the machine has, before anything is built.
+Mesh generate(const GenerateSettings& settings);
+
+/// How many faces generate would make, as a real number because it may be beyond any integer.
+double generate_face_estimate(const GenerateSettings& settings);
+
+/// The pieces around and across a latitude-longitude sphere of that many triangles (2 around (across - 1)):
+/// the exact pair nearest to square facets at the equator (around = 2 across) when one is within a factor of
+/// two, else the pair nearest in number. 4000 gives 80 x 26. At least 6.
+struct SphereBands {
+    std::int64_t around = 0, across = 0;
+};
+SphereBands sphere_bands(std::int64_t faces);
+
+} // namespace facetmill

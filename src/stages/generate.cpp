@@ -1,0 +1,236 @@
+#include "geometry/generate.hpp"
+
+#include "io/convert.hpp"
+#include "stage/stage.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+struct GenerateOptions {
+    Shape shape = Shape::sphere;
+    std::optional<Length> radius, tube, size, height, spread;
+    std::optional<std::int64_t> faces, around, across, cells, level;
+    bool caps = true;
+    bool quads = false;
+    Length noise = Length::scene(0);
+    std::int64_t seed = 0;
+    Unit unit = Unit::unknown;
+    std::string name;
+};
+
+struct ShapeOptions {
+    Shape shape;
+    const char* name;
+    std::vector<std::string> takes; ///< besides what all take
+};
+
+const std::vector<ShapeOptions>& shape_table() {
+    static const std::vector<ShapeOptions> table = {
+        {Shape::sphere, "sphere", {"radius", "faces", "around", "across"}},
+        {Shape::icosphere, "icosphere", {"radius", "level"}},
+        {Shape::cube, "cube", {"size", "cells"}},
+        {Shape::grid, "grid", {"size", "cells"}},
+        {Shape::torus, "torus", {"radius", "tube", "around", "across"}},
+        {Shape::cylinder, "cylinder", {"radius", "height", "around", "across", "caps"}},
+        {Shape::cone, "cone", {"radius", "height", "around", "across", "caps"}},
+        {Shape::gaussian, "gaussian", {"size", "cells", "height", "spread"}},
+        {Shape::menger, "menger", {"size", "level"}},
+    };
+    return table;
+}
+
+const ShapeOptions& row_of(Shape shape) {
+    return *std::find_if(shape_table().begin(), shape_table().end(),
+                         [&](const ShapeOptions& s) { return s.shape == shape; });
+}
+
+bool takes(const ShapeOptions& shape, const std::string& option) {
+    return std::find(shape.takes.begin(), shape.takes.end(), option) != shape.takes.end();
+}
+
+void declare_sizes(Declare<GenerateOptions>& d) {
+    d.option("radius", &GenerateOptions::radius,
+             "Of sphere, icosphere, cylinder and cone; of the circle that the torus' tube follows (a length; "
+             "1 unless given).")
+        .above(0);
+    d.option("tube", &GenerateOptions::tube, "Radius of the torus' tube (a length; 0.4 radii unless given).")
+        .above(0);
+    d.option("size", &GenerateOptions::size,
+             "Side of cube, grid, gaussian and menger (a length; 2 unless given).")
+        .above(0);
+    d.option(
+         "height", &GenerateOptions::height,
+         "Of cylinder and cone (a length; 2 radii unless given), or of the gaussian's peak (half its size "
+         "unless given).")
+        .above(0);
+    d.option("spread", &GenerateOptions::spread,
+             "Standard deviation of the gaussian (a length; 15% of its size unless given).")
+        .above(0);
+}
+
+void declare_counts(Declare<GenerateOptions>& d) {
+    d.option("faces", &GenerateOptions::faces,
+             "Triangles of the sphere, as near as bands allow (a count; 4000 unless given): 4000 gives "
+             "exactly 80 around and 26 across.")
+        .between(6, 700e6);
+    d.option("around", &GenerateOptions::around,
+             "Pieces around the axis of sphere, torus, cylinder and cone (a count; 48 unless given).")
+        .between(3, 1e6);
+    d.option(
+         "across", &GenerateOptions::across,
+         "Bands of the sphere from pole to pole, pieces around the torus' tube (24 unless given), rows of "
+         "cylinder and cone (a count; 1 unless given).")
+        .between(1, 1e6);
+    d.option("cells", &GenerateOptions::cells,
+             "Cells along each side of cube and grid (10 unless given) and of the gaussian (a count; 40 "
+             "unless given).")
+        .between(1, 20000);
+    d.option("level", &GenerateOptions::level,
+             "Of menger, 1 to 4 (2 unless given); how often the icosphere is refined, 0 to 12 (a count; 3 "
+             "unless given).")
+        .between(0, 12);
+}
+
+void declare(Declare<GenerateOptions>& d) {
+    d.choice<Shape>(
+         "shape", &GenerateOptions::shape,
+         {{"sphere", Shape::sphere, "latitude and longitude: faces crowd at the poles, on the z axis"},
+          {"icosphere", Shape::icosphere, "an icosahedron refined on the sphere: 20 * 4^level faces"},
+          {"cube", Shape::cube, "a cube with gridded sides"},
+          {"grid", Shape::grid, "a flat square, open"},
+          {"torus", Shape::torus, "a ring around the z axis"},
+          {"cylinder", Shape::cylinder, "along the z axis, with caps or open"},
+          {"cone", Shape::cone, "along the z axis, apex up, with its base or open"},
+          {"gaussian", Shape::gaussian, "the height field of a Gaussian over a square, open"},
+          {"menger", Shape::menger, "the outer surface of a Menger sponge, closed"}},
+         "What is made.")
+        .primary()
+        .required();
+    declare_sizes(d);
+    declare_counts(d);
+    d.option("caps", &GenerateOptions::caps, "Close cylinder and cone.");
+    d.option("quads", &GenerateOptions::quads, "Keep quads where the shape has them: no triangles of them.");
+    d.option("noise", &GenerateOptions::noise,
+             "Standard deviation of Gaussian noise on x, y and z of every vertex (a length; a percentage is "
+             "of the shape's diagonal).")
+        .at_least(0);
+    d.option("seed", &GenerateOptions::seed, "Of the noise (an integer, without unit).").at_least(0);
+    d.choice<Unit>("unit", &GenerateOptions::unit,
+                   {{"auto", Unit::unknown, "the scene's"},
+                    {"um", Unit::um, "micrometres"},
+                    {"mm", Unit::mm, "millimetres"},
+                    {"cm", Unit::cm, "centimetres"},
+                    {"m", Unit::m, "metres"},
+                    {"km", Unit::km, "kilometres"},
+                    {"in", Unit::inch, "inches"},
+                    {"ft", Unit::foot, "feet"}},
+                   "What one unit of the shape's numbers is.");
+    d.option("name", &GenerateOptions::name, "Of the new part; the shape's name unless given.");
+}
+
+void verify(const GenerateOptions& o, const Value& given, Problems& problems) {
+    if (!given.is_map()) return;
+    const Value* shape = given.find("shape");
+    if (shape && shape->deferred) return;
+    const ShapeOptions& mine = row_of(o.shape);
+    for (const auto& entry : given.entries) {
+        std::string others;
+        for (const auto& s : shape_table())
+            if (takes(s, entry.key)) others += (others.empty() ? "" : ", ") + std::string(s.name);
+        if (!others.empty() && !takes(mine, entry.key))
+            problems.add(
+                entry.key_mark, "E-EXCLUSIVE",
+                fmt::format("generate: '{}' goes with {}, not with {}", entry.key, others, mine.name),
+                "leave it out");
+    }
+    if (o.faces && (o.around || o.across))
+        problems.add(given.mark, "E-EXCLUSIVE", "generate: 'faces' stands for 'around' and 'across'",
+                     "give either faces, or around and across");
+    const bool menger = o.shape == Shape::menger;
+    if (menger && o.level && (*o.level < 1 || *o.level > 4))
+        problems.add(given.find("level")->mark, "E-RANGE",
+                     fmt::format("'level' of menger must be 1 <= x <= 4, not {}", *o.level));
+}
+
+/// The options as numbers; lengths in the unit of the scene that they are read for.
+GenerateSettings resolved(const GenerateOptions& o, const Scene& scene, Context& context) {
+    GenerateSettings s;
+    s.shape = o.shape;
+    const auto set = [&](double& out, const std::optional<Length>& length, const char* name,
+                         double otherwise) {
+        out = length ? context.resolve(*length, scene, name) : otherwise;
+    };
+    set(s.radius, o.radius, "radius", 1);
+    set(s.size, o.size, "size", 2);
+    set(s.tube, o.tube, "tube", 0.4 * s.radius);
+    set(s.height, o.height, "height", o.shape == Shape::gaussian ? s.size / 2 : 2 * s.radius);
+    set(s.spread, o.spread, "spread", 0.15 * s.size);
+    const bool rows = o.shape == Shape::cylinder || o.shape == Shape::cone;
+    s.around = o.around.value_or(48);
+    s.across = o.across.value_or(rows ? 1 : 24);
+    if (o.shape == Shape::sphere && !o.around && !o.across) {
+        const SphereBands bands = sphere_bands(o.faces.value_or(4000));
+        s.around = bands.around, s.across = bands.across;
+    }
+    s.cells = o.cells.value_or(o.shape == Shape::gaussian ? 40 : 10);
+    s.level = o.level.value_or(o.shape == Shape::menger ? 2 : 3);
+    s.caps = o.caps, s.quads = o.quads;
+    s.seed = static_cast<std::uint64_t>(o.seed);
+    return s;
+}
+
+Scene run(Scene scene, const GenerateOptions& o, Context& context) {
+    Scene made;
+    made.unit = o.unit == Unit::unknown ? scene.unit : o.unit;
+    made.up = UpAxis::z;
+    Part& part = made.parts.emplace_back();
+    part.name = o.name.empty() ? row_of(o.shape).name : o.name;
+    part.changed = true;
+    GenerateSettings settings = resolved(o, made, context);
+    if (o.noise.amount > 0 && o.noise.kind == Length::Kind::percent && o.noise.of == Length::Of::stage) {
+        // The scene that enters may be empty: the shape itself is what the percentage is of.
+        part.mesh = generate(settings);
+        Length of_shape = o.noise;
+        of_shape.of = Length::Of::part;
+        settings.noise = context.resolve(of_shape, made, "noise", &part);
+    } else {
+        settings.noise = context.resolve(o.noise, made, "noise");
+    }
+    part.mesh = generate(settings);
+    const Json result = {{"shape", row_of(o.shape).name},
+                         {"vertices", part.mesh.vertex_count()},
+                         {"faces", part.mesh.face_count()}};
+    io::add_scene(scene, std::move(made));
+    context.result() = result;
+    context.result()["part"] = scene.parts.back().name;
+    context.run().load_diagonal = scene.bounds().diagonal();
+    return scene;
+}
+
+const RegisterStage registered = make_stage<GenerateOptions>(
+    {.name = "generate",
+     .about = "Makes a shape from numbers and adds it to the scene: spheres, cube, torus, Menger sponge ...",
+     .details =
+         "The shape becomes a new part. It is centred on the origin with its axis along z (grid and gaussian "
+         "stand on z = 0), and all its faces are seen anticlockwise from outside. Sphere, icosphere, cube, "
+         "torus, menger, and cylinder and cone with caps are closed and manifold; grid and gaussian are "
+         "open. "
+         "In a scene that has parts already, the shape is converted to the scene's unit and up axis.\n\n"
+         "Faces are triangles, quads cut along their shorter diagonal, or quads on request. Noise moves each "
+         "vertex by independent normal amounts along x, y and z, cut off at three standard deviations; it "
+         "depends on the seed and the vertex's place alone. Each option goes with the shapes that its help "
+         "names and is refused with others. A shape that does not fit into memory is refused before it is "
+         "built (E-MEMORY).",
+     .examples = {"generate: sphere", "generate: {shape: menger, level: 3, quads: true}",
+                  "generate: {shape: gaussian, cells: 60, noise: 0.3%, seed: 4}",
+                  "generate: {shape: cylinder, radius: 5mm, height: 20mm, unit: mm}"},
+     .loads = true},
+    declare, run, StageHooks<GenerateOptions>{.files = {}, .verify = verify});
+
+} // namespace
+
+} // namespace facetmill

@@ -1,0 +1,22 @@
+#include "base/memory.hpp"
+
+#include "base/error.hpp"
+#include "support/catch.hpp"
+
+using namespace facetmill;
+
+TEST_CASE("a gigabyte more than there is is refused with both numbers", "[base]") {
+    const auto there = available_memory();
+    REQUIRE(there);
+    CHECK(*there > (1U << 20));
+    CHECK_NOTHROW(require_memory(1e6, "it", ""));
+    try {
+        require_memory(1e18, "it", "less");
+        FAIL("not refused");
+    } catch (const Error& e) {
+        CHECK(e.kind() == ErrorKind::limit);
+        CHECK(e.diagnostics().front().id == "E-MEMORY");
+        CHECK(e.diagnostics().front().message.starts_with("it needs about 9.31e+08 GiB of memory, "));
+        CHECK(e.diagnostics().front().hint == "less");
+    }
+}

@@ -1,0 +1,51 @@
+#include "mesh/invariants.hpp"
+#include "support/catch.hpp"
+#include "support/stage.hpp"
+#include "support/surface.hpp"
+
+using namespace facetmill;
+using test::options;
+using test::problems_of;
+using test::run_stage;
+
+TEST_CASE("generate: a bare name is the shape, with the note's sphere as it is", "[stages]") {
+    const auto r = run_stage("generate", Value::scalar("sphere"), {});
+    CHECK(r.mesh().face_count() == 4000);
+    CHECK(r.record.result["part"] == "sphere");
+    CHECK(r.scene.up == UpAxis::z);
+}
+
+TEST_CASE("generate: lengths have units once the shape has one", "[stages]") {
+    const auto r =
+        run_stage("generate",
+                  options({{"shape", "cylinder"}, {"radius", "5mm"}, {"height", "2cm"}, {"unit", "mm"}}), {});
+    CHECK(r.scene.unit == Unit::mm);
+    CHECK(r.mesh().bounds().max.z == 10);
+    CHECK(r.mesh().bounds().max.x == 5);
+}
+
+TEST_CASE("generate: adds to a scene in that scene's convention", "[stages]") {
+    auto first = run_stage("generate", options({{"shape", "cube"}, {"unit", "m"}}), {}).scene;
+    const auto r = run_stage("generate", options({{"shape", "cube"}, {"unit", "cm"}, {"size", "50"}}), first);
+    REQUIRE(r.scene.parts.size() == 2);
+    CHECK(r.scene.parts[1].name == "cube_2");
+    CHECK(r.scene.unit == Unit::m);
+    CHECK(r.scene.bounds().diagonal() == Approx(2 * std::sqrt(3.0)));
+    CHECK(r.scene.parts[1].transform.m[0][0] == Approx(0.01));
+}
+
+TEST_CASE("generate: a percentage of noise is of the shape itself", "[stages]") {
+    const auto r = run_stage("generate", options({{"shape", "grid"}, {"noise", "1%"}}), {});
+    CHECK(r.record.resolved["noise (grid)"]["is"].get<double>() == Approx(0.02 * std::sqrt(2.0)));
+}
+
+TEST_CASE("generate: options of other shapes are refused", "[stages]") {
+    CHECK(problems_of("generate", options({{"shape", "cube"}, {"level", "2"}})) ==
+          "E-EXCLUSIVE generate: 'level' goes with icosphere, menger, not with cube | leave it out");
+    CHECK(problems_of("generate", options({{"shape", "sphere"}, {"faces", "100"}, {"around", "9"}})) ==
+          "E-EXCLUSIVE generate: 'faces' stands for 'around' and 'across' | give either faces, or around and "
+          "across");
+    CHECK(problems_of("generate", options({{"shape", "menger"}, {"level", "5"}})) ==
+          "E-RANGE 'level' of menger must be 1 <= x <= 4, not 5");
+    CHECK(problems_of("generate", {}).substr(0, 9) == "E-MISSING");
+}
