@@ -1,0 +1,94 @@
+#pragma once
+// A Hilbert curve through a box: items sorted along it lie near each other in space and in memory.
+
+#include "base/parallel.hpp"
+#include "base/vec.hpp"
+#include "mesh/mesh.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace facetmill {
+
+namespace hilbert {
+
+inline constexpr int axis_bits = 11; ///< 33 bits in all: three passes of the radix sort
+
+/// One step down the curve: which of the eight cells in turn, and the state inside it.
+struct Step {
+    std::uint8_t turn, state;
+};
+
+/// States are the corner at which the curve enters a cell (3 bits) and its direction (0 to 2), after C.
+/// Hamilton and A. Rau-Chaplin, "Compact Hilbert indices" (2008).
+constexpr std::array<std::array<Step, 8>, 24> make_steps() {
+    constexpr auto rotated = [](unsigned x, unsigned by) { return (x << by | x >> (3 - by)) & 7; };
+    constexpr auto gray = [](unsigned w) { return w ^ w >> 1; };
+    constexpr auto trailing_ones = [](unsigned w) {
+        unsigned n = 0;
+        for (; w & 1; w >>= 1) ++n;
+        return n;
+    };
+    std::array<std::array<Step, 8>, 24> steps{};
+    for (unsigned enter = 0; enter < 8; ++enter)
+        for (unsigned direction = 0; direction < 3; ++direction)
+            for (unsigned turn = 0; turn < 8; ++turn) {
+                const unsigned by = (direction + 1) % 3;
+                const unsigned cell = rotated(gray(turn), by) ^ enter;
+                const unsigned first = turn == 0 ? 0 : gray(2 * ((turn - 1) / 2));
+                const unsigned along = turn == 0 ? 0 : trailing_ones(turn % 2 == 0 ? turn - 1 : turn) % 3;
+                const unsigned next = (enter ^ rotated(first, by)) * 3 + (direction + along + 1) % 3;
+                steps[enter * 3 + direction][cell] = {static_cast<std::uint8_t>(turn),
+                                                      static_cast<std::uint8_t>(next)};
+            }
+    return steps;
+}
+inline constexpr auto steps = make_steps();
+
+/// The place along the curve of the cell with these coordinates, axis_bits each.
+constexpr std::uint64_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+    std::uint64_t along = 0;
+    std::size_t state = 0;
+    for (int bit = axis_bits - 1; bit >= 0; --bit) {
+        const Step step = steps[state][(x >> bit & 1) | (y >> bit & 1) << 1 | (z >> bit & 1) << 2];
+        along = along << 3 | step.turn;
+        state = step.state;
+    }
+    return along;
+}
+
+/// Of a point in the box; points outside count as on its border, not-a-number as its lower corner.
+inline std::uint64_t index(const Vec3& p, const Box& all) {
+    std::array<std::uint32_t, 3> cell{};
+    constexpr double cells = (1 << axis_bits) - 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double extent = all.max[i] - all.min[i];
+        const double t = extent > 0 ? (p[i] - all.min[i]) / extent * cells : 0;
+        cell[i] = t >= cells ? static_cast<std::uint32_t>(cells) : t > 0 ? static_cast<std::uint32_t>(t) : 0;
+    }
+    return index(cell[0], cell[1], cell[2]);
+}
+
+} // namespace hilbert
+
+/// The numbers 0 to count - 1 in the order of centre_of(i) along the curve through `all`; equal places by
+/// number.
+template <class CentreOf>
+std::vector<Index> order_along_curve(std::size_t count, const Box& all, CentreOf&& centre_of) {
+    struct Placed {
+        std::uint64_t along;
+        Index item;
+    };
+    std::vector<Placed> placed(count);
+    parallel_for(count, [&](std::size_t i) {
+        placed[i] = {hilbert::index(centre_of(i), all), static_cast<Index>(i)};
+    });
+    radix_sort(
+        placed, [](const Placed& p) { return p.along; }, 3 * hilbert::axis_bits);
+    std::vector<Index> order(count);
+    parallel_for(count, [&](std::size_t i) { order[i] = placed[i].item; });
+    return order;
+}
+
+} // namespace facetmill

@@ -1,0 +1,35 @@
+#pragma once
+// A surface as bare triangles in one space: what distances, rays and samples are taken of.
+
+#include "mesh/scene.hpp"
+
+#include <array>
+#include <vector>
+
+namespace facetmill {
+
+/// Triangles by index. Faces of several parts are numbered through, in the order of the parts.
+struct Surface {
+    std::vector<Vec3> positions;
+    std::vector<Index> corners; ///< three per triangle, into positions
+    std::vector<Index> faces;   ///< the face of each triangle; empty: triangle t is face t
+
+    std::size_t size() const { return corners.size() / 3; }
+    Index face(std::size_t triangle) const {
+        return faces.empty() ? static_cast<Index>(triangle) : faces[triangle];
+    }
+    const Vec3& point(std::size_t triangle, std::size_t corner) const {
+        return positions[corners[3 * triangle + corner]];
+    }
+    /// The box of what triangles use and is finite.
+    Box bounds() const;
+};
+
+/// The mesh in its own space; polygons are cut as `triangulated` does.
+Surface surface_of(const Mesh& mesh);
+/// The part in world space (a skinned part in bind pose, as glTF has it).
+Surface surface_of(const Part& part);
+/// All parts in world space. Throws limit (E-LIMIT) when the vertices of all cannot be numbered.
+Surface surface_of(const Scene& scene);
+
+} // namespace facetmill
