@@ -30,6 +30,15 @@ bool straighten(Attribute& tangent, const Attribute& normals) {
 
 } // namespace
 
+bool straighten_tangents(Mesh& mesh) {
+    const Attribute* normals = mesh.find("NORMAL", Domain::wedge);
+    bool any = false;
+    for (auto& a : mesh.attributes)
+        if (normals && a.role == Role::tangent && a.domain == Domain::wedge && a.components == 4)
+            any |= straighten(a, *normals);
+    return any;
+}
+
 Fates settle_moved(Mesh& mesh) {
     const auto normals = recompute_normals(mesh);
     const Attribute* normal = normals ? mesh.find("NORMAL", Domain::wedge) : nullptr;

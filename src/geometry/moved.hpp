@@ -10,4 +10,8 @@ namespace facetmill {
 /// mesh's order.
 Fates settle_moved(Mesh& mesh);
 
+/// Takes the part along NORMAL out of the wedge attribute TANGENT (float32 or float64); whether there was
+/// one.
+bool straighten_tangents(Mesh& mesh);
+
 } // namespace facetmill

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/numbers.hpp"
+#include "base/parallel.hpp"
 #include "geometry/simplify_surface.hpp"
 
 namespace facetmill {
@@ -55,11 +56,10 @@ SimplifyResult::Blocked count_blocked(const Surface& s) {
     return blocked;
 }
 
-/// Attributes that follow vertices: those of vertices, and those of wedges where every vertex is one wedge.
-bool vertices_carry(const Mesh& mesh) {
-    for (const auto& a : mesh.attributes)
-        if (a.domain == Domain::vertex || (a.domain == Domain::wedge && !mesh.has_seams())) return true;
-    return false;
+/// Whether anything but positions and faces must be followed.
+bool carries_attributes(const Mesh& mesh) {
+    return std::any_of(mesh.attributes.begin(), mesh.attributes.end(),
+                       [](const auto& a) { return a.domain != Domain::face; });
 }
 
 Fates all_kept(const Mesh& mesh) {
@@ -68,15 +68,57 @@ Fates all_kept(const Mesh& mesh) {
     return fates;
 }
 
+/// What the work is done on: triangles, without the seams that only normals make.
+struct Prepared {
+    std::optional<Mesh> own; ///< none: the mesh as given will do
+    NormalSeams seams;
+
+    Prepared(const Mesh& given, const SimplifySettings& settings) {
+        if (given.has_seams() && given.find("NORMAL", Domain::wedge)) {
+            seams = merge_normal_seams(own.emplace(given), settings.crease);
+            if (seams.merged == 0) own.reset();
+        }
+        if (!given.all_triangles()) own = triangulated(own ? *own : given);
+    }
+};
+
+/// Gives a flat-shaded mesh its normals back, and says what became of normals.
+void settle_normals(Mesh& mesh, const NormalSeams& seams, Fates& fates) {
+    using Shading = NormalSeams::Shading;
+    if (seams.shading == Shading::as_given) return;
+    if (seams.shading == Shading::faceted) set_facet_normals(mesh);
+    for (Fate& fate : fates) {
+        if (fate.domain != Domain::wedge) continue;
+        if (fate.attribute == "NORMAL")
+            fate = {
+                fate.attribute, fate.domain, Fate::Kind::recomputed,
+                seams.shading == Shading::faceted
+                    ? "flat shading: the normals of the new faces"
+                    : "area-weighted where seams below the crease angle were merged, interpolated elsewhere"};
+        else if (fate.attribute == "TANGENT")
+            fate = {fate.attribute, fate.domain, Fate::Kind::interpolated,
+                    "one of each merged normal seam, mixed at new elements"};
+    }
+}
+
+/// The features as they are before the first collapse, by the corners of the mesh.
+void remember_features(Surface& s) {
+    if (!s.has_features || !s.logging) return;
+    s.features_given.resize(s.flags.size());
+    parallel_for(s.flags.size(), [&](std::size_t c) {
+        s.features_given[3 * s.face_source[c / 3] + c % 3] = s.flags[c] & feature_edge;
+    });
+}
+
 } // namespace
 
 SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     check(settings);
     SimplifyResult result;
     result.faces_given = given.face_count();
-    const bool polygons = !given.all_triangles();
-    const Mesh cut = polygons ? triangulated(given) : Mesh{};
-    const Mesh& mesh = polygons ? cut : given;
+    const Prepared prepared(given, settings);
+    const Mesh& mesh = prepared.own ? *prepared.own : given;
+    result.shading = prepared.seams.shading, result.merged_wedges = prepared.seams.merged;
     Surface s = build_surface(mesh);
     result.faces_before = result.faces_after = s.live_faces;
     result.vertices_before = result.vertices_after = s.live_vertices;
@@ -88,7 +130,8 @@ SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     }
     classify(s, mesh, settings.boundary);
     if (settings.method == SimplifySettings::Method::quadric) sum_quadrics(s);
-    s.log_vertices = vertices_carry(mesh);
+    s.logging = carries_attributes(mesh);
+    remember_features(s);
     const Outcome done = run_passes(s, targets.goal);
     result.stop = done.stuck ? Stop::stuck : targets.reason(s);
     if (done.stuck) result.blocked = count_blocked(s);
@@ -96,6 +139,7 @@ SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     result.largest_error = std::sqrt(done.largest) / s.scale;
     result.faces_after = s.live_faces, result.vertices_after = s.live_vertices;
     result.mesh = finished(s, mesh, result.fates);
+    settle_normals(result.mesh, prepared.seams, result.fates);
     return result;
 }
 

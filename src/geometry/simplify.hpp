@@ -1,7 +1,8 @@
 #pragma once
 // Simplification: edges are collapsed, cheapest first, until a target is met.
 
-#include "mesh/mesh.hpp"
+#include "base/functions.hpp"
+#include "geometry/normal_seams.hpp"
 
 #include <optional>
 
@@ -18,6 +19,7 @@ struct SimplifySettings {
     };
     Method method = Method::quadric;
     Boundary boundary = Boundary::along;
+    double crease = 30 * pi / 180; ///< radians, see merge_normal_seams; 0: every normal seam stays
     // At least one target; the first one met stops the work.
     std::optional<double> ratio =
         {}; ///< of the triangles that came in, 0 < ratio <= 1; the count is rounded up
@@ -44,9 +46,11 @@ struct SimplifyResult {
     Fates fates;
     Stop stop = Stop::nothing;
     Blocked blocked;
-    std::size_t faces_given = 0;                         ///< as they came, polygons too
-    std::size_t faces_before = 0, faces_after = 0;       ///< triangles
-    std::size_t vertices_before = 0, vertices_after = 0; ///< used by faces
+    NormalSeams::Shading shading = NormalSeams::Shading::as_given; ///< what was done about normal seams
+    std::size_t merged_wedges = 0;                                 ///< by them
+    std::size_t faces_given = 0;                                   ///< as they came, polygons too
+    std::size_t faces_before = 0, faces_after = 0;                 ///< triangles
+    std::size_t vertices_before = 0, vertices_after = 0;           ///< used by faces
     std::size_t collapses = 0;
     std::size_t passes = 0;
     /// quadric: the largest distance (root mean square over the planes gathered in a new vertex) at any
@@ -66,9 +70,10 @@ struct SimplifyResult {
 /// Boundaries, UV and normal seams, and borders of primitives collapse only along themselves; where more than
 /// two of them meet, or one ends, the vertex stays. Vertices that were not moved keep their exact position.
 ///
-/// Attributes: a new vertex or wedge is the mix of the two that it replaces, at the place on their edge
-/// nearest to the new position, chained over collapses, once per pair of wedges; faces keep theirs. The
-/// vertices and faces come out along a Morton curve.
+/// Attributes: a vertex or wedge that moved has those of the surface that came in, at the nearest point of
+/// the faces around all the vertices that went into it (on a feature line: of that line, so that both sides
+/// match); the others keep theirs, and so do faces. Seams that only normals make are merged first, see
+/// merge_normal_seams. The vertices and faces come out along a Morton curve.
 ///
 /// Errors: usage (E-RANGE) when no target or one out of range is given. About O(n log n), parallel; the same
 /// bytes for any number of threads. Source: the note 'Surface simplification' (1997); Garland & Heckbert,

@@ -43,11 +43,11 @@ class Collapse {
         return keeps_facing(b_, r_.b, r_.b_size, a_, to) ? 0 : blocked_flip;
     }
 
-    /// Makes it. t: where on the edge attributes are taken, 0 at a.
-    void make(double t, Log& log) {
-        const Index source_a = s_.source[a_], source_b = s_.source[b_];
-        if (s_.log_vertices) log.vertices.push_back({source_a, source_b, t});
-        if (!s_.wedge.empty()) log_wedges(t, log);
+    /// Makes it.
+    void make(const Vec3& to, Log& log) {
+        if (!s_.wedge.empty()) hand_over_wedges(log);
+        if (s_.logging)
+            log.steps.push_back({s_.source[a_], s_.source[b_], static_cast<Index>(log.wedges.size()), to});
         join_lists();
         for (int i = 0; i < sides_; ++i) {
             const Index f = side_[i].at_a / 3;
@@ -151,9 +151,9 @@ class Collapse {
         return true;
     }
 
-    void log_wedges(double t, Log& log) {
+    void hand_over_wedges(Log& log) {
         for (int i = 0; i < pairs_; ++i)
-            if (pair_[i][0] != pair_[i][1]) log.wedges.push_back({pair_[i][0], pair_[i][1], t});
+            if (s_.logging && pair_[i][0] != pair_[i][1]) log.wedges.push_back({pair_[i][0], pair_[i][1]});
         for (const Index c : ring_b()) s_.wedge[c] = taker(s_.wedge[c]);
     }
 
@@ -194,13 +194,6 @@ class Collapse {
     int pairs_ = 0;
 };
 
-/// Where `to` is nearest on the edge from a (0) to b (1).
-double along_edge(const Vec3& a, const Vec3& b, const Vec3& to) {
-    const Vec3 edge = b - a;
-    const double squared = dot(edge, edge);
-    return squared > 0 ? std::clamp(dot(to - a, edge) / squared, 0.0, 1.0) : 0.5;
-}
-
 } // namespace
 
 bool collapse(Surface& s, Index c, std::uint32_t pass, std::uint32_t stamp, Rings& rings, Tally& tally) {
@@ -217,7 +210,7 @@ bool collapse(Surface& s, Index c, std::uint32_t pass, std::uint32_t stamp, Ring
         return false;
     }
     const double squared = dot(s.at[a] - s.at[b], s.at[a] - s.at[b]);
-    edit.make(stays ? 0.0 : along_edge(s.at[a], s.at[b], p.at), tally.log);
+    edit.make(p.at, tally.log);
     s.at[a] = p.at;
     s.moved[a] |= !stays;
     s.kind[a] = std::max(s.kind[a], s.kind[b]);

@@ -196,8 +196,13 @@ class Passes {
         s_.live_vertices -= tally.collapses;
         out_.collapses += tally.collapses, since_retry_ += tally.collapses;
         out_.largest = std::max(out_.largest, tally.largest);
-        s_.log.vertices.insert(s_.log.vertices.end(), tally.log.vertices.begin(), tally.log.vertices.end());
-        s_.log.wedges.insert(s_.log.wedges.end(), tally.log.wedges.begin(), tally.log.wedges.end());
+        join_logs(tally.log);
+    }
+
+    void join_logs(const Log& from) {
+        const auto before = static_cast<Index>(s_.log.wedges.size());
+        for (Step step : from.steps) step.wedges += before, s_.log.steps.push_back(step);
+        s_.log.wedges.insert(s_.log.wedges.end(), from.wedges.begin(), from.wedges.end());
     }
 
     /// Edges that were refused may do now that their surroundings changed: looks at all of them once more, as

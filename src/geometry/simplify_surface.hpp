@@ -29,14 +29,22 @@ inline constexpr std::uint8_t blocked = blocked_border | blocked_topology | bloc
 
 inline constexpr float never = std::numeric_limits<float>::infinity();
 
-/// b went into a, whose attributes became (1 - t) a + t b. Elements of the mesh that came in.
+/// A collapse: b went into a, which now stands at `to` (in the surface's frame). Vertices of the mesh that
+/// came in.
+struct Step {
+    Index a, b;
+    Index wedges; ///< merges of wedges so far, those of this step included
+    Vec3 to;
+};
+/// b went into a. Elements of the mesh that came in.
 struct Merge {
     Index a, b;
-    double t;
 };
 
+/// All collapses in an order in which they can be made one after the other: every beginning of it is a mesh.
 struct Log {
-    std::vector<Merge> vertices, wedges;
+    std::vector<Step> steps;
+    std::vector<Merge> wedges;
 };
 
 struct Surface {
@@ -59,8 +67,10 @@ struct Surface {
 
     std::size_t live_faces = 0, live_vertices = 0;
     bool has_features = false;
-    bool log_vertices = false; ///< attributes need to know who went into whom
+    bool logging = false; ///< attributes, or the way back, need to know who went into whom
     Log log;
+    std::vector<std::uint8_t> features_given; ///< [3 faces of the mesh] whether its corner's edge is a
+                                              ///< feature; empty when there is none or nobody asks
     // at = (position - centre) * scale, scale a power of two: quadrics neither overflow nor cancel.
     Vec3 centre;
     double scale = 1;

@@ -92,7 +92,7 @@ template <class T>
 void mix_element(const Attribute& a, const std::vector<T>& from, T* to, const Parents& parents) {
     const auto k = static_cast<std::size_t>(a.components);
     const T* first_parent = &from[parents.sources[0] * k];
-    if (a.role == Role::index) {
+    if (a.role == Role::index || parents.sources.size() == 1) {
         std::copy_n(first_parent, k, to);
         return;
     }
@@ -176,6 +176,14 @@ void settle_rounding(const Skin& skin, std::size_t element) {
 }
 
 void mix_skin(const Skin& skin, std::size_t element, const Parents& parents, std::vector<Influence>& all) {
+    if (parents.sources.size() == 1) {
+        for (std::size_t s = 0; s < skin.joints.size(); ++s)
+            for (int c = 0; c < skin.joints[s]->components; ++c) {
+                skin.new_joints[s]->set_value(element, c, skin.joints[s]->value(parents.sources[0], c));
+                skin.new_weights[s]->set_value(element, c, skin.weights[s]->value(parents.sources[0], c));
+            }
+        return;
+    }
     all.clear();
     std::size_t slots = 0;
     for (std::size_t s = 0; s < skin.joints.size(); ++s) {

@@ -17,6 +17,7 @@ struct SimplifyOptions {
     std::optional<std::int64_t> faces, vertices;
     Method method = Method::quadric;
     Boundary boundary = Boundary::along;
+    Angle crease = Angle::degrees(30);
 };
 
 void declare(Declare<SimplifyOptions>& d) {
@@ -41,6 +42,11 @@ void declare(Declare<SimplifyOptions>& d) {
                        {{"along", Boundary::along, "boundary edges collapse along the boundary only"},
                         {"locked", Boundary::locked, "every boundary vertex stays"}},
                        "What the boundary of an open surface does.");
+    d.option(
+         "crease", &SimplifyOptions::crease,
+         "Seams that only normals make are merged where the faces meet at less than this angle; flat-shaded "
+         "meshes stay flat-shaded. 0 keeps every normal seam.")
+        .between(0, 180);
     d.at_least_one({"ratio", "faces", "vertices"});
 }
 
@@ -59,6 +65,17 @@ const char* spelled(Stop stop) {
     }
 }
 
+const char* spelled(NormalSeams::Shading shading) {
+    switch (shading) {
+    case NormalSeams::Shading::smoothed:
+        return "seams merged";
+    case NormalSeams::Shading::faceted:
+        return "flat shading kept";
+    default:
+        return "as given";
+    }
+}
+
 /// A part's share of a count that is meant for all, rounded down; a part may have none.
 std::optional<std::size_t> share(std::optional<std::int64_t> whole, std::size_t own, std::size_t all) {
     if (!whole) return {};
@@ -72,6 +89,8 @@ std::size_t triangle_count(const Mesh& mesh) { return mesh.corner_count() - 2 * 
 void report(const Part& part, const SimplifyResult& r, Json& parts, Context& context) {
     parts.push_back(
         {{"part", part.name},
+         {"normals", spelled(r.shading)},
+         {"merged_wedges", r.merged_wedges},
          {"triangles_before", r.faces_before},
          {"triangles_after", r.faces_after},
          {"vertices_before", r.vertices_before},
@@ -101,7 +120,7 @@ Scene run(Scene scene, const SimplifyOptions& o, Context& context) {
             all_faces += triangle_count(part.mesh), all_vertices += part.mesh.vertex_count();
     Json parts = Json::array();
     context.for_each_part(scene, [&](Part& part) {
-        SimplifySettings settings{.method = o.method, .boundary = o.boundary};
+        SimplifySettings settings{.method = o.method, .boundary = o.boundary, .crease = o.crease.radians};
         if (o.ratio) settings.ratio = o.ratio->value;
         settings.faces = share(o.faces, triangle_count(part.mesh), all_faces);
         settings.vertices = share(o.vertices, part.mesh.vertex_count(), all_vertices);
@@ -134,9 +153,10 @@ const RegisterStage registered = make_stage<SimplifyOptions>(
                 "several meet, the "
                 "vertex stays. Non-manifold and inconsistently oriented places are left as they are. "
                 "Isolated vertices are dropped.\n\n"
-                "Vertex and wedge attributes of a new vertex are mixed from the two that it replaces, at its "
-                "place on their "
-                "edge; faces keep theirs. largest_error is, for quadric, the largest root mean square "
+                "A vertex that moved has the attributes of the surface that came in, at the nearest point of "
+                "the faces that it replaces, so textures do not slide; faces keep theirs. Wedges that differ "
+                "in normals only are merged below the crease angle; a flat-shaded mesh gets the normals of "
+                "its new faces. largest_error is, for quadric, the largest root mean square "
                 "distance of a new "
                 "vertex to its planes; for shortest-edge half the longest edge collapsed; in the part's "
                 "units. A target at "

@@ -201,9 +201,9 @@ TEST_CASE("seams stay seams, matched, and UVs follow the place", "[geometry]") {
     for (Index w = 0; w < r.mesh.wedge_count(); ++w) {
         const Vec3& p = r.mesh.positions[r.mesh.vertex_of_wedge(w)];
         ++wedges[r.mesh.vertex_of_wedge(w)];
-        CHECK(uv->value(w, 1) == Approx(p.y).margin(0.3));
+        CHECK(uv->value(w, 1) == Approx(p.y).margin(1e-9)); // the sheet is flat: nothing slides
         const double u = uv->value(w, 0);
-        CHECK((u < 50 ? u : u - 100) == Approx(p.x).margin(0.3));
+        CHECK((u < 50 ? u : u - 100) == Approx(p.x).margin(1e-9));
     }
     for (const auto& [v, n] : wedges) CHECK((n == 2) == (std::abs(r.mesh.positions[v].x - 8) < 1e-3));
     REQUIRE(r.fates.size() == 1);
@@ -245,7 +245,7 @@ TEST_CASE("an attribute that is linear in the position stays with the position",
         const Vec3 p = r.mesh.positions[w], q{a->value(w, 0), a->value(w, 1), a->value(w, 2)};
         worst = std::max(worst, length(p - q));
     }
-    CHECK(worst < 0.05);
+    CHECK(worst < 0.01); // no farther than the surface itself moved
 }
 
 TEST_CASE("the first target met is reported", "[geometry]") {

@@ -1,0 +1,32 @@
+#pragma once
+// Seams that only normals make: flat shading cuts a mesh into single faces, and no edge of it could collapse.
+
+#include "mesh/mesh.hpp"
+
+namespace facetmill {
+
+struct NormalSeams {
+    enum class Shading {
+        as_given, ///< nothing to merge
+        smoothed, ///< seams below the crease angle are gone; the normals there are new
+        faceted,  ///< the mesh was flat-shaded: its normals are gone until set_facet_normals
+    };
+    Shading shading = Shading::as_given;
+    std::size_t merged = 0; ///< wedges that went
+};
+
+/// Merges the wedges of a vertex that differ in nothing but NORMAL and TANGENT.
+///
+/// A mesh is flat-shaded when nearly all bent edges are normal seams and nearly all corners have the normal
+/// of their face; all such wedges of it are merged. Else wedges are merged across edges where the faces meet
+/// at less than the crease angle, and get the area-weighted normal of the faces so joined; sharper seams
+/// stay. Seams of any other attribute stay. crease: radians; 0 leaves everything as it is.
+///
+/// Vertices that no face uses are dropped when something is merged. The tangent of the first wedge is taken.
+NormalSeams merge_normal_seams(Mesh& mesh, double crease);
+
+/// Gives every corner the normal of its face: wedges are split where the normals of faces that share one
+/// differ by more than half a degree, tangents are made perpendicular. The mesh must have NORMAL.
+void set_facet_normals(Mesh& mesh);
+
+} // namespace facetmill
