@@ -56,28 +56,104 @@ using Float4 = float __attribute__((vector_size(16)));
 Float4 load(const float (&four)[4]) { return Float4{four[0], four[1], four[2], four[3]}; }
 Float4 greater(const Float4& a, const Float4& b) { return a > b ? a : b; }
 
-/// A query in the tree's frame. Far queries are drawn near, which only makes the bounds below smaller.
-struct Query {
-    Float4 low[3], high[3];
+/// How far a query is from the middle of the surface, in units of the tree's frame.
+double reach_of(const FaceTree& tree, const Vec3& p) {
+    const Vec3 at = tree.local(p);
+    return std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+}
 
-    Query(const FaceTree& tree, const Vec3& p) {
+/// A query in the tree's frame, in float32.
+class NearQuery {
+  public:
+    static constexpr double largest = 64; ///< reach that it is good for
+    using Number = float;
+    static constexpr float most = 1e38F;
+
+    NearQuery(const FaceTree& tree, const Vec3& p) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double x = std::clamp(tree.local(p[axis], axis), -1e15, 1e15);
-            low[axis] = Float4{} + rounded_down(x);
-            high[axis] = Float4{} + rounded_up(x);
+            const double x = tree.local(p[axis], axis);
+            at_[axis] = Float4{} + static_cast<float>(x);
+            low_[axis] = Float4{} + rounded_down(x);
+            high_[axis] = Float4{} + rounded_up(x);
         }
+        // Rounding to float32 of the query, of its way to the centre of a turned box and of the products of
+        // that with an axis: less than 16 roundings of numbers up to its reach + 1.
+        error_ = Float4{} + static_cast<float>((reach_of(tree, p) + 2) * 0x1p-20);
     }
 
-    /// Lower bounds of the squared distances to the four boxes.
+    /// Lower bounds of the squared distances to the four things below a node.
+    Float4 bounds(const FaceTree& tree, int level, std::uint32_t node) const {
+        if (level > tree.patch_levels) return bounds(tree.node(level, node));
+        return level > 0 ? bounds(tree.patch(level, node)) : bounds(tree.plates[node]);
+    }
+
+  private:
     Float4 bounds(const FaceTree::Node& node) const {
         Float4 sum{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const Float4 d = greater(
-                greater(load(node.min[axis]) - high[axis], low[axis] - load(node.max[axis])), Float4{});
+                greater(load(node.min[axis]) - high_[axis], low_[axis] - load(node.max[axis])), Float4{});
             sum += d * d;
         }
         return sum * (1 - 1e-6F);
     }
+
+    Float4 bounds(const FaceTree::Patches& patches) const {
+        const Float4 x = at_[0] - load(patches.centre[0]), y = at_[1] - load(patches.centre[1]),
+                     z = at_[2] - load(patches.centre[2]);
+        Float4 sum{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Float4 along =
+                x * load(patches.axis[i][0]) + y * load(patches.axis[i][1]) + z * load(patches.axis[i][2]);
+            const Float4 d = greater(greater(along, -along) - (load(patches.half[i]) + error_), Float4{});
+            sum += d * d;
+        }
+        return sum * (1 - 1e-6F);
+    }
+
+    Float4 bounds(const FaceTree::Plates& plates) const {
+        const auto along = [&](const float(&v)[3][4]) {
+            return at_[0] * load(v[0]) + at_[1] * load(v[1]) + at_[2] * load(v[2]);
+        };
+        Float4 aside{};
+        for (std::size_t i = 0; i < 3; ++i)
+            aside = greater(aside, along(plates.beyond[i]) - load(plates.reach[i]) - error_);
+        const Float4 over = along(plates.normal) - load(plates.offset);
+        const Float4 up = greater(greater(over, -over) - error_, Float4{});
+        return (up * up + aside * aside) * (1 - 1e-6F);
+    }
+
+    Float4 at_[3], low_[3], high_[3], error_;
+};
+
+/// A query far from the surface, in float64, for which float32 is too coarse. Slower: it knows boxes along
+/// the axes only.
+class FarQuery {
+  public:
+    static constexpr double largest = 1e8; ///< beyond, distances to all of the surface round to the same
+    using Number = double;
+    static constexpr double most = HUGE_VAL;
+
+    FarQuery(const FaceTree& tree, const Vec3& p) : at_(tree.local(p)) {}
+
+    std::array<double, 4> bounds(const FaceTree& tree, int level, std::uint32_t n) const {
+        const auto& node = tree.node(level, n);
+        std::array<double, 4> result;
+        for (std::size_t slot = 0; slot < 4; ++slot) {
+            double sum = 0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double below = node.min[axis][slot] - at_[axis],
+                             above = at_[axis] - node.max[axis][slot];
+                const double d = std::max({below, above, 0.0});
+                sum += d * d;
+            }
+            result[slot] = sum < HUGE_VAL ? sum * (1 - 1e-15) : HUGE_VAL;
+        }
+        return result;
+    }
+
+  private:
+    Vec3 at_;
 };
 
 /// Works in units of the tree's frame: squares then neither overflow nor vanish, whatever the surface's size.
@@ -90,40 +166,42 @@ class Search {
         const double square = dot(q, q);
         if (square > square_ || (square == square_ && tree_.faces[triangle] >= face_)) return;
         square_ = square, offset_ = q, triangle_ = triangle, face_ = tree_.faces[triangle];
-        const double limit = square * (1 + 1e-6);
-        limit_ = limit < 1e38 ? static_cast<float>(limit) + std::numeric_limits<float>::min() : 1e38F;
     }
 
+    template <class Query>
     void run(double enough) {
+        using Number = typename Query::Number;
         const double enough_square = enough < 0 ? -1 : enough * tree_.scale * enough * tree_.scale;
         const Query query(tree_, p_);
         struct Entry {
-            float bound;
+            Number bound;
             std::int32_t level;
             std::uint32_t node;
         };
         Entry stack[4 * 17]; // 17 levels of four hold all indices; three wait at each
         int size = 0;
         stack[size++] = {0, tree_.height() - 1, 0};
+        Number limit = limit_for<Query>();
         while (size > 0) {
             const Entry entry = stack[--size];
-            if (entry.bound > limit_) continue;
-            const Float4 bounds = query.bounds(tree_.node(entry.level, entry.node));
+            if (entry.bound > limit) continue;
+            const auto bounds = query.bounds(tree_, entry.level, entry.node);
             // Those near enough, nearest last.
             Entry near[4];
             int count = 0;
-            for (int s = 0; s < 4; ++s) {
-                if (bounds[s] > limit_) continue;
+            for (std::uint32_t s = 0; s < 4; ++s) {
+                if (!(bounds[s] <= limit) || bounds[s] == HUGE_VALF)
+                    continue; // empty slots are infinitely far
                 int at = count++;
                 for (; at > 0 && near[at - 1].bound < bounds[s]; --at) near[at] = near[at - 1];
-                near[at] = {bounds[s], entry.level - 1, 4 * entry.node + static_cast<std::uint32_t>(s)};
+                near[at] = {bounds[s], entry.level - 1, 4 * entry.node + s};
             }
             if (entry.level > 0) {
                 for (int i = 0; i < count; ++i) stack[size++] = near[i];
                 continue;
             }
             for (int i = count - 1; i >= 0; --i)
-                if (near[i].bound <= limit_) test(near[i].node);
+                if (near[i].bound <= limit) test(near[i].node), limit = limit_for<Query>();
             if (square_ <= enough_square) return;
         }
     }
@@ -134,11 +212,19 @@ class Search {
     }
 
   private:
+    /// What a bound must not exceed to be of interest: the square so far, and a little for its rounding.
+    template <class Query>
+    typename Query::Number limit_for() const {
+        using Number = typename Query::Number;
+        const double limit = square_ * (1 + (sizeof(Number) == 4 ? 1e-6 : 1e-15));
+        return limit < Query::most ? static_cast<Number>(limit) + std::numeric_limits<Number>::min()
+                                   : Query::most;
+    }
+
     const FaceTree& tree_;
-    const Vec3& p_;
+    const Vec3 p_;
     Vec3 offset_; ///< from p to the closest point so far, in the tree's frame
     double square_ = HUGE_VAL;
-    float limit_ = 1e38F; ///< of squared distances in the tree's frame
     Index triangle_ = none, face_ = none;
 };
 
@@ -155,10 +241,21 @@ Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3
 
 Closest closest_point(const FaceTree& tree, const Vec3& p, Index hint, double enough) {
     if (tree.empty() || !is_finite(p)) return {};
-    Search search(tree, p);
+    const double reach = reach_of(tree, p);
+    // From very far the closest point is that of a point in the same direction.
+    const bool beyond = reach > FarQuery::largest;
+    Search search(tree, beyond ? tree.middle + (p - tree.middle) * (FarQuery::largest / reach) : p);
     if (hint != none) search.test(hint);
-    search.run(enough);
-    return search.result();
+    if (reach <= NearQuery::largest)
+        search.run<NearQuery>(enough);
+    else
+        search.run<FarQuery>(beyond ? -1 : enough);
+    Closest found = search.result();
+    if (beyond) { // in units of the reach, whose square might overflow
+        const double unit = reach / tree.scale;
+        found.distance = length((found.point - p) / unit) * unit;
+    }
+    return found;
 }
 
 std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points) {

@@ -99,6 +99,8 @@ FaceTree::FaceTree(const Surface& surface) {
              [&](Node& node, std::size_t slot, std::size_t child) {
                  set_to_node(node, slot, nodes[level_begin[level - 1] + child]);
              });
+
+    flatten();
 }
 
 } // namespace facetmill

@@ -152,3 +152,36 @@ TEST_CASE("neighbours on the curve are neighbours in space", "[geometry]") {
         CHECK(steps == 1);
     }
 }
+
+TEST_CASE("from far away the closest point is still the closest", "[geometry]") {
+    const Surface surface = surface_of(testing::noisy_icosphere(3, 0.05, 4));
+    const FaceTree tree(surface);
+    for (const double far : {50.0, 70.0, 1e3, 1e5, 1e7})
+        for (std::uint64_t k = 0; k < 20; ++k) {
+            const Vec3 p = random_point(far, k);
+            CHECK(closest_point(tree, p).distance == Approx(distance_by_trial(surface, p)).epsilon(1e-14));
+        }
+    const Closest found = closest_point(tree, {1e300, 0, 0});
+    CHECK(found.point.x == Approx(1).epsilon(0.06)); // the side that faces the query
+    CHECK(found.distance == 1e300);
+}
+
+TEST_CASE("slivers, folds and needles are as close as trying each says", "[geometry]") {
+    // Long thin triangles in all directions, some without area.
+    Mesh mesh;
+    for (std::uint64_t k = 0; k < 300; ++k) {
+        const Vec3 a = random_point(1, 7 * k), b = a + random_point(0.5, 7 * k + 1);
+        const Vec3 c = mix(a, b, testing::between(0, 1, 8, k)) + random_point(k % 3 ? 1e-7 : 0, 7 * k + 2);
+        for (const Vec3& p : {a, b, c}) {
+            mesh.corners.push_back(static_cast<Index>(mesh.positions.size()));
+            mesh.positions.push_back(p);
+        }
+    }
+    const Surface surface = surface_of(mesh);
+    const FaceTree tree(surface);
+    for (std::uint64_t k = 0; k < 500; ++k) {
+        const Vec3 p = random_point(1.2, 9000 + k);
+        CHECK(closest_point(tree, p).distance ==
+              Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-14));
+    }
+}
