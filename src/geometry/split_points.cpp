@@ -22,9 +22,9 @@ std::vector<Index> next_corners(const Mesh& mesh) {
 } // namespace
 
 EdgePoints::EdgePoints(const Mesh& mesh, const EdgeTable& edges, int pieces,
-                       const std::vector<std::uint8_t>& marks)
-    : mesh_(&mesh), table_(&edges), points_(pieces - 1),
-      first_wedge_(static_cast<Index>(mesh.wedge_count())) {
+                       const std::vector<std::uint8_t>& marks, std::vector<double> at)
+    : mesh_(&mesh), table_(&edges), points_(pieces - 1), first_wedge_(static_cast<Index>(mesh.wedge_count())),
+      at_(std::move(at)) {
     edge_count_ = edges.size();
     if (!marks.empty()) {
         ranks_.assign(edges.size(), none);
@@ -74,15 +74,18 @@ void EdgePoints::number_bundles() {
 
 void EdgePoints::describe(Lineage& vertices, Lineage& wedges) const {
     const auto n = static_cast<std::size_t>(points_);
-    const auto fill = [&](std::vector<Lineage::Edge>& out, std::size_t at, Index low, Index high) {
+    const auto fill = [&](std::vector<Lineage::Edge>& out, std::size_t at, std::size_t e, Index low,
+                          Index high) {
         for (std::size_t i = 0; i < n; ++i)
-            out[at + i] = {low, high, static_cast<double>(i + 1) / static_cast<double>(points_ + 1)};
+            out[at + i] = {low, high,
+                           at_.empty() ? static_cast<double>(i + 1) / static_cast<double>(points_ + 1)
+                                       : at_[e]};
     };
     const std::size_t first = vertices.edges.size();
     vertices.edges.resize(first + vertex_points());
     parallel_for(table_->size(), [&](std::size_t e) {
         const Index r = rank(static_cast<Index>(e));
-        if (r != none) fill(vertices.edges, first + r * n, table_->edges[e].low, table_->edges[e].high);
+        if (r != none) fill(vertices.edges, first + r * n, e, table_->edges[e].low, table_->edges[e].high);
     });
     if (bundles_.empty()) return;
     const std::size_t first_wedge = wedges.edges.size();
@@ -91,7 +94,7 @@ void EdgePoints::describe(Lineage& vertices, Lineage& wedges) const {
         const Index c = bundle_corner_[b], e = table_->corner_edge[c];
         Index low = mesh_->corners[c], high = mesh_->corners[next_[c]];
         if (mesh_->vertex(c) != table_->edges[e].low) std::swap(low, high);
-        fill(wedges.edges, first_wedge + b * n, low, high);
+        fill(wedges.edges, first_wedge + b * n, e, low, high);
     });
 }
 

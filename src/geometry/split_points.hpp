@@ -14,8 +14,10 @@ namespace facetmill {
 class EdgePoints {
   public:
     /// pieces >= 1: each edge gets pieces - 1 points. With marks (one per edge), only marked edges get any.
+    /// With at (one per edge, pieces = 2), the point is at that parameter from the edge's low vertex instead
+    /// of in the middle.
     EdgePoints(const Mesh& mesh, const EdgeTable& edges, int pieces,
-               const std::vector<std::uint8_t>& marks = {});
+               const std::vector<std::uint8_t>& marks = {}, std::vector<double> at = {});
 
     /// The wedge of point i (1 .. pieces - 1, counted from corner c's own vertex) on the edge of corner c,
     /// which must have points. An edge from a vertex to itself has its own wedge for all of them.
@@ -48,6 +50,7 @@ class EdgePoints {
     std::vector<Index> bundles_; ///< [corners] number of the (edge, wedge pair); empty without seams
     std::vector<Index> bundle_corner_; ///< [bundles] its first corner
     std::vector<Index> next_;          ///< [corners] the next corner in the face; only with seams
+    std::vector<double> at_;           ///< [edges] or empty: where the point is
     std::size_t edge_count_ = 0, bundle_count_ = 0;
 };
 

@@ -10,9 +10,13 @@ using namespace facetmill;
 
 namespace {
 
-constexpr SplitMethod every_method[] = {SplitMethod::midpoint, SplitMethod::bisect,  SplitMethod::centroid,
-                                        SplitMethod::grid,     SplitMethod::quads,   SplitMethod::varignon,
-                                        SplitMethod::core,     SplitMethod::diagonal};
+/// Every method that leaves the surface where it is, in an order in which results can be split again.
+constexpr SplitMethod every_method[] = {SplitMethod::midpoint, SplitMethod::bisect,   SplitMethod::centroid,
+                                        SplitMethod::grid,     SplitMethod::quads,    SplitMethod::varignon,
+                                        SplitMethod::core,     SplitMethod::diagonal, SplitMethod::halve,
+                                        SplitMethod::fan,      SplitMethod::notch};
+/// notch leaves quads, which it does not take again.
+int passes_of(SplitMethod method) { return method == SplitMethod::notch ? 1 : 2; }
 
 Mesh triangle() {
     Mesh mesh;
@@ -44,7 +48,13 @@ TEST_CASE("a triangle becomes as many faces as the note says", "[geometry]") {
     CHECK(faces_of(triangle(), SplitMethod::centroid) == 3);
     CHECK(faces_of(triangle(), SplitMethod::core) == 4);
     CHECK(faces_of(triangle(), SplitMethod::quads) == 3);
+    CHECK(faces_of(triangle(), SplitMethod::notch) == 2);
     CHECK(faces_of(triangle(), SplitMethod::diagonal) == 1);
+    CHECK(faces_of(triangle(), SplitMethod::fan) == 1);
+    CHECK(faces_of(triangle(), SplitMethod::loop) == 4);
+    CHECK(faces_of(triangle(), SplitMethod::butterfly) == 4);
+    CHECK(faces_of(triangle(), SplitMethod::sqrt3) == 3);
+    CHECK(faces_of(triangle(), SplitMethod::catmull_clark) == 3);
     for (int n = 1; n <= 6; ++n)
         CHECK(faces_of(triangle(), SplitMethod::grid, n) == static_cast<std::size_t>(n * n));
 }
@@ -53,6 +63,11 @@ TEST_CASE("a quad becomes as many faces as the note says", "[geometry]") {
     CHECK(faces_of(square(), SplitMethod::midpoint) == 4);
     CHECK(faces_of(square(), SplitMethod::varignon) == 5);
     CHECK(faces_of(square(), SplitMethod::centroid) == 4);
+    CHECK(faces_of(square(), SplitMethod::halve) == 2);
+    CHECK(faces_of(square(), SplitMethod::fan) == 4);
+    CHECK(faces_of(square(), SplitMethod::quads) == 4);
+    CHECK(faces_of(square(), SplitMethod::core) == 5);
+    CHECK(faces_of(square(), SplitMethod::catmull_clark) == 4);
     CHECK(faces_of(square(), SplitMethod::diagonal) == 2);
     for (int n = 1; n <= 6; ++n)
         CHECK(faces_of(square(), SplitMethod::grid, n) == static_cast<std::size_t>(n * n));
@@ -104,7 +119,7 @@ TEST_CASE("every method keeps a closed mesh closed, its Euler number and its vol
     for (const auto method : every_method)
         for (const Mesh& mesh : {shapes::cube(), shapes::tetrahedron(), shapes::uv_cube(),
                                  shapes::torus(7, 5), shapes::hourglass()}) {
-            const Mesh finer = split(mesh, {method, 2, 3}).mesh;
+            const Mesh finer = split(mesh, {method, passes_of(method), 3}).mesh;
             CAPTURE(static_cast<int>(method), mesh.face_count());
             CHECK(broken_invariants(finer).empty());
             CHECK(test::closed(finer));
@@ -163,12 +178,12 @@ TEST_CASE("a result beyond 2^31 corners is refused before it is built", "[geomet
               split(shapes::cube(), {SplitMethod::midpoint, 14, 2});
           }) == "limit [E-LIMIT] split: the result would have about 9.66e+09 corners, at most 2147483648 are "
                 "possible | "
-                "use fewer passes or a coarser grid");
+                "use fewer passes, a coarser grid or a longer max_edge");
 }
 
 TEST_CASE("faces that a method does not know are refused by name", "[geometry]") {
     CHECK(test::failure([] {
               split(square(), {SplitMethod::bisect, 1, 2});
           }) == "stage [E-POLYGON] split: bisect takes faces of at most 3 corners, face 0 has 4 | "
-                "'split: centroid' before it makes triangles of every face");
+                "'triangulate' before it makes triangles of every face");
 }

@@ -1,0 +1,66 @@
+#include "geometry/split_rings.hpp"
+
+#include "base/functions.hpp"
+#include "base/parallel.hpp"
+
+namespace facetmill {
+
+namespace {
+
+/// The area vector of a face in world space.
+Vec3 face_normal(const Mesh& mesh, Index f, const Transform& to_world) {
+    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+    Vec3 sum;
+    for (Index c = begin + 1; c + 1 < end; ++c)
+        sum += cross(to_world.vector(mesh.point(c) - mesh.point(begin)),
+                     to_world.vector(mesh.point(c + 1) - mesh.point(begin)));
+    return normalised(sum);
+}
+
+} // namespace
+
+SmoothRings::SmoothRings(const Mesh& m, const EdgeTable& e, const SplitSettings& settings)
+    : mesh(m), edges(e), corners(corners_at_vertices(m)), next_(m.corner_count()),
+      previous_(m.corner_count()), twin_(m.corner_count(), none), sharp_(e.size()) {
+    const std::vector<Index> faces = corner_faces(mesh);
+    parallel_for(mesh.corner_count(), [&](std::size_t i) {
+        const auto c = static_cast<Index>(i);
+        next_[c] = next_corner(mesh, faces[c], c);
+        previous_[next_[c]] = c;
+    });
+    const double limit = settings.creases ? cosine(*settings.creases) : -2;
+    parallel_for(edges.size(), [&](std::size_t i) {
+        const auto at = edges.corners_of(static_cast<Index>(i));
+        if (at.size() != 2) {
+            sharp_[i] = 1;
+            return;
+        }
+        twin_[at[0]] = at[1], twin_[at[1]] = at[0];
+        if (settings.creases)
+            sharp_[i] = dot(face_normal(mesh, faces[at[0]], settings.to_world),
+                            face_normal(mesh, faces[at[1]], settings.to_world)) < limit;
+    });
+}
+
+SmoothRings::Sharp SmoothRings::sharp_at(Index v) const {
+    Sharp sharp;
+    const auto see = [&](Index c, Index end) {
+        if (!is_sharp(edges.corner_edge[c])) return;
+        if (sharp.count < 2) sharp.ends[sharp.count] = end;
+        ++sharp.count;
+    };
+    for (const Index c : corners.of(v)) {
+        see(c, to(c));
+        // The edge that ends here is another corner's own, unless it is a boundary.
+        if (twin(previous(c)) == none) see(previous(c), from(previous(c)));
+    }
+    return sharp;
+}
+
+bool SmoothRings::is_smooth(Index v) const {
+    for (const Index c : corners.of(v))
+        if (twin(c) == none || twin(previous(c)) == none) return false;
+    return sharp_at(v).count < 2;
+}
+
+} // namespace facetmill

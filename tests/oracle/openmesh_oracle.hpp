@@ -1,0 +1,11 @@
+#pragma once
+// What OpenMesh says: its own subdividers on its own mesh, as a second opinion.
+
+#include "geometry/split.hpp"
+
+namespace facetmill::test {
+
+/// The mesh after so many passes of OpenMesh's subdivider; positions and faces only.
+Mesh openmesh_subdivided(const Mesh& mesh, SplitMethod method, int passes);
+
+} // namespace facetmill::test
