@@ -1,7 +1,10 @@
 #pragma once
-// What becomes of the attributes when a stage moves vertices and leaves the connectivity alone.
+// What becomes of the attributes when a stage moves vertices and leaves the connectivity alone, and of the
+// size of what they enclose.
 
 #include "mesh/mesh.hpp"
+
+#include <optional>
 
 namespace facetmill {
 
@@ -13,5 +16,13 @@ Fates settle_moved(Mesh& mesh);
 /// Takes the part along NORMAL out of the wedge attribute TANGENT (float32 or float64); whether there was
 /// one.
 bool straighten_tangents(Mesh& mesh);
+
+/// Area and, when closed, signed volume, in world space; n-gons as fans from their first corner. Closed is
+/// decided by a 64-bit sum of hashed directed edges, which is zero when they cancel. O(corners), parallel.
+struct SurfaceSize {
+    double area = 0;
+    std::optional<double> volume;
+};
+SurfaceSize surface_size(const Mesh& mesh, const Transform& to_world = {});
 
 } // namespace facetmill

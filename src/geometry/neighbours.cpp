@@ -1,7 +1,10 @@
 #include "geometry/neighbours.hpp"
 
 #include "base/error.hpp"
+#include "base/functions.hpp"
 #include "base/parallel.hpp"
+#include "geometry/sharp_edges.hpp"
+#include "mesh/buckets.hpp"
 
 #include <algorithm>
 
@@ -11,44 +14,102 @@ namespace {
 
 using Settings = RelaxSettings;
 
+/// A corner as its vertex sees it.
+struct Corner {
+    Index vertex, next, previous, face;
+};
+
+void sort_few(std::vector<Index>& items) {
+    if (items.size() > 24) return std::sort(items.begin(), items.end());
+    for (std::size_t i = 1; i < items.size(); ++i) {
+        const Index item = items[i];
+        std::size_t j = i;
+        for (; j > 0 && item < items[j - 1]; --j) items[j] = items[j - 1];
+        items[j] = item;
+    }
+}
+
+bool each_once(const std::vector<Index>& sorted) {
+    return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+}
+
 /// What one thread needs to look around a vertex; reused, so that nothing is allocated per vertex.
 struct Surroundings {
-    std::vector<Index> along;    ///< other ends of the edges at the vertex, once per face, ascending
-    std::vector<Index> all;      ///< vertices of all its faces, ascending, each once
-    std::vector<Index> boundary; ///< other ends of its boundary edges, ascending
+    std::vector<Index> next, previous; ///< the other ends of the two edges of each corner, ascending
+    std::vector<Index> all;            ///< the neighbours, ascending, each once
+    std::vector<Index> boundary;       ///< other ends of the boundary edges, ascending
 
-    void look(const Mesh& mesh, const VertexLists& at, const std::vector<Index>& faces, Index v,
-              bool whole_faces) {
-        along.clear(), all.clear(), boundary.clear();
-        for (const Index c : at.of(v)) {
-            const Index f = faces.empty() ? c / 3 : faces[c];
-            const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-            const Index next = mesh.vertex(c + 1 == end ? begin : c + 1);
-            const Index previous = mesh.vertex(c == begin ? end - 1 : c - 1);
-            if (next != v) along.push_back(next);
-            if (previous != v) along.push_back(previous);
-            if (whole_faces && end - begin > 3)
-                for (Index other = begin; other < end; ++other)
-                    if (mesh.vertex(other) != v) all.push_back(mesh.vertex(other));
+    void look(const Mesh& mesh, std::span<const Corner> corners, bool whole_faces) {
+        next.clear(), previous.clear(), all.clear(), boundary.clear();
+        bool polygons = false;
+        for (const Corner& c : corners) {
+            if (c.next != c.vertex) next.push_back(c.next);
+            if (c.previous != c.vertex) previous.push_back(c.previous);
+            polygons = polygons || (whole_faces && mesh.face_size(c.face) > 3);
         }
-        std::sort(along.begin(), along.end());
-        const bool polygons = !all.empty();
-        all.insert(all.end(), along.begin(), along.end());
-        if (polygons) std::sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
-        for (std::size_t i = 0, j = 0; i < along.size(); i = j) {
-            while (j < along.size() && along[j] == along[i]) ++j;
-            if (j - i == 1) boundary.push_back(along[i]);
-        }
+        sort_few(next), sort_few(previous);
+        // Where faces go round the vertex, each neighbour comes next once and comes before once.
+        const bool round = next == previous && each_once(next);
+        if (round)
+            all = next;
+        else
+            walk();
+        if (polygons) add_whole_faces(mesh, corners);
     }
 
-    /// The neighbours that v moves towards.
-    const std::vector<Index>& chosen(Settings::Boundary kind) {
-        if (boundary.empty() || kind == Settings::Boundary::free) return all;
-        if (kind == Settings::Boundary::fixed) all.clear();
-        return kind == Settings::Boundary::fixed ? all : boundary;
+  private:
+    /// The union of next and previous; a neighbour that is in them once in all ends a boundary edge.
+    void walk() {
+        std::size_t i = 0, j = 0;
+        while (i < next.size() || j < previous.size()) {
+            const Index v =
+                std::min(i < next.size() ? next[i] : none, j < previous.size() ? previous[j] : none);
+            std::size_t count = 0;
+            for (; i < next.size() && next[i] == v; ++i) ++count;
+            for (; j < previous.size() && previous[j] == v; ++j) ++count;
+            all.push_back(v);
+            if (count == 1) boundary.push_back(v);
+        }
+    }
+    void add_whole_faces(const Mesh& mesh, std::span<const Corner> corners) {
+        for (const Corner& c : corners)
+            for (Index other = mesh.face_begin(c.face); other < mesh.face_end(c.face); ++other)
+                if (mesh.vertex(other) != c.vertex) all.push_back(mesh.vertex(other));
+        std::sort(all.begin(), all.end());
+        all.erase(std::unique(all.begin(), all.end()), all.end());
     }
 };
+
+/// Calls visit(vertex, surroundings) for every vertex of a chunk that some face uses; chunks are buckets of
+/// vertices, so that what is looked at is in the cache.
+template <class Visit>
+void around_vertices(const Mesh& mesh, bool whole_faces, Buckets<Corner>& buckets, Visit&& visit) {
+    buckets = fill_buckets<Corner>(mesh, [&](Index f, auto&& emit) {
+        const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+        for (Index c = begin; c < end; ++c) {
+            const Index v = mesh.vertex(c);
+            emit(v, Corner{v, mesh.vertex(c + 1 == end ? begin : c + 1),
+                           mesh.vertex(c == begin ? end - 1 : c - 1), f});
+        }
+    });
+    parallel_for(
+        buckets.count(),
+        [&](std::size_t b) {
+            const std::size_t first = buckets.first_vertex(b),
+                              last = std::min(mesh.vertex_count(), buckets.first_vertex(b + 1));
+            std::vector<Index> ends(last - first + 1, 0);
+            for (const Corner& c : buckets.of(b)) ++ends[c.vertex - first];
+            exclusive_scan(ends);
+            std::vector<Corner> sorted(buckets.of(b).size());
+            for (const Corner& c : buckets.of(b)) sorted[ends[c.vertex - first]++] = c;
+            Surroundings around;
+            for (std::size_t v = first, begin = 0; v < last; begin = ends[v - first], ++v) {
+                around.look(mesh, {sorted.data() + begin, sorted.data() + ends[v - first]}, whole_faces);
+                visit(b, static_cast<Index>(v), around);
+            }
+        },
+        1);
+}
 
 /// In a polygon of n corners every vertex has n - 1 neighbours: refuses what would not fit before it starts.
 void refuse_giants(const Mesh& mesh, const Settings& settings) {
@@ -71,43 +132,81 @@ void refuse_giants(const Mesh& mesh, const Settings& settings) {
                     "use neighbours: edges, or triangulate first");
 }
 
-/// Lists of each chunk of vertices, before they are put behind one another.
-struct ChunkLists {
-    std::vector<Index> items;
-    std::size_t held = 0;
+/// Which of its neighbours a vertex moves towards.
+class Choice {
+  public:
+    Choice(const Mesh& mesh, const Settings& settings) : mesh_(mesh), settings_(settings) {
+        if (!settings.features) return;
+        straight_ = cosine(*settings.features);
+        tracks_ = sharp_ends(mesh, *settings.features, settings.to_world,
+                             settings.boundary == Settings::Boundary::slide);
+    }
+
+    struct Chosen {
+        std::span<const Index> list{};
+        bool held = false, along = false;
+    };
+    Chosen operator()(Index v, const Surroundings& around) const {
+        if (!settings_.mask.empty() && settings_.mask[v] == 0) return {.held = true};
+        const bool boundary = !around.boundary.empty();
+        if (boundary && settings_.boundary == Settings::Boundary::fixed) return {.held = true};
+        if (settings_.features && !tracks_.of(v).empty()) {
+            if (tracks_.of(v).size() != 2 || turns(v)) return {.held = true};
+            return {.list = tracks_.of(v), .along = true};
+        }
+        if (boundary && settings_.boundary == Settings::Boundary::slide)
+            return {.list = around.boundary, .along = true};
+        return {.list = around.all};
+    }
+
+  private:
+    /// Whether the line of features has a corner at the vertex: it turns by more than the surface may bend.
+    bool turns(Index v) const {
+        const auto& p = mesh_.positions;
+        const Vec3 in = settings_.to_world.vector(p[v] - p[tracks_.of(v)[0]]),
+                   out = settings_.to_world.vector(p[tracks_.of(v)[1]] - p[v]);
+        return dot(in, out) < straight_ * std::sqrt(dot(in, in) * dot(out, out));
+    }
+
+    const Mesh& mesh_;
+    const Settings& settings_;
+    double straight_ = -2;
+    VertexLists tracks_;
 };
 
 } // namespace
 
 Neighbourhoods neighbourhoods(const Mesh& mesh, const Settings& settings) {
     refuse_giants(mesh, settings);
-    const std::size_t n = mesh.vertex_count(), chunks = (n + default_chunk - 1) / default_chunk;
-    const VertexLists at = corners_at_vertices(mesh);
-    const std::vector<Index> faces = mesh.all_triangles() ? std::vector<Index>{} : corner_faces(mesh);
+    const std::size_t n = mesh.vertex_count();
+    const Choice choose(mesh, settings);
     Neighbourhoods result;
     auto& offsets = result.lists.offsets;
     offsets.assign(n + 1, 0);
-    std::vector<ChunkLists> parts(chunks);
-    parallel_chunks(n, [&](std::size_t begin, std::size_t end) {
-        Surroundings around;
-        ChunkLists& part = parts[begin / default_chunk];
-        part.items.reserve(8 * (end - begin));
-        for (std::size_t v = begin; v < end; ++v) {
-            around.look(mesh, at, faces, static_cast<Index>(v),
-                        settings.neighbours == Settings::Neighbours::faces);
-            const auto& list = around.chosen(settings.boundary);
-            part.held += !around.boundary.empty() && settings.boundary == Settings::Boundary::fixed;
-            offsets[v] = static_cast<Index>(list.size());
-            part.items.insert(part.items.end(), list.begin(), list.end());
-        }
-    });
+    if (settings.features || settings.boundary == Settings::Boundary::slide) result.along.resize(n);
+    struct Part {
+        std::vector<Index> items;
+        std::size_t held = 0;
+    };
+    Buckets<Corner> buckets;
+    std::vector<Part> parts(std::size_t{1} << 12); // no more buckets than that: fill_buckets' 11 bits
+    around_vertices(mesh, settings.neighbours == Settings::Neighbours::faces, buckets,
+                    [&](std::size_t b, Index v, const Surroundings& around) {
+                        Part& part = parts[b];
+                        if (part.items.capacity() == 0) part.items.reserve(buckets.of(b).size() + 64);
+                        const auto chosen = choose(v, around);
+                        part.held += chosen.held;
+                        if (chosen.along) result.along[v] = 1;
+                        offsets[v] = static_cast<Index>(chosen.list.size());
+                        part.items.insert(part.items.end(), chosen.list.begin(), chosen.list.end());
+                    });
     result.lists.items.resize(exclusive_scan(offsets));
     parallel_for(
-        chunks,
-        [&](std::size_t c) {
-            std::copy(parts[c].items.begin(), parts[c].items.end(),
-                      result.lists.items.begin() + offsets[c * default_chunk]);
-            parts[c].items = {};
+        buckets.count(),
+        [&](std::size_t b) {
+            std::copy(parts[b].items.begin(), parts[b].items.end(),
+                      result.lists.items.begin() + offsets[buckets.first_vertex(b)]);
+            parts[b].items = {};
         },
         1);
     for (const auto& part : parts) result.held += part.held;
@@ -115,15 +214,10 @@ Neighbourhoods neighbourhoods(const Mesh& mesh, const Settings& settings) {
 }
 
 std::vector<std::uint8_t> boundary_vertices(const Mesh& mesh) {
-    const VertexLists at = corners_at_vertices(mesh);
-    const std::vector<Index> faces = mesh.all_triangles() ? std::vector<Index>{} : corner_faces(mesh);
     std::vector<std::uint8_t> boundary(mesh.vertex_count());
-    parallel_chunks(boundary.size(), [&](std::size_t begin, std::size_t end) {
-        Surroundings around;
-        for (std::size_t v = begin; v < end; ++v) {
-            around.look(mesh, at, faces, static_cast<Index>(v), false);
-            boundary[v] = !around.boundary.empty();
-        }
+    Buckets<Corner> buckets;
+    around_vertices(mesh, false, buckets, [&](std::size_t, Index v, const Surroundings& around) {
+        boundary[v] = !around.boundary.empty();
     });
     return boundary;
 }

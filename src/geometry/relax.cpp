@@ -4,49 +4,48 @@
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "geometry/moved.hpp"
-#include "geometry/neighbours.hpp"
+#include "geometry/relax_steps.hpp"
+
+#include <fmt/format.h>
 
 namespace facetmill {
 
 namespace {
 
-void check(const RelaxSettings& s) {
-    if (s.iterations < 0)
-        throw Error(ErrorKind::usage, "E-RANGE",
-                    "relax: iterations is at least 0, not " + std::to_string(s.iterations));
-    if (!(s.factor > 0 && s.factor <= 1))
-        throw Error(ErrorKind::usage, "E-RANGE", "relax: factor is 0 < x <= 1, not " + spelled(s.factor));
+using Settings = RelaxSettings;
+using Method = Settings::Method;
+
+void need(bool holds, const char* name, const char* range, const std::string& found) {
+    if (!holds)
+        throw Error(ErrorKind::usage, "E-RANGE", fmt::format("relax: {} is {}, not {}", name, range, found));
 }
 
-/// One simultaneous step: to = from moved towards the neighbours' mean.
-void step(const std::vector<Vec3>& from, std::vector<Vec3>& to, const VertexLists& near, double factor) {
-    parallel_for(from.size(), [&](std::size_t v) {
-        const auto others = near.of(static_cast<Index>(v));
-        if (others.empty()) {
-            to[v] = from[v];
-            return;
-        }
-        Vec3 sum;
-        for (const Index o : others) sum += from[o];
-        const Vec3 mean = sum / static_cast<double>(others.size());
-        to[v] = factor == 1 ? mean : from[v] + (mean - from[v]) * factor;
-    });
+void check_factor(const Settings& s) {
+    const double f = relax_factor(s);
+    if (s.method == Method::implicit)
+        need(f > 0 && f <= 1e6, "factor", "0 < x <= 1e+06 for implicit", spelled(f));
+    else if (s.method == Method::taubin) // the step out would grow what the step in has turned around
+        need(f > 0 && f < 0.7, "factor", "0 < x < 0.7 for taubin", spelled(f));
+    else
+        need(f > 0 && f <= 1, "factor", "0 < x <= 1", spelled(f));
 }
 
+/// How far the vertices are from where they were, in world units.
 struct Moves {
     double largest = 0; ///< squared
     std::size_t count = 0;
 };
 
-Moves compare(const std::vector<Vec3>& before, const std::vector<Vec3>& after) {
+Moves compare(const std::vector<Vec3>& before, const std::vector<Vec3>& after, const Transform& to_world) {
     return parallel_reduce(
         before.size(), Moves{},
         [&](std::size_t begin, std::size_t end) {
             Moves m;
             for (std::size_t v = begin; v < end; ++v) {
-                const Vec3 d = after[v] - before[v];
+                if (after[v] == before[v]) continue;
+                const Vec3 d = to_world.vector(after[v] - before[v]);
                 m.largest = std::max(m.largest, dot(d, d));
-                m.count += after[v] != before[v];
+                ++m.count;
             }
             return m;
         },
@@ -55,23 +54,109 @@ Moves compare(const std::vector<Vec3>& before, const std::vector<Vec3>& after) {
         });
 }
 
+/// The places after at most so many iterations.
+struct Run {
+    std::vector<Vec3> places;
+    std::int64_t iterations = 0;
+    bool settled = false;
+    double last_move = 0;
+};
+
+Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
+        const std::vector<Vec3>& start, std::int64_t iterations, double until) {
+    Run run{start};
+    if (iterations == 0) return run;
+    const RelaxStep step = relax_step(mesh, near, settings, start);
+    std::vector<Vec3> next(start.size());
+    while (run.iterations < iterations && !run.settled) {
+        step(run.places, next);
+        run.places.swap(next);
+        ++run.iterations;
+        if (until <= 0) continue;
+        run.last_move = std::sqrt(compare(next, run.places, settings.to_world).largest);
+        run.settled = run.last_move <= until;
+    }
+    return run;
+}
+
+bool is_position_target(const Attribute& a) {
+    return a.role == Role::morph_vector && a.components == 3 && a.domain != Domain::face &&
+           a.name.ends_with("_POSITION");
+}
+
+/// Where the vertices are in the morph target; empty when wedges of one vertex disagree.
+std::vector<Vec3> target_places(const Mesh& mesh, const Attribute& a) {
+    std::vector<Vec3> places = mesh.positions;
+    std::vector<std::uint8_t> seen(mesh.vertex_count());
+    const auto at = [&](std::size_t i) { return Vec3{a.value(i, 0), a.value(i, 1), a.value(i, 2)}; };
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Index v =
+            a.domain == Domain::vertex ? static_cast<Index>(i) : mesh.vertex_of_wedge(static_cast<Index>(i));
+        const Vec3 place = mesh.positions[v] + at(i);
+        if (seen[v] && !(places[v] == place)) return {};
+        places[v] = place, seen[v] = 1;
+    }
+    return places;
+}
+
+void set_target(const Mesh& mesh, Attribute& a, const std::vector<Vec3>& target,
+                const std::vector<Vec3>& base) {
+    parallel_for(a.size(), [&](std::size_t i) {
+        const Index v =
+            a.domain == Domain::vertex ? static_cast<Index>(i) : mesh.vertex_of_wedge(static_cast<Index>(i));
+        const Vec3 d = target[v] - base[v];
+        for (int c = 0; c < 3; ++c) a.set_value(i, c, d[static_cast<std::size_t>(c)]);
+    });
+}
+
+/// Relaxes the morph targets of positions as often as the surface was, and says what became of all targets.
+Fates relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& settings, const Run& base) {
+    Fates fates;
+    for (auto& a : mesh.attributes) {
+        if (a.role != Role::morph_vector) continue;
+        Fate fate{a.name, a.domain, Fate::Kind::kept, "not relaxed"};
+        const auto start = is_position_target(a) ? target_places(mesh, a) : std::vector<Vec3>{};
+        if (is_position_target(a) && start.empty() && mesh.vertex_count() > 0)
+            fate.why = "not relaxed: the wedges of a vertex disagree";
+        if (!start.empty()) {
+            const Run target = run(mesh, near, settings, start, base.iterations, 0);
+            set_target(mesh, a, target.places, base.places);
+            fate = {a.name, a.domain, Fate::Kind::recomputed, "relaxed with the surface"};
+        }
+        fates.push_back(fate);
+    }
+    return fates;
+}
+
 } // namespace
 
-RelaxResult relax(Mesh mesh, const RelaxSettings& settings) {
-    check(settings);
+void check_relax_settings(const Settings& s) {
+    need(s.iterations >= 0, "iterations", "at least 0", std::to_string(s.iterations));
+    check_factor(s);
+    need(s.pass_band > 0 && s.pass_band < 1, "pass_band", "0 < x < 1", spelled(s.pass_band));
+    need(s.original >= 0 && s.original <= 1, "original", "0 <= x <= 1", spelled(s.original));
+    need(s.push_back >= 0 && s.push_back <= 1, "push_back", "0 <= x <= 1", spelled(s.push_back));
+    need(s.until >= 0, "until", "at least 0", spelled(s.until));
+}
+
+RelaxResult relax(Mesh mesh, const Settings& settings) {
+    check_relax_settings(settings);
     RelaxResult result;
     const Neighbourhoods near = neighbourhoods(mesh, settings);
     result.held = near.held;
-    std::vector<Vec3> now = mesh.positions, next(now.size());
-    for (std::int64_t i = 0; i < settings.iterations; ++i) {
-        step(now, next, near.lists, settings.factor);
-        now.swap(next);
-    }
-    const Moves moves = compare(mesh.positions, now);
+    Run done = run(mesh, near, settings, mesh.positions, settings.iterations, settings.until);
+    const Moves moves = compare(mesh.positions, done.places, settings.to_world);
+    result.iterations = done.iterations;
+    result.settled = done.settled;
+    result.last_move = done.last_move;
     result.largest_move = std::sqrt(moves.largest);
     result.moved = moves.count;
-    mesh.positions = std::move(now);
+    const Fates targets = relax_targets(mesh, near, settings, done);
+    mesh.positions = std::move(done.places);
     result.fates = settle_moved(mesh);
+    for (auto& fate : result.fates)
+        for (const auto& target : targets)
+            if (target.attribute == fate.attribute && target.domain == fate.domain) fate = target;
     result.mesh = std::move(mesh);
     return result;
 }

@@ -1,11 +1,18 @@
 #pragma once
-// Relaxation: every vertex moves towards the mean of its neighbours, all at the same time.
+// Relaxation: vertices move towards the mean of their neighbours, all at the same time.
 
 #include "mesh/mesh.hpp"
 
 namespace facetmill {
 
 struct RelaxSettings {
+    enum class Method {
+        laplacian, ///< the note's: towards the mean of the neighbours
+        taubin,    ///< a step in and a step out: shrinks hardly
+        cotangent, ///< towards the mean weighted by the angles: vertices do not drift along the surface
+        implicit,  ///< one linear system per iteration: any factor is stable
+        hc,        ///< towards the mean, then pushed back by what the neighbours moved: keeps the volume
+    };
     enum class Neighbours {
         faces, ///< all vertices of the faces that share the vertex, each once: a quad's far corner counts
         edges, ///< the vertices joined to it by an edge
@@ -15,29 +22,56 @@ struct RelaxSettings {
         slide, ///< averaged with their neighbours along the boundary only
         free,  ///< as all others: an open surface shrinks
     };
-    std::int64_t iterations = 1; ///< 0 and more
-    double factor = 1;           ///< share of the way to the mean: 0 < factor <= 1
+    Method method = Method::laplacian;
+    std::int64_t iterations = 1;       ///< 0 and more
+    std::optional<double> factor = {}; ///< share of the way to the mean; none: 1, for taubin 0.5. 0 < factor
+                                       ///< <= 1, below 0.7 for taubin, above 0 for implicit
     Neighbours neighbours = Neighbours::faces;
     Boundary boundary = Boundary::fixed;
+    std::optional<double> features = {}; ///< radians: edges that bend more are kept; vertices on them move
+                                         ///< along them only
+    double pass_band = 0.1;              ///< taubin: 0 < k < 1, what of the surface's frequencies is kept
+    double original = 0;                 ///< hc: alpha, 0 to 1: how much the first surface counts
+    double push_back = 0.5;              ///< hc: beta, 0 to 1: the vertex's own share of what is pushed back
+    std::vector<double> mask = {};       ///< [vertices] 0 to 1: share of the move; empty: all of it
+    double until = 0;        ///< stop when no vertex moved farther in an iteration, world units; 0: never
+    Transform to_world = {}; ///< part space -> world, where angles and moves are measured
 };
 
 struct RelaxResult {
     Mesh mesh;
     Fates fates;
-    double largest_move = 0; ///< the farthest that a vertex came from its place, in the mesh's units
-    std::size_t moved = 0;   ///< vertices that are elsewhere than before
-    std::size_t held = 0;    ///< boundary vertices that were held
+    std::int64_t iterations = 0; ///< done
+    bool settled = false;        ///< stopped by `until`
+    double largest_move = 0;     ///< the farthest that a vertex came from its place, in world units
+    double last_move = 0;        ///< the farthest in the last iteration; only when `until` was given
+    std::size_t moved = 0;       ///< vertices that are elsewhere than before
+    std::size_t held = 0;        ///< vertices that had to stay: boundary, corners of features, mask 0
 };
 
-/// P' = P + factor / n * sum(Pj - P) per iteration, simultaneously for all vertices, over the n neighbours
-/// Pj.
+/// P' = P + factor (mean of the neighbours - P) per iteration, simultaneously for all vertices.
 ///
-/// A boundary edge is one with exactly one face; edges with three and more faces are not boundary. Vertices
-/// without neighbours stay. Faces, wedges and topology are untouched; NORMAL is recomputed, TANGENT made
-/// perpendicular to it, all else kept. The map is affine-invariant, so part and world space give the same
-/// surface. Throws usage (E-RANGE) when a setting is out of range. O(iterations * corners), parallel; the
-/// same bytes for any number of threads. Source: the note 'Surface relaxation and smoothing' (1997); it is
-/// the umbrella-weighted Laplacian.
+/// laplacian takes the plain mean (note, 1997). taubin (1995) follows each step by one of mu = 1 / (pass_band
+/// - 1 / factor), which is negative. cotangent weights each neighbour by the cotangents of the two angles
+/// opposite to the edge (Pinkall, Polthier 1993), computed anew in every iteration; obtuse angles count 0 and
+/// slivers at most 10^6, so the mean stays among the neighbours, and triangles without area count nothing.
+/// implicit (Desbrun 1999) solves P' = P + factor (mean' - P') with Eigen's conjugate gradients to a relative
+/// residual of 1e-10. hc (Vollmer 1999) takes the laplacian step and pushes back by push_back of the vertex's
+/// and 1 - push_back of the neighbours' mean difference to original * first + (1 - original) * previous
+/// place.
+///
+/// A boundary edge is one with exactly one face; edges with three and more faces are not boundary, but are
+/// features. A vertex with exactly two feature (or, sliding, boundary) edges moves along them; one with
+/// another number of feature edges stays, and so does one where the line turns by more than the angle.
+/// Vertices without neighbours stay. Faces, wedges and topology are untouched; NORMAL is recomputed, TANGENT
+/// made perpendicular to it, morph targets of positions are relaxed with the surface (each as the surface it
+/// stands for) where the wedges of a vertex agree, all else is kept; the fates say so. The result does not
+/// depend on the frame for similar transforms; angles and until are measured in the world. Throws usage
+/// (E-RANGE) when a setting is out of range, stage (E-SOLVE) when the linear system cannot be solved.
+/// O(iterations * corners), parallel; the same bytes for any number of threads.
 RelaxResult relax(Mesh mesh, const RelaxSettings& settings = {});
+
+/// Throws usage (E-RANGE) when a setting is out of range; relax does it first of all.
+void check_relax_settings(const RelaxSettings& settings);
 
 } // namespace facetmill

@@ -1,74 +1,177 @@
 #include "geometry/relax.hpp"
 
+#include "geometry/moved.hpp"
+#include "stage/mask_option.hpp"
 #include "stage/stage.hpp"
 
 namespace facetmill {
 
 namespace {
 
-using Neighbours = RelaxSettings::Neighbours;
 using Boundary = RelaxSettings::Boundary;
+using Method = RelaxSettings::Method;
+using Neighbours = RelaxSettings::Neighbours;
 
-void declare(Declare<RelaxSettings>& d) {
-    d.option("iterations", &RelaxSettings::iterations,
-             "How many times all vertices move (a count); 0 leaves the mesh as it is.")
-        .between(0, 1000000)
-        .primary();
-    d.option("factor", &RelaxSettings::factor,
-             "How far each vertex goes towards the mean of its neighbours: 1 is all the way (a share, "
-             "without unit).")
+struct RelaxOptions {
+    std::int64_t iterations = 1;
+    Method method = Method::laplacian;
+    std::optional<double> factor;
+    Neighbours neighbours = Neighbours::faces;
+    Boundary boundary = Boundary::fixed;
+    std::optional<Angle> features;
+    std::optional<Length> until;
+    double pass_band = RelaxSettings{}.pass_band;
+    double original = RelaxSettings{}.original;
+    double push_back = RelaxSettings{}.push_back;
+    std::optional<MaskSettings> mask;
+};
+
+void declare_methods(Declare<RelaxOptions>& d) {
+    d.choice<Method>(
+        "method", &RelaxOptions::method,
+        {{"laplacian", Method::laplacian, "to the mean of the neighbours: smooths fast, shrinks"},
+         {"taubin", Method::taubin, "a step in, a step out: removes noise, hardly shrinks"},
+         {"cotangent", Method::cotangent, "neighbours weighted by angles: facets keep their shapes"},
+         {"implicit", Method::implicit, "a linear system per iteration: large factors in one go"},
+         {"hc", Method::hc, "to the mean and pushed back: keeps the volume nearly"}},
+        "How vertices move.");
+    d.option(
+         "factor", &RelaxOptions::factor,
+         "How far each vertex goes towards the mean of its neighbours: 1 is all the way (a share, without "
+         "unit; 1 unless given, 0.5 for taubin, which needs less than 0.7; implicit takes any, 10 smooths "
+         "about as much as 10 iterations).")
         .above(0)
-        .at_most(1);
+        .at_most(1e6);
+    d.option("pass_band", &RelaxOptions::pass_band,
+             "taubin: the part of the surface's frequencies that is kept (a share, without unit).")
+        .above(0)
+        .below(1);
+    d.option("original", &RelaxOptions::original,
+             "hc: how much the first surface holds on to the vertices (a share, without unit).")
+        .between(0, 1);
+    d.option("push_back", &RelaxOptions::push_back,
+             "hc: the vertex's own share of what pushes it back, the rest being its neighbours' (a share, "
+             "without unit).")
+        .between(0, 1);
+}
+
+void declare_limits(Declare<RelaxOptions>& d) {
     d.choice<Neighbours>(
-        "neighbours", &RelaxSettings::neighbours,
+        "neighbours", &RelaxOptions::neighbours,
         {{"faces", Neighbours::faces,
           "the vertices of all faces that share the vertex, each once: the far corner of a quad counts"},
          {"edges", Neighbours::edges, "the vertices joined to it by an edge"}},
         "Which vertices pull.");
     d.choice<Boundary>(
-        "boundary", &RelaxSettings::boundary,
+        "boundary", &RelaxOptions::boundary,
         {{"fixed", Boundary::fixed, "they stay, and so does the outline of an open surface"},
          {"slide", Boundary::slide, "they are averaged with their neighbours along the boundary only"},
          {"free", Boundary::free, "they move as all others: an open surface shrinks"}},
         "What boundary vertices do: those on an edge with exactly one face.");
+    d.option("features", &RelaxOptions::features,
+             "Keep edges that bend by more than this (an angle): vertices on them move along them only, and "
+             "stay where they end, meet or turn. Edges of three and more faces count too.")
+        .between(0, 180);
+    d.option("until", &RelaxOptions::until,
+             "Stop when no vertex moved farther in an iteration (a length, 0.01%); iterations is then the "
+             "most there are.")
+        .above(0);
+    d.group("mask", &RelaxOptions::mask, mask_help, declare_mask);
 }
 
-Scene run(Scene scene, const RelaxSettings& settings, Context& context) {
+void declare(Declare<RelaxOptions>& d) {
+    d.option("iterations", &RelaxOptions::iterations,
+             "How many times all vertices move (a count); 0 leaves the mesh as it is.")
+        .between(0, 1000000)
+        .primary();
+    declare_methods(d);
+    declare_limits(d);
+}
+
+RelaxSettings settings_of(const RelaxOptions& o) {
+    RelaxSettings s;
+    s.iterations = o.iterations, s.method = o.method, s.factor = o.factor;
+    s.neighbours = o.neighbours, s.boundary = o.boundary;
+    if (o.features) s.features = o.features->radians;
+    s.pass_band = o.pass_band, s.original = o.original, s.push_back = o.push_back;
+    return s;
+}
+
+void verify(const RelaxOptions& o, const Value& given, Problems& problems) {
+    const auto mark = [&](const char* name) {
+        const Value* value = given.is_map() ? given.find(name) : nullptr;
+        return value ? value->mark : given.mark;
+    };
+    try {
+        check_relax_settings(settings_of(o));
+    } catch (const Error& e) {
+        const auto& d = e.diagnostics().front();
+        problems.add(mark("factor"), d.id, d.message, d.hint);
+    }
+    const auto belongs = [&](const char* name, Method method, const char* to) {
+        if (given.is_map() && given.find(name) && o.method != method)
+            problems.add(mark(name), "E-EXCLUSIVE",
+                         std::string("relax: '") + name + "' goes with the method " + to + " only");
+    };
+    belongs("pass_band", Method::taubin, "taubin");
+    belongs("original", Method::hc, "hc");
+    belongs("push_back", Method::hc, "hc");
+    if (given.is_map() && given.find("neighbours") && o.method == Method::cotangent)
+        problems.add(
+            mark("neighbours"), "E-EXCLUSIVE",
+            "relax: 'neighbours' does not go with the method cotangent, which weights those by angles");
+}
+
+Json size_json(const SurfaceSize& size) {
+    return {{"area", size.area}, {"volume", size.volume ? Json(*size.volume) : Json()}};
+}
+
+Scene run(Scene scene, const RelaxOptions& o, Context& context) {
+    RelaxSettings settings = settings_of(o);
     Json parts = Json::array();
     context.for_each_part(scene, [&](Part& part) {
+        settings.to_world = part.skinned ? Transform{} : part.transform;
+        if (o.until) settings.until = context.resolve(*o.until, scene, "until", &part);
+        settings.mask = o.mask ? vertex_mask(part, scene, *o.mask) : std::vector<double>{};
+        const SurfaceSize before = surface_size(part.mesh, settings.to_world);
         RelaxResult r = relax(std::move(part.mesh), settings);
         part.mesh = std::move(r.mesh);
         context.ledger(part, r.fates);
-        parts.push_back({{"part", part.name},
-                         {"moved_vertices", r.moved},
-                         {"held_vertices", r.held},
-                         {"largest_move", r.largest_move}});
+        Json entry = {{"part", part.name},
+                      {"iterations", r.iterations},
+                      {"moved_vertices", r.moved},
+                      {"held_vertices", r.held},
+                      {"largest_move", r.largest_move},
+                      {"before", size_json(before)},
+                      {"after", size_json(surface_size(part.mesh, settings.to_world))}};
+        if (o.until) entry["last_move"] = r.last_move, entry["settled"] = r.settled;
+        parts.push_back(std::move(entry));
     });
     context.result()["parts"] = std::move(parts);
     return scene;
 }
 
-const RegisterStage registered = make_stage<RelaxSettings>(
+const RegisterStage registered = make_stage<RelaxOptions>(
     {.name = "relax",
      .about = "Smooths a surface: every vertex moves towards the mean of its neighbours.",
      .details =
          "In each iteration P becomes P + factor / n * sum(Pj - P) over its n neighbours Pj, for all "
-         "vertices at the "
-         "same time, so neither their order nor the number of threads matters. A closed surface shrinks a "
-         "little "
-         "with every iteration. Open, non-manifold and degenerate input is taken as it is; a vertex without "
+         "vertices at the same time, so neither their order nor the number of threads matters. A closed "
+         "surface shrinks a little with every iteration of laplacian, cotangent and implicit; taubin and hc "
+         "keep its volume nearly, and the report has area and volume before and after. Open, non-manifold "
+         "and degenerate input is taken as it is: faces without area weigh nothing, a vertex without "
          "neighbours stays.\n\n"
          "Faces, wedges and topology stay, so Euler's number and closedness do. Normals are recomputed and "
-         "tangents "
-         "made perpendicular to them; all other attributes are kept, morph targets too: their displacements "
-         "are not "
-         "smoothed. The report has the number of moved and of held vertices and the largest move, in the "
-         "part's "
-         "units.\n\n"
-         "Source: the note 'Surface relaxation and smoothing' (1997).",
+         "tangents made perpendicular to them; morph targets of positions are relaxed with the surface, each "
+         "as the surface it stands for; all other attributes are kept. The report has the number of moved "
+         "and of held vertices and the largest move, in world units.\n\n"
+         "Sources: the note 'Surface relaxation and smoothing' (1997); G. Taubin (1995); U. Pinkall and K. "
+         "Polthier (1993); M. Desbrun and others (1999); J. Vollmer and others (1999).",
      .examples = {"relax: 3", "relax: {iterations: 10, factor: 0.5, boundary: slide}",
-                  "relax: {neighbours: edges}"}},
-    declare, run);
+                  "relax: {method: taubin, iterations: 20, features: 30deg}",
+                  "relax: {method: implicit, factor: 20}",
+                  "relax: {iterations: 1000, until: 0.01%, mask: {material: \"skin*\"}}"}},
+    declare, run, StageHooks<RelaxOptions>{.files = {}, .verify = verify});
 
 } // namespace
 

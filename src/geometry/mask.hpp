@@ -1,0 +1,24 @@
+#pragma once
+// Which vertices a shaping stage may move, and how far.
+
+#include "mesh/scene.hpp"
+
+namespace facetmill {
+
+struct MaskSettings {
+    std::string material = {};                   ///< name or glob of materials; empty: any
+    std::optional<std::int64_t> group = {}; ///< number in face attribute `group`
+    std::string attribute = {};                  ///< name; its first number, 0 to 1, is the share of the move
+    bool invert = false;                    ///< the others, or the rest of the share
+
+    bool any() const { return !material.empty() || group || !attribute.empty(); }
+};
+
+/// For each vertex a share from 0 (stays) to 1 (moves): 1 where all its faces have the material and the
+/// group, times the attribute (of the vertex; the least over its wedges or faces; integers that are
+/// normalised count as fractions, all others are cut to 0 .. 1). Vertices without faces have 1 as far as
+/// faces decide. Empty settings give an empty vector: all 1. Throws stage (E-MASK) when the mesh has no such
+/// attribute or group attribute.
+std::vector<double> vertex_mask(const Part& part, const Scene& scene, const MaskSettings& settings);
+
+} // namespace facetmill

@@ -1,0 +1,57 @@
+#include "geometry/sharp_edges.hpp"
+
+#include "base/functions.hpp"
+#include "base/parallel.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+namespace {
+
+Vec3 normal_of(const Mesh& mesh, Index f, const Transform& to_world) {
+    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+    const Vec3& first = mesh.point(begin);
+    Vec3 sum;
+    for (Index c = begin + 1; c + 1 < end; ++c)
+        sum += cross(to_world.vector(mesh.point(c) - first), to_world.vector(mesh.point(c + 1) - first));
+    return normalised(sum);
+}
+
+} // namespace
+
+VertexLists sharp_ends(const Mesh& mesh, double angle, const Transform& to_world, bool boundaries) {
+    const EdgeTable table = build_edges(mesh);
+    const std::vector<Index> faces = corner_faces(mesh);
+    const double limit = cosine(angle);
+    std::vector<std::uint8_t> sharp(table.size());
+    parallel_for(table.size(), [&](std::size_t e) {
+        const auto at = table.corners_of(static_cast<Index>(e));
+        if (at.size() != 2) {
+            sharp[e] = boundaries || at.size() > 2;
+            return;
+        }
+        const Vec3 a = normal_of(mesh, faces[at[0]], to_world), b = normal_of(mesh, faces[at[1]], to_world);
+        const bool agree = mesh.vertex(at[0]) != mesh.vertex(at[1]);
+        if (a == Vec3{} || b == Vec3{}) return;
+        sharp[e] = (agree ? dot(a, b) : -dot(a, b)) < limit;
+    });
+    VertexLists lists;
+    lists.offsets.assign(mesh.vertex_count() + 1, 0);
+    for (std::size_t e = 0; e < sharp.size(); ++e)
+        if (sharp[e]) ++lists.offsets[table.edges[e].low], ++lists.offsets[table.edges[e].high];
+    lists.items.resize(exclusive_scan(lists.offsets));
+    std::vector<Index> at(lists.offsets.begin(), lists.offsets.end());
+    for (std::size_t e = 0; e < sharp.size(); ++e) {
+        if (!sharp[e]) continue;
+        const auto& [low, high] = table.edges[e];
+        lists.items[at[low]++] = high;
+        lists.items[at[high]++] = low;
+    }
+    parallel_for(mesh.vertex_count(), [&](std::size_t v) {
+        std::sort(lists.items.begin() + lists.offsets[v], lists.items.begin() + lists.offsets[v + 1]);
+    });
+    return lists;
+}
+
+} // namespace facetmill
