@@ -24,7 +24,7 @@ target_link_libraries(facetmill_dependencies INTERFACE
 target_include_directories(facetmill_dependencies SYSTEM INTERFACE ${TINYGLTF_INCLUDE_DIR} ${DRACO_INCLUDE_DIR})
 
 add_library(facetmill_cgal_dependencies INTERFACE)
-target_link_libraries(facetmill_cgal_dependencies INTERFACE CGAL::CGAL TBB::tbb fmt::fmt)
+target_link_libraries(facetmill_cgal_dependencies INTERFACE CGAL::CGAL Eigen3::Eigen TBB::tbb fmt::fmt)
 
 # OpenMesh by its files: the names of its CMake targets differ between Debian 12 and 13.
 find_path(OPENMESH_INCLUDE_DIR OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh REQUIRED)

@@ -21,4 +21,9 @@ int orientation_2d(double ax, double ay, double bx, double by, double cx, double
 /// do.
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
+/// On which side of the plane through a, b, c the point d lies: 1 when on the side that (b - a) x (c - a)
+/// points to, -1 on the other, 0 on the plane. Exact for finite coordinates, as long as no product of three
+/// differences overflows or underflows: a floating-point filter, then exact expansions.
+int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
 } // namespace facetmill

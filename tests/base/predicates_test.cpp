@@ -25,3 +25,17 @@ TEST_CASE("collinear is exact", "[base]") {
     CHECK_FALSE(collinear({0, 0, 0}, {1, 0, 0}, {2, 0, 1e-300}));
     CHECK_FALSE(collinear({0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}, {0.4, 0.4, std::nextafter(0.4, 1)}));
 }
+
+TEST_CASE("the side of a plane is exact where rounding is not", "[base]") {
+    const Vec3 a{12, 12, 12}, b{24, 24, 24.5}, c{24, 25, 24};
+    // Points of the plane's line through a, moved by the least step that doubles have: naive determinants fail here.
+    CHECK(orientation_3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}) == 1);
+    CHECK(orientation_3d({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}) == -1);
+    CHECK(orientation_3d(a, b, c, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z)}) == 0);
+    const double e = 1.0 / (1LL << 52);
+    CHECK(orientation_3d({1, 1, 1}, {2, 2, 2}, {3, 3, 4}, {1 + e, 1 + e, 1}) == 0);
+    const int side = orientation_3d({1, 1, 1}, {2, 2, 2}, {3, 3, 4}, {1 + e, 1, 1});
+    CHECK(side != 0);
+    CHECK(orientation_3d({1, 1, 1}, {3, 3, 4}, {2, 2, 2}, {1 + e, 1, 1}) == -side);
+    CHECK(orientation_3d({1, 1, 1}, {2, 2, 2}, {3, 3, 4}, {1, 1 + e, 1}) == -side);
+}

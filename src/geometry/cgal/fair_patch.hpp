@@ -1,0 +1,25 @@
+#pragma once
+// A patch over a hole made as dense and as curved as what is around it. Free of CGAL, which does the work
+// behind it.
+
+#include "mesh/mesh.hpp"
+
+#include <array>
+#include <vector>
+
+namespace facetmill {
+
+/// Triangles on an outline. Corners below the outline's size are its points, the others points[corner -
+/// size].
+struct HolePatch {
+    std::vector<std::array<Index, 3>> triangles;
+    std::vector<Vec3> points;
+};
+
+/// The patch (of the outline's points only) refined to the density of the outline (Liepa 2003) and faired
+/// (Botsch 2008) so that it goes on from the faces around it with continuous tangents. As it was where the
+/// faces around are no manifold, or fairing fails. The same for the same input.
+HolePatch fair_patch(const std::vector<Vec3>& outline, const std::vector<std::array<Index, 3>>& triangles,
+                     const HolePatch& around);
+
+} // namespace facetmill

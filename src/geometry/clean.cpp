@@ -1,0 +1,62 @@
+#include "geometry/clean.hpp"
+
+#include "geometry/clean_steps.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+namespace {
+
+using namespace clean_steps;
+
+bool one_round(Work& work, const CleanSettings& s) {
+    work.not_done.clear();
+    bool changed = false;
+    if (s.weld != Nearness::off) changed |= weld_equal(work, s.non_manifold);
+    if (s.weld == Nearness::near) changed |= weld_near(work, s.within);
+    if (s.degenerate) changed |= remove_degenerate(work);
+    if (s.duplicates) changed |= remove_duplicates(work);
+    if (s.t_vertices != Nearness::off)
+        changed |= resolve_t_vertices(work, s.t_vertices == Nearness::near ? s.within : 0);
+    if (s.stitch != Nearness::off) changed |= stitch(work, s.stitch == Nearness::near ? s.within : 0);
+    if (s.non_manifold) changed |= split_non_manifold(work);
+    if (s.self_intersections) changed |= resolve_self_intersections(work);
+    if (s.holes) changed |= fill_holes(work, *s.holes);
+    if (s.components) changed |= remove_components(work, *s.components);
+    if (s.shells) changed |= remove_inner_shells(work);
+    if (s.isolated) changed |= remove_isolated(work);
+    return changed;
+}
+
+/// What became of the attributes: dropped faces and vertices change none that stay.
+Fates fates_of(const Mesh& mesh, const Fates& mixed) {
+    if (!mixed.empty()) return mixed;
+    Fates fates;
+    for (const auto& a : mesh.attributes) fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
+    return fates;
+}
+
+} // namespace
+
+std::size_t CleanCounts::total() const {
+    return welded_vertices + stitched_edges + t_vertices + repeated_corners + degenerate_faces +
+           duplicate_faces + split_vertices + split_edges + filled_holes + components + shells +
+           isolated_vertices + intersecting_faces;
+}
+
+CleanResult clean(Mesh mesh, const CleanSettings& settings) {
+    constexpr int most_rounds = 32;
+    Work work;
+    work.mesh = std::move(mesh);
+    CleanResult result;
+    for (bool changed = true; changed && result.rounds < most_rounds; ++result.rounds)
+        changed = one_round(work, settings);
+    result.fates = fates_of(work.mesh, work.fates);
+    result.mesh = std::move(work.mesh);
+    result.counts = work.counts;
+    result.not_done = std::move(work.not_done);
+    return result;
+}
+
+} // namespace facetmill

@@ -1,0 +1,82 @@
+#pragma once
+// Repairs of broken meshes, step by step. What was sound is left alone.
+
+#include "mesh/lineage.hpp"
+#include "mesh/mesh.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace facetmill {
+
+enum class Nearness { off, exact, near };
+enum class HoleFill {
+    minimal, ///< triangles between the outline's vertices, of least bend and area (span_outline)
+    planar,  ///< the outline as a polygon, only where it lies in one plane
+    smooth,  ///< as minimal, then refined to the density around it and faired (fair_patch)
+};
+
+struct HoleSettings {
+    HoleFill method = HoleFill::minimal;
+    std::size_t most_edges = 0; ///< larger holes stay; 0: no limit
+    double longest = 0;         ///< holes with a longer outline stay, mesh units; 0: no limit
+};
+
+struct ComponentSettings {
+    std::size_t fewest_faces = 0; ///< pieces of fewer faces go
+    double smallest = 0;          ///< pieces whose box has a shorter diagonal go, mesh units
+    double least_area = 0;        ///< pieces with a smaller share of the whole area go
+    std::size_t keep = 0;         ///< all but so many of largest area go; 0: no limit
+};
+
+/// Every step on or off. Lengths are in mesh units.
+struct CleanSettings {
+    Nearness weld = Nearness::exact; ///< vertices at one place become one; near: ends of open edges too
+    Nearness stitch = Nearness::off; ///< open edges that run along each other become one, so do their ends
+    Nearness t_vertices = Nearness::exact; ///< open edges get the vertices of other open edges along them
+    bool degenerate = true;                ///< faces of exactly zero area, and repeated corners, go
+    bool duplicates = true;   ///< one face of each set with the same vertices stays, none of an inner wall
+    bool non_manifold = true; ///< edges of more than two faces and vertices of several fans come apart
+    bool isolated = true;     ///< vertices that no face uses go
+    bool shells = false;      ///< closed pieces inside others go
+    bool self_intersections = false; ///< faces that intersect are replaced, where that ends it
+    std::optional<HoleSettings> holes;
+    std::optional<ComponentSettings> components;
+    double within = 0; ///< how near is near
+};
+
+/// A repair that was not done, and why.
+struct NotDone {
+    std::string step; ///< the name of the setting
+    std::string why;
+    Vec3 at;
+    bool operator==(const NotDone&) const = default;
+};
+
+/// What was done, in pieces.
+struct CleanCounts {
+    std::size_t welded_vertices = 0, stitched_edges = 0, t_vertices = 0, repeated_corners = 0,
+                degenerate_faces = 0, duplicate_faces = 0, split_vertices = 0, split_edges = 0,
+                filled_holes = 0, hole_faces = 0, components = 0, component_faces = 0, shells = 0,
+                shell_faces = 0, isolated_vertices = 0, intersecting_faces = 0;
+    std::size_t total() const;
+    bool operator==(const CleanCounts&) const = default;
+};
+
+struct CleanResult {
+    Mesh mesh;
+    CleanCounts counts;
+    std::vector<NotDone> not_done; ///< of the last round
+    Fates fates;
+    int rounds = 0; ///< the last of them changed nothing, unless there were too many
+};
+
+/// Applies the steps that are on, in rounds, until a round changes nothing; so a mesh that was cleaned is not
+/// changed by cleaning it again. Faces that no step concerns keep their corners, attributes and order. In a
+/// round: weld, degenerate, duplicates, t_vertices, stitch, non_manifold, self_intersections, holes,
+/// components, shells, isolated. Each step's meaning is told with its setting; see clean_steps.hpp for how
+/// each decides. Attributes are copied, and interpolated at new vertices. Never throws for a valid mesh.
+CleanResult clean(Mesh mesh, const CleanSettings& settings);
+
+} // namespace facetmill

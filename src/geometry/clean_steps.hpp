@@ -1,0 +1,61 @@
+#pragma once
+// The steps of clean, one function each. Each changes the mesh in place, adds to the counts and tells by its
+// return value whether it changed anything.
+
+#include "geometry/clean.hpp"
+
+namespace facetmill::clean_steps {
+
+/// The mesh being cleaned and what is told of it.
+struct Work {
+    Mesh mesh;
+    CleanCounts counts;
+    std::vector<NotDone> not_done;
+    Fates fates; ///< of the step that mixed attributes last
+};
+
+/// Vertices at one place become the lowest of them. Where the faces that meet there would only come apart
+/// again (non_manifold, see split_non_manifold), they are left as they are.
+bool weld_equal(Work& work, bool comes_apart);
+/// In index order each end of an open edge becomes the nearest one kept so far within the length. Vertices of
+/// one face are never merged, so that no face loses its area; vertices inside the surface are left alone.
+bool weld_near(Work& work, double within);
+/// Open edges that run against each other and whose ends are within the length become one, the nearest pairs
+/// first; their ends become the lower vertices.
+bool stitch(Work& work, double within);
+/// Corners that repeat the vertex before them go, then faces without area (exact). Where that opens the
+/// surface, the vertices on the line are put on the edges that face it, so that what was closed stays closed.
+bool remove_degenerate(Work& work);
+/// Of faces with the same vertices one stays, with the orientation that they have more often. Faces that
+/// cancel (as often one way as the other) all go when they are a wall or a fin on other faces, and one of
+/// each stays when they are a sheet of their own.
+bool remove_duplicates(Work& work);
+/// A vertex on (near: within the length of) an open edge of another face, with an open edge of its own along
+/// that one, is put on it.
+bool resolve_t_vertices(Work& work, double within);
+/// At an edge of more than two faces those stay together that have the inside of the surface between them, by
+/// the exact order around the edge; each fan of faces around a vertex gets a vertex of its own. Where both
+/// ends of such an edge are held together by other faces, the second pair gets a point in the middle of the
+/// edge.
+bool split_non_manifold(Work& work);
+/// Fills the loops of open edges as the settings say.
+bool fill_holes(Work& work, const HoleSettings& settings);
+bool remove_components(Work& work, const ComponentSettings& settings);
+/// Closed pieces that lie inside other closed pieces and touch none go.
+bool remove_inner_shells(Work& work);
+bool remove_isolated(Work& work);
+/// Removes the faces that intersect others and those around them, fills the holes, and keeps the result if
+/// that leaves fewer intersections and the mesh as closed as it was.
+bool resolve_self_intersections(Work& work);
+
+/// For each vertex the lowest one at the same place.
+std::vector<Index> lowest_at_place(const Mesh& mesh);
+
+/// The vertex each corner goes to, and what the new vertices are copies of: the plan of split_non_manifold.
+struct Fans {
+    std::vector<Index> vertex_of_corner;
+    std::vector<Index> copies;
+};
+Fans fans_apart(const Mesh& mesh);
+
+} // namespace facetmill::clean_steps

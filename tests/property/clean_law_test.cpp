@@ -1,0 +1,108 @@
+// What clean promises, over made-up meshes, and over a corpus of real ones when FACETMILL_CORPUS names it.
+#include "support/catch.hpp"
+#include "support/clean_laws.hpp"
+#include "support/meshes.hpp"
+
+#include "io/codec.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+using namespace facetmill;
+using namespace facetmill::testing;
+using test::broken_clean_law;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::pair<std::string, CleanSettings>> all_settings(double diagonal) {
+    CleanSettings plain, off, near, holes, smooth, solid;
+    off.weld = off.t_vertices = Nearness::off;
+    off.degenerate = off.duplicates = off.non_manifold = off.isolated = false;
+    near.weld = near.stitch = near.t_vertices = Nearness::near, near.within = 1e-3 * diagonal;
+    holes.holes = HoleSettings{};
+    smooth.holes = HoleSettings{HoleFill::smooth, 40, 0};
+    solid.components = ComponentSettings{2, 0, 0, 0}, solid.holes = HoleSettings{};
+    solid.shells = true;
+    return {{"plain", plain}, {"off", off},       {"near", near},
+            {"holes", holes}, {"smooth", smooth}, {"solid", solid}};
+}
+
+/// A surface with its vertices on a coarse lattice: equal places, faces without area, doubles, crowded edges.
+Mesh on_lattice(Mesh mesh, double cell) {
+    for (Vec3& p : mesh.positions)
+        for (std::size_t i = 0; i < 3; ++i) p[i] = std::floor(p[i] / cell + 0.5) * cell;
+    return mesh;
+}
+
+/// Some faces gone, others doubled, some of them turned round.
+Mesh damaged(const Mesh& mesh, std::uint64_t seed) {
+    Mesh result;
+    result.positions = mesh.positions;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        std::vector<Index> face(mesh.face_wedges(f).begin(), mesh.face_wedges(f).end());
+        const auto draw = hashed(seed, f) % 20;
+        if (draw == 0) continue;
+        add_face(result, face);
+        if (draw == 2) std::reverse(face.begin(), face.end());
+        if (draw <= 2) add_face(result, face);
+    }
+    return result;
+}
+
+std::vector<std::pair<std::string, Mesh>> meshes(std::uint64_t seed) {
+    Mesh two = shapes::cube();
+    append(two, shapes::hourglass());
+    return {{"lattice sphere", on_lattice(noisy_icosphere(2, 0.2, seed), 0.25)},
+            {"lattice torus", on_lattice(noisy_torus(20, 12, 0.1, seed), 0.3)},
+            {"damaged sphere", damaged(shapes::icosphere(2), seed)},
+            {"damaged quads", damaged(shapes::quad_cube(), seed)},
+            {"damaged seams", with_uv_seams(damaged(noisy_icosphere(2, 0.1, seed), seed))},
+            {"triangles", on_lattice(random_triangles(60, 0.3, seed), 0.125)},
+            {"moebius", shapes::moebius(9)},
+            {"fan3", shapes::fan3()},
+            {"two", two},
+            {"bowtie", shapes::bowtie()}};
+}
+
+} // namespace
+
+TEST_CASE("clean leaves sound faces alone, and changes nothing the second time", "[property]") {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed)
+        for (const auto& [name, mesh] : meshes(seed))
+            for (const auto& [how, settings] : all_settings(mesh.bounds().diagonal())) {
+                INFO(name << ", " << how << ", seed " << seed);
+                CHECK(broken_clean_law(mesh, settings) == "");
+            }
+}
+
+TEST_CASE("clean keeps its promises over the corpus", "[property]") {
+    const char* corpus = std::getenv("FACETMILL_CORPUS");
+    if (!corpus) {
+        std::cout << "skipped: FACETMILL_CORPUS does not name a folder of meshes\n";
+        return;
+    }
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(corpus))
+        if (entry.is_regular_file() && io::codec_for(entry.path())) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    std::size_t checked = 0;
+    for (const auto& file : files) {
+        Scene scene;
+        try {
+            io::ReadLog log;
+            scene = io::read_scene(io::Input::open(file), {}, log);
+        } catch (const Error&) {
+            continue;
+        }
+        for (const Part& part : scene.parts)
+            for (const auto& [how, settings] : all_settings(part.mesh.bounds().diagonal())) {
+                if (how == "smooth" && part.mesh.face_count() > 20000) continue;
+                INFO(file << ", " << how);
+                CHECK(broken_clean_law(part.mesh, settings) == "");
+                ++checked;
+            }
+    }
+    CHECK(checked > 200);
+}

@@ -1,0 +1,77 @@
+#include "support/catch.hpp"
+#include "support/failure.hpp"
+
+#include "geometry/inspect.hpp"
+#include "mesh/shapes.hpp"
+#include "support/run_stage.hpp"
+
+using namespace facetmill;
+using test::failure;
+using test::run_stage;
+using test::scene_of;
+
+namespace {
+
+/// A closed unit cube of twelve triangles without the last.
+Mesh holed_cube() {
+    Mesh mesh = shapes::cube();
+    mesh.corners.resize(33);
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("clean reports what each step did", "[stages]") {
+    const auto run = run_stage("clean", "{holes: minimal}", scene_of(holed_cube()));
+    const auto& part = run.record.result["parts"][0];
+    CHECK(part["changed"] == true);
+    CHECK(part["filled_holes"] == 1);
+    CHECK(part["hole_faces"] == 1);
+    CHECK(part["welded_vertices"] == 0);
+    CHECK(inspect(run.scene).closed);
+    CHECK(run.record.warnings.empty());
+}
+
+TEST_CASE("a bare clean leaves holes and small pieces", "[stages]") {
+    const auto run = run_stage("clean", "", scene_of(holed_cube()));
+    CHECK(run.record.result["parts"][0]["changed"] == false);
+    CHECK(run.scene.parts[0].mesh.face_count() == 11);
+}
+
+TEST_CASE("clean warns of what it could not repair, and where", "[stages]") {
+    Scene scene = scene_of(shapes::moebius(9));
+    scene.parts[0].transform.m[0][3] = 100;
+    const auto run = run_stage("clean", "{holes: planar}", std::move(scene));
+    REQUIRE(run.record.warnings.size() == 1);
+    CHECK(run.record.warnings[0].id == "W-CLEAN");
+    CHECK(run.record.result["parts"][0]["not_done"][0]["step"] == "holes");
+    CHECK(run.record.result["parts"][0]["not_done"][0]["at"][0] > 90);
+}
+
+TEST_CASE("clean takes lengths in the world", "[stages]") {
+    Mesh mesh = shapes::cube();
+    const auto stray = static_cast<Index>(mesh.positions.size());
+    mesh.positions.push_back(mesh.positions[mesh.corners[0]] + Vec3{0.01, 0, 0});
+    mesh.corners[0] = stray;
+    Scene scene = scene_of(mesh, Unit::mm);
+    for (int i = 0; i < 3; ++i) scene.parts[0].transform.m[i][i] = 10; // the gap is 0.1 mm in the world
+    const auto closed = [&](const std::string& within) {
+        return inspect(run_stage("clean", "{stitch: near, within: " + within + "}", scene).scene).closed;
+    };
+    CHECK_FALSE(closed("0.05mm"));
+    CHECK(closed("0.2mm"));
+}
+
+TEST_CASE("clean refuses options that make no sense together", "[stages]") {
+    const auto refusal = [](const std::string& options) {
+        return failure([&] { run_stage("clean", options, scene_of(shapes::cube())); });
+    };
+    CHECK(refusal("{weld: near}") ==
+          "usage [E-MISSING] test.yaml:1:1: clean: near needs a length | within: 0.01% (or 0.1mm)");
+    CHECK(refusal("{within: 1}") ==
+          "usage [E-CLEAN] test.yaml:1:1: clean: within has no effect on exact steps | "
+          "weld: near, stitch: near or t_vertices: near");
+    CHECK(refusal("{components: {}}") == "usage [E-MISSING] test.yaml:1:1: clean: components needs to know "
+                                         "which are small | components: {faces: "
+                                         "100}, {size: 1%}, {area: 1%} or {keep: 1}");
+}
