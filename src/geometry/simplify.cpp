@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
-#include "geometry/simplify_surface.hpp"
+#include "geometry/simplify_work.hpp"
 
 namespace facetmill {
 
@@ -12,11 +12,27 @@ namespace {
 using namespace simplification;
 using Stop = SimplifyResult::Stop;
 
+[[noreturn]] void refuse(const std::string& what) {
+    throw Error(ErrorKind::usage, "E-RANGE", "simplify: " + what);
+}
+
+void check_ratio(double ratio) {
+    if (!(ratio > 0 && ratio <= 1)) refuse("ratio is 0 < x <= 1, not " + spelled(ratio));
+}
+
 void check(const SimplifySettings& s) {
-    if (!s.ratio && !s.faces && !s.vertices)
-        throw Error(ErrorKind::usage, "E-RANGE", "simplify: a target is needed: ratio, faces or vertices");
-    if (s.ratio && !(*s.ratio > 0 && *s.ratio <= 1))
-        throw Error(ErrorKind::usage, "E-RANGE", "simplify: ratio is 0 < x <= 1, not " + spelled(*s.ratio));
+    if (!s.levels.empty()) refuse("levels are for simplify_levels");
+    if (!s.ratio && !s.faces && !s.vertices && !s.max_error)
+        refuse("a target is needed: ratio, faces, vertices or max_error");
+    if (s.ratio) check_ratio(*s.ratio);
+    if (s.max_error && !(*s.max_error > 0)) refuse("max_error is above 0, not " + spelled(*s.max_error));
+}
+
+void check_levels(const SimplifySettings& s) {
+    if (s.levels.empty()) refuse("levels need ratios");
+    if (s.ratio || s.faces || s.vertices || s.max_error) refuse("levels are targets of their own");
+    for (const double ratio : s.levels) check_ratio(ratio);
+    if (!std::is_sorted(s.levels.rbegin(), s.levels.rend())) refuse("levels go from fine to coarse");
 }
 
 /// The face count that the ratio asks for: rounded up, so that 10% of 15 faces is 2.
@@ -28,33 +44,20 @@ struct Targets {
     Goal goal;
     std::size_t by_ratio = 0, by_faces = 0;
 
-    Targets(const Surface& s, const SimplifySettings& settings) {
+    Targets(const Work& s, const SimplifySettings& settings) {
         if (settings.ratio) by_ratio = share_of(s.live_faces, *settings.ratio);
         if (settings.faces) by_faces = *settings.faces;
         goal.faces = std::max(by_ratio, by_faces);
         if (settings.vertices) goal.vertices = *settings.vertices;
     }
 
-    bool met(const Surface& s) const {
-        return s.live_faces <= goal.faces || s.live_vertices <= goal.vertices;
-    }
+    bool met(const Work& s) const { return s.live_faces <= goal.faces || s.live_vertices <= goal.vertices; }
     /// Which target stopped it.
-    Stop reason(const Surface& s) const {
+    Stop reason(const Work& s) const {
         if (s.live_faces > goal.faces) return Stop::vertices;
         return by_faces >= by_ratio ? Stop::faces : Stop::ratio;
     }
 };
-
-SimplifyResult::Blocked count_blocked(const Surface& s) {
-    SimplifyResult::Blocked blocked;
-    for (std::size_t c = 0; c < s.tri.size(); ++c) {
-        if (!s.live(static_cast<Index>(c / 3))) continue;
-        blocked.borders += (s.flags[c] & blocked_border) != 0;
-        blocked.topology += (s.flags[c] & blocked_topology) != 0;
-        blocked.flips += (s.flags[c] & blocked_flip) != 0;
-    }
-    return blocked;
-}
 
 /// Whether anything but positions and faces must be followed.
 bool carries_attributes(const Mesh& mesh) {
@@ -102,7 +105,7 @@ void settle_normals(Mesh& mesh, const NormalSeams& seams, Fates& fates) {
 }
 
 /// The features as they are before the first collapse, by the corners of the mesh.
-void remember_features(Surface& s) {
+void remember_features(Work& s) {
     if (!s.has_features || !s.logging) return;
     s.features_given.resize(s.flags.size());
     parallel_for(s.flags.size(), [&](std::size_t c) {
@@ -110,37 +113,108 @@ void remember_features(Surface& s) {
     });
 }
 
+/// A mesh at work.
+class Session {
+  public:
+    Session(Mesh given, const SimplifySettings& settings)
+        : given_(std::move(given)), settings_(settings), prepared_(given_, settings),
+          work(build_work(mesh())) {
+        so_far_.shading = prepared_.seams.shading, so_far_.merged_wedges = prepared_.seams.merged;
+        so_far_.faces_given = given_.face_count();
+        so_far_.faces_before = so_far_.faces_after = work.live_faces;
+        so_far_.vertices_before = so_far_.vertices_after = work.live_vertices;
+    }
+
+    const Mesh& mesh() const { return prepared_.own ? *prepared_.own : given_; }
+
+    /// What the collapses need besides the lists. way_back: all of them are logged.
+    void begin(bool way_back) {
+        classify(work, mesh(), settings_.lock);
+        if (settings_.method != SimplifySettings::Method::shortest_edge) sum_quadrics(work);
+        work.endpoints = settings_.method == SimplifySettings::Method::quadric_endpoints;
+        work.logging = way_back || carries_attributes(mesh());
+        remember_features(work);
+    }
+
+    /// The mesh as it came.
+    SimplifyResult unchanged() const {
+        SimplifyResult r = so_far_;
+        r.mesh = given_;
+        r.fates = all_kept(given_);
+        return r;
+    }
+
+    /// The mesh as it is now. The work can go on.
+    SimplifyResult result(Stop stop, const Outcome& done) {
+        SimplifyResult r = so_far_;
+        r.stop = stop;
+        so_far_.passes = r.passes += done.passes;
+        so_far_.collapses = r.collapses += done.collapses;
+        largest_ = std::max(largest_, done.largest);
+        r.largest_error = std::sqrt(largest_) / work.scale;
+        r.faces_after = work.live_faces, r.vertices_after = work.live_vertices;
+        r.mesh = finished(work, mesh(), r.fates);
+        settle_normals(r.mesh, prepared_.seams, r.fates);
+        return r;
+    }
+
+  private:
+    Mesh given_;
+    const SimplifySettings& settings_;
+    Prepared prepared_;
+    SimplifyResult so_far_;
+    double largest_ = 0;
+
+  public:
+    Work work;
+};
+
+SimplifyResult within(Session& session, const Targets& targets, double max_error) {
+    Bounded done = run_within(session.work, session.mesh(), targets.goal, max_error);
+    const Stop stop = done.by_error        ? Stop::max_error
+                      : done.outcome.stuck ? Stop::stuck
+                                           : targets.reason(session.work);
+    SimplifyResult r = session.result(stop, done.outcome);
+    if (stop == Stop::max_error || stop == Stop::stuck) r.blocked = done.blocked;
+    r.measured = done.measured;
+    r.rolled_back = done.rolled_back, r.measurements = done.measurements;
+    return r;
+}
+
 } // namespace
 
 SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     check(settings);
-    SimplifyResult result;
-    result.faces_given = given.face_count();
-    const Prepared prepared(given, settings);
-    const Mesh& mesh = prepared.own ? *prepared.own : given;
-    result.shading = prepared.seams.shading, result.merged_wedges = prepared.seams.merged;
-    Surface s = build_surface(mesh);
-    result.faces_before = result.faces_after = s.live_faces;
-    result.vertices_before = result.vertices_after = s.live_vertices;
-    const Targets targets(s, settings);
-    if (targets.met(s)) {
-        result.fates = all_kept(given);
-        result.mesh = std::move(given);
-        return result;
+    Session session(std::move(given), settings);
+    const Targets targets(session.work, settings);
+    if (targets.met(session.work)) return session.unchanged();
+    session.begin(settings.max_error.has_value());
+    if (settings.max_error) return within(session, targets, *settings.max_error);
+    const Outcome done = run_passes(session.work, targets.goal);
+    const auto blocked = done.stuck ? count_blocked(session.work) : SimplifyResult::Blocked{};
+    SimplifyResult r = session.result(done.stuck ? Stop::stuck : targets.reason(session.work), done);
+    r.blocked = blocked;
+    return r;
+}
+
+std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& settings) {
+    check_levels(settings);
+    Session session(std::move(given), settings);
+    const std::size_t before = session.work.live_faces;
+    std::vector<SimplifyResult> levels;
+    for (const double ratio : settings.levels) {
+        const std::size_t faces = share_of(before, ratio);
+        if (session.work.live_faces <= faces) {
+            levels.push_back(levels.empty() ? session.unchanged() : levels.back());
+            continue;
+        }
+        if (session.work.kind.empty()) session.begin(false);
+        const Outcome done = run_passes(session.work, {.faces = faces});
+        const auto blocked = done.stuck ? count_blocked(session.work) : SimplifyResult::Blocked{};
+        levels.push_back(session.result(done.stuck ? Stop::stuck : Stop::ratio, done));
+        levels.back().blocked = blocked;
     }
-    classify(s, mesh, settings.boundary);
-    if (settings.method == SimplifySettings::Method::quadric) sum_quadrics(s);
-    s.logging = carries_attributes(mesh);
-    remember_features(s);
-    const Outcome done = run_passes(s, targets.goal);
-    result.stop = done.stuck ? Stop::stuck : targets.reason(s);
-    if (done.stuck) result.blocked = count_blocked(s);
-    result.passes = done.passes, result.collapses = done.collapses;
-    result.largest_error = std::sqrt(done.largest) / s.scale;
-    result.faces_after = s.live_faces, result.vertices_after = s.live_vertices;
-    result.mesh = finished(s, mesh, result.fates);
-    settle_normals(result.mesh, prepared.seams, result.fates);
-    return result;
+    return levels;
 }
 
 } // namespace facetmill

@@ -8,39 +8,57 @@
 
 namespace facetmill {
 
+/// A box that stands in another space than the mesh.
+struct WorldBox {
+    Box box;
+    Transform to_world{}; ///< from the mesh's space to the box's
+};
+
+/// What stays vertex by vertex.
+struct SimplifyLocks {
+    bool boundary = false;         ///< the vertices of boundary edges
+    bool seams = false;            ///< the vertices of seams and of borders of primitives
+    bool groups = false;           ///< the vertices of borders between values of the face attribute "group"
+    std::optional<WorldBox> box{}; ///< the vertices within
+};
+
 struct SimplifySettings {
     enum class Method {
-        quadric,       ///< Garland and Heckbert: least sum of squared distances to the planes of the faces
-        shortest_edge, ///< the note's: the shortest edge goes, and the rest meets at its midpoint
-    };
-    enum class Boundary {
-        along,  ///< boundary edges collapse along the boundary only
-        locked, ///< boundary vertices stay, all of them
+        quadric, ///< Garland and Heckbert: least sum of squared distances to the planes of the faces
+        quadric_endpoints, ///< the same, but the new vertex is one of the two: vertices are a subset
+        shortest_edge,     ///< the note's: the shortest edge goes, and the rest meets at its midpoint
     };
     Method method = Method::quadric;
-    Boundary boundary = Boundary::along;
+    SimplifyLocks lock{};
     double crease = 30 * pi / 180; ///< radians, see merge_normal_seams; 0: every normal seam stays
     // At least one target; the first one met stops the work.
     std::optional<double> ratio =
         {}; ///< of the triangles that came in, 0 < ratio <= 1; the count is rounded up
     std::optional<std::size_t> faces = {};    ///< at most so many triangles
     std::optional<std::size_t> vertices = {}; ///< at most so many vertices
+    /// The deviation from the mesh that came in, measured both ways (geometry/deviation.hpp, its samples and
+    /// seed), stays within this. In the mesh's units.
+    std::optional<double> max_error = {};
+    /// Levels of detail: ratios, descending. No other target may be given then.
+    std::vector<double> levels = {};
 };
 
 struct SimplifyResult {
     enum class Stop {
-        nothing,  ///< the mesh was at or below every target already: it is returned as it was
-        ratio,    ///< met
-        faces,    ///< met
-        vertices, ///< met
-        stuck,    ///< no collapse was left that keeps the guarantees
+        nothing,   ///< the mesh was at or below every target already: it is returned as it was
+        ratio,     ///< met
+        faces,     ///< met
+        vertices,  ///< met
+        max_error, ///< any more would deviate too much
+        stuck,     ///< no collapse was left that keeps the guarantees
     };
     /// Edges that were left because a collapse would have broken something; counted when the work stopped as
-    /// stuck.
+    /// stuck or for max_error.
     struct Blocked {
-        std::size_t borders = 0;  ///< boundary, seam and material borders, non-manifold places
+        std::size_t borders = 0;  ///< boundary, seam and material borders, locks, non-manifold places
         std::size_t topology = 0; ///< would change genus, close a hole, or make a component vanish
         std::size_t flips = 0;    ///< would flip or flatten a face
+        std::size_t error = 0;    ///< would move the surface too far
     };
     Mesh mesh;
     Fates fates;
@@ -51,7 +69,10 @@ struct SimplifyResult {
     std::size_t faces_given = 0;                                   ///< as they came, polygons too
     std::size_t faces_before = 0, faces_after = 0;                 ///< triangles
     std::size_t vertices_before = 0, vertices_after = 0;           ///< used by faces
-    std::size_t collapses = 0;
+    std::size_t collapses = 0;                                     ///< that led to the mesh
+    std::size_t rolled_back = 0;                                   ///< that were taken back for max_error
+    std::size_t measurements = 0;                                  ///< that max_error took
+    std::optional<double> measured; ///< the deviation when max_error was given, in the mesh's units
     std::size_t passes = 0;
     /// quadric: the largest distance (root mean square over the planes gathered in a new vertex) at any
     /// collapse; shortest-edge: half the longest edge that was collapsed. In the mesh's units.
@@ -67,8 +88,15 @@ struct SimplifyResult {
 /// Guarantees: every collapse satisfies the link condition, so a manifold stays manifold, a closed surface
 /// closed, and the genus, the number of components and of boundary loops stay; a closed component keeps at
 /// least four faces. No collapse turns a face by more than 60 degrees, makes one degenerate or doubles one.
-/// Boundaries, UV and normal seams, and borders of primitives collapse only along themselves; where more than
-/// two of them meet, or one ends, the vertex stays. Vertices that were not moved keep their exact position.
+/// Boundaries, UV and normal seams, and borders of primitives and groups collapse only along themselves;
+/// where more than two of them meet, or one ends, the vertex stays. Vertices that were not moved keep their
+/// exact position.
+///
+/// max_error: every vertex and centre of a face that came in is followed to a face near by, and a collapse is
+/// refused when it leaves one farther than 9/10 of the bound from the faces around, or when the new vertex or
+/// the centre of a face at it is as far from the surface that came in. All collapses are logged, and the
+/// deviation of the result is measured. If it is above the bound, the log is cut by bisection: every
+/// beginning of it is a mesh with all the guarantees. Nothing is run again.
 ///
 /// Attributes: a vertex or wedge that moved has those of the surface that came in, at the nearest point of
 /// the faces around all the vertices that went into it (on a feature line: of that line, so that both sides
@@ -79,5 +107,11 @@ struct SimplifyResult {
 /// bytes for any number of threads. Source: the note 'Surface simplification' (1997); Garland & Heckbert,
 /// 'Surface simplification using quadric error metrics' (1997).
 SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
+
+/// One result per ratio of settings.levels, from fine to coarse: a chain in which each level is made from the
+/// one before by further collapses, so a vertex of a coarse level stands for a set of vertices of the finer
+/// one, largest_error never falls, and borders that match in one part match in all. ratio, faces, vertices
+/// and max_error must not be given. collapses are those since the mesh that came in.
+std::vector<SimplifyResult> simplify_levels(Mesh mesh, const SimplifySettings& settings);
 
 } // namespace facetmill

@@ -6,7 +6,7 @@
 // same place, and nothing is blurred by mixing mixtures. (Mixing the two ends at every collapse drifted.)
 
 #include "base/parallel.hpp"
-#include "geometry/simplify_surface.hpp"
+#include "geometry/simplify_work.hpp"
 #include "mesh/lineage.hpp"
 
 namespace facetmill::simplification {
@@ -57,7 +57,7 @@ class Followed {
     /// survivors: the old element of each new one; vertex_of: the new vertex of each; element: the old one at
     /// a corner.
     template <class Element>
-    Followed(const Surface& s, const Mesh& from, std::size_t old_count, const std::vector<Index>& survivors,
+    Followed(const Work& s, const Mesh& from, std::size_t old_count, const std::vector<Index>& survivors,
              const std::vector<Index>& vertex_of, const std::vector<Merge>& merges, Element&& element)
         : s_(s), from_(from), survivors_(survivors), vertex_of_(vertex_of) {
         find_owners(old_count, merges);
@@ -118,7 +118,7 @@ class Followed {
         if (!moved(e)) return best;
         const Index v = vertex_of_[e];
         const Vec3 p = s_.at[v] / s_.scale + s_.centre;
-        if (s_.kind[v] == Kind::curve)
+        if (!s_.features_given.empty())
             for (Index i = begin_[e]; i < begin_[e + 1]; ++i) try_lines(e, faces_[i], p, best);
         if (best.distance == HUGE_VAL)
             for (Index i = begin_[e]; i < begin_[e + 1]; ++i) try_face(faces_[i], p, best);
@@ -156,7 +156,7 @@ class Followed {
             if (m.weight[k] > m.weight[0]) std::swap(m.weight[k], m.weight[0]), std::swap(m.of[k], m.of[0]);
     }
 
-    const Surface& s_;
+    const Work& s_;
     const Mesh& from_;
     const std::vector<Index>&survivors_, &vertex_of_;
     std::vector<Index> owner_, corner_element_; ///< old elements -> new ones; corners -> old elements
@@ -165,7 +165,7 @@ class Followed {
 
 /// Fills corners and wedge_vertex; returns the wedges of the input that survive, in the order of the new
 /// ones.
-std::vector<Index> number_wedges(Mesh& to, const Surface& s, std::size_t old_wedges) {
+std::vector<Index> number_wedges(Mesh& to, const Work& s, std::size_t old_wedges) {
     if (s.wedge.empty()) {
         to.corners = s.tri;
         return {};
@@ -204,7 +204,7 @@ std::vector<Index> identity(std::size_t n) {
 
 } // namespace
 
-Mesh finished(Surface& s, const Mesh& from, Fates& fates) {
+Mesh finished(Work& s, const Mesh& from, Fates& fates) {
     compact(s);
     Mesh to;
     to.positions.resize(s.vertex_slots());

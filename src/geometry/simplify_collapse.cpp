@@ -1,6 +1,9 @@
 // One collapse: the tests that keep the guarantees, and the edit.
 
-#include "geometry/simplify_surface.hpp"
+#include "geometry/closest_point.hpp"
+#include "geometry/simplify_work.hpp"
+
+#include <utility>
 
 namespace facetmill::simplification {
 
@@ -10,9 +13,11 @@ constexpr double least_cosine = 0.5; // no face turns by more than 60 degrees
 // A face whose height is below this share of its longest edge counts as flat: far above what rounding can do,
 // far below what anyone wants.
 constexpr double least_height = 1e-5;
+// A face as near to a point as this share of the bound (squared) is not compared with others.
+constexpr double near_enough = 0.01;
 
 /// The live corners at a vertex; false when there are too many.
-bool gather(const Surface& s, Index v, std::array<Index, Rings::most>& ring, int& size) {
+bool gather(const Work& s, Index v, std::array<Index, Rings::most>& ring, int& size) {
     size = 0;
     for (Index c = s.first[v]; c != none; c = s.next[c]) {
         if (!s.live(c / 3)) continue;
@@ -30,24 +35,29 @@ struct Side {
 /// An edge about to go: b into a.
 class Collapse {
   public:
-    Collapse(Surface& s, Index a, Index b, Rings& rings) : s_(s), a_(a), b_(b), r_(rings) {}
+    Collapse(Work& s, Index a, Index b, Rings& rings) : s_(s), a_(a), b_(b), r_(rings) {}
 
     /// 0, or why the collapse to `to` is not allowed.
-    std::uint8_t refusal(const Vec3& to, bool a_stays, bool along, bool boundary, std::uint32_t stamp) {
+    /// most: how far points may be, squared.
+    std::uint8_t refusal(const Vec3& to, bool a_stays, bool along, bool boundary, double most,
+                         std::uint32_t stamp) {
         if (!gather(s_, a_, r_.a, r_.a_size) || !gather(s_, b_, r_.b, r_.b_size)) return blocked_topology;
         find_sides();
         if (sides_ != (boundary ? 1 : 2)) return blocked_topology;
         if (!link_condition(along, stamp)) return blocked_topology;
         if (!s_.wedge.empty() && !pair_wedges(a_stays)) return blocked_border;
         if (!a_stays && !keeps_facing(a_, r_.a, r_.a_size, b_, to)) return blocked_flip;
-        return keeps_facing(b_, r_.b, r_.b_size, a_, to) ? 0 : blocked_flip;
+        if (!keeps_facing(b_, r_.b, r_.b_size, a_, to)) return blocked_flip;
+        return s_.points.empty() || (is_near(to, most) && keeps_points(to, most)) ? 0 : blocked_error;
     }
 
     /// Makes it.
-    void make(const Vec3& to, Log& log) {
+    void make(const Vec3& to, double error, Log& log) {
+        if (!s_.points.empty()) hand_over_points();
         if (!s_.wedge.empty()) hand_over_wedges(log);
         if (s_.logging)
-            log.steps.push_back({s_.source[a_], s_.source[b_], static_cast<Index>(log.wedges.size()), to});
+            log.steps.push_back({s_.source[a_], s_.source[b_], static_cast<Index>(log.wedges.size()),
+                                 static_cast<float>(error), to});
         join_lists();
         for (int i = 0; i < sides_; ++i) {
             const Index f = side_[i].at_a / 3;
@@ -151,6 +161,59 @@ class Collapse {
         return true;
     }
 
+    /// Calls body(corner at a or b) for the faces around the edge, or for those of them that stay.
+    template <class Body>
+    void for_faces(bool staying, Body&& body) const {
+        const auto has = [&](Index c, Index v) { return s_.tri[after(c)] == v || s_.tri[before(c)] == v; };
+        for (const Index c : ring_a())
+            if (!staying || !has(c, b_)) body(c);
+        for (const Index c : ring_b())
+            if (!has(c, a_)) body(c);
+    }
+
+    /// Whether the new vertex and the centres of the faces at it are near the surface that came in.
+    bool is_near(const Vec3& to, double most) const {
+        const double bound = std::sqrt(most) / s_.scale;
+        Index hint = none;
+        const auto near_given = [&](const Vec3& p) {
+            const Closest found = closest_point(*s_.given, p / s_.scale + s_.centre, hint, bound);
+            hint = found.triangle;
+            return found.distance <= bound;
+        };
+        bool all = near_given(to);
+        for_faces(true, [&](Index c) {
+            all = all && near_given((to + s_.at[s_.tri[after(c)]] + s_.at[s_.tri[before(c)]]) * (1.0 / 3));
+        });
+        return all;
+    }
+
+    /// Finds the face that takes each point of the faces around; false when one would be too far from all.
+    bool keeps_points(const Vec3& to, double most) {
+        r_.points.clear(), r_.taken_by.clear();
+        for_faces(false, [&](Index c) {
+            for (Index p = s_.first_point[c / 3]; p != none; p = s_.next_point[p]) r_.points.push_back(p);
+        });
+        for (const Index p : r_.points) {
+            double least = HUGE_VAL;
+            Index taker = none;
+            for_faces(true, [&](Index c) {
+                if (least <= near_enough * most) return;
+                const Vec3 off = s_.points[p] - closest_on_triangle(s_.points[p], to, s_.at[s_.tri[after(c)]],
+                                                                    s_.at[s_.tri[before(c)]]);
+                if (dot(off, off) < least) least = dot(off, off), taker = c;
+            });
+            if (!(least <= most)) return false;
+            r_.taken_by.push_back(taker);
+        }
+        return true;
+    }
+
+    void hand_over_points() {
+        for_faces(false, [&](Index c) { s_.first_point[c / 3] = none; });
+        for (std::size_t i = 0; i < r_.points.size(); ++i)
+            s_.next_point[r_.points[i]] = std::exchange(s_.first_point[r_.taken_by[i] / 3], r_.points[i]);
+    }
+
     void hand_over_wedges(Log& log) {
         for (int i = 0; i < pairs_; ++i)
             if (s_.logging && pair_[i][0] != pair_[i][1]) log.wedges.push_back({pair_[i][0], pair_[i][1]});
@@ -185,7 +248,7 @@ class Collapse {
         }
     }
 
-    Surface& s_;
+    Work& s_;
     Index a_, b_;
     Rings& r_;
     Side side_[2] = {};
@@ -196,32 +259,27 @@ class Collapse {
 
 } // namespace
 
-bool collapse(Surface& s, Index c, std::uint32_t pass, std::uint32_t stamp, Rings& rings, Tally& tally) {
+bool collapse(Work& s, Index c, double most, std::uint32_t stamp, Rings& rings, Tally& tally) {
     const Index u = s.tri[c], v = s.tri[after(c)];
     const std::uint8_t flags = s.flags[c];
     const Placement p = place(s, u, v, flags);
     const Index a = p.keep_second ? v : u, b = p.keep_second ? u : v;
     const bool stays = p.keep_first || p.keep_second;
     Collapse edit(s, a, b, rings);
-    if (const auto why = edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge, stamp)) {
+    const auto why = edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge, most, stamp);
+    if (why) {
         s.flags[c] |= why;
         s.cost[c] = never;
         ++tally.refused;
         return false;
     }
-    const double squared = dot(s.at[a] - s.at[b], s.at[a] - s.at[b]);
-    edit.make(p.at, tally.log);
+    edit.make(p.at, p.error, tally.log);
     s.at[a] = p.at;
     s.moved[a] |= !stays;
     s.kind[a] = std::max(s.kind[a], s.kind[b]);
-    s.touched[a] = s.touched[b] = pass;
-    if (s.quadrics.empty()) {
-        tally.largest = std::max(tally.largest, squared / 4);
-    } else {
-        s.quadrics[a] += s.quadrics[b];
-        if (s.quadrics[a].weight > 0)
-            tally.largest = std::max(tally.largest, s.quadrics[a](p.at) / s.quadrics[a].weight);
-    }
+    s.touched[a] = s.touched[b] = s.pass;
+    if (!s.quadrics.empty()) s.quadrics[a] += s.quadrics[b];
+    tally.largest = std::max(tally.largest, p.error);
     ++tally.collapses;
     tally.faces += static_cast<std::size_t>(edit.sides());
     return true;

@@ -1,7 +1,7 @@
 // What a collapse costs and where its vertex goes.
 
 #include "base/parallel.hpp"
-#include "geometry/simplify_surface.hpp"
+#include "geometry/simplify_work.hpp"
 
 namespace facetmill::simplification {
 
@@ -17,7 +17,7 @@ constexpr double pull = 1e-8;
 constexpr double shortness = 1e-6;
 
 /// Adds the plane through the edge of corner c, upright on its face.
-void add_upright(Quadric& q, const Surface& s, Index c, const Vec3& normal) {
+void add_upright(Quadric& q, const Work& s, Index c, const Vec3& normal) {
     if (!(s.flags[c] & feature_edge)) return;
     const Vec3& from = s.at[s.tri[c]];
     const Vec3 along = s.at[s.tri[after(c)]] - from;
@@ -26,7 +26,7 @@ void add_upright(Quadric& q, const Surface& s, Index c, const Vec3& normal) {
     if (side != Vec3{}) q += Quadric::plane(side, from, weight);
 }
 
-Quadric quadric_at(const Surface& s, Index v) {
+Quadric quadric_at(const Work& s, Index v) {
     Quadric q;
     for (Index c = s.first[v]; c != none; c = s.next[c]) {
         const Vec3& p = s.at[v];
@@ -40,28 +40,33 @@ Quadric quadric_at(const Surface& s, Index v) {
     return q;
 }
 
-/// The best place along an edge whose ends are both free to move.
-Vec3 best_between(const Quadric& q, const Vec3& a, const Vec3& b) {
+/// Chooses where two ends that are both free to move should meet.
+void choose_place(Placement& p, const Quadric& q, const Vec3& a, const Vec3& b, bool endpoints) {
     const Vec3 middle = mix(a, b, 0.5);
-    if (!(q.weight > 0)) return middle;
-    const Vec3 best = q.least(middle, pull * q.weight);
-    const Vec3 off = best - middle, edge = b - a;
-    // Far off the edge the system was near singular: its ends and middle are safer.
-    if (dot(off, off) <= 4 * dot(edge, edge)) return best;
+    if (!endpoints) {
+        p.at = q.weight > 0 ? q.least(middle, pull * q.weight) : middle;
+        const Vec3 off = p.at - middle, edge = b - a;
+        // Far off the edge the system was near singular: its ends and middle are safer.
+        if (dot(off, off) <= 4 * dot(edge, edge)) return;
+    }
     const double at_a = q(a), at_b = q(b), at_middle = q(middle);
-    if (at_middle <= at_a && at_middle <= at_b) return middle;
-    return at_a <= at_b ? a : b;
+    if (!endpoints && at_middle <= at_a && at_middle <= at_b)
+        p.at = middle;
+    else if (at_a <= at_b)
+        p.at = a, p.keep_first = true;
+    else
+        p.at = b, p.keep_second = true;
 }
 
 } // namespace
 
-void sum_quadrics(Surface& s) {
+void sum_quadrics(Work& s) {
     s.quadrics.resize(s.vertex_slots());
     parallel_for(s.vertex_slots(),
                  [&](std::size_t v) { s.quadrics[v] = quadric_at(s, static_cast<Index>(v)); });
 }
 
-Placement place(const Surface& s, Index u, Index v, std::uint8_t flags) {
+Placement place(const Work& s, Index u, Index v, std::uint8_t flags) {
     Placement p;
     const Kind ku = s.kind[u], kv = s.kind[v];
     if (ku == Kind::pinned || kv == Kind::pinned) return p;
@@ -71,17 +76,19 @@ Placement place(const Surface& s, Index u, Index v, std::uint8_t flags) {
     p.keep_first = ku > kv, p.keep_second = kv > ku;
     const Vec3 edge = s.at[v] - s.at[u];
     const double squared = dot(edge, edge);
-    const auto held = [&](const Vec3& otherwise) {
-        return p.keep_first ? s.at[u] : p.keep_second ? s.at[v] : otherwise;
-    };
+    if (p.keep_first) p.at = s.at[u];
+    if (p.keep_second) p.at = s.at[v];
+    const bool held = p.keep_first || p.keep_second;
     if (s.quadrics.empty()) {
-        p.at = held(mix(s.at[u], s.at[v], 0.5));
-        p.cost = squared;
+        if (!held) p.at = mix(s.at[u], s.at[v], 0.5);
+        p.cost = squared, p.error = squared / 4;
         return p;
     }
     const Quadric q = s.quadrics[u] + s.quadrics[v];
-    p.at = p.keep_first || p.keep_second ? held({}) : best_between(q, s.at[u], s.at[v]);
-    p.cost = q(p.at) + shortness * q.weight * squared;
+    if (!held) choose_place(p, q, s.at[u], s.at[v], s.endpoints);
+    const double sum = q(p.at);
+    p.cost = sum + shortness * q.weight * squared;
+    p.error = q.weight > 0 ? sum / q.weight : 0;
     return p;
 }
 

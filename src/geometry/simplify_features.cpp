@@ -1,7 +1,7 @@
 // Which vertices may move how: found once, since every collapse that is allowed keeps the answer.
 
 #include "base/parallel.hpp"
-#include "geometry/simplify_surface.hpp"
+#include "geometry/simplify_work.hpp"
 
 namespace facetmill::simplification {
 
@@ -13,20 +13,29 @@ struct Spoke {
     Index out, in, corner;
 };
 
-/// The primitive of each face in the surface's order; empty when there is only one.
-std::vector<Index> primitives_of(const Surface& s, const Mesh& mesh) {
-    const Attribute* a = mesh.find(primitive_attribute, Domain::face);
-    if (!a || mesh.primitives.size() < 2) return {};
-    std::vector<Index> list(s.face_slots());
-    parallel_for(list.size(),
-                 [&](std::size_t f) { list[f] = static_cast<Index>(a->value(s.face_source[f], 0)); });
-    return list;
+/// A number per face, in the work's order; empty when there is only one.
+using Labels = std::vector<Index>;
+
+Labels labels_of(const Work& s, const Mesh& mesh, std::string_view name) {
+    const Attribute* a = mesh.find(name, Domain::face);
+    if (!a || a->components != 1) return {};
+    Labels list(s.face_slots());
+    parallel_for(list.size(), [&](std::size_t f) {
+        list[f] = static_cast<Index>(std::clamp(a->value(s.face_source[f], 0), 0.0, 4294967295.0));
+    });
+    const bool several = std::any_of(list.begin(), list.end(), [&](Index x) { return x != list[0]; });
+    return several ? list : Labels{};
 }
+
+/// What parts the faces of a mesh.
+struct Borders {
+    Labels primitives, groups;
+};
 
 class Classifier {
   public:
-    Classifier(Surface& s, const std::vector<Index>& primitives, bool locked)
-        : s_(s), primitives_(primitives), locked_(locked) {}
+    Classifier(Work& s, const Borders& borders, const SimplifyLocks& lock)
+        : s_(s), borders_(borders), lock_(lock) {}
 
     Kind operator()(Index v) {
         const Kind kind = look(v);
@@ -78,6 +87,7 @@ class Classifier {
         int features = open ? 2 : 0;
         const Spoke* now = start;
         features_.clear();
+        locked_ = open && lock_.boundary;
         for (std::size_t steps = 1;; ++steps) {
             const Spoke* then = leading_to(now->in);
             if (!then || (then == start && !open)) {
@@ -92,7 +102,7 @@ class Classifier {
         if (open) s_.flags[start->corner] |= boundary_edge | feature_edge;
         features += static_cast<int>(features_.size());
         if (features == 0) return Kind::smooth;
-        return features == 2 && !(open && locked_) ? Kind::curve : Kind::corner;
+        return features == 2 && !locked_ ? Kind::curve : Kind::corner;
     }
 
     const Spoke* leading_to(Index other) const {
@@ -101,36 +111,50 @@ class Classifier {
         return at != spokes_.end() && at->out == other ? &*at : nullptr;
     }
 
-    /// Whether the edge between two neighbouring faces of the fan is a seam or the border of a primitive.
-    bool differ(const Spoke& now, const Spoke& then) const {
-        if (!primitives_.empty() && primitives_[now.corner / 3] != primitives_[then.corner / 3]) return true;
-        if (s_.wedge.empty()) return false;
-        return s_.wedge[now.corner] != s_.wedge[then.corner] ||
-               s_.wedge[before(now.corner)] != s_.wedge[after(then.corner)];
+    /// Whether the edge between two neighbouring faces of the fan is a seam or a border.
+    bool differ(const Spoke& now, const Spoke& then) {
+        const Index f = now.corner / 3, g = then.corner / 3;
+        const bool group = !borders_.groups.empty() && borders_.groups[f] != borders_.groups[g];
+        const bool seam =
+            (!borders_.primitives.empty() && borders_.primitives[f] != borders_.primitives[g]) ||
+            (!s_.wedge.empty() && (s_.wedge[now.corner] != s_.wedge[then.corner] ||
+                                   s_.wedge[before(now.corner)] != s_.wedge[after(then.corner)]));
+        locked_ |= (group && lock_.groups) || (seam && lock_.seams);
+        return group || seam;
     }
 
-    Surface& s_;
-    const std::vector<Index>& primitives_;
-    bool locked_;
+    Work& s_;
+    const Borders& borders_;
+    const SimplifyLocks& lock_;
+    bool locked_ = false; ///< the vertex looked at
     std::vector<Spoke> spokes_;
     std::vector<Index> ins_, features_;
 };
 
 } // namespace
 
-void classify(Surface& s, const Mesh& mesh, SimplifySettings::Boundary boundary) {
-    const std::vector<Index> primitives = primitives_of(s, mesh);
+void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock) {
+    const Borders borders{labels_of(s, mesh, primitive_attribute), labels_of(s, mesh, "group")};
+    const auto in_box = [&](const Vec3& local) {
+        const Box& b = lock.box->box;
+        const Vec3 p = lock.box->to_world.point(local);
+        return p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z &&
+               p.z <= b.max.z;
+    };
     s.kind.resize(s.vertex_slots());
     parallel_chunks(s.vertex_slots(), [&](std::size_t begin, std::size_t end) {
-        Classifier kind_of(s, primitives, boundary == SimplifySettings::Boundary::locked);
-        for (std::size_t v = begin; v < end; ++v) s.kind[v] = kind_of(static_cast<Index>(v));
+        Classifier kind_of(s, borders, lock);
+        for (std::size_t v = begin; v < end; ++v) {
+            s.kind[v] = kind_of(static_cast<Index>(v));
+            if (lock.box && in_box(mesh.positions[s.source[v]]))
+                s.kind[v] = std::max(s.kind[v], Kind::corner);
+        }
     });
     s.has_features = parallel_reduce(
-                         s.kind.size(), 0,
+                         s.flags.size(), 0,
                          [&](std::size_t begin, std::size_t end) {
                              int any = 0;
-                             for (std::size_t v = begin; v < end; ++v)
-                                 any |= s.kind[v] == Kind::curve || s.kind[v] == Kind::corner;
+                             for (std::size_t c = begin; c < end; ++c) any |= s.flags[c] & feature_edge;
                              return any;
                          },
                          [](int a, int b) { return a | b; }) != 0;

@@ -7,7 +7,7 @@
 // the same vertex or face, and the result does not depend on how many there are.
 
 #include "base/parallel.hpp"
-#include "geometry/simplify_surface.hpp"
+#include "geometry/simplify_work.hpp"
 
 #include <atomic>
 #include <bit>
@@ -40,12 +40,12 @@ Candidate candidate(float cost, Index c) { return {(std::uint64_t{bits_of(cost)}
 
 class Passes {
   public:
-    Passes(Surface& s, const Goal& goal) : s_(s), goal_(goal) {}
+    Passes(Work& s, const Goal& goal) : s_(s), goal_(goal) {}
 
     Outcome run() {
         refresh_all_ = true;
         while (!met()) {
-            ++out_.passes, ++pass_;
+            ++out_.passes, ++s_.pass;
             price();
             const std::uint32_t limit = threshold();
             if (limit == 0) {
@@ -92,7 +92,7 @@ class Passes {
             for (const Index v : {a, b, c}) std::atomic_ref(outer_[v]).store(1, std::memory_order_relaxed);
         for (Index corner = 3 * f; corner < 3 * f + 3; ++corner) {
             const Index u = s_.tri[corner], v = s_.tri[after(corner)];
-            if (refresh_all_ || s_.touched[u] == pass_ - 1 || s_.touched[v] == pass_ - 1)
+            if (refresh_all_ || s_.touched[u] == s_.pass - 1 || s_.touched[v] == s_.pass - 1)
                 price_edge(corner, u, v);
             if (s_.cost[corner] < never) ++histogram[bits_of(s_.cost[corner]) >> bucket_shift];
         }
@@ -165,25 +165,24 @@ class Passes {
         std::vector<std::uint32_t> used(inner_.size());
         parallel_for(
             inner_.size(), [&](std::size_t i) { used[i] = work(inner_[i], tallies[i], s_.live_faces); }, 1);
-        for (const auto u : used) highest_ = std::max(highest_, u);
-        stamp_ = highest_;
+        for (const auto u : used) s_.stamp = std::max(s_.stamp, u);
         for (auto& tally : tallies) join(tally);
         Tally tally;
-        stamp_ = highest_ = work(rest_, tally, remaining());
+        s_.stamp = work(rest_, tally, remaining());
         join(tally);
-        if (stamp_ > UINT32_MAX / 2) s_.mark.assign(s_.mark.size(), 0), stamp_ = highest_ = 0;
+        if (s_.stamp > UINT32_MAX / 2) s_.mark.assign(s_.mark.size(), 0), s_.stamp = 0;
     }
 
     /// Returns the first stamp that was not used.
     std::uint32_t work(std::vector<Candidate>& list, Tally& tally, std::size_t most) {
         std::sort(list.begin(), list.end());
         auto rings = std::make_unique<Rings>();
-        std::uint32_t stamp = stamp_;
+        std::uint32_t stamp = s_.stamp;
         for (const Candidate& k : list) {
             if (!s_.live(k.corner / 3)) continue;
             const Index u = s_.tri[k.corner], v = s_.tri[after(k.corner)];
-            if (s_.touched[u] == pass_ || s_.touched[v] == pass_) continue;
-            collapse(s_, k.corner, pass_, stamp += 2, *rings, tally);
+            if (s_.touched[u] == s_.pass || s_.touched[v] == s_.pass) continue;
+            collapse(s_, k.corner, goal_.error, stamp += 2, *rings, tally);
             // Two faces and one vertex a time; at a boundary one face, so the last step may need looking at
             // again.
             if (tally.collapses >= most) break;
@@ -213,10 +212,9 @@ class Passes {
         return refresh_all_ = true;
     }
 
-    Surface& s_;
+    Work& s_;
     Goal goal_;
     Outcome out_;
-    std::uint32_t pass_ = 1, stamp_ = 0, highest_ = 0;
     bool refresh_all_ = false;
     std::size_t since_retry_ = 0;
     std::vector<std::uint8_t> outer_;            // vertices with a neighbour in another stretch
@@ -227,6 +225,18 @@ class Passes {
 
 } // namespace
 
-Outcome run_passes(Surface& s, const Goal& goal) { return Passes(s, goal).run(); }
+SimplifyResult::Blocked count_blocked(const Work& s) {
+    SimplifyResult::Blocked all;
+    for (std::size_t c = 0; c < s.tri.size(); ++c) {
+        if (!s.live(static_cast<Index>(c / 3))) continue;
+        all.borders += (s.flags[c] & blocked_border) != 0;
+        all.topology += (s.flags[c] & blocked_topology) != 0;
+        all.flips += (s.flags[c] & blocked_flip) != 0;
+        all.error += (s.flags[c] & blocked_error) != 0;
+    }
+    return all;
+}
+
+Outcome run_passes(Work& s, const Goal& goal) { return Passes(s, goal).run(); }
 
 } // namespace facetmill::simplification

@@ -1,5 +1,6 @@
 #include "geometry/simplify.hpp"
 
+#include "base/spelling.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -8,17 +9,60 @@ namespace facetmill {
 
 namespace {
 
-using Boundary = SimplifySettings::Boundary;
 using Method = SimplifySettings::Method;
 using Stop = SimplifyResult::Stop;
+
+struct BoxOption {
+    Vec3 min, max;
+};
+
+struct LockOptions {
+    bool boundary = false, seams = false, group = false;
+    std::optional<BoxOption> box;
+};
 
 struct SimplifyOptions {
     std::optional<Ratio> ratio;
     std::optional<std::int64_t> faces, vertices;
+    std::optional<Length> max_error;
     Method method = Method::quadric;
-    Boundary boundary = Boundary::along;
+    LockOptions lock;
     Angle crease = Angle::degrees(30);
 };
+
+bool parse_locks(const Value& value, LockOptions& out, Problems& problems) {
+    if (value.deferred) return true;
+    bool good = true;
+    const auto one = [&](const Value& v) {
+        if (v.is_scalar() && v.text == "boundary") return out.boundary = true;
+        if (v.is_scalar() && v.text == "seams") return out.seams = true;
+        if (v.is_scalar() && v.text == "group") return out.group = true;
+        problems.add(v.mark, "E-CHOICE", fmt::format("lock has no {}", v.described()),
+                     v.text == "box"
+                         ? "a box needs its corners: lock: {box: {min: [0, 0, 0], max: [1, 1, 1]}}"
+                         : suggestion(v.text, {"boundary", "seams", "group"}));
+        return good = false;
+    };
+    if (value.is_list())
+        for (const Value& item : value.items) one(item);
+    else
+        one(value);
+    return good;
+}
+
+void declare_lock(Declare<LockOptions>& d) {
+    d.option("boundary", &LockOptions::boundary, "The vertices of the boundary stay, all of them.");
+    d.option("seams", &LockOptions::seams, "The vertices of seams and of borders of materials stay.");
+    d.option("group", &LockOptions::group, "The vertices of borders between the groups of an OBJ file stay.");
+    d.group("box", &LockOptions::box, "The vertices within this box stay, in world space.",
+            [](Declare<BoxOption>& box) {
+                box.option("min", &BoxOption::min, "The lowest corner, in scene units.").required();
+                box.option("max", &BoxOption::max, "The highest corner, in scene units.").required();
+            });
+    const Json words = {{"enum", {"boundary", "seams", "group"}}};
+    d.shorthand("boundary, seams or group, or a list of them",
+                {{"anyOf", Json::array({words, {{"type", "array"}, {"items", words}}})}}, parse_locks);
+}
 
 void declare(Declare<SimplifyOptions>& d) {
     d.option("ratio", &SimplifyOptions::ratio,
@@ -32,22 +76,27 @@ void declare(Declare<SimplifyOptions>& d) {
     d.option("vertices", &SimplifyOptions::vertices,
              "At most so many vertices (a count), shared among the parts in proportion to their own.")
         .at_least(1);
+    d.option("max_error", &SimplifyOptions::max_error,
+             "As far as the deviation from what came in, measured both ways, stays within this.")
+        .above(0);
     d.choice<Method>("method", &SimplifyOptions::method,
                      {{"quadric", Method::quadric,
                        "least squared distance to the planes of the faces; vertices go where that is least"},
+                      {"quadric-endpoints", Method::quadric_endpoints,
+                       "the same, but no vertex moves: those that remain are some of those that came in"},
                       {"shortest-edge", Method::shortest_edge,
                        "the shortest edge goes, and the rest meets at its midpoint"}},
                      "Which edge goes next.");
-    d.choice<Boundary>("boundary", &SimplifyOptions::boundary,
-                       {{"along", Boundary::along, "boundary edges collapse along the boundary only"},
-                        {"locked", Boundary::locked, "every boundary vertex stays"}},
-                       "What the boundary of an open surface does.");
+    d.group("lock", &SimplifyOptions::lock,
+            "What stays vertex by vertex. Boundaries, seams and borders that are not locked collapse along "
+            "themselves only.",
+            declare_lock);
     d.option(
          "crease", &SimplifyOptions::crease,
          "Seams that only normals make are merged where the faces meet at less than this angle; flat-shaded "
          "meshes stay flat-shaded. 0 keeps every normal seam.")
         .between(0, 180);
-    d.at_least_one({"ratio", "faces", "vertices"});
+    d.at_least_one({"ratio", "faces", "vertices", "max_error"});
 }
 
 const char* spelled(Stop stop) {
@@ -60,6 +109,8 @@ const char* spelled(Stop stop) {
         return "faces";
     case Stop::vertices:
         return "vertices";
+    case Stop::max_error:
+        return "max_error";
     default:
         return "stuck";
     }
@@ -86,31 +137,68 @@ std::optional<std::size_t> share(std::optional<std::int64_t> whole, std::size_t 
 
 std::size_t triangle_count(const Mesh& mesh) { return mesh.corner_count() - 2 * mesh.face_count(); }
 
-void report(const Part& part, const SimplifyResult& r, Json& parts, Context& context) {
-    parts.push_back(
-        {{"part", part.name},
-         {"normals", spelled(r.shading)},
-         {"merged_wedges", r.merged_wedges},
-         {"triangles_before", r.faces_before},
-         {"triangles_after", r.faces_after},
-         {"vertices_before", r.vertices_before},
-         {"vertices_after", r.vertices_after},
-         {"stopped_by", spelled(r.stop)},
-         {"largest_error", r.largest_error},
-         {"blocked_edges",
-          {{"borders", r.blocked.borders}, {"topology", r.blocked.topology}, {"flips", r.blocked.flips}}}});
+/// The greatest stretch of lengths from a part to the world: exact for similarities, never too small.
+double stretch(const Transform& t) {
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) sum += t.m[i][j] * t.m[i][j];
+    const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
+    const double xx = dot(x, x), slack = 1e-9 * sum;
+    const bool similar = std::abs(dot(y, y) - xx) < slack && std::abs(dot(z, z) - xx) < slack &&
+                         std::abs(dot(x, y)) < slack && std::abs(dot(y, z)) < slack &&
+                         std::abs(dot(z, x)) < slack;
+    return std::sqrt(similar ? xx : sum);
+}
+
+std::string held_by(const SimplifyResult::Blocked& b) {
+    return fmt::format(
+        "of the edges left, {} are held by borders and locks, {} by topology, {} would flip a face",
+        b.borders, b.topology, b.flips);
+}
+
+void warn(const Part& part, const SimplifyResult& r, Context& context) {
     if (r.stop == Stop::nothing)
         context.warn(
             "W-SIMPLIFY-NOTHING",
             fmt::format("part '{}' has {} triangles and {} vertices, at or below the target: nothing to do",
                         part.name, r.faces_before, r.vertices_before));
     if (r.stop == Stop::stuck)
-        context.warn(
-            "W-SIMPLIFY-STOPPED",
-            fmt::format("part '{}' stopped at {} triangles, above the target: of the edges left, {} are held "
-                        "by borders, {} by topology, {} would flip a face",
-                        part.name, r.faces_after, r.blocked.borders, r.blocked.topology, r.blocked.flips),
-            "ask for more faces, or free what holds them: boundary: along, fewer seams, a clean mesh");
+        context.warn("W-SIMPLIFY-STOPPED",
+                     fmt::format("part '{}' stopped at {} triangles, above the target: {}", part.name,
+                                 r.faces_after, held_by(r.blocked)),
+                     "ask for more faces, or free what holds them: no locks, fewer seams, a clean mesh");
+}
+
+/// scale: from the part's lengths to the scene's.
+void report(const Part& part, const SimplifyResult& r, double scale, Json& parts) {
+    Json entry = {
+        {"part", part.name},
+        {"normals", spelled(r.shading)},
+        {"merged_wedges", r.merged_wedges},
+        {"triangles_before", r.faces_before},
+        {"triangles_after", r.faces_after},
+        {"vertices_before", r.vertices_before},
+        {"vertices_after", r.vertices_after},
+        {"ratio", r.faces_before > 0 ? Json(double(r.faces_after) / double(r.faces_before)) : Json()},
+        {"stopped_by", spelled(r.stop)},
+        {"largest_error", r.largest_error * scale},
+        {"collapses", r.collapses},
+        {"blocked_edges",
+         {{"borders", r.blocked.borders},
+          {"topology", r.blocked.topology},
+          {"flips", r.blocked.flips},
+          {"error", r.blocked.error}}}};
+    if (r.measured) {
+        entry["rolled_back"] = r.rolled_back;
+        entry["measurements"] = r.measurements;
+    }
+    parts.push_back(std::move(entry));
+}
+
+SimplifyLocks locks_of(const LockOptions& o, const Part& part) {
+    SimplifyLocks lock{.boundary = o.boundary, .seams = o.seams, .groups = o.group};
+    if (o.box) lock.box = WorldBox{Box{o.box->min, o.box->max}, part.transform};
+    return lock;
 }
 
 Scene run(Scene scene, const SimplifyOptions& o, Context& context) {
@@ -118,16 +206,22 @@ Scene run(Scene scene, const SimplifyOptions& o, Context& context) {
     for (const auto& part : scene.parts)
         if (context.selects(part, scene))
             all_faces += triangle_count(part.mesh), all_vertices += part.mesh.vertex_count();
+    std::optional<double> max_error;
+    if (o.max_error) max_error = context.resolve(*o.max_error, scene, "max_error");
     Json parts = Json::array();
     context.for_each_part(scene, [&](Part& part) {
-        SimplifySettings settings{.method = o.method, .boundary = o.boundary, .crease = o.crease.radians};
+        SimplifySettings settings{
+            .method = o.method, .lock = locks_of(o.lock, part), .crease = o.crease.radians};
+        const double scale = part.skinned ? 1 : stretch(part.transform);
         if (o.ratio) settings.ratio = o.ratio->value;
         settings.faces = share(o.faces, triangle_count(part.mesh), all_faces);
         settings.vertices = share(o.vertices, part.mesh.vertex_count(), all_vertices);
+        if (max_error) settings.max_error = *max_error / scale;
         SimplifyResult r = simplify(std::move(part.mesh), settings);
         part.mesh = std::move(r.mesh);
         context.ledger(part, r.fates);
-        report(part, r, parts, context);
+        report(part, r, scale, parts);
+        warn(part, r, context);
     });
     context.result()["parts"] = std::move(parts);
     return scene;
@@ -166,8 +260,8 @@ const RegisterStage registered = make_stage<SimplifyOptions>(
                 "Source: the note 'Surface simplification' (1997); M. Garland and P. Heckbert, 'Surface "
                 "simplification using "
                 "quadric error metrics' (1997).",
-     .examples = {"simplify: 25%", "simplify: {faces: 5000, boundary: locked}",
-                  "simplify: {ratio: 10%, method: shortest-edge}"}},
+     .examples = {"simplify: 25%", "simplify: {faces: 5000, lock: [boundary, seams]}",
+                  "simplify: {ratio: 5%, max_error: 0.1%}", "simplify: {ratio: 10%, method: shortest-edge}"}},
     declare, run);
 
 } // namespace

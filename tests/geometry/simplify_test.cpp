@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "geometry/crumple.hpp"
+#include "geometry/deviation.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -9,7 +10,6 @@
 #include "support/surface.hpp"
 
 using namespace facetmill;
-using Boundary = SimplifySettings::Boundary;
 using Method = SimplifySettings::Method;
 using Stop = SimplifyResult::Stop;
 using test::count;
@@ -130,7 +130,7 @@ TEST_CASE("the boundary of an open sheet keeps its shape", "[geometry]") {
 TEST_CASE("a locked boundary stays vertex by vertex", "[geometry]") {
     const Mesh m = rough(shapes::grid(12, 12), 0.05);
     for (const Method method : {Method::quadric, Method::shortest_edge}) {
-        const auto r = simplify(m, {.method = method, .boundary = Boundary::locked, .faces = 1});
+        const auto r = simplify(m, {.method = method, .lock = {.boundary = true}, .faces = 1});
         CHECK(r.stop == Stop::stuck);
         CHECK(r.blocked.borders > 0);
         CHECK(count(r.mesh).open == 48);
@@ -286,9 +286,110 @@ TEST_CASE("simplification gives the same bytes for any number of threads", "[geo
         CHECK(test::same_for_any_threads([&] { return simplify(m, {.method = method, .ratio = 0.1}).mesh; }));
 }
 
+TEST_CASE("max_error bounds the measured deviation, and nearly reaches it", "[geometry]") {
+    const Mesh m = rough(shapes::icosphere(4), 0.002);
+    for (const Method method : {Method::quadric, Method::shortest_edge})
+        for (const double bound : {0.003, 0.02, 0.1}) {
+            const auto r = simplify(m, {.method = method, .max_error = bound});
+            CHECK(r.stop == Stop::max_error);
+            CHECK(r.blocked.error > 0);
+            REQUIRE(r.measured);
+            CHECK(*r.measured == deviation(m, r.mesh).maximum());
+            CHECK(*r.measured <= bound);
+            CHECK(*r.measured > 0.6 * bound);
+            CHECK(sound(r.mesh, 2));
+            CHECK(broken_invariants(r.mesh).empty());
+            CHECK(r.mesh.face_count() == r.faces_after);
+            CHECK(r.mesh.vertex_count() == r.vertices_after);
+        }
+}
+
+TEST_CASE("with max_error and a count the first one met stops the work", "[geometry]") {
+    const Mesh m = shapes::icosphere(4); // 5120 faces
+    CHECK(simplify(m, {.faces = 4000, .max_error = 0.5}).stop == Stop::faces);
+    CHECK(simplify(m, {.faces = 10, .max_error = 0.01}).stop == Stop::max_error);
+    const auto none = simplify(m, {.max_error = 1e-9}); // not one collapse is within
+    CHECK(none.stop == Stop::max_error);
+    CHECK(none.faces_after == 5120);
+    CHECK(none.measured < 1e-12);
+}
+
+TEST_CASE("what was rolled back keeps its attributes and seams", "[geometry]") {
+    Mesh m = seamed_grid(16);
+    for (auto& p : m.positions) p.z = 0.1 * p.x * p.y / 16 + ((p.x > 4 && p.x < 9 && p.y > 5) ? 0.3 : 0.0);
+    const auto r = simplify(m, {.max_error = 0.12});
+    CHECK(r.stop == Stop::max_error);
+    CHECK(broken_invariants(r.mesh).empty());
+    CHECK(count(r.mesh).euler == 1);
+    const Attribute* uv = r.mesh.find("TEXCOORD_0", Domain::wedge);
+    REQUIRE(uv);
+    std::map<Index, int> wedges;
+    for (Index w = 0; w < r.mesh.wedge_count(); ++w) {
+        const Vec3& p = r.mesh.positions[r.mesh.vertex_of_wedge(w)];
+        ++wedges[r.mesh.vertex_of_wedge(w)];
+        CHECK(uv->value(w, 1) == Approx(p.y).margin(0.12));
+        CHECK(std::fmod(uv->value(w, 0), 100) == Approx(p.x).margin(0.12));
+    }
+    for (const auto& [v, n] : wedges) CHECK((n == 2) == (std::abs(r.mesh.positions[v].x - 8) < 1e-3));
+}
+
+TEST_CASE("endpoints alone keep the vertices a subset", "[geometry]") {
+    const Mesh m = rough(shapes::icosphere(3), 0.01);
+    const auto r = simplify(m, {.method = Method::quadric_endpoints, .ratio = 0.1});
+    CHECK(sound(r.mesh, 2));
+    std::set<std::array<double, 3>> places;
+    for (const Vec3& p : m.positions) places.insert({p.x, p.y, p.z});
+    for (const Vec3& p : r.mesh.positions) CHECK(places.count({p.x, p.y, p.z}) == 1);
+}
+
+TEST_CASE("locked seams, groups and boxes stay vertex by vertex", "[geometry]") {
+    const auto along = [](const Mesh& mesh, auto&& on) {
+        return std::count_if(mesh.positions.begin(), mesh.positions.end(), on);
+    };
+    const auto seam = [](const Vec3& p) { return p.x == 8; };
+    CHECK(along(simplify(seamed_grid(16), {.lock = {.seams = true}, .faces = 1}).mesh, seam) == 17);
+    CHECK(along(simplify(seamed_grid(16), {.faces = 60}).mesh, seam) < 17);
+    Mesh m = shapes::grid(16, 16);
+    std::vector<std::uint32_t> groups(m.face_count());
+    for (Index f = 0; f < groups.size(); ++f)
+        groups[f] = (m.point(3 * f).x + m.point(3 * f + 1).x + m.point(3 * f + 2).x) / 3 > 8;
+    m.attributes.push_back({"group", Domain::face, Role::index, 1, false, groups});
+    CHECK(along(simplify(m, {.lock = {.groups = true}, .faces = 1}).mesh, seam) == 17);
+    const auto free = simplify(m, {.faces = 60});
+    CHECK(along(free.mesh, seam) < 17);
+    CHECK(test::area(free.mesh) == Approx(256).epsilon(1e-6));
+    const Box box{{2.5, 2.5, -1}, {7.5, 9.5, 1}};
+    const auto inside = [&](const Vec3& p) { return p.x > 2.5 && p.x < 7.5 && p.y > 2.5 && p.y < 9.5; };
+    const auto boxed = simplify(m, {.lock = {.box = WorldBox{box}}, .faces = 1});
+    CHECK(along(boxed.mesh, inside) == 5 * 7);
+    CHECK(boxed.blocked.borders > 0);
+}
+
+TEST_CASE("levels of detail are one chain", "[geometry]") {
+    Mesh m = rough(shapes::icosphere(4), 0.005);
+    test::add_coordinates(m);
+    const auto levels = simplify_levels(m, {.levels = {1, 0.5, 0.2, 0.05}});
+    REQUIRE(levels.size() == 4);
+    CHECK(levels[0].stop == Stop::nothing);
+    CHECK(test::same(levels[0].mesh, m));
+    for (std::size_t i = 1; i < 4; ++i) {
+        CHECK(levels[i].stop == Stop::ratio);
+        CHECK(levels[i].mesh.face_count() == levels[i].faces_after);
+        CHECK(sound(levels[i].mesh, 2));
+        CHECK(levels[i].largest_error >= levels[i - 1].largest_error);
+        CHECK(levels[i].collapses == 2562 - levels[i].vertices_after);
+    }
+    // The first level is what a run of its own gives.
+    CHECK(test::same(levels[1].mesh, simplify(m, {.ratio = 0.5}).mesh));
+    CHECK(simplify_levels(shapes::cube(), {.levels = {0.5, 0.25}})[1].stop == Stop::stuck);
+    CHECK(test::failure([] {
+              simplify_levels(shapes::cube(), {.levels = {0.25, 0.5}});
+          }) == "usage [E-RANGE] simplify: levels go from fine to coarse");
+}
+
 TEST_CASE("simplification refuses to guess a target", "[geometry]") {
     CHECK(test::failure([] { simplify(shapes::cube(), {}); }) ==
-          "usage [E-RANGE] simplify: a target is needed: ratio, faces or vertices");
+          "usage [E-RANGE] simplify: a target is needed: ratio, faces, vertices or max_error");
     CHECK(test::failure([] { simplify(shapes::cube(), {.ratio = 2}); }) ==
           "usage [E-RANGE] simplify: ratio is 0 < x <= 1, not 2");
 }

@@ -1,4 +1,4 @@
-#include "geometry/simplify_surface.hpp"
+#include "geometry/simplify_work.hpp"
 
 #include "base/parallel.hpp"
 
@@ -23,7 +23,7 @@ struct Keyed {
 };
 
 /// Vertices that faces use, along the curve.
-std::vector<Keyed> ordered_vertices(const Mesh& mesh, const Surface& s) {
+std::vector<Keyed> ordered_vertices(const Mesh& mesh, const Work& s) {
     std::vector<std::uint8_t> used(mesh.vertex_count());
     parallel_for(mesh.corner_count(), [&](std::size_t c) {
         std::atomic_ref(used[mesh.vertex(static_cast<Index>(c))]).store(1, std::memory_order_relaxed);
@@ -60,7 +60,7 @@ std::vector<Keyed> ordered_faces(const Mesh& mesh, const std::vector<Index>& ran
 }
 
 /// Centre of the bounds and the power of two that brings the mesh into [-1, 1].
-void set_frame(Surface& s, const Mesh& mesh) {
+void set_frame(Work& s, const Mesh& mesh) {
     const Box box = mesh.bounds();
     if (box.empty()) return;
     s.centre = box.min * 0.5 + box.max * 0.5; // not the sum halved, which may overflow
@@ -83,8 +83,8 @@ void keep(std::vector<T>& items, const std::vector<Index>& alive, std::size_t pe
 
 } // namespace
 
-Surface build_surface(const Mesh& mesh) {
-    Surface s;
+Work build_work(const Mesh& mesh) {
+    Work s;
     set_frame(s, mesh);
     const std::vector<Keyed> order = ordered_vertices(mesh, s);
     const std::size_t n = order.size(), m = mesh.face_count();
@@ -112,7 +112,7 @@ Surface build_surface(const Mesh& mesh) {
     return s;
 }
 
-void build_lists(Surface& s) {
+void build_lists(Work& s) {
     // Serial: along the curve this is a few milliseconds per million faces, less than sorting would take.
     s.first.assign(s.vertex_slots(), none);
     s.next.resize(s.tri.size());
@@ -120,7 +120,7 @@ void build_lists(Surface& s) {
         s.next[c] = std::exchange(s.first[s.tri[c]], static_cast<Index>(c));
 }
 
-void compact(Surface& s) {
+void compact(Work& s) {
     std::vector<Index> faces, vertices, rank(s.vertex_slots(), none);
     faces.reserve(s.live_faces), vertices.reserve(s.live_vertices);
     for (Index f = 0; f < s.face_slots(); ++f)
@@ -130,7 +130,7 @@ void compact(Surface& s) {
     for (Index v = 0; v < s.vertex_slots(); ++v)
         if (s.first[v] != none) rank[v] = static_cast<Index>(vertices.size()), vertices.push_back(v);
     keep(s.tri, faces, 3), keep(s.wedge, faces, 3), keep(s.flags, faces, 3), keep(s.cost, faces, 3);
-    keep(s.face_source, faces);
+    keep(s.face_source, faces), keep(s.first_point, faces);
     parallel_for(s.tri.size(), [&](std::size_t c) { s.tri[c] = rank[s.tri[c]]; });
     keep(s.at, vertices), keep(s.quadrics, vertices), keep(s.kind, vertices), keep(s.moved, vertices);
     keep(s.source, vertices), keep(s.touched, vertices), keep(s.mark, vertices);

@@ -6,6 +6,7 @@
 // the next corner; the corners at a vertex form a list through `next`. A dead face has `none` as its first
 // vertex; its corners stay in the lists of their vertices and are skipped.
 
+#include "geometry/face_tree.hpp"
 #include "geometry/quadric.hpp"
 #include "geometry/simplify.hpp"
 
@@ -24,8 +25,8 @@ enum class Kind : std::uint8_t {
 
 // Bits per corner.
 inline constexpr std::uint8_t boundary_edge = 1, feature_edge = 2; ///< a boundary edge is a feature edge too
-inline constexpr std::uint8_t blocked_border = 4, blocked_topology = 8, blocked_flip = 16;
-inline constexpr std::uint8_t blocked = blocked_border | blocked_topology | blocked_flip;
+inline constexpr std::uint8_t blocked_border = 4, blocked_topology = 8, blocked_flip = 16, blocked_error = 32;
+inline constexpr std::uint8_t blocked = blocked_border | blocked_topology | blocked_flip | blocked_error;
 
 inline constexpr float never = std::numeric_limits<float>::infinity();
 
@@ -34,6 +35,7 @@ inline constexpr float never = std::numeric_limits<float>::infinity();
 struct Step {
     Index a, b;
     Index wedges; ///< merges of wedges so far, those of this step included
+    float error;  ///< squared, as estimated, in the surface's frame
     Vec3 to;
 };
 /// b went into a. Elements of the mesh that came in.
@@ -47,7 +49,7 @@ struct Log {
     std::vector<Merge> wedges;
 };
 
-struct Surface {
+struct Work {
     // Faces.
     std::vector<Index> tri;          ///< [3 faces] vertices
     std::vector<Index> wedge;        ///< [3 faces] wedges of the input; empty when there are no seams
@@ -65,9 +67,18 @@ struct Surface {
     std::vector<std::uint32_t> touched; ///< pass that changed the vertex last
     std::vector<std::uint32_t> mark;    ///< scratch of the link test
 
+    // Only for max_error: points of the surface as it came, each kept with a face near by, as a list per
+    // face.
+    std::vector<Vec3> points;        ///< [points] the vertices, then the centres of the faces
+    const FaceTree* given = nullptr; ///< the surface as it came, in the mesh's units
+    std::vector<Index> next_point;   ///< [points] the next one with the same face, or none
+    std::vector<Index> first_point;  ///< [faces] or none
+
     std::size_t live_faces = 0, live_vertices = 0;
     bool has_features = false;
-    bool logging = false; ///< attributes, or the way back, need to know who went into whom
+    bool endpoints = false;            ///< a new vertex is one of the two that it replaces
+    std::uint32_t pass = 1, stamp = 0; ///< the last ones used, in touched and in mark
+    bool logging = false;              ///< attributes, or the way back, need to know who went into whom
     Log log;
     std::vector<std::uint8_t> features_given; ///< [3 faces of the mesh] whether its corner's edge is a
                                               ///< feature; empty when there is none or nobody asks
@@ -84,32 +95,35 @@ inline Index after(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
 inline Index before(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
 /// Orders a triangle mesh along a Morton curve and builds the lists. mesh: all triangles.
-Surface build_surface(const Mesh& mesh);
+Work build_work(const Mesh& mesh);
 /// The lists of corners per vertex, from tri.
-void build_lists(Surface& s);
+void build_lists(Work& s);
 /// Drops dead faces and vertices; orders stay.
-void compact(Surface& s);
+void compact(Work& s);
 
 /// Sets kind of the vertices and flags of the edges. Needs the lists.
-void classify(Surface& s, const Mesh& mesh, SimplifySettings::Boundary boundary);
+void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock);
 
 /// Sets quadrics from the faces' planes and from the planes that hold feature edges.
-void sum_quadrics(Surface& s);
+void sum_quadrics(Work& s);
 
 /// What to do with an edge.
 struct Placement {
     double cost = std::numeric_limits<double>::infinity(); ///< not finite: locked
+    double error = 0; ///< squared distance, as far as the quadric or the edge's length tells
     Vec3 at;
     bool keep_first = false, keep_second = false; ///< the new vertex is this end as it is
 };
 /// Where the ends u and v of an edge with these flags should meet, and at what cost.
-Placement place(const Surface& s, Index u, Index v, std::uint8_t flags);
+Placement place(const Work& s, Index u, Index v, std::uint8_t flags);
 
 /// What a worker finds around an edge; reused, so that nothing is allocated per edge.
 struct Rings {
     static constexpr int most = 256; ///< vertices with more faces wait until others have thinned them out
     std::array<Index, most> a, b;    ///< live corners at the two ends
     int a_size = 0, b_size = 0;
+    std::vector<Index> points;   ///< of the faces around the edge
+    std::vector<Index> taken_by; ///< the corner, at a or b, of the face that would take each
 };
 
 /// Collapses that one worker makes; joined into the surface's totals afterwards.
@@ -120,22 +134,52 @@ struct Tally {
 };
 
 /// Collapses the edge of corner c if all guarantees hold, else blocks it and says why in its flags. stamp: a
-/// number not yet in mark for any vertex near by; stamp + 1 is used too.
-bool collapse(Surface& s, Index c, std::uint32_t pass, std::uint32_t stamp, Rings& rings, Tally& tally);
+/// number not yet in mark for any vertex near by; stamp + 1 is used too. most: Goal::error.
+bool collapse(Work& s, Index c, double most, std::uint32_t stamp, Rings& rings, Tally& tally);
 
 /// Collapses edges until at most so many faces or vertices are left, or none can go. Returns passes, fills
 /// errors.
 struct Goal {
     std::size_t faces = 0, vertices = 0;
+    /// Squared, in scaled units, when there are points: how far one (see Work::points) may be from the faces
+    /// around, and new vertices and centres of faces from the surface as it came.
+    double error = std::numeric_limits<double>::infinity();
 };
 struct Outcome {
     std::size_t passes = 0, collapses = 0;
     double largest = 0; ///< largest error squared, in scaled units
     bool stuck = false;
 };
-Outcome run_passes(Surface& s, const Goal& goal);
+Outcome run_passes(Work& s, const Goal& goal);
+/// The edges that the last pass left, by reason; means something once the work is stuck.
+SimplifyResult::Blocked count_blocked(const Work& s);
 
-/// The simplified mesh and the fates of its attributes.
-Mesh finished(Surface& s, const Mesh& from, Fates& fates);
+/// What a working state was before its first collapse, as far as the way back needs it.
+struct Origin {
+    std::vector<Index> tri, wedge, source, face_source;
+    std::vector<Vec3> at;
+    std::vector<Index> number; ///< of each vertex of the mesh, in `at`
+
+    Origin(const Work& s, std::size_t vertices);
+};
+/// The mesh after the first so many steps of the log: positions and faces only.
+Mesh shape_after(const Work& s, const Mesh& from, const Origin& origin, std::size_t steps);
+/// Takes back all steps but the first so many. The state can be finished then, and nothing else.
+void roll_back(Work& s, const Origin& origin, std::size_t steps);
+
+/// Collapses as far as the goal and the measured deviation allow.
+struct Bounded {
+    Outcome outcome;
+    bool by_error = false; ///< the bound stopped it
+    double measured = 0;   ///< the deviation of what is left
+    SimplifyResult::Blocked blocked{};
+    std::size_t rolled_back = 0, measurements = 0;
+};
+/// Sets points of the surface as it is now, see Work::points.
+void place_points(Work& s);
+Bounded run_within(Work& s, const Mesh& from, const Goal& goal, double max_error);
+
+/// The simplified mesh and the fates of its attributes. The work can go on afterwards.
+Mesh finished(Work& s, const Mesh& from, Fates& fates);
 
 } // namespace facetmill::simplification
