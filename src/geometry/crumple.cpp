@@ -1,14 +1,13 @@
 #include "geometry/crumple.hpp"
 
 #include "base/error.hpp"
-#include "base/functions.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "geometry/moved.hpp"
 #include "geometry/neighbours.hpp"
 
-#include <bit>
+#include <algorithm>
 
 namespace facetmill {
 
@@ -23,6 +22,12 @@ void check(const Settings& s) {
     if (!(s.truncate >= 0.1))
         throw Error(ErrorKind::usage, "E-RANGE",
                     "crumple: truncate is at least 0.1, not " + spelled(s.truncate));
+    if (!(s.frequency >= 0 && std::isfinite(s.frequency)))
+        throw Error(ErrorKind::usage, "E-RANGE",
+                    "crumple: frequency is at least 0, not " + spelled(s.frequency));
+    if (s.octaves < 1 || s.octaves > 32)
+        throw Error(ErrorKind::usage, "E-RANGE",
+                    "crumple: octaves is 1 to 32, not " + std::to_string(s.octaves));
 }
 
 /// The inverse of the linear part of t, by its adjugate.
@@ -39,11 +44,6 @@ Transform inverse_linear(const Transform& t) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) inverse.m[i][j] = columns[j][i];
     return inverse;
-}
-
-std::uint32_t canonical_bits(double x) {
-    const float f = static_cast<float>(x);
-    return f == 0 ? 0 : std::bit_cast<std::uint32_t>(f);
 }
 
 /// Sums, over the vertices at one place, the area vectors of their faces: a normal that copies of a vertex
@@ -81,57 +81,68 @@ struct Moves {
     std::size_t count = 0;
 };
 
+/// The amount of each vertex along an axis, in world units.
+class Amounts {
+  public:
+    Amounts(const Settings& s, const std::vector<Vec3>& world, const std::vector<std::uint64_t>& keys)
+        : settings_(s), world_(world),
+          keys_(keys), correlated_{s.frequency, s.octaves, s.roughness, s.truncate} {}
+
+    double operator()(std::size_t v, std::uint64_t axis) const {
+        const double g = settings_.frequency > 0 ? correlated_.at(hashed(settings_.seed, axis), world_[v])
+                                                 : gaussian(hashed(keys_[v], axis), settings_.truncate);
+        return settings_.amplitude * g;
+    }
+
+  private:
+    const Settings& settings_;
+    const std::vector<Vec3>& world_;
+    const std::vector<std::uint64_t>& keys_;
+    CorrelatedNoise correlated_;
+};
+
 } // namespace
 
-double gaussian(std::uint64_t key, double truncate) {
-    double g = 0;
-    for (std::uint64_t attempt = 0; attempt < 4096; ++attempt) {
-        g = inverse_normal(uniform(hashed(key, attempt)));
-        if (g >= -truncate && g <= truncate) return g;
-    }
-    return std::clamp(g, -truncate,
-                      truncate); // not reached: at truncate 0.1 a draw holds with probability 0.08
-}
-
-std::uint64_t noise_key(std::uint64_t seed, const Vec3& world) {
-    const std::uint64_t xy = (std::uint64_t{canonical_bits(world.x)} << 32) | canonical_bits(world.y);
-    return hashed(hashed(hashed(seed, 0x6372756d706c65), xy), canonical_bits(world.z));
-}
-
-CrumpleResult crumple(Mesh mesh, const Settings& settings) {
+CrumpleMoves crumple_moves(const Mesh& mesh, const Settings& settings) {
     check(settings);
-    CrumpleResult result;
     const bool placed = !settings.to_world.identity();
     const Transform back = placed ? inverse_linear(settings.to_world) : Transform{};
     const std::size_t n = mesh.vertex_count();
+    CrumpleMoves result;
+    result.keys.resize(n), result.moves.resize(n);
     std::vector<Vec3> world(n);
-    std::vector<std::uint64_t> keys(n);
     parallel_for(n, [&](std::size_t v) {
         world[v] = placed ? settings.to_world.point(mesh.positions[v]) : mesh.positions[v];
-        keys[v] = noise_key(settings.seed, world[v]);
+        result.keys[v] = noise_key(settings.seed, world[v]);
     });
     const bool along = settings.direction == Settings::Direction::normal;
     const std::vector<Vec3> normals =
-        along ? place_normals(mesh, world, keys, settings.to_world.determinant() < 0) : std::vector<Vec3>{};
+        along ? place_normals(mesh, world, result.keys, settings.to_world.determinant() < 0)
+              : std::vector<Vec3>{};
     const std::vector<std::uint8_t> held = settings.boundary == Settings::Boundary::fixed
                                                ? boundary_vertices(mesh)
                                                : std::vector<std::uint8_t>{};
-    const auto amount = [&](std::size_t v, std::uint64_t axis) {
-        return settings.amplitude * gaussian(hashed(keys[v], axis), settings.truncate);
-    };
-    const auto move = [&](std::size_t v) -> Vec3 {
-        if (!held.empty() && held[v]) return {};
-        if (along) return normals[v] * amount(v, 0);
-        return {amount(v, 0), amount(v, 1), amount(v, 2)};
-    };
+    const Amounts amount(settings, world, result.keys);
+    parallel_for(n, [&](std::size_t v) {
+        if (!held.empty() && held[v]) return;
+        Vec3 move = along ? normals[v] * amount(v, 0) : Vec3{amount(v, 0), amount(v, 1), amount(v, 2)};
+        if (!settings.mask.empty()) move *= settings.mask[v];
+        result.moves[v] = placed ? back.vector(move) : move;
+    });
+    for (const auto h : held) result.held += h;
+    return result;
+}
+
+CrumpleResult crumple_settled(Mesh mesh, const std::vector<Vec3>& before, const Transform& to_world) {
+    CrumpleResult result;
+    const std::size_t n = mesh.vertex_count();
     const Moves moves = parallel_reduce(
         n, Moves{},
         [&](std::size_t begin, std::size_t end) {
             Moves m;
             for (std::size_t v = begin; v < end; ++v) {
-                const Vec3 d = move(v);
-                if (d == Vec3{}) continue;
-                mesh.positions[v] += placed ? back.vector(d) : d;
+                if (mesh.positions[v] == before[v]) continue;
+                const Vec3 d = to_world.vector(mesh.positions[v] - before[v]);
                 m.largest = std::max(m.largest, dot(d, d)), m.sum += dot(d, d), ++m.count;
             }
             return m;
@@ -142,9 +153,17 @@ CrumpleResult crumple(Mesh mesh, const Settings& settings) {
     result.largest_move = std::sqrt(moves.largest);
     result.root_mean_square = n > 0 ? std::sqrt(moves.sum / static_cast<double>(n)) : 0;
     result.moved = moves.count;
-    for (const auto h : held) result.held += h;
     result.fates = settle_moved(mesh);
     result.mesh = std::move(mesh);
+    return result;
+}
+
+CrumpleResult crumple(Mesh mesh, const Settings& settings) {
+    const CrumpleMoves moves = crumple_moves(mesh, settings);
+    const std::vector<Vec3> before = mesh.positions;
+    parallel_for(before.size(), [&](std::size_t v) { mesh.positions[v] += moves.moves[v]; });
+    CrumpleResult result = crumple_settled(std::move(mesh), before, settings.to_world);
+    result.held = moves.held;
     return result;
 }
 

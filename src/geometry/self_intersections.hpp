@@ -4,12 +4,15 @@
 #include "mesh/mesh.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 namespace facetmill {
 
 struct SelfIntersectionSettings {
-    std::size_t limit = 10; ///< how many pairs are listed; all are counted
+    std::size_t limit = 10;               ///< how many pairs are listed; all are counted
+    std::vector<std::uint8_t> among = {}; ///< [faces] only pairs with a face that is set; empty: all pairs
 };
 
 struct SelfIntersections {

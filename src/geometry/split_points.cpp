@@ -19,6 +19,10 @@ std::vector<Index> next_corners(const Mesh& mesh) {
     return next;
 }
 
+bool comes_before(const Vec3& a, const Vec3& b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
 } // namespace
 
 EdgePoints::EdgePoints(const Mesh& mesh, const EdgeTable& edges, int pieces,
@@ -74,12 +78,16 @@ void EdgePoints::number_bundles() {
 
 void EdgePoints::describe(Lineage& vertices, Lineage& wedges) const {
     const auto n = static_cast<std::size_t>(points_);
+    // Points are reckoned from the lexicographically smaller end, so that unwelded copies of an edge, in this
+    // mesh or another, get exactly the same points whatever their numbers.
     const auto fill = [&](std::vector<Lineage::Edge>& out, std::size_t at, std::size_t e, Index low,
                           Index high) {
-        for (std::size_t i = 0; i < n; ++i)
-            out[at + i] = {low, high,
-                           at_.empty() ? static_cast<double>(i + 1) / static_cast<double>(points_ + 1)
-                                       : at_[e]};
+        const auto& [a, b] = table_->edges[e];
+        const bool turn = at_.empty() && comes_before(mesh_->positions[b], mesh_->positions[a]);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double share = static_cast<double>(turn ? n - i : i + 1) / static_cast<double>(n + 1);
+            out[at + i] = {turn ? high : low, turn ? low : high, at_.empty() ? share : at_[e]};
+        }
     };
     const std::size_t first = vertices.edges.size();
     vertices.edges.resize(first + vertex_points());

@@ -1,7 +1,9 @@
 // The stages that shape: what they pass on to geometry, and what they report.
+#include "geometry/self_intersections.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
+#include "support/failure.hpp"
 #include "support/stage.hpp"
 #include "support/surface.hpp"
 
@@ -73,6 +75,62 @@ TEST_CASE("crumple: parts that meet stay together", "[stages]") {
             CHECK(length(a - b) < 1e-15);
         }
     CHECK(met == 4);
+}
+
+TEST_CASE("crumple: avoid keeps faces apart, forbid refuses", "[stages]") {
+    const auto with = [](const char* what) {
+        return options({{"amplitude", "0.2"}, {"grid", "3"}, {"self_intersections", what}});
+    };
+    const auto r = run_stage("crumple", with("avoid"), scene_of(shapes::quad_cube()));
+    const auto& report = r.record.result["self_intersections"];
+    CHECK(report["before"] == 0);
+    CHECK(report["found"] > 0);
+    CHECK(report["rounds"] > 0);
+    CHECK(find_self_intersections(triangulated(r.mesh())).count == 0);
+    CHECK(test::sound(r.mesh(), 2));
+    CHECK(test::failure([&] {
+              run_stage("crumple", with("forbid"), scene_of(shapes::quad_cube()));
+          }).starts_with("stage [E-INTERSECTS] crumple: "));
+    CHECK(find_self_intersections(run_stage("crumple", with("allow"), scene_of(shapes::quad_cube())).mesh())
+              .count > 0);
+}
+
+TEST_CASE("crumple: a mask by group, and fractal noise", "[stages]") {
+    Mesh mesh = shapes::quad_cube();
+    mesh.attributes.push_back(
+        {"group", Domain::face, Role::index, 1, false, std::vector<std::uint32_t>{0, 1, 0, 0, 0, 0}});
+    Value o = options({{"amplitude", "0.01"}, {"grid", "4"}, {"frequency", "3"}, {"octaves", "4"}});
+    o.set("mask", options({{"group", "1"}}));
+    const auto r = run_stage("crumple", o, scene_of(mesh));
+    CHECK(r.record.result["parts"][0]["moved_vertices"] == 9); // inside the one face of the group
+}
+
+TEST_CASE("split: targets and what they report", "[stages]") {
+    const auto r = run_stage("split", options({{"max_edge", "10%"}}), scene_of(shapes::cube()));
+    const auto& part = r.record.result["parts"][0];
+    CHECK(part["longest_edge"]["after"].get<double>() <= std::sqrt(3.0) / 10);
+    CHECK(part["smallest_angle"]["before"].get<double>() == Approx(45));
+    CHECK(run_stage("split", options({{"faces", "100"}}), scene_of(shapes::cube())).mesh().face_count() <=
+          100);
+    CHECK(problems_of("split", options({{"method", "core"}, {"max_edge", "1"}})).substr(0, 9) == "E-TARGET ");
+    CHECK(problems_of("split", options({{"min_angle", "20"}, {"faces", "9"}})).substr(0, 12) ==
+          "E-EXCLUSIVE ");
+    CHECK(problems_of("split", options({{"method", "sqrt3"}, {"creases", "20"}})).substr(0, 12) ==
+          "E-EXCLUSIVE ");
+    CHECK(problems_of("split", options({{"cut", "widest-angle"}})).substr(0, 12) == "E-EXCLUSIVE ");
+}
+
+TEST_CASE("relax: area and volume before and after; options that go with methods", "[stages]") {
+    const auto r = run_stage("relax", options({{"method", "hc"}}), scene_of(shapes::icosphere(2)));
+    const auto& part = r.record.result["parts"][0];
+    CHECK(part["before"]["volume"].get<double>() > part["after"]["volume"].get<double>());
+    CHECK(run_stage("relax", {}, scene_of(shapes::grid(2, 2)))
+              .record.result["parts"][0]["after"]["volume"]
+              .is_null());
+    CHECK(problems_of("relax", options({{"method", "taubin"}, {"factor", "0.9"}})).substr(0, 8) ==
+          "E-RANGE ");
+    CHECK(problems_of("relax", options({{"pass_band", "0.2"}})) ==
+          "E-EXCLUSIVE relax: 'pass_band' goes with the method taubin only");
 }
 
 TEST_CASE("simplify: a bare ratio, and what is reported", "[stages]") {

@@ -93,15 +93,18 @@ bool meet(const Facets& facets, Index s, Index t) {
     return CGAL::do_intersect(ta, tb);
 }
 
-/// The faces above f that meet it: found from its triangles [begin, end).
+/// The faces that meet face f, found from its triangles [begin, end): those above f, and those below that are
+/// not searched themselves.
 void find_partners(const Facets& facets, const BoxTree& tree, Index begin, Index end,
-                   std::vector<Index>& partners) {
+                   const std::vector<std::uint8_t>& among, std::vector<Index>& partners) {
     partners.clear();
     for (Index t = begin; t < end; ++t) {
         if (facets.boxes[t].empty()) continue;
         tree.visit(facets.boxes[t], [&](Index other) {
             const Index face = facets.face(other);
-            if (face > facets.face(t) && meet(facets, t, other)) partners.push_back(face);
+            const Index mine = facets.face(t);
+            if (face == mine || (face < mine && (among.empty() || among[face]))) return;
+            if (meet(facets, t, other)) partners.push_back(face);
         });
     }
     std::sort(partners.begin(), partners.end());
@@ -124,11 +127,12 @@ SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersecti
                 Index end = t + 1;
                 while (end < triangles && facets.face(end) == facets.face(t)) ++end;
                 const bool mine = t == 0 || facets.face(t - 1) != facets.face(t);
-                if (mine) {
-                    find_partners(facets, tree, t, end, partners);
+                if (mine && (settings.among.empty() || settings.among[facets.face(t)])) {
+                    find_partners(facets, tree, t, end, settings.among, partners);
                     found.count += partners.size();
                     for (const Index p : partners)
-                        if (found.pairs.size() < settings.limit) found.pairs.emplace_back(facets.face(t), p);
+                        if (found.pairs.size() < settings.limit)
+                            found.pairs.push_back(std::minmax(facets.face(t), p));
                 }
                 t = end;
             }
