@@ -34,4 +34,6 @@ std::string spelled(double value) {
     return {buffer, result.ptr};
 }
 
+double as_float32(double x) { return static_cast<double>(static_cast<float>(x)); }
+
 } // namespace facetmill

@@ -12,6 +12,9 @@ namespace facetmill {
 std::optional<double> parse_real(std::string_view text);
 /// The decimal integer that the whole text spells, or none (also when out of range). "010" is ten.
 std::optional<std::int64_t> parse_integer(std::string_view text);
+/// x rounded to float32. Not inline on purpose: GCC 12 drops the conversion there and back when it vectorises
+/// two of them side by side (seen at -O2 and -O3).
+double as_float32(double x);
 /// The shortest spelling that reads back as the same double.
 std::string spelled(double value);
 

@@ -1,3 +1,4 @@
+#include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "geometry/crumple.hpp"
@@ -17,10 +18,7 @@ constexpr std::size_t most_pairs = 8 << 20; ///< that a round looks at; what is 
 
 double share_of(std::uint8_t level) { return level == last_level ? 0 : 1.0 / (1 << level); }
 
-Vec3 rounded(const Vec3& p) {
-    const auto round = [](double x) { return static_cast<double>(static_cast<float>(x)); };
-    return {round(p.x), round(p.y), round(p.z)};
-}
+Vec3 rounded(const Vec3& p) { return {as_float32(p.x), as_float32(p.y), as_float32(p.z)}; }
 
 /// Numbers for equal keys, over all sheets.
 struct Places {

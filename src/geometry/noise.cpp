@@ -1,6 +1,7 @@
 #include "geometry/noise.hpp"
 
 #include "base/functions.hpp"
+#include "base/numbers.hpp"
 #include "base/random.hpp"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ std::uint64_t noise_key(std::uint64_t seed, const Vec3& world) {
 
 double CorrelatedNoise::at(std::uint64_t seed, const Vec3& world) const {
     Vec3 p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = static_cast<double>(static_cast<float>(world[i])) * frequency;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = as_float32(world[i]) * frequency;
     double sum = 0, squares = 0, amount = 1;
     for (int k = 0; k < octaves; ++k) {
         sum += amount * octave(hashed(seed, 0x6f637461 + static_cast<std::uint64_t>(k)), p, truncate);

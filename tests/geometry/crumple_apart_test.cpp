@@ -1,4 +1,5 @@
 // Crumpling that keeps faces apart, and correlated noise.
+#include "base/numbers.hpp"
 #include "geometry/crumple.hpp"
 #include "geometry/generate.hpp"
 #include "geometry/self_intersections.hpp"
@@ -49,7 +50,7 @@ TEST_CASE("a crumpled sponge has no faces that meet, in float32 too", "[geometry
     CHECK(r.exempt == 0);
     CHECK(std::accumulate(r.shares.begin(), r.shares.end(), std::size_t{0}) == mesh.vertex_count());
     for (const Vec3& p : after.positions)
-        for (std::size_t i = 0; i < 3; ++i) CHECK(p[i] == static_cast<double>(static_cast<float>(p[i])));
+        for (std::size_t i = 0; i < 3; ++i) CHECK(p[i] == as_float32(p[i]));
     CHECK(oracle::self_intersections(after).empty());
     CHECK(test::count(after).flat == 0);
 }

@@ -1,0 +1,13 @@
+#include "base/numbers.hpp"
+
+#include "support/catch.hpp"
+
+using namespace facetmill;
+
+TEST_CASE("float32 rounding is done for neighbours in memory too", "[base]") {
+    double numbers[] = {0.1, 0.2, 0.3, 0.4};
+    for (double& x : numbers) x = as_float32(x);
+    CHECK(numbers[0] == 0.100000001490116119384765625);
+    CHECK(numbers[1] == 0.20000000298023223876953125);
+    CHECK(as_float32(0.5) == 0.5);
+}
