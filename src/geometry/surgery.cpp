@@ -86,6 +86,42 @@ Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces) {
     return result;
 }
 
+std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of_face, std::size_t count) {
+    std::vector<std::vector<Index>> faces(count);
+    for (Index f = 0; f < mesh.face_count(); ++f) faces[label_of_face[f]].push_back(f);
+    std::vector<Index> new_wedge(mesh.wedge_count(), gone), new_vertex(mesh.vertex_count(), gone);
+    std::vector<Mesh> pieces(count);
+    for (std::size_t p = 0; p < count; ++p) {
+        Mesh& piece = pieces[p];
+        Descent descent;
+        descent.faces = std::move(faces[p]);
+        if (!mesh.all_triangles()) piece.face_offsets.push_back(0);
+        for (const Index f : descent.faces) {
+            for (const Index w : mesh.face_wedges(f)) {
+                const Index v = mesh.vertex_of_wedge(w);
+                if (new_vertex[v] == gone) {
+                    new_vertex[v] = static_cast<Index>(piece.positions.size());
+                    piece.positions.push_back(mesh.positions[v]);
+                    descent.vertices.copies.push_back(v);
+                }
+                if (new_wedge[w] == gone) {
+                    new_wedge[w] = static_cast<Index>(descent.wedges.copies.size());
+                    descent.wedges.copies.push_back(w);
+                    if (mesh.has_seams()) piece.wedge_vertex.push_back(new_vertex[v]);
+                }
+                piece.corners.push_back(new_wedge[w]);
+            }
+            if (!mesh.all_triangles()) piece.face_offsets.push_back(static_cast<Index>(piece.corners.size()));
+        }
+        inherit_attributes(piece, mesh, descent);
+        for (const Index w : descent.wedges.copies) new_wedge[w] = gone; // a vertex may be of several pieces
+        for (const Index v : descent.vertices.copies) new_vertex[v] = gone;
+        normalise_offsets(piece);
+        forget_plain_wedges(piece);
+    }
+    return pieces;
+}
+
 std::size_t merge_vertices(Mesh& mesh, const std::vector<Index>& target) {
     const std::size_t before = mesh.vertex_count();
     std::vector<std::uint8_t> stays(before);

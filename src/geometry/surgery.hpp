@@ -14,6 +14,10 @@ namespace facetmill {
 /// that had none stay.
 Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces);
 
+/// One mesh per label below count: the faces of that label in order, with the vertices and wedges that they
+/// use, in order of use. Isolated vertices go. O(corners), for any number of labels.
+std::vector<Mesh> separated(const Mesh& mesh, const std::vector<Index>& label_of_face, std::size_t count);
+
 /// The faces whose flag is zero, ascending.
 std::vector<Index> faces_without(const std::vector<std::uint8_t>& flags);
 

@@ -116,19 +116,27 @@ Json new_material(const Material& material) {
     return json;
 }
 
+/// Stages may change which sides are seen; all else of a document's material is as it was.
+void patch_sides(const Material& material, Json& json) {
+    if (json.value("doubleSided", false) != material.double_sided) json["doubleSided"] = material.double_sided;
+}
+
 } // namespace
 
 int patch_material(Patch& patch, Index index) {
     if (index >= patch.scene.materials.size()) return -1;
     const Material& material = patch.scene.materials[index];
-    if (material.document >= 0 && material.document == patch.base && material.index >= 0)
+    if (material.document >= 0 && material.document == patch.base && material.index >= 0) {
+        patch_sides(material, patch.builder.json()["materials"][static_cast<std::size_t>(material.index)]);
         return material.index;
+    }
     if (const auto known = patch.materials.find(index); known != patch.materials.end()) return known->second;
     Json json;
     if (material.document >= 0 && material.index >= 0) {
         const Json& other = other_document(patch, material.document);
         json = item(other, "materials", static_cast<std::size_t>(material.index)).json();
         copy_textures(patch, material.document, json);
+        patch_sides(material, json);
     } else {
         json = new_material(material);
     }

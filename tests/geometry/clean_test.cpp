@@ -312,3 +312,40 @@ TEST_CASE("clean takes an empty mesh and one of points", "[geometry]") {
     points.positions = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}};
     CHECK(cleaned(points, s).mesh.vertex_count() == 0);
 }
+
+TEST_CASE("clean drops shells inside others, and keeps those that touch or stand beside", "[geometry]") {
+    Mesh mesh = shapes::icosphere(2);
+    const auto add = [&](double scale, const Vec3& offset) {
+        Mesh other = shapes::icosphere(1);
+        for (Vec3& p : other.positions) p = p * scale + offset;
+        append(mesh, other);
+    };
+    add(0.3, {0.2, 0, 0}), add(0.3, {3, 0, 0}), add(0.3, {0.9, 0, 0});
+    CleanSettings s;
+    s.shells = true;
+    const auto r = cleaned(mesh, s);
+    CHECK(r.counts.shells == 1);
+    CHECK(r.counts.shell_faces == 80);
+    CHECK(inspect(r.mesh).components == 3);
+}
+
+TEST_CASE("clean replaces faces that intersect", "[geometry]") {
+    Mesh mesh = shapes::icosphere(3); // one vertex pushed through the far side
+    mesh.positions[0] *= -1.5;
+    REQUIRE(inspect(mesh, {.self_intersections = true}).self_intersections.value() > 0);
+    CleanSettings s;
+    s.self_intersections = true;
+    const auto r = cleaned(mesh, s);
+    CHECK(r.counts.intersecting_faces > 0);
+    CHECK(is_sound_solid(r.mesh));
+    CHECK(inspect(r.mesh, {.self_intersections = true}).self_intersections.value() == 0);
+}
+
+TEST_CASE("clean leaves intersections that it cannot end, and says so", "[geometry]") {
+    const Mesh mesh = shapes::crossing();
+    CleanSettings s;
+    s.self_intersections = true;
+    s.isolated = false;
+    const auto r = cleaned(mesh, s);
+    if (r.counts.intersecting_faces == 0) CHECK(r.not_done.at(0).step == "self_intersections");
+}

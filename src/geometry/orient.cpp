@@ -1,0 +1,204 @@
+#include "geometry/orient.hpp"
+
+#include "base/parallel.hpp"
+#include "geometry/axis_rays.hpp"
+#include "geometry/surface_normal.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace facetmill {
+
+namespace {
+
+/// Pieces and, within each, which faces have to turn for neighbours to agree.
+struct Spread {
+    std::vector<OrientedPiece> pieces;
+    std::vector<Index> piece_of;
+    std::vector<std::uint8_t> flips;
+};
+
+/// Breadth first over edges of two faces, from the lowest face of each piece.
+class Spreader {
+  public:
+    explicit Spreader(const Mesh& mesh)
+        : mesh_(mesh), edges_(build_edges(mesh)), faces_(corner_faces(mesh)) {}
+
+    Spread run() {
+        out_.piece_of.assign(mesh_.face_count(), none);
+        out_.flips.assign(mesh_.face_count(), 0);
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            if (out_.piece_of[f] == none) spread_from(f);
+        return std::move(out_);
+    }
+
+  private:
+    void spread_from(Index first) {
+        OrientedPiece piece;
+        piece.first_face = first, piece.closed = true;
+        std::vector<Index> queue{first};
+        out_.piece_of[first] = static_cast<Index>(out_.pieces.size());
+        for (std::size_t at = 0; at < queue.size(); ++at) visit(queue[at], piece, queue);
+        piece.faces = queue.size();
+        const auto turned = static_cast<std::size_t>(
+            std::count_if(queue.begin(), queue.end(), [&](Index f) { return out_.flips[f] != 0; }));
+        // The front is what most faces had as front; a piece without one stays as it was.
+        const bool other = 2 * turned > queue.size();
+        for (const Index f : queue) out_.flips[f] = piece.orientable && (out_.flips[f] != 0) != other;
+        out_.pieces.push_back(piece);
+    }
+
+    void visit(Index f, OrientedPiece& piece, std::vector<Index>& queue) {
+        for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
+            const Index e = edges_.corner_edge[c];
+            if (e == none) continue;
+            const auto corners = edges_.corners_of(e);
+            if (corners.size() != 2) {
+                piece.closed = false;
+                continue;
+            }
+            const Index other = corners[0] == c ? corners[1] : corners[0], g = faces_[other];
+            const bool turns = (mesh_.vertex(other) == mesh_.vertex(c)) != (out_.flips[f] != 0);
+            if (out_.piece_of[g] == none) {
+                out_.piece_of[g] = out_.piece_of[f], out_.flips[g] = turns;
+                queue.push_back(g);
+            } else if ((out_.flips[g] != 0) != turns && piece.orientable) {
+                piece.orientable = false;
+                piece.conflict = mix(mesh_.point(c), mesh_.point(next_corner(mesh_, f, c)), 0.5);
+            }
+        }
+    }
+
+    const Mesh& mesh_;
+    EdgeTable edges_;
+    std::vector<Index> faces_;
+    Spread out_;
+};
+
+/// Which pieces of a consistent mesh have to turn for their front to be outside.
+class Outside {
+  public:
+    Outside(const Mesh& mesh, Spread& spread, Nested nested)
+        : mesh_(mesh), spread_(spread), nested_(nested), rays_(mesh), faces_(spread.pieces.size()) {
+        for (Index f = 0; f < mesh.face_count(); ++f) faces_[spread.piece_of[f]].push_back(f);
+    }
+
+    std::vector<std::uint8_t> run() {
+        std::vector<std::uint8_t> turns(spread_.pieces.size(), 0);
+        parallel_for(
+            turns.size(),
+            [&](std::size_t p) {
+                OrientedPiece& piece = spread_.pieces[p];
+                if (!piece.orientable) return;
+                if (piece.closed) piece.depth = depth(p);
+                const bool cavity = nested_ == Nested::cavities && piece.depth % 2 == 1;
+                const double out = piece.closed ? volume(p) : votes(p);
+                piece.undecided = !(out > 0 || out < 0);
+                turns[p] = cavity ? out > 0 : out < 0;
+            },
+            1);
+        return turns;
+    }
+
+  private:
+    Vec3 middle(Index f) const {
+        Vec3 sum;
+        for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) sum += mesh_.point(c);
+        return sum / mesh_.face_size(f);
+    }
+
+    double volume(std::size_t p) const {
+        const Vec3 origin = mesh_.point(mesh_.face_begin(faces_[p][0]));
+        return parallel_reduce(
+            faces_[p].size(), 0.0,
+            [&](std::size_t begin, std::size_t end) {
+                double six = 0;
+                for (std::size_t i = begin; i < end; ++i) {
+                    const Index f = faces_[p][i], first = mesh_.face_begin(f);
+                    for (Index c = first + 1; c + 1 < mesh_.face_end(f); ++c)
+                        six += dot(mesh_.point(first) - origin,
+                                   cross(mesh_.point(c) - origin, mesh_.point(c + 1) - origin));
+                }
+                return six;
+            },
+            [](double a, double b) { return a + b; });
+    }
+
+    /// In how many other closed pieces one of its points lies; the middle of three samples.
+    std::size_t depth(std::size_t p) const {
+        std::vector<std::size_t> depths;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index f = faces_[p][k * (faces_[p].size() - 1) / 2];
+            std::map<Index, int> turns; // of each piece around the point
+            rays_.visit(mesh_.point(mesh_.face_begin(f)), 0, true, [&](Index g, int way) {
+                const Index q = spread_.piece_of[g];
+                if (q != p && spread_.pieces[q].closed && spread_.pieces[q].orientable) turns[q] += way;
+            });
+            depths.push_back(static_cast<std::size_t>(
+                std::count_if(turns.begin(), turns.end(), [](const auto& t) { return t.second != 0; })));
+        }
+        std::sort(depths.begin(), depths.end());
+        return depths[1];
+    }
+
+    /// Rays along the axes from faces spread over the piece: how much of their front sees the outside, less
+    /// how much of their back does. Only the piece itself is in the way.
+    double votes(std::size_t p) const {
+        constexpr std::size_t most = 256;
+        const auto& faces = faces_[p];
+        const std::size_t samples = std::min(most, faces.size());
+        double front = 0;
+        for (std::size_t s = 0; s < samples; ++s) {
+            const Index f = faces[s * faces.size() / samples];
+            const Vec3 area = area_vector(mesh_, f), from = middle(f);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double weight = std::abs(area[axis]);
+                if (!(weight > 0)) continue;
+                const auto free = [&](bool forward) {
+                    bool escapes = true;
+                    rays_.visit(from, axis, forward, [&](Index g, int) {
+                        escapes = escapes && (g == f || spread_.piece_of[g] != p);
+                    });
+                    return escapes;
+                };
+                const bool before = free(area[axis] > 0), behind = free(!(area[axis] > 0));
+                front += weight * (static_cast<double>(before) - static_cast<double>(behind));
+            }
+        }
+        return front;
+    }
+
+    const Mesh& mesh_;
+    Spread& spread_;
+    Nested nested_;
+    AxisRays rays_;
+    std::vector<std::vector<Index>> faces_;
+};
+
+} // namespace
+
+OrientResult orient(Mesh mesh, const OrientSettings& settings) {
+    OrientResult result;
+    std::vector<std::uint8_t> flips(mesh.face_count(), 1);
+    if (settings.method != OrientMethod::flip) {
+        Spread spread = Spreader(mesh).run();
+        flips = spread.flips;
+        if (settings.method == OrientMethod::outward) {
+            Mesh agreed; // what outside is asked of
+            agreed.positions = mesh.positions, agreed.wedge_vertex = mesh.wedge_vertex;
+            agreed.corners = mesh.corners, agreed.face_offsets = mesh.face_offsets;
+            flip_faces(agreed, flips);
+            const auto turns = Outside(agreed, spread, settings.nested).run();
+            for (Index f = 0; f < flips.size(); ++f) flips[f] = flips[f] != turns[spread.piece_of[f]];
+        }
+        for (Index f = 0; f < flips.size(); ++f) spread.pieces[spread.piece_of[f]].flipped += flips[f];
+        result.pieces = std::move(spread.pieces);
+    }
+    result.flipped = static_cast<std::size_t>(std::count(flips.begin(), flips.end(), 1));
+    result.fates = flip_faces(mesh, flips);
+    result.mesh = std::move(mesh);
+    return result;
+}
+
+} // namespace facetmill

@@ -1,0 +1,64 @@
+#pragma once
+// Surfaces and lines that get a thickness.
+
+#include "mesh/mesh.hpp"
+
+#include <cstddef>
+
+namespace facetmill {
+
+/// Where the new wall stands to the surface that was there.
+enum class ThickenSide { outward, inward, centred };
+
+struct ThickenSettings {
+    double thickness = 1; ///< mesh units, above zero
+    ThickenSide side = ThickenSide::inward;
+    double corner_limit = 3;        ///< a vertex moves at most so many times the distance, at least 1
+    bool self_intersections = true; ///< count them in the result
+};
+
+struct ThickenResult {
+    Mesh mesh;
+    Fates fates;
+    std::size_t wall_faces = 0;         ///< along open edges
+    std::size_t limited = 0;            ///< vertices that corner_limit held back
+    std::size_t still = 0;              ///< vertices without a normal (or of no face): they did not move
+    double thinnest = 0, mean = 0;      ///< measured from vertices and middles of faces of the front to the back
+    std::size_t self_intersections = 0; ///< pairs of faces
+};
+
+/// Makes a solid of the surface: the front as it is (moved outward by the thickness, or half of it), a copy
+/// of it turned round at the thickness behind, and walls along open edges. A closed surface becomes a hollow
+/// solid with a cavity. A vertex moves so that the planes of its faces move by the distance each, as nearly
+/// as one point allows (least squares, weighted by the angles of the faces at the vertex); where that goes
+/// farther than corner_limit it is held back. Wedges of the back have normals turned; walls have their own
+/// when the mesh has normals. Requires a consistently oriented surface to be closed afterwards. O(n log n).
+ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
+
+struct WiresSettings {
+    double thickness = 1;   ///< diameter, mesh units, above zero
+    int sides = 8;          ///< of each cylinder, 3 or more
+    bool open_only = false; ///< only the edges with one face
+};
+
+struct WiresResult {
+    Mesh mesh;
+    std::size_t edges = 0, skipped = 0; ///< skipped: without length
+};
+
+/// Lines become cylinders: a closed cylinder around every edge, with flat ends at the vertices. Without
+/// attributes.
+WiresResult wires(const Mesh& mesh, const WiresSettings& settings);
+
+struct TwoSidedResult {
+    Mesh mesh;
+    Fates fates;
+};
+
+/// The faces once more, in reversed order, after the others. The back has its own vertices, but for those on open edges,
+/// which both sides share: an open surface becomes a closed one of no volume (an inner edge between two vertices on open
+/// edges then has four faces). Wedges of the back have their own attributes, with normals turned; face attributes are
+/// copied.
+TwoSidedResult two_sided(const Mesh& mesh);
+
+} // namespace facetmill

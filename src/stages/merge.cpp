@@ -1,0 +1,76 @@
+#include "stage/stage.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+struct MergeOptions {
+    std::string name;
+    bool weld = false;
+};
+
+void declare(Declare<MergeOptions>& d) {
+    d.option("name", &MergeOptions::name, "The name of the joined part; unset, that of the first.").primary();
+    d.option("weld", &MergeOptions::weld, "Makes vertices at exactly the same place one.");
+}
+
+/// The number of the part that each face came from: what `separate: group` parts by.
+void mark_group(Mesh& mesh, std::uint32_t number) {
+    mesh.drop("group", Domain::face);
+    mesh.attributes.push_back({"group", Domain::face, Role::index, 1, false,
+                               std::vector<std::uint32_t>(mesh.face_count(), number)});
+}
+
+Scene run(Scene scene, const MergeOptions& o, Context& context) {
+    std::vector<Part> rest;
+    std::optional<Part> joined;
+    std::size_t place = 0;
+    Json names = Json::array();
+    for (Part& part : scene.parts) {
+        if (!context.selects(part, scene)) {
+            rest.push_back(std::move(part));
+            continue;
+        }
+        if (!part.skinned) apply(part.mesh, part.transform);
+        mark_group(part.mesh, static_cast<std::uint32_t>(names.size()));
+        names.push_back(part.name);
+        for (const auto& a : part.mesh.attributes)
+            context.ledger(part,
+                           {{a.name, a.domain, Fate::Kind::kept, "zero where the other parts have none"}});
+        if (joined) {
+            append(joined->mesh, part.mesh);
+            continue;
+        }
+        place = rest.size();
+        joined = Part{part.name, std::move(part.mesh), {}, -1, -1, -1, false, true};
+    }
+    std::size_t welded = 0;
+    if (joined) {
+        if (o.weld) welded = weld_exact(joined->mesh);
+        if (!o.name.empty()) joined->name = o.name;
+        context.result() = {{"part", joined->name}, {"welded_vertices", welded}};
+        rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(place), std::move(*joined));
+    }
+    context.result()["merged"] = std::move(names);
+    scene.parts = std::move(rest);
+    return scene;
+}
+
+const RegisterStage registered = make_stage<MergeOptions>(
+    {.name = "merge",
+     .about = "Joins parts into one.",
+     .details =
+         "The parts (all, or those that `only` names) become one mesh in world space, at the place of the "
+         "first. "
+         "Materials stay with their faces; an attribute that only some parts have is zero in the others. The "
+         "face attribute `group` numbers the parts, so that `separate: group` takes them apart again. Nodes, "
+         "skins and instances of the parts are gone. Closedness is per part: solids that only touch are one "
+         "closed part, and with weld they share vertices.",
+     .examples = {"merge", "merge: body", "merge: {weld: true}"}},
+    declare, run);
+
+} // namespace
+
+} // namespace facetmill
