@@ -12,6 +12,7 @@ except ImportError:  # the notice is printed by the test that needs it
     jsonschema = None
 
 PIPELINES = sorted((SOURCE / "pipelines").glob("*.yaml"))
+FIGURES = sorted((SOURCE / "pipelines/figures").glob("*.yaml"))
 # Hides what libm would choose by the processor. Names differ between releases of glibc; unknown ones are ignored.
 OLD_PROCESSOR = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-AVX2_Usable,-FMA_Usable"}
 # What varies from run to run stands under these keys of a report, and nowhere else.
@@ -25,7 +26,8 @@ def stable(report):
 class Golden(Case):
     def run_pipeline(self, pipeline, out, *arguments, env=None):
         folder = self.dir / out
-        self.mill("run", pipeline, "-D", f"input={SCAN}", "--output-dir", folder, "--quiet", *arguments, env=env)
+        scan = ["-D", f"input={SCAN}"] if "\n  input:" in pipeline.read_text() else []
+        self.mill("run", pipeline, *scan, "--output-dir", folder, "--quiet", *arguments, env=env)
         files = self.files(folder)
         reports = {name for name in files if name.endswith((".json", ".html"))}
         self.assertTrue(files.keys() - reports, "the pipeline wrote nothing")
@@ -66,9 +68,32 @@ for path in PIPELINES:
     setattr(Golden, "test_" + path.stem.replace("-", "_"), test)
 
 
+class Figures(Golden):
+    """The figures of the notes: without a warning, each file one of its own, and a picture of it in the docs."""
+
+    def check_figure(self, path):
+        files, reports = self.run_pipeline(path, "j1", "-j", "1", "--strict")
+        for report in reports.values():
+            self.check_report(report, files)
+        self.assertEqual(len(set(files.values())), len(files), "two files of a figure are the same")
+        if not SLOW:
+            self.assertEqual(self.run_pipeline(path, "j2", "-j", "2", "--strict")[0], files)
+        picture = SOURCE / f"docs/figures/{path.stem}.png"
+        self.assertLess(picture.stat().st_size, 60000)
+        self.assertIn(f"figures/{path.name}", (SOURCE / "docs/figures.md").read_text())
+
+
+for path in FIGURES:
+    def test(self, path=path):
+        self.check_figure(path)
+    setattr(Figures, "test_figure_" + path.stem.replace("-", "_"), test)
+for path in PIPELINES:  # those are Golden's
+    setattr(Figures, "test_" + path.stem.replace("-", "_"), None)
+
+
 class Language(Case):
     def test_every_pipeline_passes_check(self):
-        self.mill("check", *PIPELINES)
+        self.mill("check", *PIPELINES, *FIGURES)
 
     @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
     def test_the_schema_of_pipelines_is_a_schema(self):
