@@ -64,16 +64,18 @@ struct Run {
 
 Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
         const std::vector<Vec3>& start, std::int64_t iterations, double until) {
-    Run run{start};
-    if (iterations == 0) return run;
+    if (iterations == 0) return {start};
+    Run run;
     const RelaxStep step = relax_step(mesh, near, settings, start);
-    std::vector<Vec3> next(start.size());
+    run.places.resize(start.size());
+    std::vector<Vec3> last(iterations > 1 ? start.size() : 0);
     while (run.iterations < iterations && !run.settled) {
-        step(run.places, next);
-        run.places.swap(next);
+        if (run.iterations > 0) run.places.swap(last);
+        const std::vector<Vec3>& from = run.iterations > 0 ? last : start;
+        step(from, run.places);
         ++run.iterations;
         if (until <= 0) continue;
-        run.last_move = std::sqrt(compare(next, run.places, settings.to_world).largest);
+        run.last_move = std::sqrt(compare(from, run.places, settings.to_world).largest);
         run.settled = run.last_move <= until;
     }
     return run;
