@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
+#include "geometry/self_intersections.hpp"
 #include "geometry/simplify_work.hpp"
 
 namespace facetmill {
@@ -29,6 +30,8 @@ void check(const SimplifySettings& s) {
 }
 
 void check_levels(const SimplifySettings& s) {
+    if (s.self_intersections == SimplifySettings::Intersections::avoid)
+        refuse("levels cannot avoid self-intersections");
     if (s.levels.empty()) refuse("levels need ratios");
     if (s.ratio || s.faces || s.vertices || s.max_error) refuse("levels are targets of their own");
     for (const double ratio : s.levels) check_ratio(ratio);
@@ -127,13 +130,18 @@ class Session {
 
     const Mesh& mesh() const { return prepared_.own ? *prepared_.own : given_; }
 
-    /// What the collapses need besides the lists. way_back: all of them are logged.
-    void begin(bool way_back) {
-        classify(work, mesh(), settings_.lock);
+    /// What the collapses need besides the lists. way_back: all of them are logged. held: vertices that stay.
+    void begin(bool way_back, const std::vector<std::uint8_t>& held = {}) {
+        classify(work, mesh(), settings_.lock, held);
         if (settings_.method != SimplifySettings::Method::shortest_edge) sum_quadrics(work);
         work.endpoints = settings_.method == SimplifySettings::Method::quadric_endpoints;
         work.logging = way_back || carries_attributes(mesh());
         remember_features(work);
+    }
+    /// Forgets all collapses.
+    void start_again() {
+        work = build_work(mesh());
+        so_far_.collapses = 0, largest_ = 0;
     }
 
     /// The mesh as it came.
@@ -147,7 +155,7 @@ class Session {
     /// The mesh as it is now. The work can go on.
     SimplifyResult result(Stop stop, const Outcome& done) {
         SimplifyResult r = so_far_;
-        r.stop = stop;
+        r.stop = stop, r.held = held;
         so_far_.passes = r.passes += done.passes;
         so_far_.collapses = r.collapses += done.collapses;
         largest_ = std::max(largest_, done.largest);
@@ -167,6 +175,7 @@ class Session {
 
   public:
     Work work;
+    std::size_t held = 0; ///< vertices
 };
 
 SimplifyResult within(Session& session, const Targets& targets, double max_error) {
@@ -181,6 +190,34 @@ SimplifyResult within(Session& session, const Targets& targets, double max_error
     return r;
 }
 
+SimplifyResult towards(Session& session, const Targets& targets, const SimplifySettings& settings) {
+    if (settings.max_error) return within(session, targets, *settings.max_error);
+    const Outcome done = run_passes(session.work, targets.goal);
+    const auto blocked = done.stuck ? count_blocked(session.work) : SimplifyResult::Blocked{};
+    SimplifyResult r = session.result(done.stuck ? Stop::stuck : targets.reason(session.work), done);
+    r.blocked = blocked;
+    return r;
+}
+
+constexpr int most_rounds = 16; // of holding what runs into itself; three or four are usual
+
+/// As towards, but with the self-intersections counted, and avoided on request.
+SimplifyResult towards_without_crossing(Session& session, const Targets& targets,
+                                        const SimplifySettings& settings) {
+    const std::size_t before = find_self_intersections(session.mesh(), {.limit = 0}).count;
+    std::vector<std::uint8_t> held(session.mesh().vertex_count());
+    const bool avoid = settings.self_intersections == SimplifySettings::Intersections::avoid;
+    for (int round = 1;; ++round) {
+        SimplifyResult r = towards(session, targets, settings);
+        const std::size_t after = hold_intersecting(session.work, r.mesh, before, held);
+        r.intersections_before = before, r.intersections_after = after;
+        if (!avoid || after <= before || round == most_rounds) return r;
+        session.start_again();
+        session.begin(true, held);
+        session.held = static_cast<std::size_t>(std::count(held.begin(), held.end(), 1));
+    }
+}
+
 } // namespace
 
 SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
@@ -188,13 +225,10 @@ SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     Session session(std::move(given), settings);
     const Targets targets(session.work, settings);
     if (targets.met(session.work)) return session.unchanged();
-    session.begin(settings.max_error.has_value());
-    if (settings.max_error) return within(session, targets, *settings.max_error);
-    const Outcome done = run_passes(session.work, targets.goal);
-    const auto blocked = done.stuck ? count_blocked(session.work) : SimplifyResult::Blocked{};
-    SimplifyResult r = session.result(done.stuck ? Stop::stuck : targets.reason(session.work), done);
-    r.blocked = blocked;
-    return r;
+    const bool crossing = settings.self_intersections != SimplifySettings::Intersections::ignore;
+    session.begin(settings.max_error.has_value() || crossing);
+    return crossing ? towards_without_crossing(session, targets, settings)
+                    : towards(session, targets, settings);
 }
 
 std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& settings) {

@@ -28,7 +28,13 @@ struct SimplifySettings {
         quadric_endpoints, ///< the same, but the new vertex is one of the two: vertices are a subset
         shortest_edge,     ///< the note's: the shortest edge goes, and the rest meets at its midpoint
     };
+    enum class Intersections {
+        ignore, ///< not looked for
+        count,  ///< counted before and after
+        avoid,  ///< no more pairs of faces that run into each other than there were
+    };
     Method method = Method::quadric;
+    Intersections self_intersections = Intersections::ignore;
     SimplifyLocks lock{};
     double crease = 30 * pi / 180; ///< radians, see merge_normal_seams; 0: every normal seam stays
     // At least one target; the first one met stops the work.
@@ -73,6 +79,8 @@ struct SimplifyResult {
     std::size_t rolled_back = 0;                                   ///< that were taken back for max_error
     std::size_t measurements = 0;                                  ///< that max_error took
     std::optional<double> measured; ///< the deviation when max_error was given, in the mesh's units
+    std::optional<std::size_t> intersections_before = {}, intersections_after = {}; ///< when counted
+    std::size_t held = 0; ///< vertices that were held to avoid self-intersections
     std::size_t passes = 0;
     /// quadric: the largest distance (root mean square over the planes gathered in a new vertex) at any
     /// collapse; shortest-edge: half the longest edge that was collapsed. In the mesh's units.
@@ -97,6 +105,10 @@ struct SimplifyResult {
 /// the centre of a face at it is as far from the surface that came in. All collapses are logged, and the
 /// deviation of the result is measured. If it is above the bound, the log is cut by bisection: every
 /// beginning of it is a mesh with all the guarantees. Nothing is run again.
+///
+/// self_intersections: avoid: where the result runs into itself more often than the mesh that came in, all
+/// vertices that went into the faces concerned are held as they were, and the rest is done again, until none
+/// is new. It works on one mesh, not on levels.
 ///
 /// Attributes: a vertex or wedge that moved has those of the surface that came in, at the nearest point of
 /// the faces around all the vertices that went into it (on a feature line: of that line, so that both sides

@@ -133,7 +133,7 @@ class Classifier {
 
 } // namespace
 
-void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock) {
+void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock, const std::vector<std::uint8_t>& held) {
     const Borders borders{labels_of(s, mesh, primitive_attribute), labels_of(s, mesh, "group")};
     const auto in_box = [&](const Vec3& local) {
         const Box& b = lock.box->box;
@@ -146,7 +146,8 @@ void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock) {
         Classifier kind_of(s, borders, lock);
         for (std::size_t v = begin; v < end; ++v) {
             s.kind[v] = kind_of(static_cast<Index>(v));
-            if (lock.box && in_box(mesh.positions[s.source[v]]))
+            const Index source = s.source[v];
+            if ((lock.box && in_box(mesh.positions[source])) || (!held.empty() && held[source]))
                 s.kind[v] = std::max(s.kind[v], Kind::corner);
         }
     });

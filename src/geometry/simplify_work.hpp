@@ -102,7 +102,8 @@ void build_lists(Work& s);
 void compact(Work& s);
 
 /// Sets kind of the vertices and flags of the edges. Needs the lists.
-void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock);
+/// held: vertices of the mesh that stay, or empty.
+void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock, const std::vector<std::uint8_t>& held);
 
 /// Sets quadrics from the faces' planes and from the planes that hold feature edges.
 void sum_quadrics(Work& s);
@@ -178,6 +179,11 @@ struct Bounded {
 /// Sets points of the surface as it is now, see Work::points.
 void place_points(Work& s);
 Bounded run_within(Work& s, const Mesh& from, const Goal& goal, double max_error);
+
+/// Counts the self-intersections of the work as finished (`now`); when there are more than allowed, sets held
+/// for all vertices of the mesh that came in that went into the vertices of the faces concerned.
+std::size_t hold_intersecting(const Work& s, const Mesh& now, std::size_t allowed,
+                              std::vector<std::uint8_t>& held);
 
 /// The simplified mesh and the fates of its attributes. The work can go on afterwards.
 Mesh finished(Work& s, const Mesh& from, Fates& fates);

@@ -1,4 +1,5 @@
 #include "geometry/simplify.hpp"
+#include "geometry/deviation.hpp"
 
 #include "base/spelling.hpp"
 #include "stage/stage.hpp"
@@ -10,6 +11,7 @@ namespace facetmill {
 namespace {
 
 using Method = SimplifySettings::Method;
+using Intersections = SimplifySettings::Intersections;
 using Stop = SimplifyResult::Stop;
 
 struct BoxOption {
@@ -21,6 +23,10 @@ struct LockOptions {
     std::optional<BoxOption> box;
 };
 
+struct LevelOptions {
+    std::vector<Ratio> ratios;
+};
+
 struct SimplifyOptions {
     std::optional<Ratio> ratio;
     std::optional<std::int64_t> faces, vertices;
@@ -28,25 +34,35 @@ struct SimplifyOptions {
     Method method = Method::quadric;
     LockOptions lock;
     Angle crease = Angle::degrees(30);
+    Intersections self_intersections = Intersections::ignore;
+    std::optional<LevelOptions> lods;
+    bool measure = true, certify = false;
 };
+
+bool parse_lock(const Value& v, LockOptions& out, Problems& problems) {
+    if (v.is_scalar() && v.text == "boundary") return out.boundary = true;
+    if (v.is_scalar() && v.text == "seams") return out.seams = true;
+    if (v.is_scalar() && v.text == "group") return out.group = true;
+    problems.add(v.mark, "E-CHOICE", fmt::format("lock has no {}", v.described()),
+                 v.text == "box" ? "a box needs its corners: lock: {box: {min: [0, 0, 0], max: [1, 1, 1]}}"
+                                 : suggestion(v.text, {"boundary", "seams", "group"}));
+    return false;
+}
 
 bool parse_locks(const Value& value, LockOptions& out, Problems& problems) {
     if (value.deferred) return true;
-    bool good = true;
-    const auto one = [&](const Value& v) {
-        if (v.is_scalar() && v.text == "boundary") return out.boundary = true;
-        if (v.is_scalar() && v.text == "seams") return out.seams = true;
-        if (v.is_scalar() && v.text == "group") return out.group = true;
-        problems.add(v.mark, "E-CHOICE", fmt::format("lock has no {}", v.described()),
-                     v.text == "box"
-                         ? "a box needs its corners: lock: {box: {min: [0, 0, 0], max: [1, 1, 1]}}"
-                         : suggestion(v.text, {"boundary", "seams", "group"}));
-        return good = false;
-    };
-    if (value.is_list())
-        for (const Value& item : value.items) one(item);
-    else
-        one(value);
+    Value words = value;
+    if (value.is_scalar()) { // "boundary,seams", as the one-liner writes it
+        words = Value::list({}, value.mark);
+        for (std::size_t at = 0; at <= value.text.size();) {
+            const auto end = std::min(value.text.find(',', at), value.text.size());
+            words.items.push_back(Value::scalar(value.text.substr(at, end - at), value.mark));
+            at = end + 1;
+        }
+    }
+    bool good = words.is_list();
+    if (!good) parse_lock(value, out, problems);
+    for (const Value& word : words.items) good &= parse_lock(word, out, problems);
     return good;
 }
 
@@ -62,6 +78,17 @@ void declare_lock(Declare<LockOptions>& d) {
     const Json words = {{"enum", {"boundary", "seams", "group"}}};
     d.shorthand("boundary, seams or group, or a list of them",
                 {{"anyOf", Json::array({words, {{"type", "array"}, {"items", words}}})}}, parse_locks);
+}
+
+void declare_levels(Declare<LevelOptions>& d) {
+    d.option(
+         "ratios", &LevelOptions::ratios,
+         "What remains at each level, from fine to coarse, of the triangles of each part: [100%, 50%, 10%].")
+        .required();
+    d.shorthand("a list of ratios", {{"type", "array"}},
+                [](const Value& v, LevelOptions& out, Problems& problems) {
+                    return OptionType<std::vector<Ratio>>::parse(v, out.ratios, problems);
+                });
 }
 
 void declare(Declare<SimplifyOptions>& d) {
@@ -96,7 +123,43 @@ void declare(Declare<SimplifyOptions>& d) {
          "Seams that only normals make are merged where the faces meet at less than this angle; flat-shaded "
          "meshes stay flat-shaded. 0 keeps every normal seam.")
         .between(0, 180);
-    d.at_least_one({"ratio", "faces", "vertices", "max_error"});
+    d.choice<Intersections>(
+        "self_intersections", &SimplifyOptions::self_intersections,
+        {{"ignore", Intersections::ignore, "not looked for"},
+         {"count", Intersections::count, "pairs of faces that run into each other, counted before and after"},
+         {"avoid", Intersections::avoid, "none is new: what would run into itself stays as it came"}},
+        "What is done about faces that come to run into each other.");
+    d.group(
+        "lods", &SimplifyOptions::lods,
+        "Levels of detail in place of one target: each is made from the one before, and all are parts of the "
+        "scene: NAME, NAME.lod1, NAME.lod2, ...",
+        declare_levels);
+    d.option("measure", &SimplifyOptions::measure,
+             "Measure the deviation from what came in, both ways, and report it.");
+    d.option("certify", &SimplifyOptions::certify,
+             "Also find a guaranteed upper bound of the deviation (it costs).");
+    d.at_least_one({"ratio", "faces", "vertices", "max_error", "lods"});
+}
+
+/// What the declaration cannot say about levels.
+void verify(const SimplifyOptions& o, const Value& given, Problems& problems) {
+    if (!o.lods) return;
+    const Value* lods = given.find("lods");
+    const Mark& mark = lods ? lods->mark : given.mark;
+    if (o.ratio || o.faces || o.vertices || o.max_error)
+        problems.add(mark, "E-CONFLICT", "simplify: lods has its own targets",
+                     "leave out ratio, faces, vertices and max_error");
+    if (o.self_intersections == Intersections::avoid)
+        problems.add(mark, "E-CONFLICT", "simplify: lods cannot avoid self-intersections",
+                     "use self_intersections: count, or one simplify stage for each level");
+    for (std::size_t i = 0; i < o.lods->ratios.size(); ++i) {
+        const double ratio = o.lods->ratios[i].value;
+        if (!(ratio > 0 && ratio <= 1))
+            problems.add(mark, "E-RANGE", "simplify: lods: each ratio is 0 < x <= 1", "for example 50%");
+        if (i > 0 && ratio > o.lods->ratios[i - 1].value)
+            problems.add(mark, "E-RANGE", "simplify: lods: ratios go from fine to coarse",
+                         "for example [100%, 50%, 10%]");
+    }
 }
 
 const char* spelled(Stop stop) {
@@ -169,8 +232,31 @@ void warn(const Part& part, const SimplifyResult& r, Context& context) {
                      "ask for more faces, or free what holds them: no locks, fewer seams, a clean mesh");
 }
 
+Json distances(const DirectedDeviation& d, const DeviationResult& all) {
+    Json json = {{"maximum", d.maximum},
+                 {"rms", d.rms},
+                 {"maximum_percent", all.percent(d.maximum)},
+                 {"rms_percent", all.percent(d.rms)},
+                 {"samples", d.samples + d.vertices}};
+    if (d.bound) json["bound"] = *d.bound;
+    return json;
+}
+
+/// In scene units, and in percent of the diagonal of the part as it came.
+Json deviation_json(const DeviationResult& d) {
+    Json json = {{"maximum", d.maximum()},
+                 {"rms", d.rms()},
+                 {"maximum_percent", d.percent(d.maximum())},
+                 {"rms_percent", d.percent(d.rms())},
+                 {"seed", d.seed},
+                 {"from_given", distances(d.forward, d)},
+                 {"from_result", distances(d.backward, d)}};
+    if (d.bound()) json["bound"] = *d.bound(), json["bound_percent"] = d.percent(*d.bound());
+    return json;
+}
+
 /// scale: from the part's lengths to the scene's.
-void report(const Part& part, const SimplifyResult& r, double scale, Json& parts) {
+Json described(const Part& part, const SimplifyResult& r, double scale) {
     Json entry = {
         {"part", part.name},
         {"normals", spelled(r.shading)},
@@ -188,81 +274,144 @@ void report(const Part& part, const SimplifyResult& r, double scale, Json& parts
           {"topology", r.blocked.topology},
           {"flips", r.blocked.flips},
           {"error", r.blocked.error}}}};
-    if (r.measured) {
-        entry["rolled_back"] = r.rolled_back;
-        entry["measurements"] = r.measurements;
-    }
-    parts.push_back(std::move(entry));
+    if (r.measured) entry["rolled_back"] = r.rolled_back, entry["measurements"] = r.measurements;
+    if (r.intersections_after)
+        entry["self_intersections"] = {{"before", *r.intersections_before},
+                                       {"after", *r.intersections_after},
+                                       {"held_vertices", r.held}};
+    return entry;
 }
 
 SimplifyLocks locks_of(const LockOptions& o, const Part& part) {
     SimplifyLocks lock{.boundary = o.boundary, .seams = o.seams, .groups = o.group};
-    if (o.box) lock.box = WorldBox{Box{o.box->min, o.box->max}, part.transform};
+    if (o.box) lock.box = WorldBox{Box{o.box->min, o.box->max}, part.skinned ? Transform{} : part.transform};
     return lock;
 }
 
-Scene run(Scene scene, const SimplifyOptions& o, Context& context) {
-    std::size_t all_faces = 0, all_vertices = 0;
-    for (const auto& part : scene.parts)
-        if (context.selects(part, scene))
-            all_faces += triangle_count(part.mesh), all_vertices += part.mesh.vertex_count();
-    std::optional<double> max_error;
-    if (o.max_error) max_error = context.resolve(*o.max_error, scene, "max_error");
-    Json parts = Json::array();
-    context.for_each_part(scene, [&](Part& part) {
-        SimplifySettings settings{
-            .method = o.method, .lock = locks_of(o.lock, part), .crease = o.crease.radians};
+class Simplifier {
+  public:
+    Simplifier(Scene scene, const SimplifyOptions& o, Context& context)
+        : scene_(std::move(scene)), o_(o), context_(context) {
+        for (const auto& part : scene_.parts)
+            if (context.selects(part, scene_))
+                faces_ += triangle_count(part.mesh), vertices_ += part.mesh.vertex_count();
+        if (o.max_error) max_error_ = context.resolve(*o.max_error, scene_, "max_error");
+    }
+
+    Scene run() {
+        std::vector<Part> levels;
+        context_.for_each_part(scene_, [&](Part& part) {
+            if (o_.measure || o_.certify) before_ = surface_of(part);
+            if (!o_.lods) return take(part, simplify(std::move(part.mesh), settings_for(part)));
+            const Part base = part;
+            auto results = simplify_levels(std::move(part.mesh), settings_for(part));
+            for (std::size_t i = 0; i < results.size(); ++i) {
+                Part level = base;
+                if (i > 0) level.name += fmt::format(".lod{}", i);
+                take(level, std::move(results[i]));
+                if (i == 0)
+                    part = std::move(level);
+                else
+                    level.changed = true, levels.push_back(std::move(level));
+            }
+        });
+        for (Part& level : levels) scene_.parts.push_back(std::move(level));
+        context_.result()["parts"] = std::move(parts_);
+        return std::move(scene_);
+    }
+
+  private:
+    SimplifySettings settings_for(const Part& part) const {
+        SimplifySettings s{.method = o_.method,
+                           .self_intersections = o_.self_intersections,
+                           .lock = locks_of(o_.lock, part),
+                           .crease = o_.crease.radians};
+        if (o_.ratio) s.ratio = o_.ratio->value;
+        s.faces = share(o_.faces, triangle_count(part.mesh), faces_);
+        s.vertices = share(o_.vertices, part.mesh.vertex_count(), vertices_);
+        if (max_error_) s.max_error = *max_error_ / scale_of(part);
+        if (o_.lods)
+            for (const Ratio& ratio : o_.lods->ratios) s.levels.push_back(ratio.value);
+        return s;
+    }
+
+    static double scale_of(const Part& part) {
         const double scale = part.skinned ? 1 : stretch(part.transform);
-        if (o.ratio) settings.ratio = o.ratio->value;
-        settings.faces = share(o.faces, triangle_count(part.mesh), all_faces);
-        settings.vertices = share(o.vertices, part.mesh.vertex_count(), all_vertices);
-        if (max_error) settings.max_error = *max_error / scale;
-        SimplifyResult r = simplify(std::move(part.mesh), settings);
+        return scale > 0 ? scale : 1;
+    }
+
+    void take(Part& part, SimplifyResult r) {
         part.mesh = std::move(r.mesh);
-        context.ledger(part, r.fates);
-        report(part, r, scale, parts);
-        warn(part, r, context);
-    });
-    context.result()["parts"] = std::move(parts);
-    return scene;
+        context_.ledger(part, r.fates);
+        Json entry = described(part, r, scale_of(part));
+        if (o_.measure || o_.certify)
+            entry["deviation"] =
+                deviation_json(deviation(before_, surface_of(part), {.certify = o_.certify}));
+        parts_.push_back(std::move(entry));
+        warn(part, r, context_);
+    }
+
+    Scene scene_;
+    const SimplifyOptions& o_;
+    Context& context_;
+    std::size_t faces_ = 0, vertices_ = 0; ///< of all parts selected
+    std::optional<double> max_error_;
+    Surface before_; ///< the part at hand, as it came, in the world
+    Json parts_ = Json::array();
+};
+
+Scene run(Scene scene, const SimplifyOptions& o, Context& context) {
+    return Simplifier(std::move(scene), o, context).run();
 }
 
 const RegisterStage registered = make_stage<SimplifyOptions>(
     {.name = "simplify",
      .about = "Reduces the number of faces and keeps the shape, the topology and the attributes.",
-     .details = "Edges are collapsed, cheapest first, until a target is met; with several targets the first "
-                "one met stops "
-                "the work, and the report names it. Polygons are triangulated first. The method quadric "
-                "measures the squared "
-                "distance to the planes of all faces that a vertex stands for, weighted by area; "
-                "shortest-edge is the "
-                "note's. Collapses run in passes of equal threshold, so the order is that of the costs but "
-                "for vertices that "
-                "a pass has touched already.\n\n"
-                "Guaranteed: a closed manifold stays closed and manifold, genus, components and boundary "
-                "loops stay, no face "
-                "turns by more than 60 degrees in a collapse, none becomes degenerate or doubled. "
-                "Boundaries, UV and normal "
-                "seams and borders of materials collapse only along themselves and stay matched; where "
-                "several meet, the "
-                "vertex stays. Non-manifold and inconsistently oriented places are left as they are. "
-                "Isolated vertices are dropped.\n\n"
-                "A vertex that moved has the attributes of the surface that came in, at the nearest point of "
-                "the faces that it replaces, so textures do not slide; faces keep theirs. Wedges that differ "
-                "in normals only are merged below the crease angle; a flat-shaded mesh gets the normals of "
-                "its new faces. largest_error is, for quadric, the largest root mean square "
-                "distance of a new "
-                "vertex to its planes; for shortest-edge half the longest edge collapsed; in the part's "
-                "units. A target at "
-                "or above the input does nothing (W-SIMPLIFY-NOTHING); when no collapse is left the work "
-                "stops and says why "
-                "(W-SIMPLIFY-STOPPED).\n\n"
-                "Source: the note 'Surface simplification' (1997); M. Garland and P. Heckbert, 'Surface "
-                "simplification using "
-                "quadric error metrics' (1997).",
+     .details =
+         "Edges are collapsed, cheapest first, until a target is met; with several targets the first one met "
+         "stops the work, and the report names it, with the ratio achieved and what holds the edges that are "
+         "left. Polygons are triangulated first. The method quadric measures the squared distance to the "
+         "planes "
+         "of all faces that a vertex stands for, weighted by area; shortest-edge is the note's. Collapses "
+         "run in "
+         "passes of equal threshold, so the order is that of the costs but for vertices that a pass has "
+         "touched "
+         "already.\n\n"
+         "Guaranteed: a closed manifold stays closed and manifold, genus, components and boundary loops "
+         "stay, no "
+         "face turns by more than 60 degrees in a collapse, none becomes degenerate or doubled. Boundaries, "
+         "UV "
+         "seams, sharp normal seams and borders of materials and groups collapse only along themselves and "
+         "stay "
+         "matched; where several meet, the vertex stays. Non-manifold and inconsistently oriented places are "
+         "left as they are. Isolated vertices are dropped.\n\n"
+         "A vertex that moved has the attributes of the surface that came in, at the nearest point of the "
+         "faces "
+         "that it replaces, so textures do not slide; faces keep theirs. Wedges that differ in normals only "
+         "are "
+         "merged below the crease angle; a flat-shaded mesh gets the normals of its new faces.\n\n"
+         "max_error is a bound on the measured deviation: 100,000 samples each way and all vertices, seed 1, "
+         "as "
+         "reported under deviation, in scene units and in percent of the part's diagonal. Points of the "
+         "surface "
+         "are followed while it is simplified, and what is above the bound in the end is taken back collapse "
+         "by "
+         "collapse. It takes many times as long as a ratio. lods makes one chain: each level is reached by "
+         "further collapses from the one before. To write each level into a file of its own: write with "
+         "only: \"*.lod1\".\n\n"
+         "largest_error is, for quadric, the largest root mean square distance of a new vertex to its "
+         "planes; "
+         "for shortest-edge half the longest edge collapsed. A target at or above the input does nothing "
+         "(W-SIMPLIFY-NOTHING); when no collapse is left the work stops and says why (W-SIMPLIFY-STOPPED). "
+         "self_intersections: avoid holds what runs into itself as it came and does the rest again, up to 16 "
+         "times; the count that is left is reported.\n\n"
+         "Source: the note 'Surface simplification' (1997); M. Garland and P. Heckbert, 'Surface "
+         "simplification "
+         "using quadric error metrics' (1997).",
      .examples = {"simplify: 25%", "simplify: {faces: 5000, lock: [boundary, seams]}",
-                  "simplify: {ratio: 5%, max_error: 0.1%}", "simplify: {ratio: 10%, method: shortest-edge}"}},
-    declare, run);
+                  "simplify: {ratio: 5%, max_error: 0.1%}", "simplify: {lods: [100%, 50%, 10%]}",
+                  "simplify: {ratio: 10%, method: shortest-edge}"}},
+    declare, run, {.verify = verify});
 
 } // namespace
 

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "geometry/crumple.hpp"
 #include "geometry/deviation.hpp"
+#include "geometry/self_intersections.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -392,4 +393,23 @@ TEST_CASE("simplification refuses to guess a target", "[geometry]") {
           "usage [E-RANGE] simplify: a target is needed: ratio, faces, vertices or max_error");
     CHECK(test::failure([] { simplify(shapes::cube(), {.ratio = 2}); }) ==
           "usage [E-RANGE] simplify: ratio is 0 < x <= 1, not 2");
+}
+
+TEST_CASE("simplification avoids new self-intersections on request", "[geometry]") {
+    // Two sheets, one close above the other and rough: alone each simplifies, together they would cross.
+    Mesh m = rough(shapes::grid(24, 24), 0.1);
+    Mesh above = m;
+    for (auto& p : above.positions) p.z += 0.02;
+    append(m, above);
+    using Intersections = SimplifySettings::Intersections;
+    const auto free = simplify(m, {.self_intersections = Intersections::count, .ratio = 0.2});
+    REQUIRE(free.intersections_before == 0u);
+    REQUIRE(*free.intersections_after > 0);
+    CHECK(free.held == 0);
+    const auto avoided = simplify(m, {.self_intersections = Intersections::avoid, .ratio = 0.2});
+    CHECK(avoided.intersections_after == 0u);
+    CHECK(find_self_intersections(avoided.mesh).count == 0);
+    CHECK(avoided.held > 0);
+    CHECK(avoided.faces_after < m.face_count());
+    CHECK(count(avoided.mesh).euler == 2);
 }
