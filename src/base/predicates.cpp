@@ -1,7 +1,8 @@
 #include "base/predicates.hpp"
 
+#include "base/exact_sum.hpp"
+
 #include <algorithm>
-#include <array>
 #include <initializer_list>
 
 namespace facetmill {
@@ -10,32 +11,8 @@ namespace {
 
 int sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
-/// A sum of doubles that do not overlap, smallest first, so that the sign of the last is the sign of all.
-struct Expansion {
-    static constexpr std::size_t room = 192; ///< what three products of three differences need
-    std::array<double, room> parts;
-    int size = 0;
-
-    /// Adds x exactly (Shewchuk's grow-expansion, zeros left out).
-    void add(double x) {
-        int kept = 0;
-        for (int i = 0; i < size; ++i) {
-            const double part = parts[static_cast<std::size_t>(i)], sum = x + part, virtual_part = sum - x;
-            const double rest = (x - (sum - virtual_part)) + (part - virtual_part);
-            if (rest != 0) parts[static_cast<std::size_t>(kept++)] = rest;
-            x = sum;
-        }
-        if (x != 0 || kept == 0) parts[static_cast<std::size_t>(kept++)] = x;
-        size = kept;
-    }
-    /// Adds a * b exactly; std::fma is exact on every processor.
-    void add_product(double a, double b) {
-        const double product = a * b;
-        add(std::fma(a, b, -product));
-        add(product);
-    }
-    int sign() const { return size == 0 ? 0 : sign_of(parts[static_cast<std::size_t>(size - 1)]); }
-};
+/// Room for what three products of three differences need.
+using Expansion = ExactSum<192>;
 
 /// A power of two that brings the largest of the numbers near 1, so that products neither overflow nor
 /// vanish.
@@ -89,7 +66,7 @@ int orientation_2d(double ax, double ay, double bx, double by, double cx, double
         return sign_of(det);
     const double sx = scale_for({ax, bx, cx}), sy = scale_for({ay, by, cy});
     ax *= sx, bx *= sx, cx *= sx, ay *= sy, by *= sy, cy *= sy;
-    Expansion exact; // (a-c) x (b-c), multiplied out
+    ExactSum<12> exact; // (a-c) x (b-c), multiplied out
     exact.add_product(ax, by);
     exact.add_product(-ax, cy);
     exact.add_product(-cx, by);

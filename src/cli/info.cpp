@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "cli/command.hpp"
 #include "io/codec.hpp"
+#include "report/face_kinds.hpp"
 #include "report/render.hpp"
 
 #include <fmt/format.h>
@@ -48,6 +49,18 @@ std::string entry_text(const Json& entry) {
     return more.empty() ? text : fmt::format("{} ({})", text, more);
 }
 
+/// "1240 triangle, 12 degenerate": what there is of each kind.
+std::string kinds_text(const Json& kinds) {
+    std::string text;
+    for (const auto& [kind, value] : kinds.items()) {
+        if (value == 0) continue;
+        const std::string words =
+            kind == "deviation" ? "deviation " + text_of(value) : text_of(value) + " " + kind;
+        text += (text.empty() ? "" : ", ") + words;
+    }
+    return text.empty() ? "none" : text;
+}
+
 std::string as_text(const std::string& name, const Json& info) {
     std::string text = name + "\n";
     for (const auto& [key, value] : info.items()) {
@@ -56,6 +69,8 @@ std::string as_text(const std::string& name, const Json& info) {
             for (const auto& entry : value) text += fmt::format("    {}\n", entry_text(entry));
         } else if (key == "bounds" && value.is_object())
             text += fmt::format("  {:<20}{} to {}\n", key, value["min"].dump(), value["max"].dump());
+        else if (key == "face_kinds")
+            text += fmt::format("  {:<20}{}\n", key, kinds_text(value));
         else
             text += fmt::format("  {:<20}{}\n", key, text_of(value));
     }
@@ -67,7 +82,9 @@ Json info_of(const std::string& mesh, const InfoOptions& options, const Console&
     io::ReadLog log;
     const Scene scene = io::read_scene(io::Input::open(mesh), {}, log, codec);
     for (const auto& warning : log.warnings) console.diagnostic(warning);
-    return report::scene_json(scene, inspect(scene, {options.self_intersections}));
+    Json info = report::scene_json(scene, inspect(scene, {options.self_intersections}));
+    info["face_kinds"] = report::face_kinds_json(face_kinds(scene));
+    return info;
 }
 
 int info(const InfoOptions& options, const Console& console) {

@@ -199,18 +199,20 @@ class Capper {
             for (std::size_t k = 0; k < 3; ++k)
                 add_edge(left, cap_.corners[c + k], cap_.corners[c + (k + 1) % 3], 1);
         cancel(left);
-        for (const auto& e : left) {
-            const Index from = e.count > 0 ? e.low : e.high, to = e.count > 0 ? e.high : e.low;
-            for (int i = 0; i < std::abs(e.count); ++i) stitch_edge(from, to);
-        }
+        for (const auto& e : left) stitch_edge(e);
     }
-    /// Triangles of the polygon to, from, and the points that stand for them.
-    void stitch_edge(Index from, Index to) {
+    /// Triangles of the polygon high, low, and the points that stand for them; the same ones for either
+    /// sense.
+    void stitch_edge(const CountedEdge& e) {
         std::vector<Index> polygon;
-        for (const Index v : {to, from, standing_for(from), standing_for(to)})
+        for (const Index v : {e.high, e.low, standing_for(e.low), standing_for(e.high)})
             if (polygon.empty() || (polygon.back() != v && polygon.front() != v)) polygon.push_back(v);
-        for (std::size_t i = 2; i < polygon.size(); ++i)
-            cap_.corners.insert(cap_.corners.end(), {polygon[0], polygon[i - 1], polygon[i]});
+        for (int times = 0; times < std::abs(e.count); ++times)
+            for (std::size_t i = 2; i < polygon.size(); ++i) {
+                const Index a = polygon[i - 1], b = polygon[i];
+                cap_.corners.insert(cap_.corners.end(),
+                                    {polygon[0], e.count > 0 ? a : b, e.count > 0 ? b : a});
+            }
     }
     Index standing_for(Index v) const {
         return v >= cut_.first_extra_vertex() ? v : local_[filling_.same[local(v)]];

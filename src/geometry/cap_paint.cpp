@@ -18,20 +18,27 @@ Index primitive_number(Mesh& mesh, const std::optional<Primitive>& wanted) {
     return static_cast<Index>(mesh.primitives.size() - 1);
 }
 
-void paint_faces(Mesh& mesh, std::size_t first_face, const std::optional<Primitive>& wanted) {
+/// The face attribute of numbers, which is made when it is not there.
+Attribute& numbers(Mesh& mesh, std::string_view name) {
+    if (Attribute* a = mesh.find(name, Domain::face)) return *a;
+    mesh.attributes.push_back({std::string(name), Domain::face, Role::index, 1, false,
+                               std::vector<std::uint32_t>(mesh.face_count())});
+    return mesh.attributes.back();
+}
+
+void paint_faces(Mesh& mesh, std::size_t first_face, const CapPaint& paint) {
     for (Attribute& a : mesh.attributes)
         if (a.domain == Domain::face)
             for (std::size_t f = first_face; f < mesh.face_count(); ++f)
                 for (int c = 0; c < a.components; ++c) a.set_value(f, c, 0);
-    const Index number = primitive_number(mesh, wanted);
-    if (number == 0) return;
-    Attribute* a = mesh.find(primitive_attribute, Domain::face);
-    if (!a) {
-        mesh.attributes.push_back({std::string(primitive_attribute), Domain::face, Role::index, 1, false,
-                                   std::vector<std::uint32_t>(mesh.face_count())});
-        a = &mesh.attributes.back();
-    }
-    for (std::size_t f = first_face; f < mesh.face_count(); ++f) a->set_value(f, 0, number);
+    const auto set = [&](std::string_view name, Index number) {
+        if (number == 0) return;
+        Attribute& a = numbers(mesh, name);
+        for (std::size_t f = first_face; f < mesh.face_count(); ++f) a.set_value(f, 0, number);
+    };
+    set(primitive_attribute, primitive_number(mesh, paint.primitive));
+    set(cut_id_attribute, paint.cut_id);
+    set(group_attribute, paint.group);
 }
 
 /// Orthonormal directions in the plane: across, up, and the way it looks.
@@ -55,8 +62,8 @@ void set(Attribute& a, Index element, std::initializer_list<double> values) {
 } // namespace
 
 void paint_cap(Mesh& mesh, std::size_t first_face, std::span<const Index> wedges, const Plane& plane,
-               const std::optional<Primitive>& cap_primitive) {
-    paint_faces(mesh, first_face, cap_primitive);
+               const CapPaint& paint) {
+    paint_faces(mesh, first_face, paint);
     if (wedges.empty()) return;
     // A normal may be tiny or huge, being as the user gave it; its direction is what counts.
     const double largest =

@@ -1,8 +1,9 @@
 #include "geometry/clip.hpp"
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "geometry/clip_assemble.hpp"
-#include "mesh/topology.hpp"
+#include "geometry/clip_body.hpp"
 
 #include <algorithm>
 
@@ -10,28 +11,24 @@ namespace facetmill {
 
 namespace {
 
-/// At every edge the directions of the faces cancel.
-bool is_closed(const Mesh& mesh) {
-    const EdgeTable table = build_edges(mesh);
-    for (Index e = 0; e < table.size(); ++e) {
-        int balance = 0;
-        for (const Index c : table.corners_of(e)) balance += mesh.vertex(c) == table.edges[e].low ? 1 : -1;
-        if (balance != 0) return false;
-    }
-    return true;
+/// The largest number of a face attribute; 0 without it.
+Index largest(const Mesh& mesh, std::string_view name) {
+    const Attribute* a = mesh.find(name, Domain::face);
+    if (!a) return 0;
+    return parallel_reduce(
+        mesh.face_count(), Index{0},
+        [&](std::size_t begin, std::size_t end) {
+            Index most = 0;
+            for (std::size_t f = begin; f < end; ++f)
+                most = std::max(most, as_component<std::uint32_t>(a->value(f, 0)));
+            return most;
+        },
+        [](Index a, Index b) { return std::max(a, b); });
 }
 
-/// What stages report is the union over the planes: an attribute that was ever mixed was mixed.
-void merge_fates(Fates& all, const Fates& more) {
-    for (const Fate& fate : more) {
-        const auto same = std::find_if(all.begin(), all.end(), [&](const Fate& f) {
-            return f.attribute == fate.attribute && f.domain == fate.domain;
-        });
-        if (same == all.end())
-            all.push_back(fate);
-        else if (fate.kind != Fate::Kind::kept)
-            *same = fate;
-    }
+void make_triangles(ClipResult& result) {
+    for (Mesh* m : {&result.front, &result.back})
+        if (!m->all_triangles()) *m = triangulated(*m);
 }
 
 /// Clips by one plane after the other.
@@ -40,29 +37,36 @@ class Clipper {
     explicit Clipper(const ClipSettings& settings) : settings_(settings) {}
 
     ClipResult run(Mesh mesh) {
+        result_.memory = settings_.memory;
+        if (settings_.snap) snap_ = float32_ulp(mesh.bounds());
+        if (settings_.cap && settings_.cap_numbers)
+            last_cut_ = largest(mesh, cut_id_attribute), last_group_ = largest(mesh, group_attribute);
         for (std::size_t i = 0; i < settings_.planes.size(); ++i) cut(mesh, i);
         if (settings_.keep != Keep::both)
             (settings_.keep == Keep::front ? result_.front : result_.back) = std::move(mesh);
-        if (settings_.triangulate)
-            for (Mesh* m : {&result_.front, &result_.back})
-                if (!m->all_triangles()) *m = triangulated(*m);
+        if (settings_.triangulate) make_triangles(result_);
         return std::move(result_);
     }
 
   private:
     void cut(Mesh& mesh, std::size_t number) {
-        PlaneCut cut = cut_by_plane(mesh, settings_.planes[number]);
+        PlaneCut cut = cut_by_plane(mesh, settings_.planes[number], {snap_, &result_.memory});
         result_.cut_faces += cut.cut_faces.size();
         result_.on_plane += cut.on_count;
+        result_.snapped += cut.snapped_count, result_.remembered += cut.remembered_count;
         if (!cut.meets()) return keep_or_drop(mesh, cut);
         result_.changed = true;
         settle(cut);
-        if (settings_.keep != Keep::both) {
-            mesh = side_of(cut, settings_.keep == Keep::front ? 1 : -1, number);
-            return;
+        made_.clear();
+        if (settings_.keep == Keep::both) {
+            result_.front = side_of(cut, 1, number);
+            result_.back = side_of(cut, -1, number);
+            remember(result_.memory, cut, made_);
+        } else {
+            Mesh kept = side_of(cut, settings_.keep == Keep::front ? 1 : -1, number);
+            remember(result_.memory, cut, made_);
+            mesh = std::move(kept);
         }
-        result_.front = side_of(cut, 1, number);
-        result_.back = side_of(cut, -1, number);
     }
 
     /// The plane misses the mesh.
@@ -94,19 +98,45 @@ class Clipper {
         if (settings_.cap) cap = make_cap(cut, side, pieces);
         for (const auto& end : cap.open) result_.open.push_back({number, end.edges, end.at});
         result_.cap_faces += cap.corners.size() / 3;
-        Side made = assemble(cut, side, pieces, cap, settings_.cap_primitive);
+        made_.insert(made_.end(), cap.extra.points.begin(), cap.extra.points.end());
+        CapPaint paint{settings_.cap_primitive, 0, 0};
+        if (settings_.cap_numbers) {
+            paint.cut_id = last_cut_ + 1 + static_cast<Index>(number);
+            paint.group = last_group_ + 1 + static_cast<Index>(number);
+        }
+        Side made = assemble(cut, side, pieces, cap, paint);
         merge_fates(result_.fates, made.fates);
         return std::move(made.mesh);
     }
 
     const ClipSettings& settings_;
     ClipResult result_;
+    double snap_ = 0;
+    Index last_cut_ = 0, last_group_ = 0; ///< numbers that were there
+    std::vector<Vec3> made_;              ///< by the caps of a plane
 };
 
 } // namespace
 
+void merge_fates(Fates& all, const Fates& more) {
+    for (const Fate& fate : more) {
+        const auto same = std::find_if(all.begin(), all.end(), [&](const Fate& f) {
+            return f.attribute == fate.attribute && f.domain == fate.domain;
+        });
+        if (same == all.end())
+            all.push_back(fate);
+        else if (fate.kind != Fate::Kind::kept)
+            *same = fate;
+    }
+}
+
 ClipResult clip(Mesh mesh, const ClipSettings& settings) {
     for (const Plane& plane : settings.planes) check_plane(plane);
+    if (settings.convex && settings.keep != Keep::front && settings.planes.size() > 1) {
+        ClipResult result = clip_body(std::move(mesh), settings);
+        if (settings.triangulate) make_triangles(result);
+        return result;
+    }
     if (settings.keep == Keep::both && settings.planes.size() != 1)
         throw Error(ErrorKind::usage, "E-PLANE", "keeping both sides takes exactly one plane",
                     "clip once for every plane, or keep the front or the back");

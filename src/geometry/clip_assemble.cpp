@@ -44,7 +44,7 @@ class Assembler {
     Assembler(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap)
         : cut_(cut), from_(*cut.mesh), side_(side), pieces_(pieces), cap_(cap) {}
 
-    Side run(const std::optional<Primitive>& cap_primitive) {
+    Side run(const CapPaint& paint) {
         number_elements();
         place_vertices();
         number_cap_wedges();
@@ -57,7 +57,7 @@ class Assembler {
             std::vector<Index> own;
             if (own_wedges_)
                 for (const Index w : cap_wedge_) own.push_back(w);
-            paint_cap(out_, cap_face_, own, outward(), cap_primitive);
+            paint_cap(out_, cap_face_, own, outward(), paint);
         }
         normalise_offsets(out_);
         result.mesh = std::move(out_);
@@ -276,9 +276,8 @@ class Assembler {
 
 } // namespace
 
-Side assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap,
-              const std::optional<Primitive>& cap_primitive) {
-    return Assembler(cut, side, pieces, cap).run(cap_primitive);
+Side assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap, const CapPaint& paint) {
+    return Assembler(cut, side, pieces, cap).run(paint);
 }
 
 } // namespace facetmill

@@ -1,7 +1,9 @@
 #include "geometry/clip_cut.hpp"
 
 #include "base/parallel.hpp"
+#include "mesh/topology.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace facetmill {
@@ -9,27 +11,49 @@ namespace facetmill {
 namespace {
 
 struct Tally {
-    std::size_t above = 0, below = 0, on = 0;
+    std::size_t above = 0, below = 0, on = 0, snapped = 0, remembered = 0;
 };
 
-void classify_vertices(PlaneCut& cut) {
+Tally operator+(const Tally& a, const Tally& b) {
+    return {a.above + b.above, a.below + b.below, a.on + b.on, a.snapped + b.snapped,
+            a.remembered + b.remembered};
+}
+
+bool is_float32(const Vec3& p) {
+    return p.x == static_cast<float>(p.x) && p.y == static_cast<float>(p.y) && p.z == static_cast<float>(p.z);
+}
+
+/// The length of the plane's normal, which may be tiny or huge.
+double normal_length(const Plane& plane) {
+    const Vec3& n = plane.normal;
+    const double largest = std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)});
+    return largest * length(n / largest);
+}
+
+void classify_vertices(PlaneCut& cut, const OnPlane& on) {
     const auto& positions = cut.mesh->positions;
+    const CutMemory::Entry* known = on.memory ? on.memory->find(cut.plane) : nullptr;
+    const double reach = on.snap > 0 ? on.snap * normal_length(cut.plane) : 0;
+    const double snap = std::isfinite(reach) ? reach : 0;
+    const auto classify = [&](const Vec3& p, Tally& t) -> std::int8_t {
+        const double s = side(cut.plane, p);
+        if (s == 0) return ++t.on, 0;
+        if (std::fabs(s) <= snap && is_float32(p)) return ++t.on, ++t.snapped, 0;
+        if (known && known->has(p, known->plane == cut.plane ? s : side(known->plane, p)))
+            return ++t.on, ++t.remembered, 0;
+        return s > 0 ? (++t.above, 1) : (++t.below, -1);
+    };
     cut.signs.resize(positions.size());
     const Tally tally = parallel_reduce(
         positions.size(), Tally{},
         [&](std::size_t begin, std::size_t end) {
             Tally t;
-            for (std::size_t v = begin; v < end; ++v) {
-                const double s = side(cut.plane, positions[v]);
-                cut.signs[v] = s > 0 ? 1 : s < 0 ? -1 : 0;
-                t.above += s > 0, t.below += s < 0, t.on += s == 0;
-            }
+            for (std::size_t v = begin; v < end; ++v) cut.signs[v] = classify(positions[v], t);
             return t;
         },
-        [](Tally a, const Tally& b) {
-            return Tally{a.above + b.above, a.below + b.below, a.on + b.on};
-        });
+        [](const Tally& a, const Tally& b) { return a + b; });
     cut.above_count = tally.above, cut.below_count = tally.below, cut.on_count = tally.on;
+    cut.snapped_count = tally.snapped, cut.remembered_count = tally.remembered;
 }
 
 constexpr std::uint8_t class_of_sign[3] = {face_class::below, face_class::touches, face_class::above};
@@ -94,14 +118,42 @@ double parameter_at(const PlaneCut& cut, Index low, Index high) {
     return t >= 0 && t <= 1 ? t : 0.5; // overflow only
 }
 
+std::uint64_t edge_key(Index low, Index high) { return std::uint64_t{low} << 32 | high; }
+
+/// Appends the crossings of faces that stay whole at the edges where others are cut.
+void add_passing(PlaneCut& cut, const std::vector<Index>& whole, std::vector<Crossing>& found, Index& slots) {
+    const Mesh& mesh = *cut.mesh;
+    std::vector<std::uint64_t> edges;
+    for (const Crossing& c : found)
+        edges.push_back(edge_key(mesh.vertex_of_wedge(c.low), mesh.vertex_of_wedge(c.high)));
+    std::sort(edges.begin(), edges.end());
+    for (const Index f : whole) {
+        Index slot = slots;
+        bool any = false;
+        for_polygon_edges(mesh.face_wedges(f), [&](Index a, Index b) {
+            const Index va = mesh.vertex_of_wedge(a), vb = mesh.vertex_of_wedge(b);
+            if (cut.signs[va] * cut.signs[vb] >= 0) return;
+            if (std::binary_search(edges.begin(), edges.end(),
+                                   edge_key(std::min(va, vb), std::max(va, vb)))) {
+                found.push_back({va < vb ? a : b, va < vb ? b : a, slot});
+                any = true;
+            }
+            ++slot;
+        });
+        if (!any) continue;
+        cut.passing.push_back(f);
+        cut.crossing_offsets.push_back(slots = slot);
+    }
+}
+
 /// One wedge per pair of wedges.
-void make_wedges(PlaneCut& cut, std::vector<Crossing> crossings) {
+void make_wedges(PlaneCut& cut, std::vector<Crossing> crossings, Index slots) {
     const std::size_t wedges = cut.mesh->wedge_count();
     const int bits = static_cast<int>(std::bit_width(wedges));
     radix_sort(
         crossings, [&](const Crossing& c) { return static_cast<std::uint64_t>(c.low) << bits | c.high; },
         2 * bits);
-    cut.crossings.resize(crossings.size());
+    cut.crossings.assign(slots, none);
     for (std::size_t i = 0; i < crossings.size(); ++i) {
         const Crossing& c = crossings[i];
         if (i == 0 || c.low != crossings[i - 1].low || c.high != crossings[i - 1].high)
@@ -139,6 +191,14 @@ void make_vertices(PlaneCut& cut) {
     }
 }
 
+/// mix, but a coordinate that both ends have stays what it is: planes along axes are not left by rounding.
+Vec3 between(const Vec3& a, const Vec3& b, double t) {
+    Vec3 p = mix(a, b, t);
+    for (std::size_t i = 0; i < 3; ++i)
+        if (a[i] == b[i]) p[i] = a[i];
+    return p;
+}
+
 void place_vertices(PlaneCut& cut) {
     const int axis = axis_of(cut.plane);
     const auto i = static_cast<std::size_t>(std::max(axis, 0));
@@ -146,173 +206,81 @@ void place_vertices(PlaneCut& cut) {
     cut.points.resize(cut.vertices.size());
     parallel_for(cut.points.size(), [&](std::size_t v) {
         const auto& e = cut.vertices[v];
-        cut.points[v] = mix(cut.mesh->positions[e.a], cut.mesh->positions[e.b], e.t);
+        cut.points[v] = between(cut.mesh->positions[e.a], cut.mesh->positions[e.b], e.t);
         if (axis >= 0) cut.points[v][i] = level;
     });
 }
 
-/// Twice the area of a face as a vector (Newell).
-Vec3 area_vector(const Mesh& mesh, Index f) {
-    Vec3 sum;
-    const Vec3 origin = mesh.point(mesh.face_begin(f));
-    for (Index c = mesh.face_begin(f) + 1; c + 1 < mesh.face_end(f); ++c)
-        sum += cross(mesh.point(c) - origin, mesh.point(c + 1) - origin);
-    return sum;
-}
-
-/// Cuts one face. Its corners and crossings become a ring of nodes; what lies on a side is chains of that
-/// ring.
-class FaceCutter {
-  public:
-    FaceCutter(const PlaneCut& cut, int side) : cut_(cut), side_(side) {}
-
-    void cut(std::size_t i, Pieces& out) {
-        const Index face = cut_.cut_faces[i];
-        make_ring(face, cut_.crossings.data() + cut_.crossing_offsets[i]);
-        find_chains();
-        if (cut_.mesh->face_size(face) > 3) {
-            along_ = cross(cut_.plane.normal, area_vector(*cut_.mesh, face)) * side_;
-            for (Chain& c : chains_) trim(c);
-        }
-        join_chains();
-        emit(face, out);
-    }
-
-  private:
-    struct Node {
-        Index wedge;
-        int sign; ///< 1 on the wanted side
-    };
-    struct Chain {
-        std::size_t begin, end; ///< nodes, from where the boundary leaves the plane to where it comes back
-    };
-
-    void make_ring(Index face, const Index* crossing) {
-        ring_.clear();
-        for_polygon_edges(cut_.mesh->face_wedges(face), [&](Index a, Index b) {
-            const int s = cut_.sign_of(a) * side_;
-            ring_.push_back({a, s});
-            if (s * cut_.sign_of(b) * side_ < 0) ring_.push_back({*crossing++, 0});
-        });
-        // Start behind a node of the other side, so that no chain wraps around.
-        const auto other = std::find_if(ring_.begin(), ring_.end(), [](const Node& n) { return n.sign < 0; });
-        std::rotate(ring_.begin(), other, ring_.end());
-    }
-
-    void find_chains() {
-        chains_.clear();
-        for (std::size_t i = 0; i < ring_.size();) {
-            std::size_t end = i;
-            bool inside = false;
-            while (end < ring_.size() && ring_[end].sign >= 0) inside |= ring_[end++].sign > 0;
-            if (inside) chains_.push_back({i, end});
-            i = end + 1;
-        }
-    }
-
-    const Vec3& point(std::size_t node) const { return cut_.point(cut_.vertex_of(ring_[node].wedge)); }
-
-    /// An edge in the plane at the end of a chain belongs to it only when it runs the way that this side's
-    /// boundary runs in the plane; else it is the other side's.
-    void trim(Chain& c) const {
-        const auto against = [&](std::size_t a, std::size_t b) {
-            return ring_[a].sign == 0 && ring_[b].sign == 0 && dot(point(b) - point(a), along_) < 0;
-        };
-        while (c.end - c.begin > 2 && against(c.end - 2, c.end - 1)) --c.end;
-        while (c.end - c.begin > 2 && against(c.begin, c.begin + 1)) ++c.begin;
-    }
-
-    /// next_[i]: the chain that follows chain i after a stretch in the plane. With several chains their ends
-    /// are paired in order along the line of the cut; where that makes no sense (self-crossing faces), in
-    /// ring order.
-    void join_chains() {
-        const std::size_t n = chains_.size();
-        next_.resize(n);
-        for (std::size_t i = 0; i < n; ++i) next_[i] = (i + 1) % n;
-        if (n < 2) return;
-        struct End {
-            double at;
-            std::size_t chain;
-            bool starts;
-        };
-        std::vector<End> ends;
-        for (std::size_t i = 0; i < n; ++i) {
-            ends.push_back({dot(point(chains_[i].begin), along_), i, true});
-            ends.push_back({dot(point(chains_[i].end - 1), along_), i, false});
-        }
-        std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.at < b.at; });
-        for (std::size_t i = 0; i < ends.size(); i += 2)
-            if (ends[i].starts == ends[i + 1].starts) return;
-        for (std::size_t i = 0; i < ends.size(); i += 2) {
-            const End &a = ends[i], &b = ends[i + 1];
-            a.starts ? next_[b.chain] = a.chain : next_[a.chain] = b.chain;
-        }
-    }
-
-    void emit(Index face, Pieces& out) {
-        done_.assign(chains_.size(), false);
-        for (std::size_t first = 0; first < chains_.size(); ++first) {
-            if (done_[first]) continue;
-            polygon_.clear();
-            for (std::size_t i = first; !done_[i]; i = next_[i]) {
-                done_[i] = true;
-                for (std::size_t n = chains_[i].begin; n < chains_[i].end; ++n)
-                    polygon_.push_back(ring_[n].wedge);
-            }
-            if (polygon_.size() > 2) out.add(face, polygon_); // two corners: there and back, nothing
-        }
-    }
-
-    const PlaneCut& cut_;
-    int side_;
-    Vec3 along_; ///< the way in which this side's boundary runs in the plane
-    std::vector<Node> ring_;
-    std::vector<Chain> chains_;
-    std::vector<std::size_t> next_;
-    std::vector<bool> done_;
-    std::vector<Index> polygon_;
-};
-
 } // namespace
 
-PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane) {
+/// At every edge the directions of the faces cancel.
+bool is_closed(const Mesh& mesh) {
+    const EdgeTable table = build_edges(mesh);
+    for (Index e = 0; e < table.size(); ++e) {
+        int balance = 0;
+        for (const Index c : table.corners_of(e)) balance += mesh.vertex(c) == table.edges[e].low ? 1 : -1;
+        if (balance != 0) return false;
+    }
+    return true;
+}
+
+double float32_ulp(const Box& bounds) {
+    if (bounds.empty()) return 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        largest = std::max({largest, std::fabs(bounds.min[i]), std::fabs(bounds.max[i])});
+    return largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 23) : 0;
+}
+
+PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on,
+                      std::span<const std::uint8_t> faces) {
     PlaneCut cut;
     cut.mesh = &mesh;
     cut.plane = plane;
-    classify_vertices(cut);
+    classify_vertices(cut, on);
     if (!cut.meets()) return cut;
     classify_faces(cut);
     using namespace face_class;
     cut.cut_faces = faces_where(cut, [](std::uint8_t c) { return (c & (above | below)) == (above | below); });
+    std::vector<Index> whole;
+    if (!faces.empty()) {
+        std::copy_if(cut.cut_faces.begin(), cut.cut_faces.end(), std::back_inserter(whole),
+                     [&](Index f) { return faces[f] == 0; });
+        std::erase_if(cut.cut_faces, [&](Index f) { return faces[f] == 0; });
+    }
     if (cut.on_count > 0) {
         cut.touching =
             faces_where(cut, [](std::uint8_t c) { return c == (above | touches) || c == (below | touches); });
         cut.flat = faces_where(cut, [](std::uint8_t c) { return c == touches; });
     }
-    make_wedges(cut, find_crossings(cut));
+    auto crossings = find_crossings(cut);
+    auto slots = static_cast<Index>(crossings.size());
+    add_passing(cut, whole, crossings, slots);
+    make_wedges(cut, std::move(crossings), slots);
     make_vertices(cut);
     place_vertices(cut);
     return cut;
 }
 
-void settle_flat_by_normal(PlaneCut& cut) {
-    for (const Index f : cut.flat) {
-        const double s = dot(area_vector(*cut.mesh, f), cut.plane.normal);
-        if (s != 0) cut.classes[f] |= s < 0 ? face_class::flat_above : face_class::flat_below;
+void remember(CutMemory& memory, const PlaneCut& cut, std::span<const Vec3> more) {
+    const auto& positions = cut.mesh->positions;
+    std::vector<Vec3> points;
+    for (std::size_t e = 0; e < memory.entries.size(); ++e) {
+        const auto& entry = memory.entries[e];
+        if (same_plane(entry.plane, cut.plane)) continue;
+        points.clear();
+        for (std::size_t i = 0; i < cut.points.size(); ++i)
+            if (entry.counts_as_on(positions[cut.vertices[i].a]) &&
+                entry.counts_as_on(positions[cut.vertices[i].b]))
+                points.push_back(cut.points[i]);
+        memory.add(entry.plane, points);
     }
-}
-
-void settle_flat(PlaneCut& cut, int side) {
-    if (side == 0) return;
-    for (const Index f : cut.flat)
-        cut.classes[f] |= side > 0 ? face_class::flat_above : face_class::flat_below;
-}
-
-Pieces pieces_on_side(const PlaneCut& cut, int side) {
-    Pieces out;
-    FaceCutter cutter(cut, side);
-    for (std::size_t i = 0; i < cut.cut_faces.size(); ++i) cutter.cut(i, out);
-    return out;
+    points = cut.points;
+    points.insert(points.end(), more.begin(), more.end());
+    if (cut.snapped_count > 0)
+        for (std::size_t v = 0; v < positions.size(); ++v)
+            if (cut.signs[v] == 0) points.push_back(positions[v]);
+    memory.add(cut.plane, std::move(points));
 }
 
 } // namespace facetmill

@@ -2,13 +2,14 @@
 // What a plane does to a mesh, before a side is chosen: classes of vertices and faces, and the points of the
 // cut. For clip only.
 
-#include "geometry/plane.hpp"
+#include "geometry/cut_memory.hpp"
 #include "mesh/lineage.hpp"
 
 namespace facetmill {
 
 /// A face's class, as bits.
 namespace face_class {
+// The lowest three bits say where its vertices are.
 inline constexpr std::uint8_t above = 1;       ///< has a vertex in front of the plane
 inline constexpr std::uint8_t below = 2;       ///< has a vertex behind it
 inline constexpr std::uint8_t touches = 4;     ///< has a vertex exactly on it
@@ -25,11 +26,15 @@ struct PlaneCut {
     std::vector<std::int8_t> signs;                             ///< [vertices] -1, 0, 1
     std::vector<std::uint8_t> classes;                          ///< [faces]
     std::size_t above_count = 0, below_count = 0, on_count = 0; ///< vertices
-    std::vector<Index> cut_faces;        ///< faces with vertices on both sides, ascending
+    std::size_t snapped_count = 0, remembered_count = 0; ///< among on_count, those not exactly on the plane
+    std::vector<Index> cut_faces;                        ///< faces with vertices on both sides, ascending
     std::vector<Index> touching;         ///< faces with vertices on the plane and on one side, ascending
     std::vector<Index> flat;             ///< faces in the plane, ascending
     std::vector<Index> crossings;        ///< new wedge at each crossed corner's edge, by cut face and corner
-    std::vector<Index> crossing_offsets; ///< [cut_faces + 1] into crossings
+    std::vector<Index> crossing_offsets; ///< [cut_faces + passing + 1] into crossings
+    /// Faces that are not to be cut but have an edge that a cut face is cut at, ascending. Their crossings
+    /// are one for each edge between vertices on both sides, none for those where no face is cut.
+    std::vector<Index> passing;
     std::vector<Lineage::Edge> wedges, vertices; ///< the new ones: on which edge, and where
     std::vector<Index> wedge_vertex;             ///< [new wedges] -> vertex; empty without seams
     std::vector<Vec3> points;                    ///< [new vertices]
@@ -58,10 +63,31 @@ struct PlaneCut {
     bool meets() const { return on_count > 0 || (above_count > 0 && below_count > 0); }
 };
 
-/// Classifies everything and makes the points of the cut. Flat faces get no side yet.
-PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane);
+/// What counts as on a plane besides what is exactly on it.
+struct OnPlane {
+    /// Float32 positions at most this far away (mesh units) count as on the plane; 0: none.
+    double snap = 0;
+    /// Points that it says were built on the plane count as on it. None: nothing is known.
+    const CutMemory* memory = nullptr;
+};
 
-/// Gives each flat face the side that its normal points away from (none when it has no area).
+/// One float32 ulp of the largest coordinate of the bounds; 0 for an empty box.
+double float32_ulp(const Box& bounds);
+
+/// Classifies everything and makes the points of the cut. Flat faces get no side yet. faces: 1 for those that
+/// may be cut; empty: all.
+PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on = {},
+                      std::span<const std::uint8_t> faces = {});
+
+/// At every edge the directions of the faces cancel.
+bool is_closed(const Mesh& mesh);
+
+/// Adds the points of a cut to what is known: new ones are on the cut's plane and on every known plane that
+/// both ends of their edge are on; snapped ones are on the cut's plane. more: other points made on it.
+void remember(CutMemory& memory, const PlaneCut& cut, std::span<const Vec3> more = {});
+
+/// Gives each flat face the side that its normal points away from; those without area to the back, so that
+/// the boundaries of the two sides are each other's.
 void settle_flat_by_normal(PlaneCut& cut);
 /// Gives all flat faces to one side, or none (0).
 void settle_flat(PlaneCut& cut, int side);

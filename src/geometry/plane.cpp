@@ -1,56 +1,14 @@
 #include "geometry/plane.hpp"
 
 #include "base/error.hpp"
+#include "base/exact_sum.hpp"
 
 namespace facetmill {
 
 namespace {
 
-/// A sum of doubles kept without rounding, as an expansion: components of growing magnitude that do not
-/// overlap.
-class ExactSum {
-  public:
-    void add(double b) {
-        int kept = 0;
-        for (int i = 0; i < size_; ++i) {
-            const double sum = b + parts_[i], virtual_b = sum - b;
-            const double error = (b - (sum - virtual_b)) + (parts_[i] - virtual_b);
-            if (error != 0) parts_[kept++] = error;
-            b = sum;
-        }
-        if (b != 0) parts_[kept++] = b;
-        size_ = kept;
-    }
-    void add_product(double a, double b) {
-        const double product = a * b;
-        const auto [a_high, a_low] = halves(a);
-        const auto [b_high, b_low] = halves(b);
-        const double error = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
-        add(error);
-        add(product);
-    }
-    /// The value, rounded; its sign is the sign of the largest component, which is the last.
-    double value() const {
-        double sum = 0;
-        for (int i = 0; i < size_; ++i) sum += parts_[i];
-        return sum;
-    }
-
-  private:
-    struct Halves {
-        double high, low;
-    };
-    static Halves halves(double a) {
-        const double c = 134217729.0 * a; // 2^27 + 1
-        const double high = c - (c - a);
-        return {high, a - high};
-    }
-    double parts_[16];
-    int size_ = 0;
-};
-
 double exact_side(const Plane& plane, const Vec3& p) {
-    ExactSum sum;
+    ExactSum<13> sum;
     for (std::size_t i = 0; i < 3; ++i) {
         sum.add_product(plane.normal[i], p[i]);
         sum.add_product(plane.normal[i], -plane.through[i]);
@@ -72,6 +30,28 @@ double side(const Plane& plane, const Vec3& p) {
     if (std::fabs(value) > 8.9e-16 * magnitude + 1e-300) return value;
     if (magnitude == 0 && (p == plane.through || axis_of(plane) >= 0)) return 0;
     return exact_side(plane, p);
+}
+
+bool same_plane(const Plane& a, const Plane& b) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        ExactSum<4> turn; // of the normals against each other
+        turn.add_product(a.normal[i], b.normal[(i + 1) % 3]);
+        turn.add_product(-a.normal[(i + 1) % 3], b.normal[i]);
+        if (turn.sign() != 0) return false;
+    }
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::fabs(a.normal[i]) > std::fabs(a.normal[axis])) axis = i;
+    const auto level = [](const Plane& p) { // of normal . x, for x in the plane
+        ExactSum<7> sum;
+        for (std::size_t i = 0; i < 3; ++i) sum.add_product(p.normal[i], p.through[i]);
+        sum.add(-p.offset);
+        return sum;
+    };
+    ExactSum<> difference;
+    difference.add_scaled(level(a), b.normal[axis]);
+    difference.add_scaled(level(b), -a.normal[axis]);
+    return difference.sign() == 0;
 }
 
 Plane pulled_back(const Plane& plane, const Transform& to_world) {

@@ -22,6 +22,10 @@ struct Plane {
 /// as no product of a normal's component and a coordinate is beyond 1e290 or its last bit below 1e-300.
 double side(const Plane& plane, const Vec3& p);
 
+/// Whether they are one set of points, exactly: whatever the length and the sense of their normals, and
+/// however they are written. Exact under the same conditions as side.
+bool same_plane(const Plane& a, const Plane& b);
+
 /// The plane as seen before the map: p is on its front exactly when to_world takes p to the front of the
 /// given one, but for rounding in the new coefficients. The same plane for the identity; normal and through
 /// are mapped, so that axis-aligned planes stay axis-aligned through a point; a map without an inverse moves

@@ -1,8 +1,9 @@
 #include "geometry/polygon.hpp"
 
+#include "base/exact_sum.hpp"
 #include "base/predicates.hpp"
-#include "geometry/triangulate_rings.hpp"
 #include "geometry/ring_tree.hpp"
+#include "geometry/triangulate_rings.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,30 +25,6 @@ struct Integrals {
         xx += (a.x * a.x + a.x * b.x + b.x * b.x) * c / 12;
         xy += (a.x * b.y + 2 * a.x * a.y + 2 * b.x * b.y + b.x * a.y) * c / 24;
     }
-};
-
-/// A sum of doubles that do not overlap, smallest first (Shewchuk 1997), of any length.
-class ExactSum {
-  public:
-    void add(double x) {
-        std::size_t kept = 0;
-        for (const double part : parts_) {
-            const double sum = x + part, other = sum - x, rest = (x - (sum - other)) + (part - other);
-            if (rest != 0) parts_[kept++] = rest;
-            x = sum;
-        }
-        parts_.resize(kept);
-        if (x != 0) parts_.push_back(x);
-    }
-    void add_product(double a, double b) {
-        const double product = a * b;
-        add(std::fma(a, b, -product));
-        add(product);
-    }
-    int sign() const { return parts_.empty() ? 0 : parts_.back() > 0 ? 1 : -1; }
-
-  private:
-    std::vector<double> parts_;
 };
 
 int turn(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y); }
@@ -74,7 +51,7 @@ int orientation(Ring ring) {
     // Each term is off by at most 4 units of rounding of its size, and adding n terms adds n more.
     const double bound = size * (static_cast<double>(ring.size()) + 4) * 2.3e-16;
     if (std::abs(twice) > bound) return twice > 0 ? 1 : -1;
-    ExactSum exact;
+    ExactSum<> exact;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2 &a = ring[i], &b = following(ring, i);
         exact.add_product(a.x, b.y);

@@ -1,119 +1,13 @@
 #include "geometry/section.hpp"
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "geometry/section_cut.hpp"
 
-#include <bit>
-#include <fmt/format.h>
+#include <algorithm>
 
 namespace facetmill {
 
 namespace {
-
-/// A place where a plane crosses an edge of the mesh, as endpoints in index order.
-struct EdgeKey {
-    Index low = 0, high = 0;
-    std::uint64_t bits() const { return std::uint64_t{low} << 32 | high; }
-};
-
-/// A piece of a contour: across a face, from the edge where the face comes down through the plane to the edge
-/// where it goes up. Seen against the plane's normal, the face's back is on its left.
-struct Piece {
-    Index plane;
-    EdgeKey from, to;
-};
-
-/// The planes of the stack in the mesh's space.
-class Planes {
-  public:
-    explicit Planes(const SectionSettings& s) : local_(pulled_back(s.plane, s.to_world)) {
-        const double scale = length(s.plane.normal);
-        for (const double h : s.heights) offsets_.push_back(local_.offset - h * scale);
-        local_.offset = 0;
-    }
-    std::size_t size() const { return offsets_.size(); }
-    double side_of(std::size_t k, const Vec3& p) const {
-        Plane plane = local_;
-        plane.offset = offsets_[k];
-        return side(plane, p);
-    }
-    /// How many planes the point is on or above. Exact signs decide; the search in doubles only says where to
-    /// look.
-    Index level(const Vec3& p) const {
-        const double s = side(local_, p);
-        auto k = static_cast<std::size_t>(
-            std::partition_point(offsets_.begin(), offsets_.end(), [&](double o) { return s + o >= 0; }) -
-            offsets_.begin());
-        while (k < size() && side_of(k, p) >= 0) ++k;
-        while (k > 0 && side_of(k - 1, p) < 0) --k;
-        return static_cast<Index>(k);
-    }
-
-  private:
-    Plane local_;
-    std::vector<double> offsets_; ///< descending
-};
-
-struct Crossing {
-    EdgeKey edge;
-    bool up;
-    double along;
-};
-
-/// Cuts faces into pieces. A face of many corners may cross a plane several times: crossings are ordered
-/// along the cut, and the first way down is joined with the first way up, and so on.
-class Cutter {
-  public:
-    Cutter(const Mesh& mesh, const std::vector<Index>& levels, const Planes& stack, const Plane& plane)
-        : mesh_(mesh), levels_(levels), stack_(stack), normal_(plane.normal) {}
-
-    void cut(Index f, std::vector<Piece>& out) {
-        Index low = none, high = 0;
-        for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
-            const Index l = levels_[mesh_.vertex(c)];
-            low = std::min(low, l), high = std::max(high, l);
-        }
-        for (Index k = low; k < high; ++k) cut(f, k, out);
-    }
-
-  private:
-    void cut(Index f, Index k, std::vector<Piece>& out) {
-        crossings_.clear();
-        const Index begin = mesh_.face_begin(f), end = mesh_.face_end(f);
-        for (Index c = begin; c < end; ++c) {
-            const Index a = mesh_.vertex(c), b = mesh_.vertex(c + 1 == end ? begin : c + 1);
-            const bool a_above = levels_[a] > k, b_above = levels_[b] > k;
-            if (a_above != b_above) crossings_.push_back({{std::min(a, b), std::max(a, b)}, b_above, 0});
-        }
-        if (crossings_.size() > 2) order(f, k);
-        std::size_t down = 0, up = 0;
-        for (std::size_t i = 0; i < crossings_.size(); i += 2) {
-            while (crossings_[down].up) ++down;
-            while (!crossings_[up].up) ++up;
-            out.push_back({k, crossings_[down++].edge, crossings_[up++].edge});
-        }
-    }
-
-    void order(Index f, Index k) {
-        corners_.clear();
-        for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) corners_.push_back(mesh_.point(c));
-        const Vec3 along = cross(normal_, polygon::area_vector(corners_));
-        for (auto& x : crossings_) {
-            const Vec3 &a = mesh_.positions[x.edge.low], &b = mesh_.positions[x.edge.high];
-            const double sa = stack_.side_of(k, a), sb = stack_.side_of(k, b);
-            x.along = dot(mix(a, b, sa / (sa - sb)), along);
-        }
-        std::stable_sort(crossings_.begin(), crossings_.end(),
-                         [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
-    }
-
-    const Mesh& mesh_;
-    const std::vector<Index>& levels_;
-    const Planes& stack_;
-    Vec3 normal_;
-    std::vector<Crossing> crossings_;
-    std::vector<Vec3> corners_;
-};
 
 constexpr Index open_end = none;
 
@@ -196,36 +90,6 @@ class Chainer {
     std::vector<Vec2> point_;
 };
 
-/// The pieces of all faces, ordered by plane, then face.
-std::vector<Piece> all_pieces(const Mesh& mesh, const std::vector<Index>& levels, const Planes& stack,
-                              const Plane& plane) {
-    const std::size_t chunks = (mesh.face_count() + default_chunk - 1) / default_chunk;
-    std::vector<std::vector<Piece>> found(chunks);
-    parallel_chunks(mesh.face_count(), [&](std::size_t begin, std::size_t end) {
-        Cutter cutter(mesh, levels, stack, plane);
-        for (std::size_t f = begin; f < end; ++f)
-            cutter.cut(static_cast<Index>(f), found[begin / default_chunk]);
-    });
-    std::vector<std::size_t> first;
-    for (const auto& pieces : found) first.push_back(pieces.size());
-    const std::size_t count = exclusive_scan(first);
-    if (count > (std::size_t{1} << 30))
-        throw Error(ErrorKind::limit, "E-SECTION",
-                    fmt::format("the sections would have {} pieces, and at most {} are kept", count,
-                                std::size_t{1} << 30),
-                    "take fewer planes");
-    std::vector<Piece> all(count);
-    parallel_for(
-        chunks,
-        [&](std::size_t i) {
-            std::copy(found[i].begin(), found[i].end(), all.begin() + static_cast<std::ptrdiff_t>(first[i]));
-        },
-        1);
-    radix_sort(
-        all, [](const Piece& p) { return p.plane; }, std::bit_width(stack.size()));
-    return all;
-}
-
 double magnitude(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 
 /// Leaves out points of a contour that are where their neighbour is, or straight on, but for rounding.
@@ -303,10 +167,8 @@ std::vector<polygon::Ring> Section::filled() const {
 
 std::vector<Section> section(const Mesh& mesh, const SectionSettings& settings) {
     const SectionFrame frame = frame_of(settings.plane);
-    const Planes stack(settings);
-    std::vector<Index> levels(mesh.vertex_count());
-    parallel_for(levels.size(), [&](std::size_t v) { levels[v] = stack.level(mesh.positions[v]); });
-    auto pieces = all_pieces(mesh, levels, stack, pulled_back(settings.plane, settings.to_world));
+    const StackPlanes stack(settings);
+    auto pieces = pieces_of(mesh, stack, pulled_back(settings.plane, settings.to_world));
     if (settings.to_world.determinant() <
         0) // a mirrored part: its faces are turned, so that fronts stay fronts
         parallel_for(pieces.size(), [&](std::size_t i) { std::swap(pieces[i].from, pieces[i].to); });

@@ -128,6 +128,23 @@ FaceKinds face_kinds(const Mesh& mesh, double planar) {
         joined, 1024);
 }
 
+FaceKinds face_kinds(const Scene& scene, double planar) {
+    FaceKinds all;
+    for (const Part& part : scene.parts) {
+        if (part.skinned || part.transform.identity()) {
+            all = joined(all, face_kinds(part.mesh, planar));
+            continue;
+        }
+        Mesh placed;
+        placed.corners = part.mesh.corners, placed.face_offsets = part.mesh.face_offsets;
+        placed.wedge_vertex = part.mesh.wedge_vertex, placed.positions = part.mesh.positions;
+        apply(placed, part.transform);
+        all = joined(all, face_kinds(placed, planar));
+    }
+    all.worst = none;
+    return all;
+}
+
 TriangulateResult triangulate(const Mesh& mesh) {
     TriangulateResult result;
     result.kinds = face_kinds(mesh);

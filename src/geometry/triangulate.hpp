@@ -2,6 +2,7 @@
 // Faces of any kind into triangles, and the census of what kinds of face a mesh has.
 
 #include "geometry/polygon.hpp"
+#include "mesh/scene.hpp"
 
 #include <array>
 
@@ -21,6 +22,8 @@ struct FaceKinds {
 /// Counts the faces by kind. A face is not planar when a corner is farther from its plane than planar times
 /// the face's perimeter; the default is what float32 coordinates can tell. Parallel.
 FaceKinds face_kinds(const Mesh& mesh, double planar = 1e-6);
+/// Over all parts as they stand in the world; worst is none.
+FaceKinds face_kinds(const Scene& scene, double planar = 1e-6);
 
 struct TriangulateResult {
     Mesh mesh;

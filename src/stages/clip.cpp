@@ -1,5 +1,7 @@
 #include "geometry/clip.hpp"
 
+#include "stage/box_option.hpp"
+#include "stage/cap_option.hpp"
 #include "stage/plane_option.hpp"
 #include "stage/stage.hpp"
 
@@ -10,55 +12,79 @@ namespace facetmill {
 namespace {
 
 enum class Space { world, local };
+enum class Snap { automatic, none };
 
 struct ClipOptions {
     std::optional<PlaneOption> plane;
     std::vector<PlaneOption> planes;
+    std::optional<BoxOption> box;
     Keep keep = Keep::front;
     bool cap = false;
+    std::string cap_material = "cap";
     bool triangulate = false;
     Space space = Space::world;
     Coplanar coplanar = Coplanar::keep;
+    Snap snap = Snap::automatic;
 };
 
-void declare(Declare<ClipOptions>& d) {
-    d.group("plane", &ClipOptions::plane, "The plane to clip by.", declare_plane).primary();
-    d.option("planes", &ClipOptions::planes, "Several planes, each as for plane; one after the other.");
-    d.exactly_one({"plane", "planes"});
-    d.choice<Keep>("keep", &ClipOptions::keep,
-                   {{"front", Keep::front, "what lies on the side that the normal points to"},
-                    {"back", Keep::back, "what lies on the other side"},
-                    {"both", Keep::both, "both, as parts NAME.front and NAME.back; for one plane"}},
-                   "Which side stays.");
-    d.option("cap", &ClipOptions::cap,
-             "Close what the cut opens with faces in the plane, of a material 'cap'.");
+void declare_rest(Declare<ClipOptions>& d) {
     d.option("triangulate", &ClipOptions::triangulate,
              "Leave triangles only; without it a cut triangle may become a quad.");
     d.choice<Space>(
         "space", &ClipOptions::space,
-        {{"world", Space::world, "planes stand in the scene"},
-         {"local", Space::local, "planes stand in each part's own space, before its node's transform"}},
+        {{"world", Space::world, "planes and boxes stand in the scene"},
+         {"local", Space::local, "they stand in each part's own space, before its node's transform"}},
         "What coordinates, centre and extent refer to.");
     d.choice<Coplanar>(
         "coplanar", &ClipOptions::coplanar,
         {{"keep", Coplanar::keep, "they stay"}, {"drop", Coplanar::drop, "they go"}},
         "Faces of open parts that lie in the plane. Those of closed parts stay when they look away "
         "from what stays.");
+    d.choice<Snap>(
+         "snap", &ClipOptions::snap,
+         {{"auto", Snap::automatic,
+           "positions that are 32-bit floats count as on a plane within one float's rounding of the "
+           "part's bounds: the z = 0.1 of an STL is not the 0.1 of a pipeline"},
+          {"0", Snap::none, "only what is exactly on it does"}},
+         "What counts as on a plane.")
+        .option()
+        .schema = {{"enum", {"auto", "0", 0}}};
+}
+
+void declare(Declare<ClipOptions>& d) {
+    d.group("plane", &ClipOptions::plane, "The plane to clip by.", declare_plane).primary();
+    d.option("planes", &ClipOptions::planes, "Several planes, each as for plane; one after the other.");
+    d.group("box", &ClipOptions::box, "A box to clip by; its front is the inside.", declare_box);
+    d.exactly_one({"plane", "planes", "box"});
+    d.choice<Keep>(
+        "keep", &ClipOptions::keep,
+        {{"inside", Keep::front, "of a box: the same as front"},
+         {"outside", Keep::back, "of a box: the same as back"},
+         {"front", Keep::front, "what lies on the side that the normal points to, or in the box"},
+         {"back", Keep::back, "what lies on the other side, or around the box"},
+         {"both", Keep::both,
+          "both, as parts NAME.front and NAME.back (NAME.inside, NAME.outside); for one plane or box"}},
+        "Which side stays.");
+    declare_cap(d, &ClipOptions::cap, &ClipOptions::cap_material);
+    declare_rest(d);
+}
+
+/// The value of an option as written, or the whole.
+const Value& written(const Value& given, const char* name) {
+    const Value* value = given.is_map() ? given.find(name) : nullptr;
+    return value ? *value : given;
 }
 
 void verify(const ClipOptions& o, const Value& given, Problems& problems) {
-    const Value* planes = given.is_map() ? given.find("planes") : nullptr;
-    if (o.plane) {
-        const Value* plane = given.is_map() ? given.find("plane") : &given;
-        verify_plane(*o.plane, plane ? plane->mark : given.mark, problems);
-    }
-    for (std::size_t i = 0; i < o.planes.size(); ++i) {
-        const bool listed = planes && planes->is_list() && i < planes->items.size();
-        verify_plane(o.planes[i], listed ? planes->items[i].mark : given.mark, problems);
-    }
+    const Value& planes = written(given, "planes");
+    if (o.plane) verify_plane(*o.plane, written(given, "plane").mark, problems);
+    if (o.box) verify_box(*o.box, written(given, "box").mark, problems);
+    for (std::size_t i = 0; i < o.planes.size(); ++i)
+        verify_plane(o.planes[i],
+                     planes.is_list() && i < planes.items.size() ? planes.items[i].mark : given.mark,
+                     problems);
     if (o.keep == Keep::both && o.planes.size() > 1)
-        problems.add(planes ? planes->mark : given.mark, "E-PLANE",
-                     "clip: keep: both takes exactly one plane",
+        problems.add(planes.mark, "E-PLANE", "clip: keep: both takes exactly one plane",
                      "clip once for every plane, or keep the front or the back");
 }
 
@@ -68,6 +94,8 @@ std::vector<Plane> planes_for(const Part& part, const ClipOptions& o, const std:
     std::vector<Plane> planes;
     if (o.space == Space::world)
         for (const Plane& p : world) planes.push_back(part.skinned ? p : pulled_back(p, part.transform));
+    else if (o.box)
+        planes = planes_of(*o.box);
     else if (o.plane)
         planes.push_back(resolve_plane(*o.plane, scene, context, "plane", &part));
     else
@@ -79,38 +107,21 @@ std::vector<Plane> planes_for(const Part& part, const ClipOptions& o, const std:
 Json as_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 /// What users should know of a clip: open contours, everything kept, nothing kept.
-void warn(const Part& part, const ClipResult& r, bool had_faces, std::size_t faces, Context& context) {
-    for (const OpenContour& open : r.open) {
-        const Vec3 at = part.skinned ? open.at : part.transform.point(open.at);
-        context.warn(
-            "W-CAP-OPEN",
-            fmt::format("clip: a contour of {} edges of part '{}' is open and was not capped; it ends at "
-                        "({:.6g}, {:.6g}, {:.6g})",
-                        open.edges, part.name, at.x, at.y, at.z),
-            "the part has a hole where the plane meets it; fill it first");
-    }
+void warn(const Part& part, const ClipResult& r, bool had_faces, Context& context) {
+    warn_of_open("clip", part, r.open, context);
     if (!r.changed && had_faces)
         context.warn("W-CLIP-ALL", fmt::format("clip: no plane met part '{}', all of it was kept", part.name),
                      "check the plane's place and side; info prints the bounds");
-    if (had_faces && faces == 0)
+    if (had_faces && r.front.face_count() + r.back.face_count() == 0)
         context.warn("W-CLIP-NOTHING", fmt::format("clip: nothing of part '{}' was kept", part.name),
                      "check the plane's place and side; keep: back keeps the other side");
-}
-
-/// The number of the material 'cap', which is appended when the scene has none.
-Index cap_material(Scene& scene) {
-    for (Index i = 0; i < scene.materials.size(); ++i)
-        if (scene.materials[i].name == "cap") return i;
-    Material cap;
-    cap.name = "cap";
-    scene.materials.push_back(cap);
-    return static_cast<Index>(scene.materials.size() - 1);
 }
 
 class ClipRun {
   public:
     ClipRun(Scene& scene, const ClipOptions& o, Context& context) : scene_(scene), o_(o), context_(context) {
         if (o.space == Space::local) return;
+        if (o.box) world_ = planes_of(*o.box);
         if (o.plane) world_.push_back(resolve_plane(*o.plane, scene, context, "plane"));
         for (const PlaneOption& p : o.planes) world_.push_back(resolve_plane(p, scene, context, "planes"));
         for (const Plane& p : world_)
@@ -120,11 +131,17 @@ class ClipRun {
 
     void run() {
         context_.for_each_part(scene_, [&](Part& part) { clip_part(part); });
-        if (cap_faces_ > 0) cap_material(scene_);
-        insert_backs();
-        context_.result()["cut_faces"] = cut_faces_;
-        context_.result()["cap_faces"] = cap_faces_;
-        context_.result()["open_contours"] = open_;
+        if (cap_faces_ > 0) add_material(scene_, o_.cap_material);
+        for (std::size_t k = backs_.size(); k-- > 0;)
+            scene_.parts.insert(scene_.parts.begin() + static_cast<std::ptrdiff_t>(backs_[k].first) + 1,
+                                std::move(backs_[k].second));
+        Json& result = context_.result();
+        result["cut_faces"] = cut_faces_;
+        result["cap_faces"] = cap_faces_;
+        result["open_contours"] = open_;
+        result["on_plane"] = on_plane_;
+        result["snapped"] = snapped_;
+        result["remembered"] = remembered_;
     }
 
   private:
@@ -132,34 +149,27 @@ class ClipRun {
         ClipSettings settings;
         settings.planes = planes_for(part, o_, world_, scene_, context_);
         settings.keep = o_.keep;
-        settings.cap = o_.cap;
+        settings.convex = o_.box.has_value();
         settings.triangulate = o_.triangulate;
         settings.coplanar = o_.coplanar;
-        if (o_.cap) settings.cap_primitive = Primitive{wanted_material(), {}, {}};
+        settings.snap = o_.snap == Snap::automatic;
+        if (o_.cap) set_cap(settings, scene_, o_.cap_material);
         const bool had_faces = part.mesh.face_count() > 0;
         ClipResult r = clip(std::move(part.mesh), settings);
-        warn(part, r, had_faces, r.front.face_count() + r.back.face_count(), context_);
+        warn(part, r, had_faces, context_);
         context_.ledger(part, r.fates);
-        cut_faces_ += r.cut_faces, cap_faces_ += r.cap_faces, open_ += r.open.size();
+        count(r);
         if (o_.keep == Keep::both) {
-            const auto at = static_cast<std::size_t>(&part - scene_.parts.data());
             Part back = part;
-            back.name += ".back", part.name += ".front";
+            back.name += o_.box ? ".outside" : ".back", part.name += o_.box ? ".inside" : ".front";
             back.mesh = std::move(r.back), back.changed = true;
-            backs_.emplace_back(at, std::move(back));
+            backs_.emplace_back(static_cast<std::size_t>(&part - scene_.parts.data()), std::move(back));
         }
         part.mesh = std::move(o_.keep == Keep::back ? r.back : r.front);
     }
-    /// Where cap_material is or will be, so that no material appears when no cap was made.
-    Index wanted_material() const {
-        Index i = 0;
-        while (i < scene_.materials.size() && scene_.materials[i].name != "cap") ++i;
-        return i;
-    }
-    void insert_backs() {
-        for (std::size_t k = backs_.size(); k-- > 0;)
-            scene_.parts.insert(scene_.parts.begin() + static_cast<std::ptrdiff_t>(backs_[k].first) + 1,
-                                std::move(backs_[k].second));
+    void count(const ClipResult& r) {
+        cut_faces_ += r.cut_faces, cap_faces_ += r.cap_faces, open_ += r.open.size();
+        on_plane_ += r.on_plane, snapped_ += r.snapped, remembered_ += r.remembered;
     }
 
     Scene& scene_;
@@ -167,7 +177,7 @@ class ClipRun {
     Context& context_;
     std::vector<Plane> world_;
     std::vector<std::pair<std::size_t, Part>> backs_; ///< behind which part, and the part
-    std::size_t cut_faces_ = 0, cap_faces_ = 0, open_ = 0;
+    std::size_t cut_faces_ = 0, cap_faces_ = 0, open_ = 0, on_plane_ = 0, snapped_ = 0, remembered_ = 0;
 };
 
 Scene run(Scene scene, const ClipOptions& o, Context& context) {
@@ -177,32 +187,33 @@ Scene run(Scene scene, const ClipOptions& o, Context& context) {
 
 const RegisterStage clip_stage = make_stage<ClipOptions>(
     {.name = "clip",
-     .about = "Clips by planes, with watertight caps.",
+     .about = "Clips by planes and boxes, with watertight caps.",
      .details =
          "Every vertex is classified once, by the exact sign of its distance, so neighbours always agree and "
-         "a "
-         "vertex on the plane is neither in front nor behind. Each cut edge gets one new vertex, shared by "
-         "all "
-         "faces there. Triangles, quads and larger faces, convex or not, are cut directly. A closed part "
-         "that is "
-         "capped stays closed, whatever it looks like: with several planes in a row, non-manifold, or "
-         "crossing "
-         "itself (where it covers a place twice, so does its cap).\n\n"
+         "a vertex on the plane is neither in front nor behind. Each cut edge gets one new vertex, shared by "
+         "all faces there. Triangles, quads and larger faces, convex or not, are cut directly. A closed part "
+         "that is capped stays closed, whatever it looks like: with several planes in a row, non-manifold, "
+         "or "
+         "crossing itself (where it covers a place twice, so does its cap). Points that a clip made on a "
+         "plane "
+         "count as on it when the plane comes again in it.\n\n"
          "Planes stand in the scene; parts with a node transform are cut where they stand. A closed part's "
-         "face "
-         "in the plane stays only when it looks away from what stays. A contour that does not close cannot "
-         "be "
-         "capped: it is named (W-CAP-OPEN) and the rest is done. A plane that misses says so (W-CLIP-ALL, "
-         "W-CLIP-NOTHING); a part of which nothing is kept stays as an empty part.\n\n"
+         "face in the plane stays only when it looks away from what stays. A contour that does not close "
+         "cannot be capped: it is named (W-CAP-OPEN) and the rest is done. A plane that misses says so "
+         "(W-CLIP-ALL, W-CLIP-NOTHING); a part of which nothing is kept stays as an empty part.\n\n"
+         "A box keeps what is in it, or around it: the two fit exactly, and with caps both are closed.\n\n"
          "New vertices and wedges are interpolated, once per edge and pair of wedges, so seams stay seams; "
-         "pieces "
-         "copy the attributes of their face. Caps have a primitive and material 'cap', the plane's normal, "
-         "planar "
-         "texture coordinates when the part has TEXCOORD_0, and zeros in other face attributes.\n\n"
+         "pieces copy the attributes of their face. Caps have a primitive and material of their own, the "
+         "plane's "
+         "normal, planar texture coordinates when the part has TEXCOORD_0, and zeros in other face "
+         "attributes; "
+         "the face attributes cut_id (the plane's number; 0 elsewhere) and group tell them apart.\n\n"
          "Source: the note on clipping facets by a plane (1997).",
      .examples = {"clip: z=0.2", "clip: {plane: {normal: [0, 0, 1], through: centre}, cap: true}",
                   "clip: {planes: [x=10%, [-1, 0, 0, 0.5]], cap: true}",
-                  "clip: {plane: z=centre, keep: both, cap: true}"}},
+                  "clip: {plane: z=centre, keep: both, cap: true}",
+                  "clip: {box: {min: [0, 0, 0], max: [1, 1, 0.5]}, cap: true}",
+                  "clip: {box: {centre: [0, 0, 0], size: [2, 1, 1], angle: 30deg}, keep: outside}"}},
     declare, run, StageHooks<ClipOptions>{.files = {}, .verify = verify});
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "base/functions.hpp"
 #include "geometry/pair_triangles.hpp"
+#include "report/face_kinds.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -28,22 +29,13 @@ void declare(Declare<TriangulateOptions>& d) {
         .between(0, 90);
 }
 
-Json to_json(const FaceKinds& kinds) {
-    Json j = Json::object();
-    for (int k = 0; k < polygon::kinds; ++k)
-        j[polygon::spelled(static_cast<polygon::Kind>(k))] = kinds.of_kind[static_cast<std::size_t>(k)];
-    j["non_planar"] = kinds.non_planar;
-    j["deviation"] = kinds.deviation;
-    return j;
-}
-
 Scene run(Scene scene, const TriangulateOptions& o, Context& context) {
     Json parts = Json::array();
     std::size_t fans = 0;
     context.for_each_part(scene, [&](Part& part) {
         auto result = triangulate(part.mesh);
         Json entry = {{"part", part.name},
-                      {"faces", to_json(result.kinds)},
+                      {"faces", report::face_kinds_json(result.kinds)},
                       {"cut", result.cut},
                       {"fans", result.fans}};
         fans += result.fans;

@@ -4,6 +4,8 @@
 #include "support/failure.hpp"
 #include "support/measure.hpp"
 
+#include <set>
+
 using namespace facetmill;
 
 namespace {
@@ -117,6 +119,60 @@ TEST_CASE("keep: both makes two parts", "[stages]") {
     }
 }
 
+TEST_CASE("clip keeps the inside of a box, the outside, or both", "[stages]") {
+    const auto volume = [&](Value box, const char* keep) {
+        return volume_after(map({{"box", std::move(box)}, {"cap", text("true")}, {"keep", text(keep)}}),
+                            scene_of(shapes::cube()));
+    };
+    const Value corners =
+        map({{"min", numbers({"0.25", "0.25", "0.25"})}, {"max", numbers({"2", "0.75", "0.75"})}});
+    CHECK(volume(corners, "inside") == Approx(0.1875));
+    CHECK(volume(corners, "front") == Approx(0.1875));
+    CHECK(volume(corners, "outside") == Approx(0.8125));
+    CHECK(volume(text("0.25,0.25,0.25,2,0.75,0.75"), "back") == Approx(0.8125));
+    const Value square =
+        map({{"centre", numbers({"0.5", "0.5", "0.5"})}, {"size", numbers({"0.5", "0.5", "4"})}});
+    CHECK(volume(square, "inside") == Approx(0.25));
+    Value turned = square;
+    turned.set("angle", text("45deg"));
+    CHECK(volume(turned, "inside") == Approx(0.25));
+    const StageRun run("clip", map({{"box", corners}, {"cap", text("true")}, {"keep", text("both")}}),
+                       scene_of(shapes::cube()));
+    REQUIRE(run.scene.parts.size() == 2);
+    CHECK(run.scene.parts[0].name == "body.inside");
+    CHECK(run.scene.parts[1].name == "body.outside");
+    CHECK(test::volume(run.scene.parts[1].mesh) == Approx(0.8125));
+}
+
+TEST_CASE("clip snaps unless told not to", "[stages]") {
+    Mesh stl = shapes::cube();
+    for (Vec3& p : stl.positions) p.z = static_cast<float>(p.z * 0.1);
+    const StageRun snapped("clip", text("z=0.1"), scene_of(stl));
+    CHECK(snapped.record.result["snapped"] == 4);
+    const Value pure = map({{"plane", text("z=0.1")}, {"snap", text("0")}});
+    CHECK(StageRun("clip", pure, scene_of(stl)).record.result["cut_faces"] == 8);
+}
+
+TEST_CASE("caps are numbered on from what is there, and their material has a name", "[stages]") {
+    const Value given = map({{"planes", Value::list({text("z=0.25"), text("x=0.25")})},
+                             {"cap", text("true")},
+                             {"cap_material", text("steel")}});
+    StageRun once("clip", given, scene_of(shapes::cube()));
+    CHECK(once.scene.materials.at(0).name == "steel");
+    const auto numbers_of = [](const Scene& scene, const char* name) {
+        const Mesh& mesh = scene.parts[0].mesh;
+        std::set<double> all;
+        const Attribute* a = mesh.find(name, Domain::face);
+        for (std::size_t f = 0; a && f < mesh.face_count(); ++f) all.insert(a->value(f, 0));
+        return all;
+    };
+    CHECK(numbers_of(once.scene, "cut_id") == std::set<double>{0, 1, 2});
+    const StageRun more("clip", map({{"plane", text("y=0.5")}, {"cap", text("true")}}), once.scene);
+    CHECK(numbers_of(more.scene, "cut_id") == std::set<double>{0, 1, 2, 3});
+    CHECK(numbers_of(more.scene, "group") == std::set<double>{0, 1, 2, 3});
+    CHECK(more.scene.materials.size() == 2);
+}
+
 TEST_CASE("caps have a material of their own, made once and only when needed", "[stages]") {
     const Value given = map({{"plane", text("z=0.25")}, {"cap", text("true")}});
     StageRun once("clip", given, scene_of(shapes::cube()));
@@ -161,7 +217,15 @@ TEST_CASE("clip refuses what is no plane", "[stages]") {
           "usage [E-PLANE] clip: keep: both takes exactly one plane | clip once for every plane, or keep the "
           "front or "
           "the back");
-    CHECK(refusal(map({{"cap", text("true")}})) == "usage [E-MISSING] clip: one of plane, planes is needed");
+    CHECK(refusal(map({{"cap", text("true")}})) ==
+          "usage [E-MISSING] clip: one of plane, planes, box is needed");
+    const char* way_out =
+        " | for example {min: [0, 0, 0], max: [1, 1, 1]} or {centre: [0, 0, 0], size: [1, 1, 1]}";
+    CHECK(refusal(map({{"box", map({{"min", numbers({"0", "0", "0"})}})}})) ==
+          std::string("usage [E-BOX] a box needs min and max, or centre and size") + way_out);
+    CHECK(refusal(map({{"box", text("0,0,0,1,0,1")}})) ==
+          "usage [E-BOX] the box has no extent along y: 0 | max must be greater than min in all three");
+    CHECK(refusal(map({{"box", text("1,2")}})).starts_with("usage [E-TYPE] expected a box ({min: [0, 0, 0]"));
 }
 
 TEST_CASE("split takes a method or a grid", "[stages]") {

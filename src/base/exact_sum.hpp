@@ -1,0 +1,59 @@
+#pragma once
+// Sums of products of doubles without rounding, for signs that must be right.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+namespace facetmill {
+
+/// A sum kept as an expansion: parts that do not overlap, smallest first, so that the sign of the last is the
+/// sign of all (Shewchuk 1997, Adaptive precision floating-point arithmetic). capacity: the most numbers that
+/// are ever added, a product counting as two; 0 for any number of them, at the cost of an allocation. Exact
+/// as long as nothing overflows and no product's last bit is below 1e-300.
+template <std::size_t capacity = 0>
+class ExactSum {
+  public:
+    /// Adds x (grow-expansion, zeros left out).
+    void add(double x) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < size_; ++i) {
+            const double part = parts_[i], sum = x + part, virtual_part = sum - x;
+            const double rest = (x - (sum - virtual_part)) + (part - virtual_part);
+            if (rest != 0) parts_[kept++] = rest;
+            x = sum;
+        }
+        if constexpr (capacity == 0)
+            if (kept == parts_.size()) parts_.push_back(0);
+        if (x != 0) parts_[kept++] = x;
+        size_ = kept;
+    }
+    /// Adds a * b; std::fma is exact on every processor.
+    void add_product(double a, double b) {
+        const double product = a * b;
+        add(std::fma(a, b, -product));
+        add(product);
+    }
+    /// Adds factor times another sum.
+    template <std::size_t other>
+    void add_scaled(const ExactSum<other>& sum, double factor) {
+        for (std::size_t i = 0; i < sum.size_; ++i) add_product(sum.parts_[i], factor);
+    }
+    int sign() const { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
+    /// The value, rounded; never 0 for a sum that is not.
+    double value() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < size_; ++i) sum += parts_[i];
+        return sum;
+    }
+
+  private:
+    template <std::size_t>
+    friend class ExactSum;
+    std::conditional_t<capacity == 0, std::vector<double>, std::array<double, capacity>> parts_{};
+    std::size_t size_ = 0;
+};
+
+} // namespace facetmill

@@ -1,0 +1,158 @@
+#include "geometry/tile.hpp"
+
+#include "stage/cap_option.hpp"
+#include "stage/stage.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+struct TileOptions {
+    std::vector<Length> size;
+    std::string axes = "xy";
+    std::vector<Length> origin;
+    bool cap = false;
+    std::string cap_material = "cap";
+};
+
+void declare(Declare<TileOptions>& d) {
+    d.option("size", &TileOptions::size, "Edge length of the tiles: one, or one for each axis.")
+        .required()
+        .primary();
+    d.option("axes", &TileOptions::axes, "Across which axes it is cut: any of x, y and z.");
+    d.option("origin", &TileOptions::origin,
+             "A corner of the grid: one length for each axis; 0 when not given. The grid goes on both ways.");
+    declare_cap(d, &TileOptions::cap, &TileOptions::cap_material);
+}
+
+void verify(const TileOptions& o, const Value& given, Problems& problems) {
+    const auto mark = [&](const char* name) {
+        const Value* value = given.is_map() ? given.find(name) : nullptr;
+        return value ? value->mark : given.mark;
+    };
+    const auto axis = [&](char c) {
+        return std::string_view("xyz").find(c) != std::string_view::npos &&
+               std::count(o.axes.begin(), o.axes.end(), c) == 1;
+    };
+    if (o.axes.empty() || !std::all_of(o.axes.begin(), o.axes.end(), axis))
+        problems.add(mark("axes"), "E-TILE",
+                     fmt::format("tile: 'axes' names each of x, y, z at most once, found '{}'", o.axes),
+                     "for example axes: xy");
+    const Value* sizes = given.is_map() ? given.find("size") : &given;
+    for (const Length& size : o.size)
+        if (!(size.amount > 0) && !(sizes && sizes->deferred))
+            problems.add(mark("size"), "E-TILE",
+                         fmt::format("tile: 'size' must be above 0, found {}", size.text));
+    if (o.size.size() > 1 && o.size.size() != o.axes.size())
+        problems.add(mark("size"), "E-TILE",
+                     fmt::format("tile: {} sizes for {} axes", o.size.size(), o.axes.size()),
+                     "give one size, or one for each axis");
+    if (!o.origin.empty() && o.origin.size() != o.axes.size())
+        problems.add(mark("origin"), "E-TILE",
+                     fmt::format("tile: {} origins for {} axes", o.origin.size(), o.axes.size()),
+                     "give one for each axis");
+}
+
+std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context& context) {
+    std::vector<TileAxis> axes;
+    for (std::size_t i = 0; i < o.axes.size(); ++i) {
+        const Length& size = o.size[o.size.size() > 1 ? i : 0];
+        axes.push_back({static_cast<std::size_t>(o.axes[i] - 'x'), context.resolve(size, scene, "size"),
+                        o.origin.empty() ? 0 : context.resolve(o.origin[i], scene, "origin")});
+    }
+    return axes;
+}
+
+/// "body.x0.y-1"
+std::string name_of(const Part& part, const Tile& tile, const std::vector<TileAxis>& axes) {
+    std::string name = part.name;
+    for (const TileAxis& a : axes) name += fmt::format(".{}{}", "xyz"[a.axis], tile.cell[a.axis]);
+    return name;
+}
+
+class TileRun {
+  public:
+    TileRun(const Scene& scene, const TileOptions& o, Context& context) : o_(o), context_(context) {
+        settings_.axes = axes_of(o, scene, context);
+        settings_.clip.snap = true;
+        if (o.cap) set_cap(settings_.clip, scene, o.cap_material);
+    }
+
+    Scene run(Scene scene) {
+        std::vector<Part> parts;
+        std::vector<const Part*> cut;
+        context_.for_each_part(scene, [&](Part& part) { cut.push_back(&part); });
+        Json tiles = Json::array();
+        for (Part& part : scene.parts) {
+            if (std::find(cut.begin(), cut.end(), &part) == cut.end())
+                parts.push_back(std::move(part));
+            else
+                cut_part(part, parts, tiles);
+        }
+        scene.parts = std::move(parts);
+        if (cap_faces_ > 0) add_material(scene, o_.cap_material);
+        Json& result = context_.result();
+        result["tiles"] = std::move(tiles);
+        result["cut_faces"] = cut_faces_;
+        result["cap_faces"] = cap_faces_;
+        result["open_contours"] = open_;
+        return scene;
+    }
+
+  private:
+    void cut_part(Part& part, std::vector<Part>& parts, Json& tiles) {
+        settings_.to_world = part.skinned ? Transform{} : part.transform;
+        TileResult r = tile(std::move(part.mesh), settings_);
+        part.mesh = {};
+        warn_of_open("tile", part, r.open, context_);
+        context_.ledger(part, r.fates);
+        cut_faces_ += r.cut_faces, cap_faces_ += r.cap_faces, open_ += r.open.size();
+        if (r.tiles.empty())
+            context_.warn("W-TILE-NOTHING",
+                          fmt::format("tile: part '{}' has no faces and gives no tile", part.name));
+        for (Tile& t : r.tiles) {
+            Part& piece = parts.emplace_back(part);
+            piece.name = name_of(part, t, settings_.axes);
+            piece.mesh = std::move(t.mesh);
+            Json entry = {{"part", piece.name}};
+            for (const TileAxis& a : settings_.axes)
+                entry[std::string("tile_") + "xyz"[a.axis]] = t.cell[a.axis];
+            entry["faces"] = piece.mesh.face_count();
+            tiles.push_back(std::move(entry));
+        }
+    }
+
+    const TileOptions& o_;
+    Context& context_;
+    TileSettings settings_;
+    std::size_t cut_faces_ = 0, cap_faces_ = 0, open_ = 0;
+};
+
+Scene run(Scene scene, const TileOptions& o, Context& context) {
+    TileRun tiles(scene, o, context);
+    return tiles.run(std::move(scene));
+}
+
+const RegisterStage registered{make_stage<TileOptions>(
+    {.name = "tile",
+     .about = "Cuts parts into the tiles of a grid, each a part of its own.",
+     .details =
+         "Tile k along an axis reaches from origin + k size to origin + (k + 1) size, in the world. Tiles "
+         "are named "
+         "after their part and cell, NAME.x0.y1, and have the face attributes tile_x, tile_y, tile_z of the "
+         "axes that "
+         "are cut; cells without faces give no part. foreach: {part: \"*\"} then works on each.\n\n"
+         "Borders match exactly: neighbours come out of one cut, as of clip with keep: both, whose rules for "
+         "attributes, caps and faces in a plane hold here too. With cap: true a closed part gives closed "
+         "tiles, whose "
+         "volumes add up.",
+     .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",
+                  "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"}},
+    declare, run, StageHooks<TileOptions>{.files = {}, .verify = verify})};
+
+} // namespace
+
+} // namespace facetmill

@@ -1,0 +1,198 @@
+#include "geometry/crop.hpp"
+
+#include "base/functions.hpp"
+#include "base/random.hpp"
+#include "mesh/invariants.hpp"
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/failure.hpp"
+#include "support/measure.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+using Rings = std::vector<std::vector<Vec2>>;
+
+const Rings with_hole{{{0.5, 0.5}, {5.5, 0.5}, {5.5, 3.25}, {3, 1.5}, {0.5, 3.25}},
+                      {{1.25, 0.75}, {1.75, 0.75}, {1.75, 1.5}, {1.25, 1.5}}};
+
+CropResult cropped(const Mesh& mesh, const Rings& rings, CropBy by = CropBy::cut,
+                   polygon::Keep keep = polygon::Keep::inside) {
+    CropSettings settings;
+    settings.by = by, settings.keep = keep;
+    CropResult r = crop(mesh, Footprint(rings), settings);
+    CHECK(broken_invariants(r.mesh).empty());
+    return r;
+}
+
+/// Edges of one face only whose ends lie on no outline: there the crop tore something apart.
+std::size_t cracks(const Mesh& mesh, const Rings& rings, const Mesh& before) {
+    const Box box = before.bounds();
+    std::size_t count = 0;
+    for (const auto& [edge, use] : test::edge_uses(mesh)) {
+        if (use.second != 1) continue;
+        const Vec3 p = mix(mesh.positions[edge.first], mesh.positions[edge.second], 0.5);
+        double nearest = std::min({p.x - box.min.x, box.max.x - p.x, p.y - box.min.y, box.max.y - p.y});
+        for (const auto& ring : rings)
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                const Vec2 a = ring[i], b = ring[(i + 1) % ring.size()], q{p.x, p.y};
+                const double t = std::clamp(dot(q - a, b - a) / dot(b - a, b - a), 0.0, 1.0);
+                nearest = std::min(nearest, length(a + (b - a) * t - q));
+            }
+        count += nearest > 1e-9;
+    }
+    return count;
+}
+
+std::vector<Vec2> star(int points, const Vec2& centre, double radius) {
+    std::vector<Vec2> ring;
+    for (int i = 0; i < 2 * points; ++i) {
+        const double angle = pi * i / points + 0.1, r = i % 2 == 0 ? radius : radius / 2.5;
+        ring.push_back(centre + Vec2{cosine(angle), sine(angle)} * r);
+    }
+    return ring;
+}
+
+} // namespace
+
+TEST_CASE("a sheet cut at an outline with a hole has its area", "[geometry]") {
+    const Mesh sheet = shapes::grid(6, 4);
+    const double area = Footprint(with_hole).area();
+    const CropResult in = cropped(sheet, with_hole),
+                     out = cropped(sheet, with_hole, CropBy::cut, polygon::Keep::outside);
+    CHECK(test::area(in.mesh) == Approx(area).epsilon(1e-13));
+    CHECK(test::area(in.mesh) + test::area(out.mesh) == Approx(24).epsilon(1e-13));
+    CHECK(in.cut_faces == out.cut_faces);
+    CHECK(cracks(in.mesh, with_hole, sheet) == 0);
+    CHECK(cracks(out.mesh, with_hole, sheet) == 0);
+}
+
+TEST_CASE("outlines along edges and through vertices cut nothing that they need not", "[geometry]") {
+    const CropResult r = cropped(shapes::grid(6, 4), {{{1, 1}, {4, 1}, {4, 3}, {1, 3}}});
+    CHECK(r.cut_faces == 0);
+    CHECK(r.mesh.face_count() == 12);
+    CHECK(test::area(r.mesh) == 6);
+}
+
+TEST_CASE("stars and islands on a rough surface", "[geometry]") {
+    Mesh hill = shapes::grid(24, 20);
+    for (Vec3& p : hill.positions)
+        p.x = p.x / 4, p.y = p.y / 4,
+        p.z = uniform(hashed(5, static_cast<std::uint64_t>(p.x * 64 + p.y * 4096)));
+    const Rings rings{star(7, {3, 2.5}, 2.3), star(5, {3, 2.5}, 0.7), {{0.1, 0.1}, {0.9, 0.15}, {0.2, 0.8}}};
+    const CropResult in = cropped(hill, rings),
+                     out = cropped(hill, rings, CropBy::cut, polygon::Keep::outside);
+    CHECK(test::area(in.mesh) + test::area(out.mesh) == Approx(test::area(hill)).epsilon(1e-12));
+    Mesh flat = in.mesh;
+    for (Vec3& p : flat.positions) p.z = 0;
+    CHECK(test::area(flat) == Approx(Footprint(rings).area()).epsilon(1e-12));
+    CHECK(cracks(in.mesh, rings, hill) == 0);
+    CHECK(cracks(out.mesh, rings, hill) == 0);
+}
+
+TEST_CASE("a ring within one face leaves a frame", "[geometry]") {
+    const Rings small{{{0.1, 0.1}, {0.3, 0.1}, {0.2, 0.3}}};
+    const Mesh sheet = shapes::grid(1, 1);
+    CHECK(test::area(cropped(sheet, small).mesh) == Approx(0.02));
+    const CropResult out = cropped(sheet, small, CropBy::cut, polygon::Keep::outside);
+    CHECK(test::area(out.mesh) == Approx(0.98));
+    CHECK(cracks(out.mesh, small, sheet) == 0);
+}
+
+TEST_CASE("seams and attributes survive a crop", "[geometry]") {
+    const Rings half{{{-1, -1}, {0.3, -1}, {0.6, 2}, {-1, 2}}};
+    const CropResult r = cropped(shapes::uv_cube(), half);
+    const Attribute* uv = r.mesh.find("TEXCOORD_0", Domain::wedge);
+    REQUIRE(uv);
+    CHECK(uv->size() == r.mesh.wedge_count());
+    CHECK_FALSE(r.mesh.find("#trace", Domain::vertex));
+    CHECK(test::area(r.mesh) == Approx(1 + 2 * 0.45 + 0.4 + 0.5));
+    const CropResult rest = cropped(shapes::uv_cube(), half, CropBy::cut, polygon::Keep::outside);
+    CHECK(test::area(r.mesh) + test::area(rest.mesh) == Approx(6));
+    bool interpolated = false;
+    for (const Fate& f : r.fates)
+        interpolated |= f.attribute == "TEXCOORD_0" && f.kind == Fate::Kind::interpolated;
+    CHECK(interpolated);
+}
+
+TEST_CASE("by whole faces, their middles, or whatever touches", "[geometry]") {
+    const Mesh sheet = shapes::grid(6, 4);
+    const auto faces = [&](CropBy by, polygon::Keep keep = polygon::Keep::inside) {
+        return cropped(sheet, {{{0.5, 0.5}, {3.5, 0.5}, {3.5, 2}, {0.5, 2}}}, by, keep).mesh.face_count();
+    };
+    CHECK(faces(CropBy::whole) == 4);
+    CHECK(faces(CropBy::centre) == 9);
+    CHECK(faces(CropBy::touching) == 15); // one of the 16 is met at a point only
+    CHECK(faces(CropBy::whole, polygon::Keep::outside) == 48 - 15);
+    CHECK(faces(CropBy::centre, polygon::Keep::outside) == 48 - 9);
+    CHECK(faces(CropBy::touching, polygon::Keep::outside) == 48 - 4);
+}
+
+TEST_CASE("all rules for points inside crop the same", "[geometry]") {
+    const Mesh sphere = shapes::icosphere(3);
+    const Rings convex{{{-0.5, -0.4}, {0.6, -0.3}, {0.5, 0.7}, {-0.4, 0.5}}};
+    CropSettings settings;
+    settings.by = CropBy::centre;
+    const Mesh expected = crop(sphere, Footprint(convex), settings).mesh;
+    REQUIRE(expected.face_count() > 100);
+    for (const InsideBy by : {InsideBy::angles, InsideBy::half_planes, InsideBy::angles_3d}) {
+        settings.inside_by = by;
+        CHECK(crop(sphere, Footprint(convex), settings).mesh.corners == expected.corners);
+    }
+    settings.inside_by = InsideBy::half_planes;
+    CHECK(test::failure([&] { crop(sphere, Footprint(with_hole), settings); }) ==
+          "usage [E-FOOTPRINT] this rule for points inside needs a footprint of one convex ring | take "
+          "inside_by: "
+          "crossings, which takes any");
+}
+
+TEST_CASE("crops along other axes and of moved parts", "[geometry]") {
+    CropSettings settings;
+    settings.axis = 0;
+    const Rings square{{{0.25, 0.25}, {0.75, 0.25}, {0.75, 0.75}, {0.25, 0.75}}};
+    CHECK(test::area(crop(shapes::cube(), Footprint(square), settings).mesh) == Approx(0.5));
+    settings.axis = 1;
+    settings.to_world.m[0][3] = 0.5, settings.to_world.m[2][3] = -0.5;
+    CHECK(test::area(crop(shapes::cube(), Footprint(square), settings).mesh) ==
+          Approx(2 * 0.25 * 0.25 + 0.25 * 2));
+}
+
+TEST_CASE("walls along the outline go with what they bound", "[geometry]") {
+    const Rings around{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    CHECK(cropped(shapes::cube(), around).mesh.face_count() == 12);
+    CHECK(cropped(shapes::cube(), around, CropBy::cut, polygon::Keep::outside).mesh.face_count() == 0);
+    const Rings beside{{{1, 0}, {2, 0}, {2, 1}, {1, 1}}};
+    CHECK(cropped(shapes::cube(), beside).mesh.face_count() == 0);
+}
+
+TEST_CASE("footprints that are none are refused", "[geometry]") {
+    const auto refusal = [](Rings rings) { return test::failure([&] { Footprint{rings}; }); };
+    CHECK(refusal({}) == "usage [E-FOOTPRINT] the footprint has no rings");
+    CHECK(refusal({{{0, 0}, {1, 0}, {0, 0}}}) == "usage [E-FOOTPRINT] ring 1 of the footprint has 2 corners, "
+                                                 "and a ring needs three | give the corners in "
+                                                 "order; the last joins the first by itself");
+    CHECK(refusal({{{0, 0}, {1, 0}, {2, 0}}}) ==
+          "usage [E-FOOTPRINT] ring 1 of the footprint has no area | its corners lie on one line");
+    CHECK(refusal({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}) ==
+          "usage [E-FOOTPRINT] the footprint crosses itself near (1, 1): the segment from (0, 0) to (2, 2) "
+          "and that "
+          "from (2, 0) to (0, 2) | mend the outline, or crop by its simple parts one after the other");
+    CHECK(refusal({{{0, 0}, {NAN, 2}, {2, 0}}}) ==
+          "usage [E-FOOTPRINT] ring 1 of the footprint has a corner that is not finite");
+}
+
+TEST_CASE("a footprint finds points as the plain rule does", "[geometry]") {
+    const Rings rings{star(9, {0, 0}, 2), star(6, {0, 0}, 0.6), {{3, 0}, {4, 0}, {4, 1}, {3, 1}}};
+    const Footprint footprint(rings);
+    const auto spans = footprint.spans();
+    for (std::uint64_t i = 0; i < 4000; ++i) {
+        const Vec2 p{uniform(hashed(1, i)) * 7 - 2.5, uniform(hashed(2, i)) * 5 - 2.5};
+        const auto place = footprint.locate(p);
+        CHECK(place == polygon::locate(p, spans));
+        CHECK((place == polygon::Place::inside) == polygon::inside_by_angles(p, spans));
+    }
+    CHECK(footprint.locate({3, 0}) == polygon::Place::on_vertex);
+    CHECK(footprint.locate({3.5, 1}) == polygon::Place::on_edge);
+    CHECK(footprint.locate({4, 0.25}) == polygon::Place::on_edge);
+}

@@ -1,0 +1,106 @@
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/failure.hpp"
+#include "support/measure.hpp"
+#include "support/run_stage.hpp"
+#include "support/temporary.hpp"
+
+#include <fstream>
+
+using namespace facetmill;
+using test::run_stage;
+using test::scene_of;
+
+namespace {
+
+std::string refusal(const char* stage, const std::string& options) {
+    std::string text = test::failure([&] { run_stage(stage, options, scene_of(shapes::grid(4, 3))); });
+    const auto place = text.find("test.yaml:"); // checked by the tests of the document
+    if (place != std::string::npos) text.erase(place, text.find(": ", place) + 2 - place);
+    return text;
+}
+
+double area_of(const Scene& scene) {
+    double sum = 0;
+    for (const Part& part : scene.parts) sum += test::area(part.mesh);
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("tile makes a part of every cell", "[stages]") {
+    const auto run = run_stage("tile", "2", scene_of(shapes::grid(4, 3)));
+    REQUIRE(run.scene.parts.size() == 4);
+    CHECK(run.scene.parts[0].name == "part.x0.y0");
+    CHECK(run.scene.parts[3].name == "part.x1.y1");
+    CHECK(area_of(run.scene) == Approx(12));
+    CHECK(run.record.result["tiles"][1] ==
+          Json({{"part", "part.x1.y0"}, {"tile_x", 1}, {"tile_y", 0}, {"faces", 8}}));
+    const auto capped = run_stage("tile", "{size: [0.5, 0.25], axes: zx, origin: [0.25, 0], cap: true}",
+                                  scene_of(shapes::cube()));
+    CHECK(capped.scene.parts.size() == 12);
+    double volume = 0;
+    for (const Part& part : capped.scene.parts) volume += test::volume(part.mesh);
+    CHECK(volume == Approx(1));
+    CHECK(capped.scene.materials.size() == 1);
+    CHECK(run_stage("tile", "10mm", scene_of(shapes::cube(), Unit::cm)).scene.parts.size() == 1);
+}
+
+TEST_CASE("tile refuses what makes no grid", "[stages]") {
+    CHECK(refusal("tile", "0") == "usage [E-TILE] tile: 'size' must be above 0, found 0");
+    CHECK(
+        refusal("tile", "{size: 1, axes: xx}") ==
+        "usage [E-TILE] tile: 'axes' names each of x, y, z at most once, found 'xx' | for example axes: xy");
+    CHECK(refusal("tile", "{size: [1, 2, 3]}") ==
+          "usage [E-TILE] tile: 3 sizes for 2 axes | give one size, or one for each axis");
+    CHECK(refusal("tile", "{size: 1, origin: [1]}") ==
+          "usage [E-TILE] tile: 1 origins for 2 axes | give one for each axis");
+}
+
+TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
+    const auto area = [](const std::string& options) {
+        return area_of(run_stage("crop", options, scene_of(shapes::grid(4, 3))).scene);
+    };
+    CHECK(area("[[0.5, 0.5], [3.5, 0.5], [3.5, 2.5]]") == Approx(3));
+    CHECK(area("[[[0.5, 0.5], [3.5, 0.5], [3.5, 2.5], [0.5, 2.5]], [[1, 1], [2, 1], [2, 2], [1, 2]]]") ==
+          Approx(5));
+    CHECK(area("{footprint: \"POLYGON ((0.5 0.5, 3.5 0.5, 3.5 2.5))\", keep: outside}") == Approx(9));
+    CHECK(area("{footprint: [[0.5, 0.5], [3.5, 0.5], [3.5, 2.5]], by: whole}") == 0.5 * 1);
+    const test::TemporaryDirectory folder;
+    const auto file = folder.path() / "outline.geojson";
+    std::ofstream(file)
+        << R"({"type": "Polygon", "coordinates": [[[0.5, 0.5], [3.5, 0.5], [3.5, 2.5], [0.5, 0.5]]]})";
+    const auto run = run_stage("crop", "\"" + file.string() + "\"", scene_of(shapes::grid(4, 3)));
+    CHECK(area_of(run.scene) == Approx(3));
+    CHECK(run.state->record.inputs.size() == 1);
+    CHECK(run.record.result["footprint_area"] == 3);
+}
+
+TEST_CASE("crop looks along the scene's up axis", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.up = UpAxis::y;
+    CHECK(run_stage("crop", "[[0, 0], [1, 0], [1, 1]]", scene).record.result["axis"] == "y");
+    CHECK(run_stage("crop", "{footprint: [[0, 0], [1, 0], [1, 1]], axis: x}", scene).record.result["axis"] ==
+          "x");
+}
+
+TEST_CASE("crop says when nothing or all is kept", "[stages]") {
+    const auto warned = [](const char* options) {
+        const auto run = run_stage("crop", options, scene_of(shapes::grid(4, 3)));
+        REQUIRE(run.record.warnings.size() == 1);
+        return run.record.warnings[0].id + " " + run.record.warnings[0].message;
+    };
+    CHECK(warned("[[10, 10], [11, 10], [11, 11]]") == "W-CROP-NOTHING crop: nothing of part 'part' was kept");
+    CHECK(warned("[[-9, -9], [99, -9], [99, 99], [-9, 99]]") ==
+          "W-CROP-ALL crop: the outline does not meet part 'part', all of it was kept");
+}
+
+TEST_CASE("crop refuses footprints before it runs", "[stages]") {
+    CHECK(refusal("crop", "[[0, 0], [2, 2], [2, 0], [0, 2]]")
+              .starts_with("usage [E-FOOTPRINT] crop: the footprint crosses itself near (1, 1)"));
+    CHECK(refusal("crop", "[[0, 0], [1, 0]]")
+              .starts_with("usage [E-FOOTPRINT] crop: ring 1 of the footprint has 2"));
+    CHECK(refusal("crop", "[[0, 0], [1]]").starts_with("usage [E-TYPE] expected a footprint"));
+    CHECK(refusal("crop", "\"POLYGON ((0 0, 1\"").starts_with("usage [E-WKT]"));
+    CHECK(refusal("crop", "missing.geojson").starts_with("missing [E-FILE]"));
+}
