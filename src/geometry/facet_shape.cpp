@@ -47,4 +47,18 @@ FacetShape facet_shape(const Mesh& mesh, const Transform& to_world) {
     return {std::sqrt(all.squared), arc_cosine(all.cosine)};
 }
 
+double mean_edge(const Mesh& mesh, const Transform& to_world) {
+    const double sum = parallel_reduce(
+        mesh.face_count(), 0.0,
+        [&](std::size_t begin, std::size_t end) {
+            double s = 0;
+            for (auto f = static_cast<Index>(begin); f < end; ++f)
+                for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+                    s += length(to_world.vector(mesh.point(next_corner(mesh, f, c)) - mesh.point(c)));
+            return s;
+        },
+        [](double a, double b) { return a + b; });
+    return mesh.corner_count() > 0 ? sum / static_cast<double>(mesh.corner_count()) : 0;
+}
+
 } // namespace facetmill

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double corner_limit = 2147483648.0; ///< 2^31
 /// Of memory, at the peak: the result, the edges it comes from, and where everything descends from.
-constexpr double bytes_per_corner = 32;
+constexpr double bytes_per_corner = 36;
 
 /// The most corners of a face that the method knows; 0: any.
 Index most_corners(SplitMethod method) {
@@ -162,15 +162,23 @@ double refined_estimate(const Mesh& mesh, const SplitSettings& s) {
         [](double a, double b) { return a + b; });
 }
 
-void refuse_giants(double corners, const char* hint) {
+/// Of all attributes, for a wedge or vertex; there is half of one for each corner of a triangle mesh at most.
+double attribute_bytes(const Mesh& mesh) {
+    double bytes = 0;
+    for (const auto& a : mesh.attributes)
+        bytes += std::visit([](const auto& data) { return sizeof(data.front()); }, a.data) * a.components;
+    return bytes;
+}
+
+void refuse_giants(const Mesh& mesh, double corners, const char* hint) {
     if (corners > corner_limit)
         throw Error(
             ErrorKind::limit, "E-LIMIT",
             fmt::format("split: the result would have about {:.3g} corners, at most {:.0f} are possible",
                         corners, corner_limit),
             hint);
-    require_memory(bytes_per_corner * corners, fmt::format("split: a result of {:.3g} corners", corners),
-                   hint);
+    require_memory((bytes_per_corner + attribute_bytes(mesh) / 2) * corners,
+                   fmt::format("split: a result of {:.3g} corners", corners), hint);
 }
 
 constexpr const char* coarser = "use fewer passes, a coarser grid or a longer max_edge";
@@ -188,7 +196,7 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
             result.budget_reached = true;
             break;
         }
-        if (settings.min_angle > 0) refuse_giants(next.corners(), coarser);
+        if (settings.min_angle > 0) refuse_giants(*from, next.corners(), coarser);
         check_polygons(*from, settings.method);
         Mesh finer = split_once(*from, settings, result.passes, result.fates);
         if (settings.min_angle > 0 && finer.face_count() == 0) break; // none is narrow
@@ -250,7 +258,7 @@ double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings) {
 SplitResult split(const Mesh& mesh, const SplitSettings& settings) {
     check_split_targets(settings);
     check_polygons(mesh, settings.method);
-    if (settings.min_angle <= 0) refuse_giants(split_corner_estimate(mesh, settings), coarser);
+    if (settings.min_angle <= 0) refuse_giants(mesh, split_corner_estimate(mesh, settings), coarser);
     if (is_smooth(settings.method) && settings.passes > 0) require_manifold(mesh, settings.method);
     if (settings.method == SplitMethod::bisect && (settings.max_edge > 0 || settings.faces > 0))
         return refine(mesh, settings);

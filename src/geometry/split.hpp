@@ -37,15 +37,15 @@ struct SplitSettings {
         widest_angle, ///< where the bisector of the widest angle, which is opposite to that edge, meets it
     };
     SplitMethod method = SplitMethod::midpoint;
-    int passes = 1;                ///< how many times; at least 0. With a target: at most so often
-    int grid = 2;                  ///< pieces per edge of SplitMethod::grid; at least 1
-    Cut cut = Cut::longest_edge;   ///< of bisect
-    double max_edge = 0;           ///< target, world units: until no edge is longer (0: none)
-    double min_angle = 0;          ///< target, radians: only triangles with an angle below (0: none)
-    std::uint64_t faces = 0;       ///< target: longest edges first, and never more faces than this (0: none)
-    std::optional<double> creases = {}; ///< smooth methods, radians: edges that bend more stay sharp (none: only
-                                   ///< boundaries do)
-    Transform to_world = {};       ///< part space -> world, where lengths and angles are measured
+    int passes = 1;              ///< how many times; at least 0. With a target: at most so often
+    int grid = 2;                ///< pieces per edge of SplitMethod::grid; at least 1
+    Cut cut = Cut::longest_edge; ///< of bisect
+    double max_edge = 0;         ///< target, world units: until no edge is longer (0: none)
+    double min_angle = 0;        ///< target, radians: only triangles with an angle below (0: none)
+    std::uint64_t faces = 0;     ///< target: longest edges first, and never more faces than this (0: none)
+    std::optional<double> creases = {}; ///< smooth methods, radians: edges that bend more stay sharp (none:
+                                        ///< only boundaries do)
+    Transform to_world = {}; ///< part space -> world, where lengths and angles are measured
 };
 
 struct SplitResult {
@@ -106,6 +106,8 @@ struct FacetShape {
     double smallest_angle = 0; ///< radians, of all corners between edges of some length; 0 without faces
 };
 FacetShape facet_shape(const Mesh& mesh, const Transform& to_world = {});
+/// The mean over all corners of the edge that begins there; 0 without faces.
+double mean_edge(const Mesh& mesh, const Transform& to_world = {});
 
 /// About how many corners split would make (an upper bound without max_edge), as a real number because it may
 /// be beyond any integer.

@@ -129,6 +129,18 @@ Json described(const AvoidResult& r) {
     return {{"before", r.exempt}, {"found", r.found}, {"rounds", r.rounds}, {"vertices_by_share", shares}};
 }
 
+/// Warns of an amplitude that is larger than the edges: nothing tears, but faces run into each other.
+void warn_of_tangles(const Work& work, double amplitude, Context& context) {
+    const double edge = mean_edge(work.part->mesh, work.to_world);
+    if (!(amplitude > edge && edge > 0)) return;
+    context.warn(
+        "W-AMPLITUDE",
+        fmt::format("crumple: the amplitude {:.3g} is larger than the mean edge {:.3g} of part '{}': faces "
+                    "run into each other",
+                    amplitude, edge, work.part->name),
+        fmt::format("use self_intersections: avoid, or an amplitude below about {:.2g}", edge / 4));
+}
+
 /// Moves all vertices, as far as self_intersections lets them.
 void move(std::vector<Work>& works, std::vector<CrumpleSheet>& sheets, const CrumpleOptions& o,
           Context& context) {
@@ -156,6 +168,8 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context) {
         settings.mask = o.mask ? vertex_mask(part, scene, *o.mask) : std::vector<double>{};
         sheets.push_back({&part.mesh, crumple_moves(part.mesh, settings)});
         works.push_back({&part, std::move(pieces), part.mesh.positions, settings.to_world});
+        if (o.self_intersections == Intersections::allow && o.frequency == 0)
+            warn_of_tangles(works.back(), settings.amplitude, context);
     });
     move(works, sheets, o, context);
     Json parts = Json::array();
@@ -190,7 +204,8 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
          "and neither the "
          "order of vertices nor the number of threads matters. Along the normal, places shared by "
          "several parts "
-         "have a normal in each and may part.\n\n"
+         "have a normal in each and may part; and a frequency is counted along the scene, so files crumple "
+         "alike only when their diagonals are the same.\n\n"
          "With self_intersections: avoid, each place has a share of its move: 1, 1/2 ... 1/256, 0. In every "
          "round all pairs of faces that newly meet, fold over or lose their area are found, exactly, and "
          "their vertices take the next lower share, all at once, until there are none; after eight rounds "

@@ -155,6 +155,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context) {
     Json parts = Json::array();
     context.for_each_part(scene, [&](Part& part) {
         if (o.max_edge) settings.max_edge = context.resolve(*o.max_edge, scene, "max_edge", &part);
+        if (o.max_edge && settings.max_edge <= 0) settings.passes = 0; // a percentage of a single point
         settings.faces = share(o, part, total);
         settings.to_world = part.skinned ? Transform{} : part.transform;
         const FacetShape before = facet_shape(part.mesh, settings.to_world);

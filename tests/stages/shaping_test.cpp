@@ -95,6 +95,31 @@ TEST_CASE("crumple: avoid keeps faces apart, forbid refuses", "[stages]") {
               .count > 0);
 }
 
+TEST_CASE("crumple: an amplitude beyond the edges is warned of, with the way out", "[stages]") {
+    const auto r =
+        run_stage("crumple", options({{"amplitude", "2"}, {"grid", "1"}}), scene_of(shapes::quad_cube()));
+    REQUIRE(r.warnings() == std::vector<std::string>{"W-AMPLITUDE"});
+    CHECK(r.record.warnings[0].message == "crumple: the amplitude 2 is larger than the mean edge 1 of part "
+                                          "'part': faces run into each other");
+    CHECK(r.record.warnings[0].hint == "use self_intersections: avoid, or an amplitude below about 0.25");
+    CHECK(run_stage("crumple", options({{"amplitude", "0.1"}, {"grid", "1"}}), scene_of(shapes::cube()))
+              .warnings()
+              .empty());
+}
+
+TEST_CASE("split: a mesh in a single point has no edges longer than a percentage of it", "[stages]") {
+    Mesh point = shapes::tetrahedron();
+    for (auto& p : point.positions) p = {};
+    CHECK(run_stage("split", options({{"max_edge", "3%"}}), scene_of(point)).mesh().face_count() == 4);
+}
+
+TEST_CASE("shaping stages take an empty scene and an empty mesh", "[stages]") {
+    for (const char* stage : {"split", "crumple", "relax"}) {
+        CHECK(run_stage(stage, {}, Scene{}).scene.parts.empty());
+        CHECK(run_stage(stage, {}, scene_of(Mesh{})).mesh().face_count() == 0);
+    }
+}
+
 TEST_CASE("crumple: a mask by group, and fractal noise", "[stages]") {
     Mesh mesh = shapes::quad_cube();
     mesh.attributes.push_back(
