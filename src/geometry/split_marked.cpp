@@ -73,7 +73,7 @@ struct NotchPattern {
         const Index first = face.mesh.face_begin(face.face);
         const int n = marked.count(face.mesh, face.face);
         if (n == 0) return out.face(face.at(0), face.at(1), face.at(2));
-        if (n == 3) return GridPattern{2}.triangle(face, out);
+        if (n == 3) return four_triangles(face, out);
         Index k = 0; // the one marked edge, or the one unmarked edge
         while (marked.at(first + k) != (n == 1)) ++k;
         const Index a = face.at(k), b = face.at((k + 1) % 3), apex = face.at((k + 2) % 3);

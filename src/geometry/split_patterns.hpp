@@ -84,6 +84,16 @@ inline void centroid(const PatternFace& face, PatternOut& out) {
     out.end_mix();
 }
 
+/// A triangle at every corner and one between the middles of the edges: what the grid of 2 gives, in its
+/// order.
+inline void four_triangles(const PatternFace& face, PatternOut& out) {
+    const Index first = face.on(0), second = face.on(1), third = face.on(2);
+    out.face(face.at(0), first, third);
+    out.face(first, second, third);
+    out.face(first, face.at(1), second);
+    out.face(third, second, face.at(2));
+}
+
 /// A quad at every corner, through the middles of its edges and the centroid.
 struct QuadsPattern {
     bool keep_triangles = false; ///< triangles become four triangles instead
@@ -95,7 +105,7 @@ struct QuadsPattern {
     bool triangles_only(const Mesh& mesh) const { return keep_triangles && mesh.all_triangles(); }
     void emit(const PatternFace& face, PatternOut& out) const {
         const Index n = face.size();
-        if (n == 3 && keep_triangles) return GridPattern{2}.triangle(face, out);
+        if (n == 3 && keep_triangles) return four_triangles(face, out);
         centroid(face, out);
         Index before = face.on(n - 1);
         for (Index k = 0; k < n; ++k) {

@@ -24,6 +24,7 @@ class EdgePoints {
     Index wedge(Index c, int i) const {
         const Index e = table_->corner_edge[c];
         if (e == none) return mesh_->corners[c];
+        if (points_ == 1) return first_wedge_ + bundle(c, e);
         const bool up = mesh_->vertex(c) == table_->edges[e].low;
         return first_wedge_ + bundle(c, e) * static_cast<Index>(points_) +
                static_cast<Index>(up ? i - 1 : points_ - i);
