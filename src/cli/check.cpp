@@ -1,4 +1,4 @@
-// facetmill check: are the pipelines right? Opens no mesh.
+// facetmill check: are the pipelines right? Of the inputs that exist it reads the headers, no more.
 
 #include "cli/pipeline_options.hpp"
 
@@ -7,8 +7,9 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* check_examples =
-    R"(All errors of all files are reported. Params without a value stand for any value unless -D gives one. Exit code 2
-when something is wrong.
+    R"(All errors of all files are reported. Params without a value stand for any value unless -D gives one. Inputs that
+exist are looked into, as far as their headers go: format, unit. Exit code 2 when a pipeline is wrong, 6 when only
+an input is malformed.
 
 Examples
   facetmill check pipelines/*.yaml
@@ -20,10 +21,14 @@ int check(const std::vector<std::string>& pipelines, const PipelineOptions& opti
     Problems problems;
     auto settings = plan_settings(options, line, problems);
     settings.parameters_needed = false;
+    std::vector<Error> of_inputs;
     for (const auto& pipeline : pipelines) {
         Problems of_this;
-        plan_of(pipeline, settings, of_this);
-        if (!of_this.any_errors()) console.say(pipeline + ": ok");
+        const auto plan = plan_of(pipeline, settings, of_this);
+        const auto headers =
+            of_this.any_errors() ? facetmill::pipeline::Headers{} : facetmill::pipeline::read_headers(plan);
+        of_inputs.insert(of_inputs.end(), headers.errors.begin(), headers.errors.end());
+        if (!of_this.any_errors() && headers.errors.empty()) console.say(pipeline + ": ok");
         for (const auto& d : of_this.all()) {
             if (d.severity == Severity::error)
                 problems.add(d.where, d.id, d.message, d.hint);
@@ -31,14 +36,17 @@ int check(const std::vector<std::string>& pipelines, const PipelineOptions& opti
                 problems.warn(d.where, d.id, d.message, d.hint);
         }
     }
+    if (problems.any_errors())
+        for (const auto& error : of_inputs) problems.add(error);
     settle(problems, console);
+    settle(of_inputs);
     return 0;
 }
 
 } // namespace
 
 Command check_command() {
-    return {"check", "Checks pipeline files without opening a mesh.", check_examples, false,
+    return {"check", "Checks pipeline files, and the headers of their inputs.", check_examples, false,
             [](CLI::App& app, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto pipelines = std::make_shared<std::vector<std::string>>();

@@ -79,10 +79,25 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     return settings;
 }
 
+namespace {
+
+[[noreturn]] void refuse_unknown(const std::string& pipeline) {
+    std::vector<std::string> names;
+    for (const auto& ready : docs::ready_pipelines()) names.emplace_back(ready.name);
+    const std::string near = nearest(pipeline, names);
+    throw Error(ErrorKind::missing, "E-FILE", fmt::format("there is no pipeline '{}'", pipeline),
+                near.empty()
+                    ? fmt::format("name a YAML file, or a ready pipeline: {}", fmt::join(names, ", "))
+                    : fmt::format("did you mean the ready pipeline '{}'?", near));
+}
+
+} // namespace
+
 pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems) {
     std::error_code ignored;
     const auto* ready =
         pipeline == "-" || fs::exists(pipeline, ignored) ? nullptr : docs::ready_pipeline(pipeline);
+    if (pipeline != "-" && !ready && !fs::exists(pipeline, ignored)) refuse_unknown(pipeline);
     if (pipeline != "-" && !ready) return pipeline::load_plan(pipeline, std::move(settings), problems);
     settings.name = ready ? pipeline : "standard input";
     std::string text(ready ? ready->text : io::as_text(io::Input::open("-").bytes()));
@@ -120,6 +135,12 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     settings.strict = options.strict;
     settings.check_invariants = options.check_invariants;
     settings.on_warning = [&](const Diagnostic& warning) { console.diagnostic(warning); };
+    if (console.verbose)
+        settings.on_stage = [&](const report::StageRecord& stage) {
+            for (const auto& [option, length] : stage.resolved.items())
+                console.say(fmt::format("  {}: {} {} is {} in scene units", stage.name, option,
+                                        length["given"].get<std::string>(), length["is"].dump()));
+        };
     const auto record = pipeline::run_plan(plan, settings);
     if (progress) progress->done();
     for (const auto& error : record.errors) console.diagnostic(error);
@@ -135,6 +156,13 @@ void settle(const Problems& problems, const Console& console) {
         return;
     }
     for (const auto& warning : problems.all()) console.diagnostic(warning);
+}
+
+void settle(const std::vector<Error>& errors) {
+    std::vector<Diagnostic> all;
+    for (const auto& error : errors)
+        all.insert(all.end(), error.diagnostics().begin(), error.diagnostics().end());
+    if (!all.empty()) throw Error(errors.front().kind(), std::move(all));
 }
 
 } // namespace facetmill::cli

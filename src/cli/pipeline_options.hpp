@@ -35,4 +35,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
 /// Shows warnings; throws usage when there are errors.
 void settle(const Problems& problems, const Console& console);
 
+/// Throws all of these errors as one, with the kind of the first; nothing when there are none.
+void settle(const std::vector<Error>& errors);
+
 } // namespace facetmill::cli

@@ -28,11 +28,14 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     Problems problems;
     const auto plan = plan_of(options.pipeline, plan_settings(options.common, line, problems), problems);
     settle(problems, console);
+    const bool files_only = options.inputs || options.outputs;
+    const auto headers = files_only ? pipeline::Headers{} : pipeline::read_headers(plan);
+    settle(headers.errors);
     std::string text;
     if (options.inputs) text += lines(pipeline::planned_inputs(plan));
     if (options.outputs) text += lines(pipeline::planned_outputs(plan));
-    if (options.json) text = pipeline::describe_json(plan).dump(2) + "\n";
-    if (!options.inputs && !options.outputs && !options.json) text = pipeline::describe(plan);
+    if (options.json) text = pipeline::describe_json(plan, headers).dump(2) + "\n";
+    if (!files_only && !options.json) text = pipeline::describe(plan, headers);
     print(text);
     return 0;
 }

@@ -52,6 +52,17 @@ const Codec& choose(const Input& input, ReadLog& log) {
                 fmt::format("say it with 'format', one of: {}", known_formats()));
 }
 
+/// Throws malformed (E-EMPTY) for a file without bytes, usage (E-FORMAT) when no codec reads it.
+const Codec& reader_for(const Input& input, ReadLog& log, const Codec* forced) {
+    if (input.bytes().empty())
+        throw Error(ErrorKind::malformed, "E-EMPTY",
+                    fmt::format("'{}' is empty: it has no bytes", input.name()));
+    const Codec& codec = forced ? *forced : choose(input, log);
+    if (!codec.read)
+        throw Error(ErrorKind::usage, "E-FORMAT", fmt::format("{} is written but not read", codec.name));
+    return codec;
+}
+
 void check_finite(const Part& part, const std::string& name) {
     for (const auto& row : part.transform.m)
         for (const double x : row)
@@ -108,13 +119,18 @@ const Codec* codec_named(std::string_view name) {
     return nullptr;
 }
 
+Outline outline_of(const Input& input, const ReadSettings& settings, const Codec* forced) {
+    ReadLog log; // its warnings come again when the file is read
+    const Codec& codec = reader_for(input, log, forced);
+    Outline outline{codec.name, settings.unit.value_or(codec.unit), settings.up.value_or(codec.up), {}};
+    if (codec.peek) outline.parts = codec.peek(input);
+    for (auto& name : outline.parts)
+        if (name.empty()) name = stem_of(input);
+    return outline;
+}
+
 Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log, const Codec* forced) {
-    if (input.bytes().empty())
-        throw Error(ErrorKind::malformed, "E-EMPTY",
-                    fmt::format("'{}' is empty: it has no bytes", input.name()));
-    const Codec& codec = forced ? *forced : choose(input, log);
-    if (!codec.read)
-        throw Error(ErrorKind::usage, "E-FORMAT", fmt::format("{} is written but not read", codec.name));
+    const Codec& codec = reader_for(input, log, forced);
     Scene scene = codec.read(input, settings, log);
     if (settings.unit) scene.unit = *settings.unit;
     if (settings.up) scene.up = *settings.up;

@@ -71,6 +71,9 @@ struct Codec {
     /// Throws Error stage when the scene cannot be held by the format at all. Empty: the format is not
     /// written.
     std::function<Written(const Scene&, const WriteSettings&)> write;
+    /// Reads only the header: throws as read when it is malformed, and gives the names of the parts, where
+    /// they are known before the rest is read. Empty: the format has no header.
+    std::function<std::vector<std::string>(const Input&)> peek = {};
 };
 
 /// Makes a codec known; one static object per codec file.
@@ -87,5 +90,16 @@ const Codec* codec_named(std::string_view name);
 /// when no codec takes it. Positions that are not finite are malformed (E-NAN) with the vertex and file.
 Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
                  const Codec* forced = nullptr);
+
+/// What is known of a mesh file from its header.
+struct Outline {
+    std::string format;
+    Unit unit = Unit::unknown;
+    UpAxis up = UpAxis::unknown;
+    std::vector<std::string> parts; ///< their names; empty when only the whole file tells them
+};
+
+/// Recognises a file and reads its header. Throws as read_scene, for what the header shows.
+Outline outline_of(const Input& input, const ReadSettings& settings, const Codec* forced = nullptr);
 
 } // namespace facetmill::io

@@ -27,7 +27,8 @@ const RegisterCodec glb{{"glb",
                          UpAxis::y,
                          recognises_glb,
                          read,
-                         [](const Scene& scene, const WriteSettings& s) { return write(scene, s, true); }}};
+                         [](const Scene& scene, const WriteSettings& s) { return write(scene, s, true); },
+                         peek}};
 
 const RegisterCodec gltf{{"gltf",
                           "glTF 2.0 as JSON with a .bin and images beside it",
@@ -36,7 +37,8 @@ const RegisterCodec gltf{{"gltf",
                           UpAxis::y,
                           recognises_gltf,
                           read,
-                          [](const Scene& scene, const WriteSettings& s) { return write(scene, s, false); }}};
+                          [](const Scene& scene, const WriteSettings& s) { return write(scene, s, false); },
+                          peek}};
 
 } // namespace
 

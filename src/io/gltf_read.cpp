@@ -98,12 +98,15 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
     }
 }
 
-Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& log) {
+Chunks chunks_of(const Input& input) {
+    if (is_glb(input.bytes())) return split_glb(input.bytes());
     Chunks chunks;
-    if (is_glb(input.bytes()))
-        chunks = split_glb(input.bytes());
-    else
-        chunks.json = as_text(input.bytes());
+    chunks.json = as_text(input.bytes());
+    return chunks;
+}
+
+Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& log) {
+    const Chunks chunks = chunks_of(input);
     auto document = std::make_shared<Document>();
     document->name = input.name();
     document->json = std::string(chunks.json);
@@ -123,20 +126,38 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
     return scene;
 }
 
-} // namespace
-
-Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
-    const std::size_t before = log.warnings.size();
+/// What body gives; its errors are placed in the file.
+template <class Body>
+auto located(const Input& input, Body&& body) {
     try {
-        Scene scene = read_document(input, settings, log);
-        for (std::size_t i = before; i < log.warnings.size(); ++i)
-            if (!log.warnings[i].where.known()) log.warnings[i].where = file_mark(input.name());
-        return scene;
+        return body();
     } catch (Error& e) {
         throw e.at(file_mark(input.name()));
     } catch (const Json::exception& e) {
         throw Error(ErrorKind::malformed, "E-GLTF", e.what(), "", file_mark(input.name()));
     }
+}
+
+} // namespace
+
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
+    const std::size_t before = log.warnings.size();
+    return located(input, [&] {
+        Scene scene = read_document(input, settings, log);
+        for (std::size_t i = before; i < log.warnings.size(); ++i)
+            if (!log.warnings[i].where.known()) log.warnings[i].where = file_mark(input.name());
+        return scene;
+    });
+}
+
+std::vector<std::string> peek(const Input& input) {
+    return located(input, [&] {
+        const Json json = parse_document(chunks_of(input).json);
+        check_asset(json);
+        std::vector<std::string> names;
+        for (const auto& placement : placements(json, node_frames(json))) names.push_back(placement.name);
+        return names;
+    });
 }
 
 } // namespace facetmill::io::gltf

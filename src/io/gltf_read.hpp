@@ -9,4 +9,7 @@ namespace facetmill::io::gltf {
 /// in the document ("meshes[0].primitives[1].indices: ...") and the file's name.
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 
+/// The names of the parts that read would give, from the document alone. Throws malformed as read.
+std::vector<std::string> peek(const Input& input);
+
 } // namespace facetmill::io::gltf

@@ -33,8 +33,9 @@ enum class Encoding { ascii, little_endian, big_endian };
 struct Header {
     Encoding encoding = Encoding::ascii;
     std::vector<Element> elements;
-    std::size_t size = 0; ///< bytes up to the first element
-    int lines = 0;        ///< lines it takes
+    std::size_t size = 0;              ///< bytes up to the first element
+    int lines = 0;                     ///< lines it takes
+    std::vector<std::string> textures; ///< what comments 'TextureFile' name, as some programs write them
 };
 
 /// Reads the header; malformed (E-PLY) at its line.

@@ -113,7 +113,9 @@ Header read_header(const Input& input) {
             text.next_line();
             header.size = text.offset();
             return header;
-        } else if (word != "comment" && word != "obj_info" && !word.empty()) {
+        } else if (word == "comment") {
+            if (text.word_on_line() == "TextureFile") header.textures.emplace_back(text.rest_of_line());
+        } else if (word != "obj_info" && !word.empty()) {
             text.fail(
                 fmt::format("expected element, property, comment or end_header, found {}", in_quotes(word)));
         }

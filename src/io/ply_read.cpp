@@ -314,6 +314,11 @@ void Builder::report_lists(const Table& table) {
 
 Scene Builder::read() {
     const Header header = read_header(input_);
+    for (const auto& texture : header.textures)
+        log_.warnings.push_back(
+            {Severity::warning, "W-IMAGE",
+             fmt::format("the texture '{}' is not read: PLY names it only in a comment", texture),
+             file_mark(input_.name()), "give the written file its material elsewhere"});
     Body body(input_, header);
     for (const Element& e : header.elements) {
         Table table{&e, body.read(e), std::vector<bool>(e.properties.size(), false)};
@@ -371,6 +376,11 @@ const RegisterCodec codec({
         },
     .read = read,
     .write = write,
+    .peek =
+        [](const Input& input) {
+            read_header(input);
+            return std::vector<std::string>{""};
+        },
 });
 } // namespace
 

@@ -80,7 +80,7 @@ Json options_json(const Step& step) {
         if (given)
             out[option.name] = value_json(*given);
         else if (!option.default_text.empty() && !is_excluded(step.stage->options, option.name, step.given))
-            out[option.name] = option.default_text;
+            out[option.name] = value_json(Value::scalar(option.default_text, {}));
     }
     if (is_map) // names of properties and the like, which are no declared options
         for (const auto& entry : step.given.entries)
@@ -114,9 +114,42 @@ Json paths_json(const std::vector<std::filesystem::path>& paths) {
     return all;
 }
 
+const InputHeader* header_of(const Headers& headers, const std::filesystem::path& path) {
+    for (const auto& header : headers.inputs)
+        if (header.path == path) return &header;
+    return nullptr;
+}
+
+/// "  (glb, in m, y up; parts: hull, mast)".
+std::string header_text(const Headers& headers, const std::filesystem::path& path) {
+    const InputHeader* header = header_of(headers, path);
+    if (!header) return "";
+    const io::Outline& outline = header->outline;
+    std::string text = outline.format;
+    text += outline.unit == Unit::unknown ? ", no unit" : fmt::format(", in {}", spelled(outline.unit));
+    if (outline.up != UpAxis::unknown) text += fmt::format(", {} up", spelled(outline.up));
+    constexpr std::size_t most = 8;
+    const std::vector<std::string> named(outline.parts.begin(),
+                                         outline.parts.begin() + std::min(most, outline.parts.size()));
+    if (!named.empty()) text += "; parts: " + list_of(named);
+    if (outline.parts.size() > most) text += fmt::format(" and {} more", outline.parts.size() - most);
+    return fmt::format("  ({})", text);
+}
+
+Json headers_json(const Headers& headers) {
+    Json all = Json::array();
+    for (const auto& [path, outline] : headers.inputs)
+        all.push_back({{"path", path.string()},
+                       {"format", outline.format},
+                       {"unit", spelled(outline.unit)},
+                       {"up", spelled(outline.up)},
+                       {"parts", outline.parts}});
+    return all;
+}
+
 } // namespace
 
-std::string describe(const Plan& plan) {
+std::string describe(const Plan& plan, const Headers& headers) {
     std::string out = plan.name + (plan.about.empty() ? "" : ": " + plan.about) + "\n";
     for (const auto& [name, value] : plan.params.items())
         out += fmt::format("  {} = {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
@@ -124,7 +157,8 @@ std::string describe(const Plan& plan) {
     describe(plan.steps, 2, out);
     const auto files = [&](const char* title, const std::vector<std::filesystem::path>& paths) {
         if (!paths.empty()) out += fmt::format("{}:\n", title);
-        for (const auto& path : paths) out += fmt::format("  {}\n", path.string());
+        for (const auto& path : paths)
+            out += fmt::format("  {}{}\n", path.string(), header_text(headers, path));
     };
     files("reads", planned_inputs(plan));
     files("writes", planned_outputs(plan));
@@ -132,12 +166,13 @@ std::string describe(const Plan& plan) {
     return out;
 }
 
-Json describe_json(const Plan& plan) {
+Json describe_json(const Plan& plan, const Headers& headers) {
     return {{"pipeline", plan.name},
             {"about", plan.about},
             {"params", plan.params},
             {"stages", steps_json(plan.steps)},
             {"inputs", paths_json(planned_inputs(plan))},
+            {"headers", headers_json(headers)},
             {"outputs", paths_json(planned_outputs(plan))},
             {"reports", plan.reports}};
 }

@@ -114,7 +114,7 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
     planner.finish();
     auto files = planned_files(plan.steps, plan.places);
     plan.reports = read_reports(document.find("report"), scope, settings, files, problems);
-    if (!problems.any_errors()) check_collisions(files, problems);
+    check_collisions(files, problems);
     for (const auto& d : problems.all())
         if (d.severity == Severity::warning) plan.warnings.push_back(d);
     return plan;

@@ -1,6 +1,6 @@
 #pragma once
-// Parse -> plan: a document becomes steps whose options are parsed, checked and ready to run. All that can be known
-// without opening a mesh is known here, and all errors are reported at once.
+// Parse -> plan: a document becomes steps whose options are parsed, checked and ready to run. All that can be
+// known without opening a mesh is known here, and all errors are reported at once.
 
 #include "stage/assertions.hpp"
 #include "stage/stage.hpp"
@@ -20,7 +20,7 @@ struct Condition {
 };
 
 struct Arm {
-    std::string name;          ///< of a branch; of a foreach: "lod=50%"
+    std::string name;                                     ///< of a branch; of a foreach: "lod=50%"
     std::vector<std::pair<std::string, Value>> variables; ///< of a foreach
     std::optional<std::size_t> part; ///< of a foreach over parts: which of the parts it was given
     std::shared_ptr<Steps> steps;
@@ -34,14 +34,14 @@ struct Step {
     enum class Kind { stage, branch, foreach };
     Kind kind = Kind::stage;
     const StageInfo* stage = nullptr;
-    std::shared_ptr<void> options;    ///< parsed, of the stage's type
-    Value given;                      ///< what was written, expressions resolved
-    std::string name;                 ///< unique in the plan
-    std::string path;                 ///< "stages[3]", "stages[5].branch.far[0]"
+    std::shared_ptr<void> options; ///< parsed, of the stage's type
+    Value given;                   ///< what was written, expressions resolved
+    std::string name;              ///< unique in the plan
+    std::string path;              ///< "stages[3]", "stages[5].branch.far[0]"
     std::optional<Condition> when;
     PartFilter only;
     std::optional<Assertions> ensure;
-    std::vector<Arm> arms;     ///< of a branch, or of a foreach (over parts: as planned for a part yet unknown)
+    std::vector<Arm> arms; ///< of a branch, or of a foreach (over parts: as planned for a part yet unknown)
     ArmsOfParts arms_of_parts; ///< of a foreach over parts, else empty
     PartFilter parts;          ///< ... and the parts it runs over
     bool join = false;
@@ -49,12 +49,12 @@ struct Step {
 };
 
 struct PlanSettings {
-    std::string name;                                          ///< of the pipeline, for messages and the report
-    std::vector<std::pair<std::string, std::string>> defines;  ///< -D
-    std::vector<std::pair<std::string, std::string>> sets;     ///< --set stage.option=value
+    std::string name; ///< of the pipeline, for messages and the report
+    std::vector<std::pair<std::string, std::string>> defines; ///< -D
+    std::vector<std::pair<std::string, std::string>> sets;    ///< --set stage.option=value
     Places places;
-    std::filesystem::path working_directory;                   ///< what -D paths are relative to
-    std::vector<std::string> extra_reports;                    ///< --report
+    std::filesystem::path working_directory; ///< what -D paths are relative to
+    std::vector<std::string> extra_reports;  ///< --report
     bool parameters_needed = true; ///< false (check without -D): params without a value stand for any value
 };
 
@@ -67,8 +67,8 @@ struct Plan {
     std::vector<Diagnostic> warnings;
 };
 
-/// Plans a parsed document. All problems (E-FORMAT-VERSION, E-REQUIRES, E-STAGE, E-KEY, E-PARAM, ...) are added; the
-/// plan is to be run only when there are no errors among them.
+/// Plans a parsed document. All problems (E-FORMAT-VERSION, E-REQUIRES, E-STAGE, E-KEY, E-PARAM, ...) are
+/// added; the plan is to be run only when there are no errors among them.
 Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems);
 /// Reads a pipeline file and plans it. An unreadable file throws missing.
 Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problems& problems);
@@ -80,19 +80,36 @@ struct PlannedFile {
     bool written = false;
 };
 
-/// The files of these steps in their order, as far as they are known (globs expanded); without those of a step that
-/// will be skipped.
+/// The files of these steps in their order, as far as they are known (globs expanded); without those of a
+/// step that will be skipped.
 std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places);
 /// Adds E-TWICE and E-OVERWRITE: two writes to one path (also by case), an output that is an input.
 void check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
 /// An E-FILE for every input that does not exist, at its place; exit code 3. run_plan begins with it.
 std::vector<Diagnostic> missing_inputs(const Plan& plan);
 
+/// An input and what its header says.
+struct InputHeader {
+    std::filesystem::path path;
+    io::Outline outline;
+};
+
+struct Headers {
+    std::vector<InputHeader> inputs; ///< in the order of the plan, each file once
+    std::vector<Error> errors;       ///< in the order of the plan
+};
+
+/// Reads the headers of those inputs that exist: files that no stage could load (as their load would throw),
+/// and lengths with a physical unit (E-UNIT, usage) where what was loaded first has none. Streams and
+/// compressed files wait for the run, since they would have to be read whole.
+Headers read_headers(const Plan& plan);
+
 /// Files that the plan reads and writes, as far as they are known before it runs (globs expanded).
 std::vector<std::filesystem::path> planned_inputs(const Plan& plan);
 std::vector<std::filesystem::path> planned_outputs(const Plan& plan);
-/// What would run, everything resolved: for `facetmill plan`, as text and as JSON.
-std::string describe(const Plan& plan);
-Json describe_json(const Plan& plan);
+/// What would run, everything resolved, with what the headers of inputs say: for `facetmill plan`, as text
+/// and as JSON.
+std::string describe(const Plan& plan, const Headers& headers = {});
+Json describe_json(const Plan& plan, const Headers& headers = {});
 
 } // namespace facetmill::pipeline

@@ -67,6 +67,7 @@ class Runner {
         stages_ = count_stages(plan_.steps);
         for (const auto& warning : plan_.warnings) warn(warning), record().warnings.push_back(warning);
         for (const auto& missing : missing_inputs(plan_)) fail(ErrorKind::missing, missing);
+        for (const auto& error : read_headers(plan_).errors) fail(error);
         Scene scene;
         if (!failed_ && run_steps(plan_.steps, scene, true) && !plan_.reports.empty())
             guarded({}, "the inspection at the end",
@@ -200,6 +201,7 @@ class Runner {
         stage.seconds = seconds_since(start);
         if (done) stage.after = brief(scene);
         if (done && step.stage->loads) state_.load_diagonal = scene.bounds().diagonal();
+        if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) warn(warning);
         record().stages.push_back(std::move(stage));
         return done;
@@ -208,10 +210,14 @@ class Runner {
     static void warn_of_empty_selection(const Step& step, const Scene& scene, Context& context) {
         for (const auto& part : scene.parts)
             if (step.only.selects(part, scene)) return;
+        context.warn("W-ONLY", fmt::format("'only' selects none of the {} parts", scene.parts.size()),
+                     names_hint(scene));
+    }
+
+    static std::string names_hint(const Scene& scene) {
         std::string names;
         for (const auto& part : scene.parts) names += (names.empty() ? "" : ", ") + part.name;
-        context.warn("W-ONLY", fmt::format("'only' selects none of the {} parts", scene.parts.size()),
-                     "their names: " + names.substr(0, 300));
+        return names.empty() ? "the scene is empty" : "their names: " + names.substr(0, 300);
     }
 
     static void check_invariants(const Step& step, const Scene& scene) {
@@ -279,6 +285,7 @@ class Runner {
         for (std::size_t p = 0; p < scene.parts.size(); ++p)
             if (step.parts.selects(scene.parts[p], scene))
                 names.push_back(scene.parts[p].name), parts.push_back(p);
+        if (names.empty()) warn_of_no_parts(step, scene);
         Problems problems;
         const auto arms = step.arms_of_parts(names, problems);
         check_new_files(arms, problems);
@@ -303,6 +310,14 @@ class Runner {
         if (!step.join) return true;
         if (all_done) scene = with_parts_replaced(std::move(scene), std::move(results));
         return all_done;
+    }
+
+    void warn_of_no_parts(const Step& step, const Scene& scene) {
+        const Diagnostic warning{Severity::warning, "W-ONLY",
+                                 fmt::format("foreach runs over none of the {} parts", scene.parts.size()),
+                                 step.where, names_hint(scene)};
+        record().warnings.push_back(warning);
+        warn(warning);
     }
 
     /// Each part makes way for what its arms made of it; parts without arms stay.

@@ -10,13 +10,15 @@ struct RunSettings {
     Progress* progress = nullptr;
     std::vector<std::string> strict; ///< ids of warnings that fail; "*": all
     bool read_back = true;
-    bool check_invariants = false;   ///< mesh/invariants.hpp after every stage (tests)
+    bool check_invariants = false; ///< mesh/invariants.hpp after every stage (tests)
+    /// Called after each stage, with what its options were resolved to.
+    std::function<void(const report::StageRecord&)> on_stage = {};
     /// Called for every warning as it arises.
     std::function<void(const Diagnostic&)> on_warning;
 };
 
-/// Runs the plan, writes its outputs (all or none) and its reports (always), and returns the record; exit_code and
-/// errors in it say how it went. Throws only for bugs.
+/// Runs the plan, writes its outputs (all or none) and its reports (always), and returns the record;
+/// exit_code and errors in it say how it went. Throws only for bugs.
 report::RunRecord run_plan(const Plan& plan, const RunSettings& settings);
 
 } // namespace facetmill::pipeline

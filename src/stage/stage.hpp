@@ -7,6 +7,7 @@
 //   const RegisterStage relax = make_stage<RelaxOptions>(
 //       {.name = "relax", .about = "Smooths a surface ...", .examples = {"relax: 3"}}, declare, run);
 
+#include "io/codec.hpp"
 #include "options/declaration.hpp"
 #include "stage/context.hpp"
 
@@ -30,6 +31,9 @@ struct StageInfo {
     std::function<std::shared_ptr<void>()> make_options = {}; ///< a default options struct
     std::function<Scene(Scene, const void* options, Context&)> run = {};
     std::function<StageFiles(const void* options)> files = {}; ///< may be empty
+    /// What the header of a file says that this stage would add to the scene; throws as its run. May be
+    /// empty.
+    std::function<io::Outline(const void* options, const std::filesystem::path&)> outline = {};
     /// Legality that a declaration cannot say; adds problems at the value's marks. May be empty.
     std::function<void(const void* options, const Value& given, Problems&)> verify = {};
 };
@@ -47,6 +51,7 @@ template <class Options>
 struct StageHooks {
     std::function<StageFiles(const Options&)> files = {};
     std::function<void(const Options&, const Value&, Problems&)> verify = {};
+    std::function<io::Outline(const Options&, const std::filesystem::path&)> outline = {};
 };
 
 template <class Options, class DeclareFunction>
@@ -62,6 +67,10 @@ StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene
     if (hooks.files)
         info.files = [f = hooks.files](const void* options) {
             return f(*static_cast<const Options*>(options));
+        };
+    if (hooks.outline)
+        info.outline = [f = hooks.outline](const void* options, const std::filesystem::path& path) {
+            return f(*static_cast<const Options*>(options), path);
         };
     if (hooks.verify)
         info.verify = [f = hooks.verify](const void* options, const Value& given, Problems& problems) {

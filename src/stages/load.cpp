@@ -61,15 +61,19 @@ void record_input(Context& context, const std::string& path, io::Span bytes) {
     context.run().record.inputs.push_back({path, bytes.size(), sha256(bytes), {}});
 }
 
-void load_file(Scene& scene, const std::filesystem::path& path, const LoadOptions& o, Context& context) {
-    const io::Input input = io::Input::open(path);
-    record_input(context, input.name(), input.stored());
+io::ReadSettings read_settings(const LoadOptions& o) {
     io::ReadSettings settings;
     settings.weld = o.weld;
     if (o.unit != Unit::unknown) settings.unit = o.unit;
     if (o.up != UpAxis::unknown) settings.up = o.up;
+    return settings;
+}
+
+void load_file(Scene& scene, const std::filesystem::path& path, const LoadOptions& o, Context& context) {
+    const io::Input input = io::Input::open(path);
+    record_input(context, input.name(), input.stored());
     io::ReadLog log;
-    Scene more = io::read_scene(input, settings, log, io::codec_named(o.format));
+    Scene more = io::read_scene(input, read_settings(o), log, io::codec_named(o.format));
     for (const auto& w : log.warnings)
         context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
     for (const auto& file : log.files) record_input(context, file.string(), io::Input::open(file).stored());
@@ -96,20 +100,24 @@ Scene run(Scene scene, const LoadOptions& o, Context& context) {
 
 StageFiles files(const LoadOptions& o) { return {o.path, {}}; }
 
-const RegisterStage registered{
-    make_stage<LoadOptions>({.name = "load",
-                             .about = "Reads mesh files and adds their parts to the scene.",
-                             .details = "Files are recognised by their content, else by their suffix; .gz is "
-                                        "inflated. Each mesh, solid or object of "
-                                        "a file becomes a part, named as in the file, else after the file; "
-                                        "names are made unique. A scene has the "
-                                        "unit and the up axis of what was loaded first, and later files are "
-                                        "converted to it. Broken meshes are held "
-                                        "as they are; a malformed file is refused with its line or byte.",
-                             .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",
-                                          "load: [body.obj, \"wheel_*.obj\"]"},
-                             .loads = true},
-                            declare, run, StageHooks<LoadOptions>{.files = files, .verify = verify})};
+io::Outline outline(const LoadOptions& o, const std::filesystem::path& path) {
+    return io::outline_of(io::Input::open(path), read_settings(o), io::codec_named(o.format));
+}
+
+const RegisterStage registered{make_stage<LoadOptions>(
+    {.name = "load",
+     .about = "Reads mesh files and adds their parts to the scene.",
+     .details = "Files are recognised by their content, else by their suffix; .gz is "
+                "inflated. Each mesh, solid or object of "
+                "a file becomes a part, named as in the file, else after the file; "
+                "names are made unique. A scene has the "
+                "unit and the up axis of what was loaded first, and later files are "
+                "converted to it. Broken meshes are held "
+                "as they are; a malformed file is refused with its line or byte.",
+     .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",
+                  "load: [body.obj, \"wheel_*.obj\"]"},
+     .loads = true},
+    declare, run, StageHooks<LoadOptions>{.files = files, .verify = verify, .outline = outline})};
 
 } // namespace
 

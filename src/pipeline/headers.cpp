@@ -1,0 +1,115 @@
+#include "pipeline/plan.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+#include <optional>
+
+namespace facetmill::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether the header can be read without reading all of the file.
+bool has_open_header(const fs::path& path) {
+    std::error_code error;
+    if (path == "-" || !fs::is_regular_file(path, error)) return false;
+    char magic[2] = {};
+    std::ifstream(path, std::ios::binary).read(magic, sizeof magic);
+    return !(magic[0] == '\x1f' && magic[1] == '\x8b');
+}
+
+/// The lengths with a physical unit among the values of options, with the names of their options.
+void find_physical(const Option& option, const Value& value,
+                   std::vector<std::pair<std::string, const Value*>>& found);
+
+void find_physical(const Declaration& declaration, const Value& given,
+                   std::vector<std::pair<std::string, const Value*>>& found) {
+    if (given.is_map()) {
+        for (const auto& entry : given.entries)
+            if (const Option* option = declaration.find(entry.key))
+                find_physical(*option, entry.value, found);
+    } else if (const Option* option = declaration.primary()) {
+        find_physical(*option, given, found);
+    }
+}
+
+void find_physical(const Option& option, const Value& value,
+                   std::vector<std::pair<std::string, const Value*>>& found) {
+    if (option.fields) return find_physical(*option.fields, value, found);
+    for (const auto& item : value.items) find_physical(option, item, found);
+    if (option.dimension != Dimension::length || !value.is_scalar() || value.deferred) return;
+    Problems ignored; // a range may reach here as a map or text of its own; its stage has judged it
+    Length length;
+    if (OptionType<Length>::parse(value, length, ignored) && length.kind == Length::Kind::physical)
+        found.emplace_back(option.name, &value);
+}
+
+class Walk {
+  public:
+    explicit Walk(const Places& places) : places_(places) {}
+    Headers headers;
+
+    /// `unit` is that of the scene which enters; none: not known.
+    void steps(const Steps& all, std::optional<Unit> unit) {
+        for (const auto& step : all) {
+            if (step.when && step.when->known == false) continue;
+            for (const auto& arm : step.arms) steps(*arm.steps, unit);
+            if (!step.stage || !step.options) continue;
+            if (step.stage->outline)
+                load(step, unit);
+            else if (unit == Unit::unknown)
+                lengths(step);
+            // A stage that says what the numbers mean ends what is known here.
+            if (!step.stage->outline && step.given.is_map() && step.given.find("unit")) unit.reset();
+        }
+    }
+
+  private:
+    void load(const Step& step, std::optional<Unit>& unit) {
+        bool first = !any_loaded_;
+        any_loaded_ = true;
+        for (const auto& file : planned_files({step}, places_)) {
+            if (!has_open_header(file.path)) {
+                first = false;
+                continue;
+            }
+            try {
+                const io::Outline outline = step.stage->outline(step.options.get(), file.path);
+                if (std::exchange(first, false)) unit = outline.unit;
+                const auto same = [&](const InputHeader& h) { return h.path == file.path; };
+                if (std::none_of(headers.inputs.begin(), headers.inputs.end(), same))
+                    headers.inputs.push_back({file.path, outline});
+            } catch (Error& error) {
+                headers.errors.push_back(error.at(file.where));
+                first = false;
+            }
+        }
+    }
+
+    void lengths(const Step& step) {
+        std::vector<std::pair<std::string, const Value*>> found;
+        find_physical(step.stage->options, step.given, found);
+        for (const auto& [option, value] : found)
+            headers.errors.push_back(
+                Error(ErrorKind::usage, "E-UNIT",
+                      fmt::format("'{}' is {}, but the scene has no unit", option, value->text),
+                      "say what the numbers of the file mean (load: {unit: mm}), or give a bare number or a "
+                      "percentage",
+                      value->mark));
+    }
+
+    const Places& places_;
+    bool any_loaded_ = false;
+};
+
+} // namespace
+
+Headers read_headers(const Plan& plan) {
+    Walk walk(plan.places);
+    walk.steps(plan.steps, std::nullopt);
+    return std::move(walk.headers);
+}
+
+} // namespace facetmill::pipeline

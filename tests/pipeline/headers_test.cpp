@@ -1,0 +1,90 @@
+#include "support/catch.hpp"
+
+#include "support/planning.hpp"
+#include "support/temporary.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+constexpr const char* triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+/// A directory with inputs, and what their headers say of a pipeline in it.
+struct Ground {
+    test::TemporaryDirectory directory;
+    Ground() {
+        test::put(directory / "good.off", triangle);
+        test::put(directory / "broken.ply", "ply\nformat ascii 1.0\nelement vertex many\nend_header\n");
+        test::put(directory / "noise.xyz", "\x01\x02 nothing known");
+        test::put(directory / "body.gltf",
+                  R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                  R"("nodes":[{"mesh":0,"name":"hull"},{"mesh":0,"name":"mast"}]})");
+    }
+    pipeline::Plan plan(const std::string& stages) const {
+        pipeline::PlanSettings settings;
+        settings.places = {directory.path(), directory.path()};
+        auto result = planned_stages(stages, settings);
+        if (!result.problems.empty()) FAIL(result.problems);
+        return std::move(result.plan);
+    }
+    /// "exit code: rendered" of every error.
+    std::vector<std::string> errors(const std::string& stages) const {
+        std::vector<std::string> all;
+        for (const auto& error : read_headers(plan(stages)).errors)
+            all.push_back(std::to_string(static_cast<int>(error.kind())) + ": " +
+                          render(error.diagnostics().front()));
+        return all;
+    }
+};
+
+using Texts = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("headers tell formats, units and the names of parts", "[pipeline]") {
+    Ground ground;
+    const auto plan = ground.plan("  - load: [body.gltf, good.off]\n");
+    const auto headers = read_headers(plan);
+    REQUIRE(headers.inputs.size() == 2);
+    CHECK(headers.inputs[0].outline.format == "gltf");
+    CHECK(headers.inputs[0].outline.unit == Unit::m);
+    CHECK(headers.inputs[0].outline.parts == Texts{"hull", "mast"});
+    CHECK(headers.inputs[1].outline.unit == Unit::unknown);
+    CHECK(headers.errors.empty());
+    const std::string text = describe(plan, headers);
+    CHECK(text.find("body.gltf  (gltf, in m, y up; parts: hull, mast)\n") != std::string::npos);
+    CHECK(text.find("good.off  (off, no unit)\n") != std::string::npos);
+    CHECK(describe_json(plan, headers)["headers"][0]["parts"] == Json({"hull", "mast"}));
+}
+
+TEST_CASE("inputs that no stage could load are found before anything runs", "[pipeline]") {
+    Ground ground;
+    const auto errors = ground.errors("  - load: [broken.ply, noise.xyz, good.off]\n");
+    REQUIRE(errors.size() == 2);
+    CHECK(errors[0].find("6: ") == 0);
+    CHECK(errors[0].find("broken.ply:3") != std::string::npos);
+    INFO(errors[1]);
+    CHECK(errors[1].find("2: p.yaml:3:24: error[E-FORMAT]: the format of '") == 0);
+}
+
+TEST_CASE("a physical length on a scene without a unit is found before anything runs", "[pipeline]") {
+    Ground ground;
+    const char* later = "  - crumple: {amplitude: 2mm}\n  - branch:\n      a: [{crumple: 0.1in}]\n";
+    const auto errors = ground.errors(std::string("  - load: good.off\n") + later);
+    REQUIRE(errors.size() == 2);
+    CHECK(errors[0] ==
+          "2: p.yaml:4:26: error[E-UNIT]: 'amplitude' is 2mm, but the scene has no unit\n"
+          "    - crumple: {amplitude: 2mm}\n"
+          "                           ^~~\n"
+          "  hint: say what the numbers of the file mean (load: {unit: mm}), or give a bare number "
+          "or a percentage");
+    CHECK(ground.errors(std::string("  - load: {path: good.off, unit: mm}\n") + later).empty());
+    CHECK(ground.errors(std::string("  - load: body.gltf\n") + later).empty());
+}
+
+TEST_CASE("headers of missing files, streams and compressed files wait for the run", "[pipeline]") {
+    Ground ground;
+    test::put(ground.directory / "scan.ply.gz", "\x1f\x8b not gzip at all");
+    CHECK(read_headers(ground.plan("  - load: [absent.ply, \"-\", scan.ply.gz]\n")).inputs.empty());
+    CHECK(ground.errors("  - load: [absent.ply, \"-\", scan.ply.gz]\n  - crumple: 2mm\n").empty());
+}
