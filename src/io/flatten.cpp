@@ -1,7 +1,10 @@
 #include "io/flatten.hpp"
 
+#include "base/json.hpp"
+
 #include <charconv>
 #include <cstring>
+#include <fmt/format.h>
 
 namespace facetmill::io {
 
@@ -22,6 +25,23 @@ WorldMesh::WorldMesh(const Scene& scene) {
         return;
     }
     for (const auto& part : scene.parts) facetmill::append(own_, *WorldMesh(part));
+}
+
+void leave_documents(Written& written, const Scene& scene, const char* format) {
+    for (const auto& document : scene.documents) {
+        const Json json = Json::parse(document->json, nullptr, false);
+        if (!json.is_object()) continue;
+        const auto leave = [&](const std::string& what) {
+            written.fates.push_back(
+                {what, Domain::face, Fate::Kind::dropped, fmt::format("{} has no place for it", format)});
+        };
+        for (const char* what : {"textures", "skins", "animations", "cameras"})
+            if (const auto at = json.find(what); at != json.end() && at->is_array() && !at->empty())
+                leave(fmt::format("{} ({})", what, at->size()));
+        if (const auto at = json.find("extensionsUsed"); at != json.end() && at->is_array())
+            for (const auto& name : *at)
+                if (name.is_string()) leave(name.get<std::string>());
+    }
 }
 
 void dropped(Written& written, const Attribute& attribute, std::string why) {

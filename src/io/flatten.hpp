@@ -25,6 +25,10 @@ Transform effective(const Part& part);
 /// What a format cannot hold, for the ledger.
 void dropped(Written& written, const Attribute& attribute, std::string why);
 
+/// ... and what of glTF documents it leaves behind: textures and other properties of materials, skins,
+/// animations, cameras, extensions. `format` is spelled as in "STL".
+void leave_documents(Written& written, const Scene& scene, const char* format);
+
 /// Numbers, text or bytes written chunk by chunk in parallel and joined in order.
 /// write(begin, end, std::string& out) appends the text of items [begin, end).
 template <class Write>

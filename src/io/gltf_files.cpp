@@ -67,12 +67,14 @@ std::string percent_decoded(std::string_view uri) {
 
 /// The file beside the input, with links resolved: a link may not lead out of the directory either.
 std::optional<fs::path> neighbour_path(const Input& input, const fs::path& relative) {
-    const fs::path directory = input.path().empty() ? fs::path(".") : input.path().parent_path();
-    const fs::path path = directory / relative;
+    // Absolute first: weakly_canonical leaves a relative path as it is when nothing of it exists yet.
     std::error_code failed;
-    const fs::path real = fs::weakly_canonical(path, failed);
+    const fs::path directory = fs::absolute(input.path().empty() ? "." : input.path(), failed);
+    if (failed) return std::nullopt;
     const fs::path base =
-        failed ? fs::path() : fs::weakly_canonical(directory.empty() ? "." : directory, failed);
+        fs::weakly_canonical(input.path().empty() ? directory : directory.parent_path(), failed);
+    if (failed) return std::nullopt;
+    const fs::path real = fs::weakly_canonical(base / relative, failed);
     if (failed) return std::nullopt;
     const auto mismatch = std::mismatch(base.begin(), base.end(), real.begin(), real.end());
     if (mismatch.first != base.end()) return std::nullopt;

@@ -235,6 +235,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             offsets.normal += static_cast<std::int64_t>(normal.values.size() / normal.components);
         tell_what_is_lost(part.mesh, written);
     }
+    leave_documents(written, scene, "OBJ");
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
     if (!materials.empty()) {
         std::vector<Material> named = scene.materials;

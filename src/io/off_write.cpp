@@ -112,6 +112,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             {"vertices", Domain::vertex, Fate::Kind::recomputed,
              fmt::format("{} vertices became {}: OFF has one colour at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
+    leave_documents(written, scene, "OFF");
     if (!scene.materials.empty())
         written.fates.push_back({"materials", Domain::face, Fate::Kind::dropped, "OFF has no materials"});
     written.files.push_back({settings.title + ".off", std::move(bytes)});

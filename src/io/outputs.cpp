@@ -27,15 +27,25 @@ constexpr std::size_t most_locks = 128;
 [[noreturn]] void cannot_write(const fs::path& target, int error) {
     const std::string name = target == "-" ? "standard output" : fmt::format("'{}'", target.string());
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
-        throw Error(ErrorKind::output, "E-SPACE", fmt::format("no space left to write {}", name));
+        throw Error(ErrorKind::output, "E-SPACE", fmt::format("no space left to write {}", name),
+                    "free some there, or write elsewhere with --output-dir");
     if (error == EPIPE)
         throw Error(ErrorKind::output, "E-WRITE",
                     fmt::format("{} cannot be written: its reader went away", name));
     if (error == EISDIR)
-        throw Error(ErrorKind::output, "E-DIRECTORY",
-                    fmt::format("{} is a directory, expected a file", name));
+        throw Error(ErrorKind::output, "E-DIRECTORY", fmt::format("{} is a directory, expected a file", name),
+                    "name a file in it");
     throw Error(ErrorKind::output, "E-WRITE",
-                fmt::format("{} cannot be written: {}", name, std::strerror(error)));
+                fmt::format("{} cannot be written: {}", name, std::strerror(error)),
+                "write elsewhere: --output-dir names the folder that written paths start from");
+}
+
+[[noreturn]] void cannot_write(const Outputs::File& file, int error) {
+    try {
+        cannot_write(file.target, error);
+    } catch (Error& e) {
+        throw e.at(file.where);
+    }
 }
 
 void write_all(int fd, Span bytes, const fs::path& target) {
@@ -141,14 +151,14 @@ fs::path set_aside(const fs::path& target) {
 void stream_out(const Outputs::File& file) {
     const bool standard = file.target == "-";
     const int fd = standard ? STDOUT_FILENO : ::open(file.target.c_str(), O_WRONLY | O_CLOEXEC | O_TRUNC);
-    if (fd < 0) cannot_write(file.target, errno);
+    if (fd < 0) cannot_write(file, errno);
     try {
         write_all(fd, file.stream, file.target);
-    } catch (...) {
+    } catch (Error& e) {
         if (!standard) ::close(fd);
-        throw;
+        throw e.at(file.where);
     }
-    if (!standard && ::close(fd) != 0) cannot_write(file.target, errno);
+    if (!standard && ::close(fd) != 0) cannot_write(file, errno);
 }
 
 } // namespace
@@ -164,7 +174,8 @@ void Outputs::make_directory(const fs::path& directory) {
     } else if (const int why = errno; !fs::is_directory(directory, error)) {
         throw Error(ErrorKind::output, why == ENOSPC ? "E-SPACE" : "E-DIRECTORY",
                     fmt::format("the directory '{}' cannot be made: {}", directory.string(),
-                                why == EEXIST ? "a file has its name" : std::strerror(why)));
+                                why == EEXIST ? "a file has its name" : std::strerror(why)),
+                    "write elsewhere: --output-dir names the folder that written paths start from");
     }
 }
 
@@ -187,7 +198,7 @@ void Outputs::stage(File& file, Span bytes) {
         if (file.lock >= 0) break;
         const int why = errno;
         keep(file.clean_up);
-        if (why != EEXIST) cannot_write(file.target, why);
+        if (why != EEXIST) cannot_write(file, why);
     }
     try {
         ::flock(file.lock, LOCK_EX | LOCK_NB);
@@ -195,8 +206,7 @@ void Outputs::stage(File& file, Span bytes) {
         write_all(file.lock, bytes, file.target);
         // Network file systems say only at a close that there is no room; the lock lives in the other
         // descriptor.
-        if (const int copy = ::dup(file.lock); copy < 0 || ::close(copy) != 0)
-            cannot_write(file.target, errno);
+        if (const int copy = ::dup(file.lock); copy < 0 || ::close(copy) != 0) cannot_write(file, errno);
     } catch (...) {
         ::close(file.lock);
         ::unlink(file.temporary.c_str());
@@ -206,19 +216,23 @@ void Outputs::stage(File& file, Span bytes) {
     if (files_.size() >= most_locks) ::close(std::exchange(file.lock, -1));
 }
 
-const Outputs::File& Outputs::add(const fs::path& target, Span bytes) {
+const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark& where) {
     auto file = std::make_unique<File>();
     file->target = target;
+    file->where = where;
     const bool stream = is_stream(target);
     file->resolved = stream ? target : followed(target);
-    const fs::path self = stream ? target : identity(file->resolved);
-    for (const auto& other : files_)
-        if (self == (other->temporary.empty() ? other->target : identity(other->resolved)))
-            throw Error(ErrorKind::output, "E-TWICE",
-                        fmt::format("'{}' is written twice in one run", target.string()),
-                        "give the second a name of its own");
     file->bytes = bytes.size();
     file->sha256 = sha256(bytes);
+    const fs::path self = stream ? target : identity(file->resolved);
+    for (const auto& other : files_) {
+        if (self != (other->temporary.empty() ? other->target : identity(other->resolved))) continue;
+        // Two glTF files in one folder share their textures.
+        if (!stream && other->bytes == file->bytes && other->sha256 == file->sha256) return *other;
+        throw Error(ErrorKind::output, "E-TWICE",
+                    fmt::format("'{}' is written twice in one run, with different contents", target.string()),
+                    "give the second a name or a folder of its own");
+    }
     if (stream) {
         file->stream.assign(bytes.begin(), bytes.end());
     } else {
@@ -253,7 +267,7 @@ void Outputs::rename_all() {
             if (::rename(file->temporary.c_str(), file->resolved.c_str()) != 0) {
                 const int why = errno;
                 fs::remove(aside, ignored);
-                cannot_write(file->target, why);
+                cannot_write(*file, why);
             }
             done.emplace_back(file.get(), std::move(aside));
         }

@@ -27,13 +27,14 @@ class Outputs {
         Bytes stream;
         std::size_t bytes = 0;
         std::string sha256;
+        Mark where;    ///< what asked for it, for messages
         int lock = -1; ///< the temporary, held open and locked while this process lives
         CleanUp* clean_up = nullptr;
     };
 
     /// Stages a file; makes its directory when missing. Throws output (E-WRITE, E-SPACE, E-DIRECTORY). A
-    /// target that was staged already is E-TWICE. "-" is standard output.
-    const File& add(const std::filesystem::path& target, Span bytes);
+    /// target that was staged already with other bytes is E-TWICE. "-" is standard output.
+    const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
     /// Bytes of a staged file, for reading back.
     Input staged(const File& file) const;
     /// Renames all, then streams the streams. On error everything not yet renamed is removed, what was

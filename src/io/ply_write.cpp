@@ -302,6 +302,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             {"vertices", Domain::vertex, Fate::Kind::recomputed,
              fmt::format("{} vertices became {}: PLY has one set of attributes at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
+    leave_documents(written, scene, "PLY");
     if (!scene.materials.empty())
         written.fates.push_back({"materials", Domain::face, Fate::Kind::dropped, "PLY has no materials"});
     Bytes bytes;

@@ -120,6 +120,7 @@ void tell_what_is_lost(const Scene& scene, const WriteSettings& settings, Writte
             written.fates.push_back(
                 {"polygons", Domain::face, Fate::Kind::recomputed, "STL holds triangles: cut into them"});
     }
+    leave_documents(written, scene, "STL");
     if (!scene.materials.empty())
         written.fates.push_back({"materials", Domain::face, Fate::Kind::dropped, "STL has no materials"});
 }

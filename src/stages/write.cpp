@@ -156,8 +156,8 @@ void stage_files(const io::Written& written, const std::filesystem::path& target
         }
         const bool packed = !main && target.extension() == ".gz";
         const io::Bytes gz = packed ? io::gzipped(file.bytes) : io::Bytes{};
-        const auto& staged =
-            run.outputs.add(main ? target.parent_path() / file.name : target, packed ? gz : file.bytes);
+        const auto& staged = run.outputs.add(main ? target.parent_path() / file.name : target,
+                                             packed ? gz : file.bytes, context.where());
         if (!main) main = &staged;
         run.record.outputs.push_back({staged.target.string(), staged.bytes, staged.sha256, {}});
     }

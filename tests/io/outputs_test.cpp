@@ -60,7 +60,8 @@ TEST_CASE("a rename that fails puts back what was renamed before it", "[io]") {
     outputs.add(dir / "c", bytes_of("new"));
     fs::create_directories(dir / "c/in-the-way");
     CHECK(failure([&] { outputs.commit(); }) ==
-          fmt::format("output [E-DIRECTORY] '{}' is a directory, expected a file", (dir / "c").string()));
+          fmt::format("output [E-DIRECTORY] '{}' is a directory, expected a file | name a file in it",
+                      (dir / "c").string()));
     CHECK(get(dir / "a") == "old");
     CHECK(dir.names() == Names{"a", "c", "c/in-the-way"});
 }
@@ -70,16 +71,21 @@ TEST_CASE("targets that cannot be written are refused before anything is", "[io]
     put(dir / "file", "x");
     fs::create_directory(dir / "folder");
     Outputs outputs;
+    CHECK(failure([&] { outputs.add(dir / "folder", bytes_of("x")); }) ==
+          fmt::format("output [E-DIRECTORY] '{}' is a directory, expected a file | name a file in it",
+                      (dir / "folder").string()));
     CHECK(
-        failure([&] { outputs.add(dir / "folder", bytes_of("x")); }) ==
-        fmt::format("output [E-DIRECTORY] '{}' is a directory, expected a file", (dir / "folder").string()));
-    CHECK(failure([&] { outputs.add(dir / "file/below", bytes_of("x")); }) ==
-          fmt::format("output [E-DIRECTORY] the directory '{}' cannot be made: a file has its name",
-                      (dir / "file").string()));
+        failure([&] { outputs.add(dir / "file/below", bytes_of("x")); }) ==
+        fmt::format(
+            "output [E-DIRECTORY] the directory '{}' cannot be made: a file has its name | write elsewhere: "
+            "--output-dir names the folder that written paths start from",
+            (dir / "file").string()));
     outputs.add(dir / "once", bytes_of("x"));
     CHECK(failure([&] { outputs.add(dir / "folder/../once", bytes_of("y")); }) ==
-          fmt::format("output [E-TWICE] '{}' is written twice in one run | give the second a name of its own",
+          fmt::format("output [E-TWICE] '{}' is written twice in one run, with different contents | give the "
+                      "second a name or a folder of its own",
                       (dir / "folder/../once").string()));
+    CHECK(outputs.add(dir / "folder/../once", bytes_of("x")).target == dir / "once"); // a shared texture
 }
 
 TEST_CASE("a directory that may not be written to is refused", "[io]") {
@@ -97,7 +103,9 @@ TEST_CASE("a full device is told from other failures", "[io]") {
     if (!fs::exists("/dev/full")) return;
     Outputs outputs;
     outputs.add("/dev/full", bytes_of("x"));
-    CHECK(failure([&] { outputs.commit(); }) == "output [E-SPACE] no space left to write '/dev/full'");
+    CHECK(failure([&] { outputs.commit(); }) ==
+          "output [E-SPACE] no space left to write '/dev/full' | free some there, or "
+          "write elsewhere with --output-dir");
 }
 
 TEST_CASE("links stay links and permissions stay", "[io]") {

@@ -1,6 +1,7 @@
 // Plain Draco files: one mesh, without materials or nodes.
 
 #include "io/draco/draco.hpp"
+#include "io/flatten.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -143,6 +144,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         else
             input.columns.push_back(to_column(mesh, a));
     }
+    leave_documents(written, scene, "Draco");
+    if (!scene.materials.empty())
+        written.fates.push_back({"materials", Domain::face, Fate::Kind::dropped, "Draco has no materials"});
     if (mesh.face_count() == 0)
         throw Error(ErrorKind::stage, "E-EMPTY", "a Draco file needs at least one face");
     DracoOutput output = encode_draco(input, settings.draco);
