@@ -23,7 +23,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-    const std::size_t limit = std::min<std::size_t>(3, std::max<std::size_t>(1, word.size() / 2));
+    const std::size_t limit = std::min<std::size_t>(3, word.size() / 2);
     std::size_t best = limit + 1;
     std::string found;
     for (const auto& candidate : candidates) {

@@ -183,7 +183,9 @@ class Parser {
             *slot = std::move(list);
             return;
         }
-        problems_.add(key_mark, "E-PIPE", fmt::format("'--{}' is given twice", head));
+        problems_.add(key_mark.known() ? key_mark : value.mark, "E-PIPE",
+                      fmt::format("'--{}' is given twice", head),
+                      fmt::format("it was '{}' before", slot->is_scalar() ? slot->text : slot->described()));
     }
 
     /// foreach lod=50%,10% name=a,b [ ... ]

@@ -60,13 +60,19 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
                 suggestion(name, names), line.mark(0));
 }
 
+/// Long names without their dashes, which would make any two options seem alike.
 std::vector<std::string> option_names(const CLI::App& app) {
     std::vector<std::string> names;
-    for (const auto* option : app.get_options()) {
-        for (const auto& name : option->get_lnames()) names.push_back("--" + name);
-        for (const auto& name : option->get_snames()) names.push_back("-" + name);
-    }
+    for (const auto* option : app.get_options())
+        for (const auto& name : option->get_lnames()) names.push_back(name);
     return names;
+}
+
+std::string option_hint(const CLI::App& app, const std::string& given) {
+    const std::string near =
+        nearest(given.substr(std::min(given.size(), given.find_first_not_of('-'))), option_names(app));
+    return near.empty() ? fmt::format("see facetmill {} --help", app.get_name())
+                        : fmt::format("did you mean '--{}'?", near);
 }
 
 /// What CLI11 could not place. An option that begins with a dash is unknown; anything else is one value too
@@ -78,7 +84,7 @@ void refuse_extras(const CLI::App& app, const CommandLine& line) {
             const std::string name = extra.substr(0, extra.find('='));
             problems.add(line.find(extra), "E-OPTION",
                          fmt::format("'{}' has no option '{}'", app.get_name(), name),
-                         suggestion(name, option_names(app)));
+                         option_hint(app, name));
         } else
             problems.add(line.find(extra), "E-ARGUMENT",
                          fmt::format("'{}' does not take '{}'", app.get_name(), extra),
@@ -132,7 +138,7 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
     try {
         app.parse(options);
     } catch (const CLI::CallForHelp&) {
-        print(app.help("facetmill " + command.name) + "\n" + command.examples);
+        print(app.help("facetmill") + "\n" + command.examples);
         return 0;
     } catch (const CLI::ParseError& e) {
         throw usage_error(app, e, line);

@@ -234,6 +234,13 @@ bool OptionType<Bound>::parse(const Value& value, Bound& out, Problems& problems
                 good = false;
             }
         }
+        if (out.min && out.max && *out.min > *out.max) {
+            problems.add(
+                value.mark, "E-RANGE",
+                fmt::format("no number is at least {} and at most {}", spelled(*out.min), spelled(*out.max)),
+                "exchange min and max");
+            good = false;
+        }
         return good && (out.min || out.max || wrong_type(value, "min or max", problems));
     }
     if (!value.is_scalar()) return wrong_type(value, "a bound (true, 2, {min: 1, max: 5})", problems);

@@ -26,11 +26,19 @@ std::optional<std::pair<std::size_t, std::string>> find_operator(const std::stri
     return {};
 }
 
-/// A number or a percentage.
-std::optional<double> comparable(const std::string& text) {
+/// A number or a percentage, for texts whose type is not known.
+std::optional<Comparable> untyped(const std::string& text) {
     if (text.ends_with('%'))
-        if (const auto number = parse_real(text.substr(0, text.size() - 1))) return *number / 100;
-    return parse_real(text);
+        if (const auto number = parse_real(text.substr(0, text.size() - 1)))
+            return Comparable{*number / 100, ""};
+    return Comparable{parse_real(text), ""};
+}
+
+/// The declared parameter that is all of the text: "${name}".
+const Variable* parameter(const std::string& text, const Scope& scope) {
+    if (!text.starts_with("${") || !text.ends_with('}')) return nullptr;
+    const Variable* variable = find_variable(scope, text.substr(2, text.size() - 3));
+    return variable && variable->comparable ? variable : nullptr;
 }
 
 bool ordered(double a, double b, const std::string& op) {
@@ -41,15 +49,25 @@ bool ordered(double a, double b, const std::string& op) {
     return op == ">" ? a > b : a >= b;
 }
 
-std::optional<bool> compare(const Value& value, const std::string& left, const std::string& op,
-                            const std::string& right, Problems& problems) {
-    const auto a = comparable(left), b = comparable(right);
-    if (a && b) return ordered(*a, *b, op);
-    if (op == "==") return left == right;
-    if (op == "!=") return left != right;
-    problems.add(value.mark, "E-WHEN",
-                 fmt::format("'{}' compares numbers, found '{}' and '{}'", op, left, right),
-                 "texts can be compared by == and !=");
+/// Compares by the type of the parameter on either side, if there is one.
+std::optional<bool> compare(const Value& value, const Value& left, const std::string& op, const Value& right,
+                            const Variable* typed, Problems& problems) {
+    const auto read = [&](const Value& side) {
+        return typed ? typed->comparable(side, problems) : untyped(side.text);
+    };
+    const auto a = read(left), b = read(right);
+    if (!a || !b) return {};
+    if (a->number && b->number && a->kind == b->kind) return ordered(*a->number, *b->number, op);
+    if (a->kind == b->kind && op == "==") return left.text == right.text;
+    if (a->kind == b->kind && op == "!=") return left.text != right.text;
+    if (a->kind != b->kind)
+        problems.add(value.mark, "E-WHEN",
+                     fmt::format("'{}' is in {} and '{}' in {}: they cannot be compared", left.text, a->kind,
+                                 right.text, b->kind));
+    else
+        problems.add(value.mark, "E-WHEN",
+                     fmt::format("'{}' compares numbers, found '{}' and '{}'", op, left.text, right.text),
+                     "texts can be compared by == and !=");
     return {};
 }
 
@@ -74,13 +92,19 @@ Condition read_condition(const Value& value, const Scope& scope, Problems& probl
             "when: \"${flag}\", when: ${quality} == high, or when: {closed: false}");
         return condition;
     }
-    const auto side = [&](const std::string& text) {
-        return resolved(Value::scalar(trimmed(text), value.mark), scope, problems);
-    };
     const auto [at, op] = *found;
-    const Value left = side(value.text.substr(0, at)), right = side(value.text.substr(at + op.size()));
-    if (left.deferred || right.deferred) return condition;
-    if (const auto truth = compare(value, left.text, op, right.text, problems)) condition.known = truth;
+    const std::string texts[] = {trimmed(value.text.substr(0, at)),
+                                 trimmed(value.text.substr(at + op.size()))};
+    Value sides[2];
+    for (std::size_t i = 0; i < 2; ++i)
+        sides[i] = resolved(Value::scalar(texts[i], mark_within(value.mark, texts[i])), scope, problems);
+    const Variable* typed = parameter(texts[0], scope);
+    if (!typed) typed = parameter(texts[1], scope);
+    // What a parameter is compared with is judged even while the parameter's own value is not known.
+    if (typed && sides[0].deferred != sides[1].deferred)
+        typed->comparable(sides[sides[0].deferred ? 1 : 0], problems);
+    if (sides[0].deferred || sides[1].deferred) return condition;
+    if (const auto truth = compare(value, sides[0], op, sides[1], typed, problems)) condition.known = truth;
     return condition;
 }
 

@@ -98,6 +98,7 @@ class Resolver {
     void append(const Value& v, std::string_view inside, Value& out) {
         const auto found = evaluate(v, inside);
         if (!found || found->deferred) {
+            out.text += fmt::format("${{{}}}", inside); // as plan shows it
             out.deferred = true;
             return;
         }

@@ -4,7 +4,18 @@
 
 #include "options/value.hpp"
 
+#include <functional>
+
 namespace facetmill::pipeline {
+
+/// A value as it compares with others of its type.
+struct Comparable {
+    std::optional<double>
+        number;       ///< a ratio, an angle in radians, a length in metres, scene units or percent
+    std::string kind; ///< numbers compare within a kind: "metres" is not "percent"
+};
+/// Reads a value as a type would; none after adding a problem.
+using ReadComparable = std::function<std::optional<Comparable>(const Value&, Problems&)>;
 
 /// Something that ${name} stands for: a parameter, or a variable of a foreach.
 struct Variable {
@@ -12,6 +23,7 @@ struct Variable {
     Value value;                       ///< null: an optional parameter that was not given
     std::optional<std::int64_t> index; ///< of a foreach: which of its values this is, from 0
     bool from_file = false;            ///< a name found in a file: made safe for file names inside texts
+    ReadComparable comparable = {};    ///< of a parameter: what it is compared with is read by its type
 };
 
 using Scope = std::vector<Variable>;

@@ -41,6 +41,11 @@ Overrides::Overrides(const std::vector<std::pair<std::string, std::string>>& set
             problems.add(where, "E-SET", fmt::format("expected stage.option=value, found '{}'", whole));
             continue;
         }
+        if (text.find("${") != std::string::npos) {
+            problems.add(where, "E-SET", fmt::format("--set takes a plain value, found '{}'", text),
+                         "declare a param, use it in the pipeline as ${name}, and set it: -D name=value");
+            continue;
+        }
         std::string target = path.front();
         path.erase(path.begin());
         all_.push_back({std::move(target), std::move(path),

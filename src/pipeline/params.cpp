@@ -102,6 +102,11 @@ std::optional<double> checked(Type type, const Value& value, bool& good, Problem
     return checked<std::string>(value, good, problems);
 }
 
+std::string nearest_hint(const std::string& word, const std::vector<std::string>& choices) {
+    const std::string near = nearest(word, choices);
+    return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
+}
+
 /// A file named on the command line, as a pipeline file would name it: relative to the pipeline when that
 /// leads to the same file, else absolute.
 std::string from_working_directory(const std::string& text, const PlanSettings& settings) {
@@ -135,6 +140,10 @@ class Params {
             variable.value = value(entry, options, shown);
         else
             variable.value.deferred = true; // reported already
+        if (good)
+            variable.comparable = [this_entry = entry, options](const Value& value, Problems& problems) {
+                return comparable(this_entry, options, value, problems);
+            };
         json[entry.key] = std::move(shown);
         scope.push_back(std::move(variable));
     }
@@ -172,7 +181,7 @@ class Params {
     void check(const Value::Entry& entry, const ParamOptions& options, Value& value) {
         bool good = true;
         const auto magnitude = checked(options.type, value, good, problems_);
-        if (options.type == Type::choice) good = good && is_choice(entry, options, value);
+        if (options.type == Type::choice) good = good && is_choice(entry, options, value, problems_);
         if (!good) value.deferred = true; // reported already
         Range range;
         for (auto [text, limit] : {std::pair{&options.min, &range.min}, std::pair{&options.max, &range.max}})
@@ -190,18 +199,35 @@ class Params {
             fmt::format("the parameter '{}' must be {}, found {}", entry.key, limits, value.described()));
     }
 
-    bool is_choice(const Value::Entry& entry, const ParamOptions& options, const Value& value) {
+    static std::optional<Comparable> comparable(const Value::Entry& entry, const ParamOptions& options,
+                                                const Value& value, Problems& problems) {
+        if (options.type == Type::choice && !is_choice(entry, options, value, problems)) return {};
+        if (options.type == Type::length) {
+            Length length;
+            if (!OptionType<Length>::parse(value, length, problems)) return {};
+            const char* kinds[] = {"scene units", "metres", "percent"};
+            return Comparable{length.amount, kinds[static_cast<int>(length.kind)]};
+        }
+        bool good = true;
+        const auto number = checked(options.type, value, good, problems);
+        if (!good) return {};
+        return Comparable{number, ""};
+    }
+
+    static bool is_choice(const Value::Entry& entry, const ParamOptions& options, const Value& value,
+                          Problems& problems) {
         if (options.choices.empty()) {
-            problems_.add(entry.key_mark, "E-PARAM", fmt::format("the choice '{}' needs choices", entry.key),
-                          "choices: [a, b]");
+            problems.add(entry.key_mark, "E-PARAM", fmt::format("the choice '{}' needs choices", entry.key),
+                         "choices: [a, b]");
             return false;
         }
         if (value.deferred ||
             std::find(options.choices.begin(), options.choices.end(), value.text) != options.choices.end())
             return true;
-        problems_.add(value.mark, "E-CHOICE",
-                      fmt::format("'{}' is one of {}, found {}", entry.key, fmt::join(options.choices, ", "),
-                                  value.described()));
+        problems.add(value.mark, "E-CHOICE",
+                     fmt::format("'{}' is one of {}, found {}", entry.key, fmt::join(options.choices, ", "),
+                                 value.described()),
+                     nearest_hint(value.text, options.choices));
         return false;
     }
 

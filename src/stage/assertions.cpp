@@ -61,6 +61,11 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
                                  value.described()));
         return false;
     }
+    if (value.entries.empty() && also_known.empty()) {
+        problems.add(value.mark, "E-TYPE", fmt::format("{} names no property", owner),
+                     "for example {closed: true}");
+        return false;
+    }
     bool good = true;
     for (const auto& entry : value.entries) {
         if (also_known.contains(entry.key)) continue;
@@ -74,8 +79,12 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
             continue;
         }
         Assertion assertion{entry.key, {}, entry.key_mark};
-        if (OptionType<Bound>::parse(entry.value, assertion.bound, problems) &&
-            check_kind(*property, assertion.bound, entry.value, problems))
+        // A truth is told apart first, so that nobody hears of numbers who wrote `closed: maybe`.
+        const bool no_truth = property->truth && !entry.value.deferred && !entry.value.as_bool();
+        if (no_truth)
+            good = check_kind(*property, {}, entry.value, problems);
+        else if (OptionType<Bound>::parse(entry.value, assertion.bound, problems) &&
+                 check_kind(*property, assertion.bound, entry.value, problems))
             out.all.push_back(std::move(assertion));
         else
             good = false;

@@ -91,6 +91,21 @@ for path in PIPELINES:  # those are Golden's
     setattr(Figures, "test_" + path.stem.replace("-", "_"), None)
 
 
+class Ready(Case):
+    """By name, from a folder that holds nothing but the scan."""
+
+    def test_ready_pipelines_run_by_name(self):
+        (self.dir / "scan.ply").write_bytes(SCAN.read_bytes())
+        for path in PIPELINES:
+            self.assertIn("-D input=", self.mill("run", path.stem, expect=2).stderr)
+            self.mill("run", path.stem, "-D", "input=scan.ply", "--quiet")
+
+    def test_a_gltf_is_written_where_nothing_is(self):
+        self.mill("pipe", "--quiet", "load", SCAN, "--unit", "mm", "!", "simplify", "--faces=100", "!",
+                  "write", "a.gltf")
+        self.assertEqual(sorted(self.files()), ["a.bin", "a.gltf"])
+
+
 class Language(Case):
     def test_every_pipeline_passes_check(self):
         self.mill("check", *PIPELINES, *FIGURES)

@@ -105,9 +105,11 @@ TEST_CASE("bounds are a truth, a value, or min and max", "[options]") {
     CHECK(parsed<Bound>("2")->min == 2);
     CHECK(parsed<Bound>("2")->max == 2);
     const auto between =
-        parsed<Bound>(Value::map({{"min", {}, Value::scalar("1")}, {"max", {}, Value::scalar("50%")}}));
-    CHECK(between->min == 1);
-    CHECK(between->max == 0.5);
+        parsed<Bound>(Value::map({{"min", {}, Value::scalar("25%")}, {"max", {}, Value::scalar("5")}}));
+    CHECK(between->min == 0.25);
+    CHECK(between->max == 5);
+    CHECK_FALSE(
+        parsed<Bound>(Value::map({{"min", {}, Value::scalar("2")}, {"max", {}, Value::scalar("1")}})));
     CHECK_FALSE(parsed<Bound>(Value::map({{"mid", {}, Value::scalar("1")}})));
     CHECK_FALSE(parsed<Bound>(Value::map({})));
 }

@@ -232,7 +232,7 @@ TEST_CASE("when is decided at plan time where it can be", "[pipeline]") {
     CHECK(known("${q} == high") == true);
     CHECK(known("${q} != high") == false);
     CHECK(known("${n} < 10") == true);
-    CHECK(known("${n} >= 10%") == true);
+    CHECK(known("${n} >= 9") == true);
     CHECK(known("{closed: true}") == std::nullopt);
 }
 
@@ -283,6 +283,28 @@ TEST_CASE("inputs that are missing are named at their place", "[pipeline]") {
                                 "                 ^~~~~~~~~~~~~");
 }
 
+TEST_CASE("what a parameter is compared with is read by its type", "[pipeline]") {
+    const auto when = [](const std::string& params, const std::string& condition) {
+        auto result = planned("facetmill: 1\nparams: {" + params + "}\nstages:\n  - test-load: a.ply\n" +
+                              "  - test-cut:\n    when: \"" + condition + "\"\n");
+        if (!result.problems.empty()) return result.problems.substr(result.problems.find("error"));
+        return std::string(*result.plan.steps[1].when->known ? "true" : "false");
+    };
+    const std::string choice = "q: {type: choice, choices: [low, high], default: low}";
+    CHECK(when(choice, "${q} == low") == "true");
+    CHECK(when(choice, "high != ${q}") == "true");
+    CHECK(when(choice, "${q} == lo") == "error[E-CHOICE]: 'q' is one of low, high, found 'lo'\n"
+                                        "      when: \"${q} == lo\"\n"
+                                        "                     ^~\n"
+                                        "  hint: did you mean 'low'?");
+    CHECK(when("n: {type: integer, default: 3}", "${n} == three").find("error[E-TYPE]") == 0);
+    CHECK(when("l: {type: length, default: 2mm}", "${l} == 0.2cm") == "true");
+    CHECK(
+        when("l: {type: length, default: 2mm}", "${l} < 1%").find("error[E-WHEN]: '2mm' is in metres and") ==
+        0);
+    CHECK(when("r: {type: ratio, default: 50%}", "${r} >= 0.5") == "true");
+}
+
 TEST_CASE("plan shows everything resolved", "[pipeline]") {
     const auto result = planned("facetmill: 1\nabout: A test\nparams: {keep: {type: ratio, default: "
                                 "10%}}\nstages:\n  - test-load: a.ply\n"
@@ -305,7 +327,7 @@ TEST_CASE("plan shows everything resolved", "[pipeline]") {
                                    "  r.json\n");
     const Json json = describe_json(result.plan);
     CHECK(json["stages"][1]["options"].dump() ==
-          R"({"ratio":"10%","depth":"1%","cap":"false","method":"fast"})");
+          R"({"ratio":"10%","depth":"1%","cap":false,"method":"fast"})");
     CHECK(json["outputs"].dump() == R"(["b.glb"])");
 }
 
