@@ -47,7 +47,7 @@ def make_input(facetmill, scan, passes, path):
     """The scan as it is, or with 4^passes times its faces and a roughness that splitting alone would not have."""
     stages = ["!", "split", "midpoint", "--passes", passes, "!", "relax", "2", "!", "crumple", "--grid", "1",
               "--amplitude", "0.01%"] if passes else []
-    output([facetmill, "--quiet", "pipe", "load", scan, *stages, "!", "write", path])
+    output([facetmill, "pipe", "--quiet", "load", scan, *stages, "!", "write", path])
 
 
 def main():
