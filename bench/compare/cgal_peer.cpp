@@ -18,9 +18,15 @@ namespace sms = CGAL::Surface_mesh_simplification;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
 #if __has_include(<CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_count_ratio_stop_predicate.h>)
-using Stop = sms::Edge_count_ratio_stop_predicate<Surface>;
+using StopBase = sms::Edge_count_ratio_stop_predicate<Surface>;
+struct Stop : StopBase {
+    Stop(double ratio, const Surface& s) : StopBase(ratio, s) {}
+};
 #else
-using Stop = sms::Count_ratio_stop_predicate<Surface>;
+using StopBase = sms::Count_ratio_stop_predicate<Surface>;
+struct Stop : StopBase {
+    Stop(double ratio, const Surface&) : StopBase(ratio) {}
+};
 #endif
 
 struct CgalPeer::Own {

@@ -26,10 +26,13 @@ void check(const SimplifySettings& s) {
     if (!s.ratio && !s.faces && !s.vertices && !s.max_error)
         refuse("a target is needed: ratio, faces, vertices or max_error");
     if (s.ratio) check_ratio(*s.ratio);
+    if (s.max_error && s.method == SimplifySettings::Method::constrained)
+        refuse("constrained has a bound of its own: hausdorff");
     if (s.max_error && !(*s.max_error > 0)) refuse("max_error is above 0, not " + spelled(*s.max_error));
 }
 
 void check_levels(const SimplifySettings& s) {
+    if (s.method == SimplifySettings::Method::constrained) refuse("levels are not for constrained");
     if (s.self_intersections == SimplifySettings::Intersections::avoid)
         refuse("levels cannot avoid self-intersections");
     if (s.levels.empty()) refuse("levels need ratios");
@@ -133,7 +136,9 @@ class Session {
     /// What the collapses need besides the lists. way_back: all of them are logged. held: vertices that stay.
     void begin(bool way_back, const std::vector<std::uint8_t>& held = {}) {
         classify(work, mesh(), settings_.lock, held);
-        if (settings_.method != SimplifySettings::Method::shortest_edge) sum_quadrics(work);
+        using Method = SimplifySettings::Method;
+        if (settings_.method != Method::shortest_edge && settings_.method != Method::constrained)
+            sum_quadrics(work);
         work.endpoints = settings_.method == SimplifySettings::Method::quadric_endpoints;
         work.logging = way_back || carries_attributes(mesh());
         remember_features(work);
@@ -192,7 +197,10 @@ SimplifyResult within(Session& session, const Targets& targets, double max_error
 
 SimplifyResult towards(Session& session, const Targets& targets, const SimplifySettings& settings) {
     if (settings.max_error) return within(session, targets, *settings.max_error);
-    const Outcome done = run_passes(session.work, targets.goal);
+    const bool constrained = settings.method == SimplifySettings::Method::constrained;
+    const Outcome done = constrained ? run_constrained(session.work, session.mesh().vertex_count(),
+                                                       targets.goal, settings.constraints)
+                                     : run_passes(session.work, targets.goal);
     const auto blocked = done.stuck ? count_blocked(session.work) : SimplifyResult::Blocked{};
     SimplifyResult r = session.result(done.stuck ? Stop::stuck : targets.reason(session.work), done);
     r.blocked = blocked;
@@ -226,7 +234,7 @@ SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     const Targets targets(session.work, settings);
     if (targets.met(session.work)) return session.unchanged();
     const bool crossing = settings.self_intersections != SimplifySettings::Intersections::ignore;
-    session.begin(settings.max_error.has_value() || crossing);
+    session.begin(settings.max_error || crossing || settings.method == SimplifySettings::Method::constrained);
     return crossing ? towards_without_crossing(session, targets, settings)
                     : towards(session, targets, settings);
 }

@@ -22,10 +22,19 @@ struct SimplifyLocks {
     std::optional<WorldBox> box{}; ///< the vertices within
 };
 
+/// What no collapse of the method constrained may bring about; 0 leaves a constraint out.
+struct SimplifyConstraints {
+    double least_cosine = 0.5; ///< of the angle between a face's normal and the one that it came with
+    double aspect_ratio = 0;   ///< no face gets a larger one: longest edge by height
+    double roundness = 0; ///< no face gets a smaller one: 1 for an equilateral triangle, 0 for a flat one
+    double hausdorff = 0; ///< no vertex that went is farther from the faces near by, in the mesh's units
+};
+
 struct SimplifySettings {
     enum class Method {
         quadric, ///< Garland and Heckbert: least sum of squared distances to the planes of the faces
         quadric_endpoints, ///< the same, but the new vertex is one of the two: vertices are a subset
+        constrained,       ///< OpenMesh's decimater: quadric, endpoints only, under SimplifyConstraints
         shortest_edge,     ///< the note's: the shortest edge goes, and the rest meets at its midpoint
     };
     enum class Intersections {
@@ -36,7 +45,8 @@ struct SimplifySettings {
     Method method = Method::quadric;
     Intersections self_intersections = Intersections::ignore;
     SimplifyLocks lock{};
-    double crease = 30 * pi / 180; ///< radians, see merge_normal_seams; 0: every normal seam stays
+    SimplifyConstraints constraints{}; ///< for the method constrained
+    double crease = 30 * pi / 180;     ///< radians, see merge_normal_seams; 0: every normal seam stays
     // At least one target; the first one met stops the work.
     std::optional<double> ratio =
         {}; ///< of the triangles that came in, 0 < ratio <= 1; the count is rounded up
@@ -109,6 +119,9 @@ struct SimplifyResult {
 /// self_intersections: avoid: where the result runs into itself more often than the mesh that came in, all
 /// vertices that went into the faces concerned are held as they were, and the rest is done again, until none
 /// is new. It works on one mesh, not on levels.
+///
+/// The method constrained keeps boundaries, seams and borders vertex by vertex, and gives no largest_error;
+/// max_error and levels are refused.
 ///
 /// Attributes: a vertex or wedge that moved has those of the surface that came in, at the nearest point of
 /// the faces around all the vertices that went into it (on a feature line: of that line, so that both sides

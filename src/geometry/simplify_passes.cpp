@@ -227,7 +227,7 @@ class Passes {
 
 SimplifyResult::Blocked count_blocked(const Work& s) {
     SimplifyResult::Blocked all;
-    for (std::size_t c = 0; c < s.tri.size(); ++c) {
+    for (std::size_t c = 0; c < s.flags.size(); ++c) {
         if (!s.live(static_cast<Index>(c / 3))) continue;
         all.borders += (s.flags[c] & blocked_border) != 0;
         all.topology += (s.flags[c] & blocked_topology) != 0;

@@ -180,6 +180,11 @@ struct Bounded {
 void place_points(Work& s);
 Bounded run_within(Work& s, const Mesh& from, const Goal& goal, double max_error);
 
+/// The method constrained. vertices: of the mesh that came in. The work can be finished afterwards, and
+/// nothing else.
+Outcome run_constrained(Work& s, std::size_t vertices, const Goal& goal,
+                        const SimplifyConstraints& constraints);
+
 /// Counts the self-intersections of the work as finished (`now`); when there are more than allowed, sets held
 /// for all vertices of the mesh that came in that went into the vertices of the faces concerned.
 std::size_t hold_intersecting(const Work& s, const Mesh& now, std::size_t allowed,

@@ -23,6 +23,12 @@ struct LockOptions {
     std::optional<BoxOption> box;
 };
 
+struct ConstraintOptions {
+    Angle normal_deviation = Angle::degrees(60);
+    std::optional<double> aspect_ratio, roundness;
+    std::optional<Length> hausdorff;
+};
+
 struct LevelOptions {
     std::vector<Ratio> ratios;
 };
@@ -36,6 +42,7 @@ struct SimplifyOptions {
     Angle crease = Angle::degrees(30);
     Intersections self_intersections = Intersections::ignore;
     std::optional<LevelOptions> lods;
+    ConstraintOptions constraints;
     bool measure = true, certify = false;
 };
 
@@ -80,6 +87,21 @@ void declare_lock(Declare<LockOptions>& d) {
                 {{"anyOf", Json::array({words, {{"type", "array"}, {"items", words}}})}}, parse_locks);
 }
 
+void declare_constraints(Declare<ConstraintOptions>& d) {
+    d.option("normal_deviation", &ConstraintOptions::normal_deviation,
+             "No face turns farther from the normal that it came with.")
+        .between(0, 180);
+    d.option("aspect_ratio", &ConstraintOptions::aspect_ratio,
+             "No face gets a larger ratio of longest edge to height (a ratio, at least 1.16).")
+        .at_least(1);
+    d.option("roundness", &ConstraintOptions::roundness,
+             "No face gets a smaller roundness: 1 is equilateral, 0 is flat (a share, without unit).")
+        .between(0, 1);
+    d.option("hausdorff", &ConstraintOptions::hausdorff,
+             "No vertex that went is farther from the faces near by.")
+        .above(0);
+}
+
 void declare_levels(Declare<LevelOptions>& d) {
     d.option(
          "ratios", &LevelOptions::ratios,
@@ -111,6 +133,8 @@ void declare(Declare<SimplifyOptions>& d) {
                        "least squared distance to the planes of the faces; vertices go where that is least"},
                       {"quadric-endpoints", Method::quadric_endpoints,
                        "the same, but no vertex moves: those that remain are some of those that came in"},
+                      {"constrained", Method::constrained,
+                       "quadric-endpoints under constraints, by OpenMesh; see constraints"},
                       {"shortest-edge", Method::shortest_edge,
                        "the shortest edge goes, and the rest meets at its midpoint"}},
                      "Which edge goes next.");
@@ -129,6 +153,8 @@ void declare(Declare<SimplifyOptions>& d) {
          {"count", Intersections::count, "pairs of faces that run into each other, counted before and after"},
          {"avoid", Intersections::avoid, "none is new: what would run into itself stays as it came"}},
         "What is done about faces that come to run into each other.");
+    d.group("constraints", &SimplifyOptions::constraints,
+            "For the method constrained: what no collapse may bring about.", declare_constraints);
     d.group(
         "lods", &SimplifyOptions::lods,
         "Levels of detail in place of one target: each is made from the one before, and all are parts of the "
@@ -143,6 +169,9 @@ void declare(Declare<SimplifyOptions>& d) {
 
 /// What the declaration cannot say about levels.
 void verify(const SimplifyOptions& o, const Value& given, Problems& problems) {
+    if (o.method == Method::constrained && (o.max_error || o.lods))
+        problems.add(given.mark, "E-CONFLICT", "simplify: constrained takes neither max_error nor lods",
+                     "constraints: {hausdorff: 0.1%} bounds the error");
     if (!o.lods) return;
     const Value* lods = given.find("lods");
     const Mark& mark = lods ? lods->mark : given.mark;
@@ -295,6 +324,8 @@ class Simplifier {
         for (const auto& part : scene_.parts)
             if (context.selects(part, scene_))
                 faces_ += triangle_count(part.mesh), vertices_ += part.mesh.vertex_count();
+        if (o.constraints.hausdorff)
+            hausdorff_ = context.resolve(*o.constraints.hausdorff, scene_, "constraints.hausdorff");
         if (o.max_error) max_error_ = context.resolve(*o.max_error, scene_, "max_error");
     }
 
@@ -329,6 +360,10 @@ class Simplifier {
         if (o_.ratio) s.ratio = o_.ratio->value;
         s.faces = share(o_.faces, triangle_count(part.mesh), faces_);
         s.vertices = share(o_.vertices, part.mesh.vertex_count(), vertices_);
+        s.constraints = {.least_cosine = cosine(o_.constraints.normal_deviation.radians),
+                         .aspect_ratio = o_.constraints.aspect_ratio.value_or(0),
+                         .roundness = o_.constraints.roundness.value_or(0),
+                         .hausdorff = hausdorff_.value_or(0) / scale_of(part)};
         if (max_error_) s.max_error = *max_error_ / scale_of(part);
         if (o_.lods)
             for (const Ratio& ratio : o_.lods->ratios) s.levels.push_back(ratio.value);
@@ -355,7 +390,7 @@ class Simplifier {
     const SimplifyOptions& o_;
     Context& context_;
     std::size_t faces_ = 0, vertices_ = 0; ///< of all parts selected
-    std::optional<double> max_error_;
+    std::optional<double> max_error_, hausdorff_;
     Surface before_; ///< the part at hand, as it came, in the world
     Json parts_ = Json::array();
 };
@@ -399,6 +434,7 @@ const RegisterStage registered = make_stage<SimplifyOptions>(
          "collapse. It takes many times as long as a ratio. lods makes one chain: each level is reached by "
          "further collapses from the one before. To write each level into a file of its own: write with "
          "only: \"*.lod1\".\n\n"
+         "The method constrained keeps boundaries, seams and borders vertex by vertex.\n\n"
          "largest_error is, for quadric, the largest root mean square distance of a new vertex to its "
          "planes; "
          "for shortest-edge half the longest edge collapsed. A target at or above the input does nothing "

@@ -1,6 +1,7 @@
 #include "geometry/simplify.hpp"
 
 #include "base/error.hpp"
+#include "geometry/closest_point.hpp"
 #include "geometry/crumple.hpp"
 #include "geometry/deviation.hpp"
 #include "geometry/self_intersections.hpp"
@@ -412,4 +413,37 @@ TEST_CASE("simplification avoids new self-intersections on request", "[geometry]
     CHECK(avoided.held > 0);
     CHECK(avoided.faces_after < m.face_count());
     CHECK(count(avoided.mesh).euler == 2);
+}
+
+TEST_CASE("the constrained method keeps its constraints, seams and guarantees", "[geometry]") {
+    const Mesh m = rough(shapes::icosphere(3), 0.005);
+    const auto r = simplify(m, {.method = Method::constrained, .ratio = 0.2});
+    CHECK(r.stop == Stop::ratio);
+    CHECK(sound(r.mesh, 2));
+    CHECK(broken_invariants(r.mesh).empty());
+    const auto near =
+        simplify(m, {.method = Method::constrained, .constraints = {.hausdorff = 0.004}, .ratio = 0.05});
+    CHECK(near.stop == Stop::stuck);
+    const FaceTree tree(surface_of(near.mesh));
+    for (const Vec3& p : m.positions) CHECK(closest_point(tree, p).distance <= 0.004 * (1 + 1e-9));
+    CHECK(deviation(m, r.mesh).maximum() > deviation(m, near.mesh).maximum());
+    const auto seamed = simplify(seamed_grid(12), {.method = Method::constrained, .ratio = 0.1});
+    CHECK(broken_invariants(seamed.mesh).empty());
+    CHECK(count(seamed.mesh).euler == 1);
+    const Attribute* uv = seamed.mesh.find("TEXCOORD_0", Domain::wedge);
+    REQUIRE(uv);
+    for (Index f = 0; f < seamed.mesh.face_count(); ++f) {
+        double x = 0; // of the centre; the right side of the seam has its wedges at u + 100
+        for (Index c = 3 * f; c < 3 * f + 3; ++c) x += seamed.mesh.point(c).x / 3;
+        for (Index c = 3 * f; c < 3 * f + 3; ++c) {
+            const double at = seamed.mesh.point(c).x, u = uv->value(seamed.mesh.corners[c], 0);
+            CHECK(u == Approx(at == 6 && x > 6 ? at + 100 : at));
+        }
+    }
+    Mesh broken = shapes::icosphere(2);
+    append(broken, shapes::fan3());
+    append(broken, shapes::hourglass());
+    const auto kept = simplify(broken, {.method = Method::constrained, .ratio = 0.3});
+    CHECK(count(kept.mesh).crowded == count(broken).crowded);
+    CHECK(count(kept.mesh).euler == count(broken).euler);
 }
