@@ -7,6 +7,9 @@
 #include "io/outputs.hpp"
 #include "pipeline/document.hpp"
 #include "report/render.hpp"
+#include "report/warnings.hpp"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -66,6 +69,19 @@ Pairs split_pairs(const std::vector<std::string>& texts, const char* option, con
     return pairs;
 }
 
+/// A misspelled id would switch a gate off without a word.
+void check_strict(const PipelineOptions& options, const CommandLine& line, Problems& problems) {
+    std::vector<std::string> ids;
+    for (const auto& known : report::known_warnings()) ids.emplace_back(known.id);
+    for (const auto& id : options.strict)
+        if (id != "*" && std::find(ids.begin(), ids.end(), id) == ids.end()) {
+            const std::string near = nearest(id, ids);
+            problems.add(line.find("--strict=" + id), "E-STRICT", fmt::format("there is no warning '{}'", id),
+                         near.empty() ? "facetmill-stages(7) lists the warnings"
+                                      : fmt::format("did you mean '{}'?", near));
+        }
+}
+
 } // namespace
 
 pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,
@@ -74,6 +90,7 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     settings.defines = split_pairs(options.defines, "-D", line, problems);
     settings.sets = split_pairs(options.sets, "--set", line, problems);
     settings.places.output_base = options.output_dir;
+    check_strict(options, line, problems);
     settings.working_directory = fs::current_path();
     settings.extra_reports = options.reports;
     return settings;

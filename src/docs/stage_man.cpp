@@ -1,5 +1,6 @@
 #include "docs/describe.hpp"
 #include "docs/stages.hpp"
+#include "report/warnings.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -57,8 +58,8 @@ std::string section(const StageInfo& s) {
 } // namespace
 
 std::string stages_man() {
-    std::string text =
-        fmt::format(".TH FACETMILL\\-STAGES 7 \"2026-11-21\" \"facetmill {}\" \"facetmill\"\n", FACETMILL_VERSION);
+    std::string text = fmt::format(".TH FACETMILL\\-STAGES 7 \"2026-11-21\" \"facetmill {}\" \"facetmill\"\n",
+                                   FACETMILL_VERSION);
     text +=
         ".SH NAME\nfacetmill\\-stages \\- the stages of a facetmill pipeline and their options\n"
         ".SH DESCRIPTION\nEach item of a pipeline is one stage with its options.\n"
@@ -70,6 +71,9 @@ std::string stages_man() {
     for (const auto d : {Dimension::length, Dimension::angle, Dimension::ratio})
         text += fmt::format(".PP\n{}\n", roff(spelling_help(d)));
     for (const auto& s : stages()) text += section(s);
+    text += ".SH WARNINGS\nEach has an id that\n.B \\-\\-strict=ID\nmakes fail.\n";
+    for (const auto& w : report::known_warnings())
+        text += fmt::format(".TP\n.B {}\n{}\n", roff(w.id), roff(w.about));
     return text + ".SH SEE ALSO\n.BR facetmill (1),\n.BR facetmill\\-pipeline (5)\n";
 }
 

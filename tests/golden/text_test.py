@@ -2,6 +2,7 @@
 in review. tools/update_golden.sh writes them anew."""
 
 import pathlib
+import re
 import subprocess
 
 from support import SOURCE, Case, main
@@ -32,6 +33,18 @@ class Text(Case):
         readme = (SOURCE / "README.md").read_text()
         for line in self.mill("stages").stdout.splitlines():
             self.assertIn(f"| `{line.split()[0]}` |", readme, "the table of stages: facetmill stages --markdown")
+
+    def test_every_warning_is_known(self):
+        """A warning that is not in the list could not be made to fail by --strict=ID."""
+        used = set()
+        for path in (SOURCE / "src").rglob("*.cpp"):
+            if path.name != "warnings.cpp":
+                used |= set(re.findall(r'"(W-[A-Z0-9-]+)"', path.read_text()))
+        table = re.findall(r'\{"(W-[A-Z0-9-]+)"', (SOURCE / "src/report/warnings.cpp").read_text())
+        self.assertEqual(sorted(used - set(table)), [], "src/report/warnings.cpp does not list these")
+        self.assertEqual(table, sorted(table), "src/report/warnings.cpp")
+        run = self.mill("run", "quickstart", "-D", "input=a.ply", "--strict=W-UNIT", expect=2)
+        self.assertIn("did you mean 'W-UNITS'?", run.stderr)
 
     def test_manual_pages_are_clean(self):
         mandoc = self.need("mandoc")
