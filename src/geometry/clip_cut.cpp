@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 namespace facetmill {
 
@@ -19,9 +20,10 @@ Tally operator+(const Tally& a, const Tally& b) {
             a.remembered + b.remembered};
 }
 
-bool is_float32(const Vec3& p) {
-    return p.x == static_cast<float>(p.x) && p.y == static_cast<float>(p.y) && p.z == static_cast<float>(p.z);
+bool is_float32(double x) {
+    return std::fabs(x) <= std::numeric_limits<float>::max() && x == static_cast<float>(x);
 }
+bool is_float32(const Vec3& p) { return is_float32(p.x) && is_float32(p.y) && is_float32(p.z); }
 
 /// The length of the plane's normal, which may be tiny or huge.
 double normal_length(const Plane& plane) {

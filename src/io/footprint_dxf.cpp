@@ -80,7 +80,7 @@ class Dxf {
 
     void field() {
         if (entity_ == Entity::other) return;
-        if (code_ == 70 && entity_ != Entity::vertex) closed_ = (static_cast<long>(number()) & 1) != 0;
+        if (code_ == 70 && entity_ != Entity::vertex) closed_ = (parse_integer(value_).value_or(0) & 1) != 0;
         if (code_ == 40 && entity_ == Entity::circle) radius_ = number();
         if (entity_ == Entity::polyline) return; // 10 and 20 are its elevation
         if (code_ == 10 && entity_ == Entity::lwpolyline) corners_.push_back({});

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <type_traits>
 
 namespace facetmill {
 
@@ -85,7 +86,8 @@ class Filler {
   public:
     explicit Filler(const Contours& contours) : in_(contours) {}
 
-    /// None when an edge got lost.
+    /// None when rounding lost an edge, put a crossing beside its edges, or left the triangles with another
+    /// boundary.
     std::optional<Filling> run() {
         out_.same = lowest_at_same_place(in_.points);
         vertices_ = insert_points<T>(t_, in_.points, out_.same);
@@ -96,10 +98,13 @@ class Filler {
         if (t_.dimension() < 2) return std::move(out_);
         count_turns();
         emit();
+        if (!exact && !out_.added.empty() && !has_right_boundary()) return {};
         return std::move(out_);
     }
 
   private:
+    static constexpr bool exact = std::is_same_v<T, Exact>;
+
     void insert_edges() {
         constraints_.resize(in_.edges.size());
         std::map<std::pair<Index, Index>, std::optional<Constraint>> seen;
@@ -160,6 +165,7 @@ class Filler {
             Vertex before;
             for_path(e, [&](Vertex v) {
                 lost_ |= before != Vertex() && !t_.is_edge(before, v);
+                lost_ |= !exact && v->info() >= in_.points.size() && is_beside(in_.edges[e], v->info());
                 before = v;
                 const Index i = v->info();
                 if (i == last) return;
@@ -170,6 +176,26 @@ class Filler {
             });
             out_.path_offsets.push_back(static_cast<Index>(out_.path.size()));
         }
+    }
+
+    /// Whether the point of a crossing is farther from an edge through it than rounding its coordinates would
+    /// put it: where edges are almost parallel, rounded constructions are off by far more.
+    bool is_beside(const Contours::Edge& edge, Index point) const {
+        const Vec2 &a = in_.points[edge.from], &b = in_.points[edge.to],
+                   p = out_.added[point - in_.points.size()].at;
+        const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+        return std::abs(cross(b - a, p - a)) > 8 * 2.220446049250313e-16 * size * length(b - a);
+    }
+
+    /// Whether the triangles end where the contours are, and nowhere else.
+    bool has_right_boundary() const {
+        std::map<std::pair<Index, Index>, int> left = along_;
+        for (const auto& t : out_.triangles)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const Index a = t[i], b = t[(i + 1) % 3];
+                left[{std::min(a, b), std::max(a, b)}] -= a < b ? 1 : -1;
+            }
+        return std::all_of(left.begin(), left.end(), [](const auto& edge) { return edge.second == 0; });
     }
 
     /// Spreads the number of turns from the outside in: it changes by the contours' count at every edge
