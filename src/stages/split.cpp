@@ -129,6 +129,18 @@ std::uint64_t share(const SplitOptions& o, const Part& part, double total) {
         1, static_cast<std::uint64_t>(static_cast<double>(*o.faces) * (total > 0 ? mine / total : 1)));
 }
 
+/// split, whose refusals name the part.
+SplitResult split_part(const Part& part, const SplitSettings& settings) {
+    try {
+        return split(part.mesh, settings);
+    } catch (const Error& e) {
+        auto diagnostics = e.diagnostics();
+        for (auto& d : diagnostics)
+            if (e.kind() == ErrorKind::stage) d.message += fmt::format(" (part '{}')", part.name);
+        throw Error(e.kind(), std::move(diagnostics));
+    }
+}
+
 Json described(const Part& part, const SplitResult& r, const FacetShape& before, const FacetShape& after) {
     const auto degrees = [](double radians) { return radians * (180 / pi); };
     return {{"part", part.name},
@@ -159,7 +171,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context) {
         settings.faces = share(o, part, total);
         settings.to_world = part.skinned ? Transform{} : part.transform;
         const FacetShape before = facet_shape(part.mesh, settings.to_world);
-        SplitResult result = split(part.mesh, settings);
+        SplitResult result = split_part(part, settings);
         part.mesh = std::move(result.mesh);
         added += result.added;
         parts.push_back(described(part, result, before, facet_shape(part.mesh, settings.to_world)));

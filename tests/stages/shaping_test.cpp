@@ -107,6 +107,13 @@ TEST_CASE("crumple: an amplitude beyond the edges is warned of, with the way out
               .empty());
 }
 
+TEST_CASE("split: smooth methods refuse non-manifold parts by name", "[stages]") {
+    CHECK(
+        test::failure([] { run_stage("split", Value::scalar("loop"), scene_of(shapes::fan3())); }) ==
+        "stage [E-MANIFOLD] split: loop needs a manifold, oriented mesh; the edge of vertices 0 and 1 has 3 "
+        "faces (part 'part') | clean repairs non-manifold places; midpoint splits them as they are");
+}
+
 TEST_CASE("split: a mesh in a single point has no edges longer than a percentage of it", "[stages]") {
     Mesh point = shapes::tetrahedron();
     for (auto& p : point.positions) p = {};
