@@ -59,7 +59,7 @@ Plane some_plane(std::uint64_t key, const Mesh& mesh, const Box& box) {
 
 struct Counts {
     std::size_t files = 0, meshes = 0, cuts = 0, caps = 0, manifold = 0, through_vertices = 0, pinched = 0,
-                tangled = 0, rows = 0;
+                tangled = 0, rows = 0, read_back = 0;
 };
 
 /// Sum over all faces of a term, without rounding to speak of: what is tested is the clip, not the sum.
@@ -120,6 +120,25 @@ bool edge_manifold_too(const ClipResult& r, const Properties& front, const Prope
     return front.edge_manifold && back.edge_manifold;
 }
 
+/// Whether a side is closed when it was written and read again: as PLY, which keeps the faces, and as STL,
+/// which rounds to float32 and is welded.
+bool closed_read_again(const Mesh& mesh, Counts& counts) {
+    ++counts.read_back;
+    Scene scene;
+    scene.parts.emplace_back().mesh = mesh;
+    scene.parts[0].name = "side";
+    for (const char* name : {"side.ply", "side.stl"}) {
+        auto written = io::codec_for(name)->write(scene, {});
+        io::ReadLog log;
+        io::ReadSettings settings; // seams come apart in a file, and are welded
+        settings.weld = io::Weld::exact;
+        const Scene again =
+            io::read_scene(io::Input::of(name, std::move(written.files.at(0).bytes)), settings, log);
+        if (again.parts.size() != 1 || !inspect(again.parts[0].mesh).closed) return false;
+    }
+    return true;
+}
+
 void check_planes(const Mesh& mesh, const Properties& whole, std::uint64_t key, Counts& counts) {
     ClipSettings settings;
     settings.planes = {some_plane(key, mesh, whole.bounds)};
@@ -138,6 +157,7 @@ void check_planes(const Mesh& mesh, const Properties& whole, std::uint64_t key, 
         CHECK(edge_manifold_too(r, front, back, tangled(mesh, settings.planes[0]), counts));
     // A face that is not flat has no volume below it of its own; its pieces come near to it only.
     if (mesh.all_triangles()) CHECK(adds_up(mesh, r, whole.area + front.area + back.area));
+    if (key < 3 && r.front.face_count() > 0) CHECK(closed_read_again(r.front, counts));
 }
 
 void check_row(const Mesh& mesh, const Properties& whole, std::uint64_t key, Counts& counts) {
@@ -182,6 +202,7 @@ TEST_CASE("closed meshes of the corpus stay closed and their sides add up", "[pr
     std::cout << counts.files << " files, " << counts.meshes << " closed meshes, " << counts.cuts << " cuts, "
               << counts.caps << " with caps; edge-manifold meshes: " << counts.manifold
               << " cuts through no vertex stay so, of " << counts.through_vertices
-              << " through vertices or edges " << counts.pinched << " do not; " << counts.rows
-              << " rows of five planes\n";
+              << " through vertices or edges " << counts.pinched << " do not, " << counts.tangled
+              << " where contours meet were not asked; " << counts.rows << " rows of five planes, "
+              << counts.read_back << " sides read again\n";
 }
