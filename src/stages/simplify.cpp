@@ -243,6 +243,7 @@ double stretch(const Transform& t) {
 }
 
 std::string held_by(const SimplifyResult::Blocked& b) {
+    if (b.borders + b.topology + b.flips == 0) return "no collapse was left within the constraints";
     return fmt::format(
         "of the edges left, {} are held by borders and locks, {} by topology, {} would flip a face",
         b.borders, b.topology, b.flips);
