@@ -73,8 +73,7 @@ bool uses(const Mesh& mesh, Index f, Index v) {
 
 } // namespace
 
-bool resolve_t_vertices(Work& work, double within) {
-    const Mesh& mesh = work.mesh;
+std::vector<Insertion> find_t_vertices(const Mesh& mesh, double within) {
     const auto& p = mesh.positions;
     const auto open = open_edges(mesh);
     const OpenEdgesAt at(open);
@@ -103,9 +102,14 @@ bool resolve_t_vertices(Work& work, double within) {
             if (along) insertions.push_back({edge.corner, *t, v});
         });
     }
+    return insertions;
+}
+
+bool resolve_t_vertices(Work& work, double within) {
+    auto insertions = find_t_vertices(work.mesh, within);
     if (insertions.empty()) return false;
     work.counts.t_vertices += insertions.size();
-    work.mesh = insert_on_edges(mesh, std::move(insertions), {}, &work.fates);
+    work.mesh = insert_on_edges(work.mesh, std::move(insertions), {}, &work.fates);
     return true;
 }
 

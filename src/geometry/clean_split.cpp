@@ -1,6 +1,6 @@
 // The step of clean that takes edges and vertices apart where the surface is not a manifold.
 #include "base/parallel.hpp"
-#include "base/predicates.hpp"
+#include "geometry/around_edge.hpp"
 #include "geometry/clean_steps.hpp"
 #include "geometry/surgery.hpp"
 #include "mesh/topology.hpp"
@@ -11,26 +11,6 @@
 namespace facetmill::clean_steps {
 
 namespace {
-
-/// A point of the half plane, bounded by the line of the edge, in which the corner's face starts from it.
-Vec3 beside(const Mesh& mesh, Index f, Index c) {
-    const Index begin = mesh.face_begin(f), end = mesh.face_end(f), next = next_corner(mesh, f, c);
-    if (end - begin == 3) return mesh.point(next_corner(mesh, f, next));
-    Vec3 normal;
-    for (Index i = begin + 1; i + 1 < end; ++i)
-        normal += cross(mesh.point(i) - mesh.point(begin), mesh.point(i + 1) - mesh.point(begin));
-    return mesh.point(c) + cross(normalised(normal), mesh.point(next) - mesh.point(c));
-}
-
-/// For p in the plane of u, v, q: whether it lies on q's side of the line u v.
-bool on_same_side(const Vec3& u, const Vec3& v, const Vec3& q, const Vec3& p) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        const std::size_t x = (i + 1) % 3, y = (i + 2) % 3;
-        const int side = orientation_2d(u[x], u[y], v[x], v[y], q[x], q[y]);
-        if (side != 0) return side == orientation_2d(u[x], u[y], v[x], v[y], p[x], p[y]);
-    }
-    return true;
-}
 
 /// A face at an edge: its corner along it, a point beside, and which way it runs.
 struct Leaf {
@@ -86,7 +66,7 @@ class Joints {
         std::vector<Leaf> leaves;
         const auto& [low, high] = edges_.edges[e];
         for (const Index c : corners)
-            leaves.push_back({c, beside(mesh_, faces_[c], c), mesh_.vertex(c) == low});
+            leaves.push_back({c, beside_edge(mesh_, faces_[c], c), mesh_.vertex(c) == low});
         sort_around(mesh_.positions[low], mesh_.positions[high], leaves);
         return pairs_along(leaves);
     }

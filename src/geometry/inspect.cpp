@@ -108,6 +108,34 @@ void add_optional(std::optional<T>& sum, const std::optional<T>& x) {
         sum.reset();
 }
 
+/// Where both apply, one value of two parts; where only one does, its own.
+void add_qualities(Properties& sum, const Properties& p) {
+    for (std::size_t q = 0; q < quality_count; ++q) {
+        auto& a = sum.qualities[q];
+        const auto& b = p.qualities[q];
+        if (!b) continue;
+        switch (info_of(static_cast<Quality>(q)).join) {
+        case Join::sum:
+            a = a.value_or(0) + *b;
+            break;
+        case Join::most:
+            a = a ? std::max(*a, *b) : *b;
+            break;
+        default: // a truth holds when all do: the least of 0 and 1
+            a = a ? std::min(*a, *b) : *b;
+        }
+    }
+}
+
+/// local: the mesh as it is, whose orientation counts, mirrored by its node or not.
+void measure_qualities(Properties& p, const Mesh& world, const Mesh& local, const InspectSettings& settings) {
+    for (std::size_t q = 0; q < quality_count; ++q)
+        if (settings.qualities >> q & 1u) {
+            const auto quality = static_cast<Quality>(q);
+            p.qualities[q] = measure(quality == Quality::outward ? local : world, quality);
+        }
+}
+
 void add(Properties& sum, const Properties& p) {
     sum.vertices += p.vertices, sum.wedges += p.wedges, sum.edges += p.edges;
     sum.faces += p.faces, sum.triangles += p.triangles, sum.components += p.components, sum.euler += p.euler;
@@ -122,12 +150,15 @@ void add(Properties& sum, const Properties& p) {
     add_optional(sum.volume, p.volume);
     add_optional(sum.self_intersections, p.self_intersections);
     sum.bounds.add(p.bounds);
+    add_qualities(sum, p);
 }
 
 } // namespace
 
 Properties inspect(const Mesh& mesh, const InspectSettings& settings) {
-    return inspect_placed(mesh, mesh.positions, false, settings);
+    Properties p = inspect_placed(mesh, mesh.positions, false, settings);
+    measure_qualities(p, mesh, mesh, settings);
+    return p;
 }
 
 Properties inspect(const Part& part, const InspectSettings& settings) {
@@ -135,7 +166,12 @@ Properties inspect(const Part& part, const InspectSettings& settings) {
     std::vector<Vec3> world(part.mesh.vertex_count());
     parallel_for(world.size(),
                  [&](std::size_t v) { world[v] = part.transform.point(part.mesh.positions[v]); });
-    return inspect_placed(part.mesh, world, part.transform.determinant() < 0, settings);
+    Properties p = inspect_placed(part.mesh, world, part.transform.determinant() < 0, settings);
+    if (settings.qualities == 0) return p;
+    Mesh placed = part.mesh;
+    placed.positions = std::move(world);
+    measure_qualities(p, placed, part.mesh, settings);
+    return p;
 }
 
 Properties inspect(const Scene& scene, const InspectSettings& settings) {

@@ -2,8 +2,10 @@
 // The properties of a mesh that info, validate, ensure, when and the report share: one struct, one table of
 // names.
 
+#include "geometry/qualities.hpp"
 #include "mesh/scene.hpp"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -32,10 +34,12 @@ struct Properties {
     double area = 0;
     std::optional<double> volume; ///< signed, when closed
     Box bounds;
+    std::array<std::optional<double>, quality_count> qualities{}; ///< by Quality; only on request
 };
 
 struct InspectSettings {
     bool self_intersections = false;
+    std::uint32_t qualities = 0; ///< bit q asks for Quality q
 };
 
 /// Properties of a mesh in its own space. O(n log n) at most, parallel, never throws for a valid mesh (NaN
@@ -54,6 +58,7 @@ struct Property {
     std::string_view help;
     /// The value: truths as 0 and 1; none when it does not apply (volume of an open mesh).
     std::function<std::optional<double>(const Properties&)> get;
+    std::optional<Quality> quality = {}; ///< needs its bit in InspectSettings::qualities
 };
 
 /// In the order of the design's section 7.

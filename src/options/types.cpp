@@ -206,12 +206,13 @@ std::optional<double> OptionType<Vec3>::magnitude(const Vec3&) { return {}; }
 
 namespace {
 
-/// A number, a percentage as a fraction, or true/false as the truth of a bound.
+/// A number, an angle in degrees, a percentage as a fraction, or true/false as the truth of a bound.
 bool parse_limit(const Value& value, std::optional<double>& out, Problems& problems) {
     if (value.deferred) return true;
     if (const auto number = value.as_real()) return out = *number, true;
     const auto parts = value.is_scalar() ? number_and_unit(value.text) : std::nullopt;
     if (parts && (parts->second == "%" || parts->second == "pct")) return out = parts->first / 100, true;
+    if (parts && parts->second == "deg") return out = parts->first, true; // angles are in degrees
     return wrong_type(value, "a number", problems);
 }
 

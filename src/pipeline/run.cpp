@@ -160,7 +160,7 @@ class Runner {
     }
 
     static Properties properties_for(const Assertions& assertions, const Scene& scene) {
-        return inspect(scene, InspectSettings{assertions.needs_self_intersections()});
+        return inspect(scene, assertions.settings());
     }
 
     static bool is_skipped(const Step& step, const Scene& scene) {

@@ -34,11 +34,12 @@ Json properties_json(const Properties& properties) {
     Json json = Json::object();
     for (const auto& p : property_table()) {
         const auto value = p.get(properties);
+        if (p.quality && !value) continue; // only those that were asked for
         Json& slot = json[std::string(p.name)];
         if (!value) continue;
         if (p.truth)
             slot = *value != 0;
-        else if (p.name == "area" || p.name == "volume")
+        else if (p.name == "area" || p.name == "volume" || p.quality)
             slot = *value;
         else
             slot = static_cast<std::int64_t>(*value);

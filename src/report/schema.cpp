@@ -61,6 +61,7 @@ Json file(bool read_back) {
 Json scene_schema() {
     Json properties = Json::object();
     for (const auto& p : property_table()) {
+        if (p.quality) continue;
         Json& schema = properties[std::string(p.name)];
         const bool real = p.name == "area" || p.name == "volume";
         schema = p.truth ? typed("boolean") : nullable(real ? "number" : "integer");
@@ -80,7 +81,14 @@ Json scene_schema() {
                                                  {"wedges", typed("integer")},
                                                  {"faces", typed("integer")}}),
                                   "The parts, in order");
-    return closed_object(std::move(properties));
+    Json scene = closed_object(std::move(properties));
+    for (const auto& p : property_table()) // there when they were asked for
+        if (p.quality) {
+            Json& schema = scene["properties"][std::string(p.name)];
+            schema = p.truth ? typed("boolean") : nullable("number");
+            schema["description"] = p.help;
+        }
+    return scene;
 }
 
 Json stage_schema() {

@@ -26,6 +26,14 @@ bool check_kind(const Property& property, const Bound& bound, const Value& value
     return false;
 }
 
+std::string finding(const Property& property, std::optional<double> value) {
+    if (!value) return property.costly ? "not computed" : "not applicable";
+    if (property.truth) return *value != 0 ? "true" : "false";
+    return spelled(*value);
+}
+
+} // namespace
+
 std::string expectation(const Bound& bound) {
     if (bound.truth) return *bound.truth ? "true" : "false";
     if (bound.min && bound.max && *bound.min == *bound.max) return spelled(*bound.min);
@@ -39,17 +47,14 @@ bool holds(const Bound& bound, double value) {
     return (!bound.min || value >= *bound.min) && (!bound.max || value <= *bound.max);
 }
 
-std::string finding(const Property& property, std::optional<double> value) {
-    if (!value) return property.costly ? "not computed" : "not applicable";
-    if (property.truth) return *value != 0 ? "true" : "false";
-    return spelled(*value);
-}
-
-} // namespace
-
-bool Assertions::needs_self_intersections() const {
-    return std::any_of(all.begin(), all.end(),
-                       [](const Assertion& a) { return property_named(a.property)->costly; });
+InspectSettings Assertions::settings() const {
+    InspectSettings settings;
+    for (const auto& a : all) {
+        const Property& property = *property_named(a.property);
+        settings.self_intersections |= property.costly;
+        if (property.quality) settings.qualities |= 1u << static_cast<unsigned>(*property.quality);
+    }
+    return settings;
 }
 
 bool parse_assertions(const Value& value, Assertions& out, std::string_view owner, Problems& problems,
@@ -114,7 +119,7 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
         check.stage = stage;
         check.expected = expectation(assertion.bound);
         check.found = finding(property, value);
-        check.passed = value && holds(assertion.bound, *value);
+        check.passed = value ? holds(assertion.bound, *value) : assertion.if_applies;
         check.where = assertion.where;
         checks.push_back(std::move(check));
     }

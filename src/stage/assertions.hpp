@@ -12,12 +12,18 @@ struct Assertion {
     std::string property;
     Bound bound;
     Mark where;
+    bool if_applies = false; ///< holds where the property does not apply
 };
+
+/// "true", "2", "at most 5".
+std::string expectation(const Bound& bound);
+bool holds(const Bound& bound, double value);
 
 /// A map from property names to bounds, {closed: true, euler: 2, faces: {max: 5000}}; in the order written.
 struct Assertions {
     std::vector<Assertion> all;
-    bool needs_self_intersections() const;
+    /// What inspect has to be asked for.
+    InspectSettings settings() const;
 };
 
 /// Reads assertions from a map value; unknown properties, truths where numbers belong and the reverse are

@@ -12,8 +12,7 @@ struct EnsureOptions {
 void declare(Declare<EnsureOptions>& d) { declare_properties(d, &EnsureOptions::assertions, "ensure"); }
 
 Scene run(Scene scene, const EnsureOptions& o, Context& context) {
-    const InspectSettings settings{.self_intersections = o.assertions.needs_self_intersections()};
-    for (auto& check : evaluate(o.assertions, inspect(scene, settings), context.name()))
+    for (auto& check : evaluate(o.assertions, inspect(scene, o.assertions.settings()), context.name()))
         context.check(std::move(check));
     return scene;
 }

@@ -1,0 +1,28 @@
+#pragma once
+// Faces at an edge, compared by exact predicates.
+
+#include "base/predicates.hpp"
+#include "geometry/surface_normal.hpp"
+#include "mesh/topology.hpp"
+
+namespace facetmill {
+
+/// A point of the half plane, bounded by the line of the edge, in which the face of corner c starts from the
+/// edge at c. A vertex of the face when it is a triangle.
+inline Vec3 beside_edge(const Mesh& mesh, Index f, Index c) {
+    const Index next = next_corner(mesh, f, c);
+    if (mesh.face_size(f) == 3) return mesh.point(next_corner(mesh, f, next));
+    return mesh.point(c) + cross(normalised(area_vector(mesh, f)), mesh.point(next) - mesh.point(c));
+}
+
+/// For p in the plane of u, v, q: whether it lies on q's side of the line u v, exactly.
+inline bool on_same_side(const Vec3& u, const Vec3& v, const Vec3& q, const Vec3& p) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t x = (i + 1) % 3, y = (i + 2) % 3;
+        const int side = orientation_2d(u[x], u[y], v[x], v[y], q[x], q[y]);
+        if (side != 0) return side == orientation_2d(u[x], u[y], v[x], v[y], p[x], p[y]);
+    }
+    return true;
+}
+
+} // namespace facetmill

@@ -1,0 +1,330 @@
+#include "geometry/qualities.hpp"
+
+#include "base/functions.hpp"
+#include "base/parallel.hpp"
+#include "geometry/around_edge.hpp"
+#include "geometry/clean_steps.hpp"
+#include "geometry/orient.hpp"
+#include "geometry/self_intersections.hpp"
+#include "geometry/uv_overlaps.hpp"
+#include "geometry/wall_thickness.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace facetmill {
+
+namespace {
+
+constexpr double degrees = 180 / pi;
+
+/// Calls body(a, b, c) for the triangles of a face.
+template <class Body>
+void each_triangle(const Mesh& mesh, Index f, Body&& body) {
+    const Index begin = mesh.face_begin(f);
+    for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
+        body(mesh.point(begin), mesh.point(c), mesh.point(c + 1));
+}
+
+double angle(const Vec3& at, const Vec3& b, const Vec3& c) {
+    return arc_tangent(length(cross(b - at, c - at)), dot(b - at, c - at)) * degrees;
+}
+
+double corner_angle(const Mesh& mesh, Index f, Index c) {
+    return angle(mesh.point(c), mesh.point(c == mesh.face_begin(f) ? mesh.face_end(f) - 1 : c - 1),
+                 mesh.point(next_corner(mesh, f, c)));
+}
+
+double aspect_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double x = length(b - a), y = length(c - b), z = length(a - c),
+                 area = length(cross(b - a, c - a)) / 2;
+    const double longest = std::max({x, y, z});
+    return area > 0 ? longest * (x + y + z) / (4 * std::sqrt(3.0) * area) : HUGE_VAL;
+}
+
+double planarity(const Mesh& mesh, Index f) {
+    if (mesh.face_size(f) == 3) return 0;
+    const Vec3 normal = normalised(area_vector(mesh, f));
+    Vec3 middle;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) middle += mesh.point(c) / mesh.face_size(f);
+    double farthest = 0;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+        farthest = std::max(farthest, std::abs(dot(mesh.point(c) - middle, normal)));
+    return farthest;
+}
+
+/// The value of one face, for qualities that are the least or the largest of all faces.
+double of_face(const Mesh& mesh, Quality q, Index f) {
+    const bool least = info_of(q).join == Join::least;
+    double value = least ? HUGE_VAL : 0;
+    const auto take = [&](double x) { value = least ? std::min(value, x) : std::max(value, x); };
+    if (q == Quality::planarity) return planarity(mesh, f);
+    if (q == Quality::aspect_ratio)
+        each_triangle(mesh, f,
+                      [&](const Vec3& a, const Vec3& b, const Vec3& c) { take(aspect_ratio(a, b, c)); });
+    else
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+            take(q == Quality::min_angle || q == Quality::max_angle
+                     ? corner_angle(mesh, f, c)
+                     : length(mesh.point(next_corner(mesh, f, c)) - mesh.point(c)));
+    return value;
+}
+
+std::vector<double> face_values(const Mesh& mesh, Quality q) {
+    if (q == Quality::wall_thickness) return wall_thickness(mesh);
+    std::vector<double> values(mesh.face_count());
+    parallel_for(values.size(), [&](std::size_t f) { values[f] = of_face(mesh, q, static_cast<Index>(f)); });
+    return values;
+}
+
+bool by_face(Quality q) { return q <= Quality::planarity || q == Quality::wall_thickness; }
+
+/// The lower face of each pair of neighbours that lie on each other.
+std::vector<Index> folded_faces(const Mesh& mesh) {
+    const auto edges = build_edges(mesh);
+    const auto faces = corner_faces(mesh);
+    std::vector<std::uint8_t> folded(edges.size(), 0);
+    parallel_for(edges.size(), [&](std::size_t e) {
+        const auto corners = edges.corners_of(static_cast<Index>(e));
+        if (corners.size() != 2) return;
+        const Index f = faces[corners[0]], g = faces[corners[1]];
+        if (f == g || is_degenerate(mesh, f) || is_degenerate(mesh, g)) return;
+        const Vec3 &u = mesh.positions[edges.edges[e].low], &v = mesh.positions[edges.edges[e].high];
+        const Vec3 p = beside_edge(mesh, f, corners[0]), q = beside_edge(mesh, g, corners[1]);
+        folded[e] = orientation_3d(u, v, p, q) == 0 && on_same_side(u, v, p, q);
+    });
+    std::vector<Index> list;
+    for (Index e = 0; e < folded.size(); ++e)
+        if (folded[e]) list.push_back(std::min(faces[edges.corners_of(e)[0]], faces[edges.corners_of(e)[1]]));
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+/// The lower face of each intersecting pair that lies in one plane.
+std::vector<Index> coplanar_overlaps(const Mesh& mesh) {
+    std::vector<Index> list;
+    for (const auto& [f, g] : find_self_intersections(mesh, {.limit = std::size_t{1} << 24}).pairs) {
+        const Index begin = mesh.face_begin(f);
+        bool flat = true;
+        for (Index c = mesh.face_begin(g); c < mesh.face_end(g); ++c)
+            for (Index k = begin + 1; k + 1 < mesh.face_end(f); ++k)
+                flat = flat && orientation_3d(mesh.point(begin), mesh.point(k), mesh.point(k + 1),
+                                              mesh.point(c)) == 0;
+        if (flat) list.push_back(f);
+    }
+    return list;
+}
+
+std::vector<Index> inward_faces(const Mesh& mesh) {
+    Mesh bare;
+    bare.positions = mesh.positions, bare.wedge_vertex = mesh.wedge_vertex;
+    bare.corners = mesh.corners, bare.face_offsets = mesh.face_offsets;
+    const OrientResult r = orient(bare, {});
+    std::vector<Index> list;
+    for (const auto& piece : r.pieces)
+        if (!piece.orientable || piece.flipped > 0) list.push_back(piece.first_face);
+    return list;
+}
+
+/// Open edges as loops: connected by their vertices. Their lengths, by lowest vertex.
+std::vector<double> loop_lengths(const Mesh& mesh) {
+    const auto edges = build_edges(mesh);
+    DisjointSets sets(mesh.vertex_count());
+    std::vector<Index> open;
+    for (Index e = 0; e < edges.size(); ++e)
+        if (edges.corners_of(e).size() == 1)
+            open.push_back(e), sets.join(edges.edges[e].low, edges.edges[e].high);
+    std::map<Index, double> lengths;
+    for (const Index e : open)
+        lengths[sets.find(edges.edges[e].low)] +=
+            length(mesh.positions[edges.edges[e].high] - mesh.positions[edges.edges[e].low]);
+    std::vector<double> list;
+    for (const auto& [root, l] : lengths) list.push_back(l);
+    return list;
+}
+
+/// Elements of the attributes with that role (or name prefix) for which bad(attribute, element) holds.
+template <class Bad>
+std::optional<double> none_bad(const Mesh& mesh, bool (*chosen)(const Attribute&), Bad&& bad) {
+    bool any = false, good = true;
+    for (const auto& a : mesh.attributes) {
+        if (!chosen(a)) continue;
+        any = true;
+        good = good && parallel_reduce(
+                           a.size(), 0,
+                           [&](std::size_t begin, std::size_t end) {
+                               for (std::size_t i = begin; i < end; ++i)
+                                   if (bad(a, i)) return 1;
+                               return 0;
+                           },
+                           [](int x, int y) { return x + y; }) == 0;
+    }
+    if (!any) return {};
+    return good ? 1 : 0;
+}
+
+bool outside_unit(const Attribute& a, std::size_t i) {
+    for (int c = 0; c < a.components; ++c)
+        if (!(a.value(i, c) >= 0 && a.value(i, c) <= 1)) return true;
+    return false;
+}
+
+bool not_finite(const Attribute& a, std::size_t i) {
+    for (int c = 0; c < a.components; ++c)
+        if (!std::isfinite(a.value(i, c))) return true;
+    return false;
+}
+
+bool not_unit(const Attribute& a, std::size_t i) {
+    double sum = 0;
+    for (int c = 0; c < std::min(3, a.components); ++c) sum += a.value(i, c) * a.value(i, c);
+    return !(std::abs(std::sqrt(sum) - 1) <= 1.0 / 127); // a step of the coarsest type
+}
+
+/// Whether the weights of each element sum to one over all sets, to a step of the coarsest type.
+std::optional<double> weights_sum(const Mesh& mesh) {
+    std::vector<const Attribute*> sets;
+    for (const auto& a : mesh.attributes)
+        if (a.role == Role::weights) sets.push_back(&a);
+    if (sets.empty()) return {};
+    for (std::size_t i = 0; i < sets[0]->size(); ++i) {
+        double sum = 0;
+        for (const auto* a : sets)
+            for (int c = 0; c < a->components; ++c) sum += a->value(i, c);
+        if (!(std::abs(sum - 1) <= 1.0 / 255)) return 0;
+    }
+    return 1;
+}
+
+std::optional<double> joints(const Mesh& mesh) {
+    std::optional<double> most;
+    for (const auto& a : mesh.attributes)
+        if (a.role == Role::joints)
+            for (std::size_t i = 0; i < a.size(); ++i)
+                for (int c = 0; c < a.components; ++c) most = std::max(most.value_or(0), a.value(i, c) + 1);
+    return most;
+}
+
+std::optional<double> count(const std::vector<Index>& list) { return static_cast<double>(list.size()); }
+
+constexpr std::array<QualityInfo, quality_count> table{{
+    {"min_angle", Join::least, "The smallest angle of a face, in degrees."},
+    {"max_angle", Join::most, "The largest angle of a face, in degrees."},
+    {"aspect_ratio", Join::most, "The worst ratio of longest edge to inner radius; 1 for equal sides."},
+    {"shortest_edge", Join::least, "The length of the shortest edge."},
+    {"longest_edge", Join::most, "The length of the longest edge."},
+    {"planarity", Join::most, "How far a corner lies from the mean plane of its polygon, at most."},
+    {"folded_faces", Join::sum, "Pairs of neighbours folded flat onto each other, exactly."},
+    {"t_vertices", Join::sum, "Vertices exactly on an open edge of another face."},
+    {"boundary_length", Join::sum, "The length of all open edges."},
+    {"longest_boundary", Join::most, "The length of the longest chain of open edges."},
+    {"outward", Join::all, "Every piece has its front outside (cavities: inside), as orient would turn it."},
+    {"coplanar_overlaps", Join::sum, "Pairs of faces that overlap in one plane, exactly."},
+    {"wall_thickness", Join::least,
+     "The least way through the solid, from the middles of faces straight in."},
+    {"uvs_in_range", Join::all, "All texture coordinates lie within 0 and 1."},
+    {"uv_overlaps", Join::sum,
+     "Pairs of faces that overlap in the first set of texture coordinates, exactly."},
+    {"finite_attributes", Join::all, "No attribute has a number that is not finite."},
+    {"unit_normals", Join::all, "All normals and tangents have length 1, to 1/127."},
+    {"weights_sum", Join::all, "The joint weights of every wedge sum to 1, to 1/255."},
+    {"joints", Join::most, "Joints that the weights refer to: the highest number and one."},
+    {"extent", Join::most, "The longest side of a part's box."},
+}};
+
+} // namespace
+
+const QualityInfo& info_of(Quality quality) { return table[static_cast<std::size_t>(quality)]; }
+
+std::optional<double> measure(const Mesh& mesh, Quality q) {
+    if (by_face(q)) {
+        std::optional<double> best;
+        const bool least = info_of(q).join == Join::least;
+        for (const double x : face_values(mesh, q))
+            if (!best || (least ? x < *best : x > *best)) best = x;
+        if (q == Quality::wall_thickness && best == HUGE_VAL) return {};
+        return best;
+    }
+    const auto any = [](const Attribute&) { return true; };
+    switch (q) {
+    case Quality::folded_faces:
+        return count(folded_faces(mesh));
+    case Quality::t_vertices:
+        return static_cast<double>(clean_steps::find_t_vertices(mesh, 0).size());
+    case Quality::coplanar_overlaps:
+        return count(coplanar_overlaps(mesh));
+    case Quality::outward:
+        return inward_faces(mesh).empty() ? 1 : 0;
+    case Quality::uv_overlaps: {
+        const auto overlaps = uv_overlaps(mesh);
+        return overlaps ? count(*overlaps) : std::nullopt;
+    }
+    case Quality::uvs_in_range:
+        return none_bad(
+            mesh, [](const Attribute& a) { return a.role == Role::uv; }, outside_unit);
+    case Quality::finite_attributes:
+        return none_bad(mesh, any, not_finite).value_or(1);
+    case Quality::unit_normals:
+        return none_bad(
+            mesh, [](const Attribute& a) { return a.role == Role::normal || a.role == Role::tangent; },
+            not_unit);
+    case Quality::weights_sum:
+        return weights_sum(mesh);
+    case Quality::joints:
+        return joints(mesh);
+    case Quality::extent: {
+        const Vec3 e = mesh.bounds().extent();
+        return std::max({e.x, e.y, e.z});
+    }
+    default: {
+        double sum = 0, most = 0;
+        for (const double l : loop_lengths(mesh)) sum += l, most = std::max(most, l);
+        return q == Quality::boundary_length ? sum : most;
+    }
+    }
+}
+
+namespace {
+
+Place place_of(const Mesh& mesh, Index f) {
+    Vec3 sum;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
+    return {f, sum / mesh.face_size(f)};
+}
+
+/// The faces with the worst values, the worst first.
+std::vector<Index> worst_faces(const Mesh& mesh, Quality q, std::size_t limit) {
+    const auto values = face_values(mesh, q);
+    std::vector<Index> order(values.size());
+    for (Index f = 0; f < order.size(); ++f) order[f] = f;
+    const bool least = info_of(q).join == Join::least;
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(limit, order.size()));
+    std::partial_sort(order.begin(), end, order.end(), [&](Index a, Index b) {
+        return values[a] != values[b] ? (values[a] < values[b]) == least : a < b;
+    });
+    order.erase(end, order.end());
+    return order;
+}
+
+} // namespace
+
+std::vector<Place> places_against(const Mesh& mesh, Quality q, std::size_t limit) {
+    std::vector<Index> faces;
+    if (by_face(q)) faces = worst_faces(mesh, q, limit);
+    if (q == Quality::folded_faces) faces = folded_faces(mesh);
+    if (q == Quality::coplanar_overlaps) faces = coplanar_overlaps(mesh);
+    if (q == Quality::outward) faces = inward_faces(mesh);
+    if (q == Quality::uv_overlaps) faces = uv_overlaps(mesh).value_or(std::vector<Index>{});
+    if (q == Quality::boundary_length || q == Quality::longest_boundary)
+        return places_against(mesh, "boundary_edges", limit);
+    std::vector<Place> places;
+    if (q == Quality::t_vertices)
+        for (const auto& i : clean_steps::find_t_vertices(mesh, 0))
+            if (places.size() < limit) places.push_back({none, mesh.positions[i.vertex]});
+    for (const Index f : faces)
+        if (places.size() < limit) places.push_back(place_of(mesh, f));
+    return places;
+}
+
+} // namespace facetmill

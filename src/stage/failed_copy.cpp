@@ -1,0 +1,87 @@
+#include "stage/failed_copy.hpp"
+
+#include "geometry/evidence.hpp"
+#include "io/codec.hpp"
+#include "io/outputs.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+/// Flags the faces of the places; a place without a face flags those with a vertex there.
+std::vector<std::uint32_t> flagged(const Mesh& mesh, const Assertions& assertions) {
+    constexpr std::size_t all = SIZE_MAX;
+    std::vector<std::uint32_t> flags(mesh.face_count(), 0);
+    for (const auto& a : assertions.all) {
+        const Property& property = *property_named(a.property);
+        const auto value = property.get(inspect(mesh, assertions.settings()));
+        if (!value || holds(a.bound, *value)) continue;
+        // The worst faces of a measure are not all wrong: a few show where.
+        constexpr std::size_t few = 100;
+        for (const Place& p : property.quality ? places_against(mesh, *property.quality, few)
+                                               : places_against(mesh, property.name, all)) {
+            if (p.face != none) {
+                flags[p.face] = 1;
+                continue;
+            }
+            for (Index f = 0; f < flags.size(); ++f)
+                for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+                    if (mesh.point(c) == p.at) flags[f] = 1;
+        }
+    }
+    return flags;
+}
+
+/// Gives the flagged faces a copy of their primitive with the material.
+void paint(Mesh& mesh, const std::vector<std::uint32_t>& flags, Index material) {
+    std::vector<std::uint32_t> primitives(mesh.face_count(), 0);
+    for (Index f = 0; f < primitives.size(); ++f) primitives[f] = mesh.primitive_of(f);
+    if (mesh.primitives.empty()) mesh.primitives.emplace_back();
+    const auto before = static_cast<std::uint32_t>(mesh.primitives.size());
+    for (std::uint32_t p = 0; p < before; ++p) {
+        mesh.primitives.push_back(mesh.primitives[p]);
+        mesh.primitives.back().material = material;
+    }
+    for (Index f = 0; f < primitives.size(); ++f)
+        if (flags[f]) primitives[f] += before;
+    mesh.drop(primitive_attribute, Domain::face);
+    mesh.drop("failed", Domain::face);
+    mesh.attributes.push_back(
+        {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(primitives)});
+    mesh.attributes.push_back({"failed", Domain::face, Role::index, 1, false, flags});
+}
+
+} // namespace
+
+Scene failed_copy(const Scene& scene, const Assertions& assertions) {
+    Scene copy = scene;
+    Material red;
+    red.name = "failed";
+    red.base_colour[1] = red.base_colour[2] = 0;
+    red.double_sided = true;
+    copy.materials.push_back(red);
+    for (Part& part : copy.parts) {
+        paint(part.mesh, flagged(part.mesh, assertions), static_cast<Index>(copy.materials.size() - 1));
+        part.changed = true;
+    }
+    return copy;
+}
+
+void verify_failed_copy(const std::string& path, const Value& given, Problems& problems) {
+    const io::Codec* codec = io::codec_for(path);
+    if (codec && codec->write) return;
+    const Value* at = given.is_map() ? given.find("mark") : nullptr;
+    problems.add(at ? at->mark : given.mark, "E-FORMAT", fmt::format("validate: no format writes '{}'", path),
+                 "facetmill formats lists them; .glb shows the colours");
+}
+
+void write_failed_copy(const Scene& scene, const Assertions& assertions, const std::filesystem::path& path) {
+    io::WriteSettings settings;
+    settings.title = path.stem().string();
+    const io::Written written = io::codec_for(path)->write(failed_copy(scene, assertions), settings);
+    for (const auto& file : written.files) io::write_now(path.parent_path() / file.name, file.bytes);
+}
+
+} // namespace facetmill

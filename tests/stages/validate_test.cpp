@@ -1,0 +1,234 @@
+#include "support/catch.hpp"
+#include "support/failure.hpp"
+#include "support/temporary.hpp"
+
+#include "mesh/shapes.hpp"
+#include "support/run_stage.hpp"
+
+using namespace facetmill;
+using test::failure;
+using test::run_stage;
+using test::scene_of;
+
+namespace {
+
+/// "closed: true, found false" of the checks that failed, one per line.
+std::string failures(const test::StageRun& run) {
+    std::string text;
+    for (const auto& c : run.state->record.checks)
+        if (!c.passed)
+            text += (text.empty() ? "" : "\n") + (c.part.empty() ? "" : c.part + " ") + c.name + ": " +
+                    c.expected + ", found " + c.found;
+    return text;
+}
+
+std::string judged(const std::string& options, Mesh mesh) {
+    return failures(run_stage("validate", options, scene_of(std::move(mesh))));
+}
+
+/// A block of 3 x 3 x 1 cells with a hole through each of the given number of cells: closed, of that genus.
+Mesh block_with_holes(int holes) {
+    Mesh mesh;
+    const int columns = 2 * holes + 1;
+    const auto vertex = [&](int x, int y, int z) {
+        return static_cast<Index>((z * 4 + y) * (columns + 1) + x);
+    };
+    for (int z = 0; z < 2; ++z)
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x <= columns; ++x) mesh.positions.push_back({double(x), double(y), double(z)});
+    const auto solid = [&](int x, int y) {
+        return x >= 0 && x < columns && y >= 0 && y < 3 && !(y == 1 && x % 2 == 1);
+    };
+    for (int y = 0; y < 3; ++y)
+        for (int x = 0; x < columns; ++x) {
+            if (!solid(x, y)) continue;
+            const Index a = vertex(x, y, 0), b = vertex(x + 1, y, 0), c = vertex(x + 1, y + 1, 0),
+                        d = vertex(x, y + 1, 0);
+            const Index up = vertex(0, 0, 1);
+            add_face(mesh, std::vector<Index>{d, c, b, a});
+            add_face(mesh, std::vector<Index>{a + up, b + up, c + up, d + up});
+            if (!solid(x, y - 1)) add_face(mesh, std::vector<Index>{a, b, b + up, a + up});
+            if (!solid(x + 1, y)) add_face(mesh, std::vector<Index>{b, c, c + up, b + up});
+            if (!solid(x, y + 1)) add_face(mesh, std::vector<Index>{c, d, d + up, c + up});
+            if (!solid(x - 1, y)) add_face(mesh, std::vector<Index>{d, a, a + up, d + up});
+        }
+    return mesh;
+}
+
+Mesh flipped(Mesh mesh) {
+    for (std::size_t c = 0; c < mesh.corners.size(); c += 3)
+        std::swap(mesh.corners[c + 1], mesh.corners[c + 2]);
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("a bare validate passes a sound solid and lists all that an open one lacks", "[stages]") {
+    CHECK(judged("", shapes::cube()) == "");
+    CHECK(judged("{closed: true, edge_manifold: true}", shapes::fan3()) == "closed: true, found false\nedge_manifold: true, found false");
+    CHECK(judged("", {}) == "faces: at least 1, found 0");
+}
+
+TEST_CASE("closed means Euler number 2 only for genus 0 in one piece", "[stages]") {
+    CHECK(judged("{closed: true, euler: 2, genus: 0}", shapes::icosphere(2)) == "");
+    CHECK(judged("{closed: true, euler: 0, genus: 1}", shapes::torus(9, 7)) == "");
+    CHECK(judged("{closed: true, euler: 0, genus: 1}", block_with_holes(1)) == "");
+    CHECK(judged("{closed: true, euler: -44, genus: 23}", block_with_holes(23)) == "");
+    Mesh three = shapes::cube(); // the pieces add up
+    append(three, shapes::icosphere(1));
+    append(three, shapes::torus(9, 7));
+    CHECK(judged("{closed: true, euler: 4, genus: 1, components: 3}", three) == "");
+    CHECK(judged("{closed: true, euler: 2}", three) == "euler: 2, found 4");
+    // And an open surface can have it: a sphere with a piece taken out and an isolated patch put beside.
+    Mesh open = shapes::icosphere(1);
+    open.corners.resize(open.corners.size() - 3);
+    append(open, shapes::grid(1, 1));
+    CHECK(judged("{closed: true, euler: 2}", open) == "closed: true, found false");
+}
+
+TEST_CASE("validate names the places that speak against a property", "[stages]") {
+    Mesh mesh = shapes::cube();
+    mesh.corners.resize(33);
+    const auto run = run_stage("validate", "{closed: true}", scene_of(mesh));
+    const auto& evidence = run.state->record.checks.at(0).evidence;
+    CHECK(evidence.size() == 3);
+    CHECK(evidence[0]["part"] == "part");
+    CHECK(evidence[0]["at"].size() == 3);
+}
+
+TEST_CASE("validate judges each part or component when asked", "[stages]") {
+    Mesh mesh = shapes::cube();
+    append(mesh, shapes::grid(1, 1));
+    CHECK(judged("{euler: 2, per: component}", mesh) == "part.1 euler: 2, found 1");
+    Scene scene = scene_of(shapes::cube());
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].name = "open", scene.parts[1].mesh = shapes::grid(1, 1);
+    CHECK(failures(run_stage("validate", "{closed: true, per: part}", scene)) ==
+          "open closed: true, found false");
+}
+
+TEST_CASE("validate measures angles, edges and ratios", "[stages]") {
+    CHECK(judged("{min_angle: {min: 44.9deg}, max_angle: {max: 90.1}}", shapes::cube()) == "");
+    CHECK(judged("{min_angle: {min: 50deg}}", shapes::cube()).substr(0, 31) ==
+          "min_angle: at least 50, found 4");
+    CHECK(judged("{aspect_ratio: {min: 0.999, max: 1.001}}", shapes::octahedron()) == "");
+    CHECK(judged("{shortest_edge: {min: 0.999}, longest_edge: {max: 1.42}, extent: {max: 1}}",
+                 shapes::cube()) == "");
+    CHECK(judged("{planarity: {max: 1e-12}}", shapes::quad_cube()) == "");
+    CHECK(judged("{boundary_length: 8, longest_boundary: 8}", shapes::grid(2, 2)) == "");
+}
+
+TEST_CASE("validate finds folds, T-vertices, overlaps and the wrong side out", "[stages]") {
+    CHECK(judged("{folded_faces: 0, coplanar_overlaps: 0, t_vertices: 0, outward: true}", shapes::cube()) ==
+          "");
+    CHECK(judged("{folded_faces: 0}", shapes::folded_quad()) == "folded_faces: 0, found 1");
+    CHECK(judged("{coplanar_overlaps: 0}", shapes::folded_quad()) == "coplanar_overlaps: 0, found 1");
+    CHECK(judged("{coplanar_overlaps: 0}", shapes::crossing()) == "");
+    CHECK(judged("{outward: true}", flipped(shapes::cube())) == "outward: true, found false");
+    CHECK(judged("{outward: true}", shapes::moebius(9)) == "outward: true, found false");
+    Mesh crack;
+    crack.positions = {{0, 0, 0}, {2, 0, 0}, {0, -2, 0}, {0, 2, 0}, {1, 0, 0}};
+    crack.corners = {0, 2, 1, 0, 4, 3, 4, 1, 3};
+    CHECK(judged("{t_vertices: 0}", crack) == "t_vertices: 0, found 1");
+}
+
+TEST_CASE("validate measures the wall of a solid", "[stages]") {
+    CHECK(judged("{wall_thickness: {min: 0.999999, max: 1.000001}}", shapes::cube()) == "");
+    Mesh plate = shapes::cube();
+    for (Vec3& p : plate.positions) p.z *= 0.125;
+    CHECK(judged("{wall_thickness: {min: 0.2}}", plate) == "wall_thickness: at least 0.2, found 0.125");
+    CHECK(judged("{wall_thickness: {min: 0}}", shapes::grid(1, 1)) ==
+          "wall_thickness: at least 0, found not applicable");
+}
+
+TEST_CASE("validate judges attributes", "[stages]") {
+    Mesh mesh = shapes::uv_cube();
+    CHECK(judged("{uvs_in_range: true, finite_attributes: true, unit_normals: true}", mesh) == "");
+    CHECK(judged("{uv_overlaps: 0}", mesh) != ""); // every side of the cube uses the whole texture
+    mesh.find("TEXCOORD_0", Domain::wedge)->set_value(0, 0, 1.5);
+    mesh.find("NORMAL", Domain::wedge)->set_value(3, 1, 5);
+    CHECK(judged("{uvs_in_range: true, unit_normals: true}", mesh) ==
+          "uvs_in_range: true, found false\nunit_normals: true, found false");
+    mesh.find("NORMAL", Domain::wedge)->set_value(3, 1, NAN);
+    CHECK(judged("{finite_attributes: true}", mesh) == "finite_attributes: true, found false");
+    mesh.attributes.push_back({"WEIGHTS_0", Domain::wedge, Role::weights, 4, false,
+                               std::vector<float>(4 * mesh.wedge_count(), 0.25f)});
+    CHECK(judged("{weights_sum: true}", mesh) == "");
+    mesh.attributes.back().set_value(2, 0, 0.5);
+    CHECK(judged("{weights_sum: true}", mesh) == "weights_sum: true, found false");
+}
+
+TEST_CASE("validate knows what a purpose needs", "[stages]") {
+    CHECK(judged("{for: printing}", shapes::icosphere(2)) == "");
+    CHECK(judged("{for: simulation}", shapes::icosphere(2)) == "");
+    CHECK(judged("{for: web}", shapes::grid(2, 2)) ==
+          ""); // open, without normals and weights: none is missed
+    CHECK(judged("{for: solid}", flipped(shapes::cube())) == "outward: true, found false");
+    CHECK(judged("{for: solid, outward: false}", flipped(shapes::cube())) == ""); // what is given counts
+}
+
+TEST_CASE("validate limits what a scene holds", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.materials.resize(3);
+    CHECK(failures(run_stage("validate", "{limits: {parts: 1, materials: {max: 2}, names: [p*, q]}}",
+                             scene)) == "materials: at most 2, found 3");
+    CHECK(failures(run_stage("validate", "{limits: {names: [body]}}", scene)) == "names: body, found part");
+}
+
+TEST_CASE("validate waives known failures, and fails new and worse ones", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const std::string file = (folder.path() / "known.json").string();
+    Mesh mesh = shapes::grid(2, 2);
+    auto run =
+        run_stage("validate",
+                  "{closed: true, boundary_edges: {max: 2}, baseline: '" + file + "', update_baseline: true}",
+                  scene_of(mesh));
+    CHECK(failures(run) == "");
+    run.state->outputs.commit();
+    const std::string again =
+        "{closed: true, boundary_edges: {max: 2}, faces: {max: 9}, baseline: '" + file + "'}";
+    run = run_stage("validate", again, scene_of(mesh));
+    CHECK(failures(run) == "");
+    CHECK(run.record.result["waived"] == 2);
+    CHECK(run.state->record.checks.at(0).found == "false (known)");
+    CHECK(judged(again, shapes::grid(1, 1)) == ""); // better than it was
+    CHECK(judged(again, shapes::grid(3, 3)) ==
+          "boundary_edges: at most 2, found 12\nfaces: at most 9, found 18");
+    CHECK(failure([] { run_stage("validate", "{update_baseline: true}", scene_of({})); }) ==
+          "usage [E-MISSING] test.yaml:1:1: validate: update_baseline needs a file to write | baseline: "
+          "known.json");
+}
+
+TEST_CASE("validate writes a copy that shows where it failed", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto file = folder.path() / "failed.ply";
+    Mesh mesh = shapes::cube();
+    mesh.corners.resize(33);
+    run_stage("validate", "{closed: true, mark: '" + file.string() + "'}", scene_of(mesh));
+    io::ReadLog log;
+    const Scene copy = io::read_scene(io::Input::open(file), {}, log);
+    const Attribute* failed = copy.parts.at(0).mesh.find("failed", Domain::face);
+    REQUIRE(failed);
+    double sum = 0;
+    for (std::size_t f = 0; f < 11; ++f) sum += failed->value(f, 0);
+    CHECK(sum == 3);
+    CHECK(failure([] { run_stage("validate", "{mark: a.xyz}", scene_of({})); }) ==
+          "usage [E-FORMAT] test.yaml:1:8: validate: no format writes 'a.xyz' | facetmill formats lists "
+          "them; .glb shows "
+          "the colours");
+}
+
+TEST_CASE("validate warns instead, when asked", "[stages]") {
+    const auto run = run_stage("validate", "{closed: true, severity: warn}", scene_of(shapes::grid(1, 1)));
+    CHECK(run.state->record.checks.at(0).severity == Severity::warning);
+}
+
+TEST_CASE("ensure checks what it is given", "[stages]") {
+    const auto run = run_stage("ensure", "{closed: true, faces: {max: 5}, min_angle: {min: 60deg}}",
+                               scene_of(shapes::cube()));
+    CHECK(failures(run).substr(0, 29) == "faces: at most 5, found 12\nmi");
+    CHECK(failure([] { run_stage("ensure", "{}", scene_of({})); }).substr(0, 47) ==
+          "usage [E-MISSING] test.yaml:1:1: ensure needs a");
+    CHECK(failure([] { run_stage("ensure", "{closd: true}", scene_of({})); }).find("closed") !=
+          std::string::npos);
+}
