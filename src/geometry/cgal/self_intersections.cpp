@@ -1,7 +1,6 @@
 #include "geometry/self_intersections.hpp"
 
 #include "base/parallel.hpp"
-#include "base/predicates.hpp"
 #include "geometry/box_tree.hpp"
 #include "geometry/evidence.hpp"
 
@@ -78,24 +77,10 @@ int share(std::array<Index, 3>& a, std::array<Index, 3>& b) {
     return static_cast<int>(shared);
 }
 
-/// Whether the vertices of b from the shared ones on lie strictly on one side of a's plane: then they meet in what they
-/// share only. Most pairs of boxes end here, by a few filtered orientations; CGAL's tests cost five times as much.
-bool clear_of_plane(const Mesh& mesh, const std::array<Index, 3>& a, const std::array<Index, 3>& b, int shared) {
-    const auto& p = mesh.positions;
-    int side = 0;
-    for (auto i = static_cast<std::size_t>(shared); i < 3; ++i) {
-        const int next = orientation_3d(p[a[0]], p[a[1]], p[a[2]], p[b[i]]);
-        if (next == 0 || next == -side) return false;
-        side = next;
-    }
-    return side != 0;
-}
-
 /// Whether two triangles with area meet elsewhere than in what they share.
 bool meet(const Facets& facets, Index s, Index t) {
     auto a = facets.vertices(s), b = facets.vertices(t);
     const int shared = share(a, b);
-    if (clear_of_plane(facets.mesh, a, b, shared) || clear_of_plane(facets.mesh, b, a, shared)) return false;
     const Point a0 = facets.point(a[0]), a1 = facets.point(a[1]), a2 = facets.point(a[2]);
     if (shared == 3) return true;
     const Point b2 = facets.point(b[2]);
