@@ -2,6 +2,7 @@
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
 
+#include "io/codec.hpp"
 #include "mesh/shapes.hpp"
 #include "support/run_stage.hpp"
 
