@@ -30,6 +30,8 @@ struct Document {
     std::string name;                                    ///< the file's name, for messages
 };
 
+struct CutMemory; // geometry/cut_memory.hpp
+
 struct Material {
     std::string name{};
     double base_colour[4] = {1, 1, 1, 1}; ///< linear RGBA
@@ -49,6 +51,7 @@ struct Part {
     bool skinned = false;  ///< processed in bind pose; its node's transform is ignored, as glTF requires
     bool changed =
         false; ///< set by every stage that gives the part another mesh: extensions of it are then dropped
+    std::shared_ptr<const CutMemory> cuts{}; ///< points that clips made on planes, in part space; or nothing
 };
 
 struct Scene {

@@ -153,12 +153,14 @@ class ClipRun {
         settings.triangulate = o_.triangulate;
         settings.coplanar = o_.coplanar;
         settings.snap = o_.snap == Snap::automatic;
+        if (part.cuts) settings.memory = *part.cuts;
         if (o_.cap) set_cap(settings, scene_, o_.cap_material);
         const bool had_faces = part.mesh.face_count() > 0;
         ClipResult r = clip(std::move(part.mesh), settings);
         warn(part, r, had_faces, context_);
         context_.ledger(part, r.fates);
         count(r);
+        if (!r.memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(r.memory));
         if (o_.keep == Keep::both) {
             Part back = part;
             back.name += o_.box ? ".outside" : ".back", part.name += o_.box ? ".inside" : ".front";
@@ -196,7 +198,8 @@ const RegisterStage clip_stage = make_stage<ClipOptions>(
          "or "
          "crossing itself (where it covers a place twice, so does its cap). Points that a clip made on a "
          "plane "
-         "count as on it when the plane comes again in it.\n\n"
+         "count as on it when the plane comes again, in this stage or a later one, until a stage moves "
+         "them.\n\n"
          "Planes stand in the scene; parts with a node transform are cut where they stand. A closed part's "
          "face in the plane stays only when it looks away from what stays. A contour that does not close "
          "cannot be capped: it is named (W-CAP-OPEN) and the rest is done. A plane that misses says so "

@@ -140,10 +140,12 @@ Scene run(Scene scene, const CropOptions& o, Context& context) {
     std::size_t cut = 0, before = 0, after = 0;
     context.for_each_part(scene, [&](Part& part) {
         settings.to_world = part.skinned ? Transform{} : part.transform;
+        settings.memory = part.cuts ? *part.cuts : CutMemory{};
         const std::size_t faces = part.mesh.face_count();
         CropResult r = crop(part.mesh, footprint, settings);
         context.ledger(part, r.fates);
         part.mesh = std::move(r.mesh);
+        if (!r.memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(r.memory));
         cut += r.cut_faces, before += faces, after += part.mesh.face_count();
         if (faces > 0 && part.mesh.face_count() == 0)
             context.warn("W-CROP-NOTHING", fmt::format("crop: nothing of part '{}' was kept", part.name),

@@ -105,6 +105,7 @@ class TileRun {
   private:
     void cut_part(Part& part, std::vector<Part>& parts, Json& tiles) {
         settings_.to_world = part.skinned ? Transform{} : part.transform;
+        settings_.clip.memory = part.cuts ? *part.cuts : CutMemory{};
         TileResult r = tile(std::move(part.mesh), settings_);
         part.mesh = {};
         warn_of_open("tile", part, r.open, context_);
@@ -113,10 +114,12 @@ class TileRun {
         if (r.tiles.empty())
             context_.warn("W-TILE-NOTHING",
                           fmt::format("tile: part '{}' has no faces and gives no tile", part.name));
+        const auto cuts = std::make_shared<const CutMemory>(std::move(r.memory));
         for (Tile& t : r.tiles) {
             Part& piece = parts.emplace_back(part);
             piece.name = name_of(part, t, settings_.axes);
             piece.mesh = std::move(t.mesh);
+            piece.cuts = cuts;
             Json entry = {{"part", piece.name}};
             for (const TileAxis& a : settings_.axes)
                 entry[std::string("tile_") + "xyz"[a.axis]] = t.cell[a.axis];

@@ -144,6 +144,18 @@ TEST_CASE("clip keeps the inside of a box, the outside, or both", "[stages]") {
     CHECK(test::volume(run.scene.parts[1].mesh) == Approx(0.8125));
 }
 
+TEST_CASE("clip remembers its planes from stage to stage, until vertices move", "[stages]") {
+    const Value plane =
+        map({{"normal", numbers({"1", "0.7", "0.3"})}, {"through", numbers({"0.1", "0.2", "0"})}});
+    const Value given = map({{"plane", plane}, {"cap", text("true")}});
+    Scene once = StageRun("clip", given, scene_of(shapes::icosphere(3))).scene;
+    const StageRun twice("clip", given, once);
+    CHECK(twice.record.result["cut_faces"] == 0);
+    CHECK(twice.record.result["remembered"] > 80);
+    const StageRun relaxed("relax", text("1"), once);
+    CHECK(StageRun("clip", given, relaxed.scene).record.result["remembered"] == 0);
+}
+
 TEST_CASE("clip snaps unless told not to", "[stages]") {
     Mesh stl = shapes::cube();
     for (Vec3& p : stl.positions) p.z = static_cast<float>(p.z * 0.1);
