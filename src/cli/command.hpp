@@ -47,6 +47,7 @@ Command plan_command();
 Command pipe_command();
 Command check_command();
 Command info_command();
+Command diff_command();
 Command stages_command();
 Command schema_command();
 Command formats_command();

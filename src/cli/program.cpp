@@ -10,8 +10,8 @@ namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{run_command(),    plan_command(),   pipe_command(),
-                                          check_command(),  info_command(),   stages_command(),
-                                          schema_command(), formats_command()};
+                                          check_command(),  info_command(),   diff_command(),
+                                          stages_command(), schema_command(), formats_command()};
     return all;
 }
 
@@ -36,6 +36,7 @@ std::string help_text() {
                   "  facetmill pipe load scan.ply ! simplify 25% ! write web.glb\n"
                   "  facetmill run pipeline.yaml -D input=scan.ply --output-dir out\n"
                   "  facetmill info scan.ply\n"
+                  "  facetmill diff scan.ply web.glb --max 0.5%\n"
                   "  facetmill stages simplify\n\n"
                   "facetmill COMMAND --help tells more; so do the manual pages facetmill(1), "
                   "facetmill-pipeline(5) and\n"

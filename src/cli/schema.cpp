@@ -2,6 +2,7 @@
 
 #include "docs/schema.hpp"
 #include "cli/command.hpp"
+#include "report/comparison.hpp"
 #include "report/render.hpp"
 
 namespace facetmill::cli {
@@ -17,14 +18,15 @@ constexpr const char* schema_examples = R"(Examples
 } // namespace
 
 Command schema_command() {
-    return {"schema", "Prints the JSON Schema of pipelines, reports or info.", schema_examples, false,
+    return {"schema", "Prints the JSON Schema of pipelines, reports, info or diff.", schema_examples, false,
             [](CLI::App& app, Console&) {
                 auto what = std::make_shared<std::string>("pipeline");
-                app.add_option("WHAT", *what, "pipeline (default), report or info.")
-                    ->check(CLI::IsMember({"pipeline", "report", "info"}));
+                app.add_option("WHAT", *what, "pipeline (default), report, info or diff.")
+                    ->check(CLI::IsMember({"pipeline", "report", "info", "diff"}));
                 return [=](const Invocation&) {
                     const Json schema = *what == "report" ? report::schema()
                                         : *what == "info" ? report::info_schema()
+                                        : *what == "diff" ? report::comparison_schema()
                                                           : docs::pipeline_schema();
                     print(schema.dump(2) + "\n");
                     return 0;

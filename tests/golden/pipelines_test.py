@@ -132,6 +132,16 @@ class Language(Case):
         jsonschema.Draft202012Validator(schema).validate(info)
         self.assertEqual((info["vertices"], info["faces"], info["euler"], info["closed"]), (35002, 70000, 2, True))
 
+    @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
+    def test_diff_follows_its_schema(self):
+        schema = json.loads(self.mill("schema", "diff").stdout)
+        self.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        self.write("b.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0.5\n3 0 1 2\n")
+        for b, code in (("a.off", 0), ("b.off", 1)):
+            diff = json.loads(self.mill("diff", "--json", "a.off", b, expect=code).stdout)
+            jsonschema.Draft202012Validator(schema).validate(diff)
+            self.assertEqual(diff["same"], code == 0)
+
 
 if __name__ == "__main__":
     main()

@@ -1,0 +1,121 @@
+// facetmill diff: two mesh files side by side.
+
+#include "base/parallel.hpp"
+#include "cli/command.hpp"
+#include "io/codec.hpp"
+#include "io/convert.hpp"
+#include "options/types.hpp"
+#include "report/comparison.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* diff_examples =
+    R"(Compares counts, topology, geometry, attributes, materials and parts. The distance between the surfaces is
+measured both ways, from points spread over the area and from every vertex. Limits are in units of A (0.2, 2mm) or in
+percent of A's diagonal (0.5%); without any, surfaces may be 0.0001% apart, which float32 coordinates need. When both
+files have a unit or an up axis, B is brought to A's first. Exit code 0 when they agree, 1 when they differ in
+anything that is not ignored, 3 or 6 when a file cannot be read.
+
+Examples
+  facetmill diff scan.ply scan.glb
+  facetmill diff scan.ply web.glb --max 0.5% --rms 0.05% --ignore counts,attributes
+  facetmill diff a.stl b.stl --json | jq .deviation.maximum
+  facetmill diff part.obj part.glb --max 0.01mm --certify --all
+)";
+
+struct DiffOptions {
+    std::string a, b, maximum, rms, mean;
+    std::vector<std::string> ignored;
+    report::ComparisonSettings settings;
+    bool json = false, all = false;
+    int threads = 0;
+};
+
+/// A length on the command line, in A's units or in percent.
+std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& text, const std::string& option,
+                                                          Unit unit, const CommandLine& line) {
+    if (text.empty()) return {};
+    Length length;
+    Problems problems;
+    const Mark mark = line.find(option);
+    if (OptionType<Length>::parse(Value::scalar(text, mark), length, problems) && !(length.amount >= 0))
+        problems.add(mark, "E-RANGE", fmt::format("{} is a distance, found {}", option, text), "at least 0");
+    problems.throw_if_any(ErrorKind::usage);
+    if (length.kind == Length::Kind::percent) return report::ComparisonSettings::Limit{length.amount, true};
+    if (length.kind == Length::Kind::scene) return report::ComparisonSettings::Limit{length.amount, false};
+    if (!(metres(unit) > 0))
+        throw Error(ErrorKind::usage, "E-UNIT",
+                    fmt::format("{} is {}, but the first file has no unit", option, text),
+                    "give a bare number or a percentage", mark);
+    return report::ComparisonSettings::Limit{length.amount / metres(unit), false};
+}
+
+Scene read(const std::string& name, const Console& console) {
+    io::ReadLog log;
+    Scene scene = io::read_scene(io::Input::open(name), {}, log);
+    for (const auto& warning : log.warnings) console.diagnostic(warning);
+    return scene;
+}
+
+int diff(DiffOptions& options, const CommandLine& line, const Console& console) {
+    set_threads(options.threads);
+    const Scene a = read(options.a, console);
+    Scene b = read(options.b, console);
+    io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : a.unit,
+                    b.up == UpAxis::unknown ? UpAxis::unknown : a.up});
+    auto& settings = options.settings;
+    settings.maximum = limit_of(options.maximum, "--max", a.unit, line);
+    settings.rms = limit_of(options.rms, "--rms", a.unit, line);
+    settings.mean = limit_of(options.mean, "--mean", a.unit, line);
+    settings.ignored = {options.ignored.begin(), options.ignored.end()};
+    const auto comparison = report::compare(a, b, settings);
+    print(options.json ? report::to_json(comparison, options.a, options.b)
+                                 .dump(2, ' ', false, Json::error_handler_t::replace) +
+                             "\n"
+                       : report::to_text(comparison, options.a, options.b, options.all));
+    return comparison.differs() ? static_cast<int>(ErrorKind::check) : 0;
+}
+
+} // namespace
+
+Command diff_command() {
+    return {
+        "diff", "Compares two mesh files; exit code 1 when they differ.", diff_examples, false,
+        [](CLI::App& app, Console& console) {
+            auto options = std::make_shared<DiffOptions>();
+            auto& settings = options->settings;
+            app.add_option("A", options->a, "The mesh file to compare with, or - for standard input.")
+                ->required();
+            app.add_option("B", options->b, "The other mesh file.")->required();
+            app.add_option("--max", options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
+            app.add_option("--rms", options->rms,
+                           "The largest root mean square distance over the area allowed.");
+            app.add_option("--mean", options->mean, "The largest mean distance over the area allowed.");
+            app.add_option("--values", settings.attribute_limit,
+                           "How far attribute values may be apart. Default: 1e-6.")
+                ->check(CLI::NonNegativeNumber);
+            app.add_option(
+                   "--ignore", options->ignored,
+                   "Sections that do not decide: counts, topology, geometry, attributes, materials, parts.")
+                ->delimiter(',')
+                ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::comparison_sections),
+                                                               std::end(report::comparison_sections))));
+            app.add_option("--samples", settings.deviation.samples,
+                           "Points of the area measured each way. Default: 100000.");
+            app.add_option("--seed", settings.deviation.seed, "Where they fall. Default: 1.");
+            app.add_flag("--certify", settings.deviation.certify,
+                         "Also give a guaranteed bound of the distance, and hold --max against it.");
+            app.add_flag("--all", options->all, "Also show what is the same.");
+            app.add_flag("--json", options->json, "As JSON (facetmill schema diff).");
+            app.add_option("-j,--threads", options->threads, "How many threads. Default: all cores.")
+                ->check(CLI::Range(1, 4096));
+            add_message_options(app, console);
+            return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
+        }};
+}
+
+} // namespace facetmill::cli
