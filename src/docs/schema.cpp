@@ -1,7 +1,7 @@
 #include "docs/schema.hpp"
 
 #include "docs/stages.hpp"
-#include "stage/assertions.hpp"
+#include "stage/contract.hpp"
 
 namespace facetmill::docs {
 
@@ -101,7 +101,7 @@ Json definitions() {
             {"name", names},
             {"only", {{"anyOf", Json::array({names, {{"type", "array"}, {"items", names}}})}}},
             {"when", {{"anyOf", Json::array({{{"type", Json::array({"boolean", "string"})}}, assertions})}}},
-            {"ensure", assertions},
+            {"ensure", with_expressions(contract_schema())},
             {"param", param_schema()},
             {"step", step_forms()},
             {"stages", {{"type", "array"}, {"items", ref("step")}}}};

@@ -21,13 +21,20 @@ std::string assertions_text(const Assertions& assertions) {
     return out;
 }
 
+std::string contract_text(const Contract& contract) {
+    std::string out = assertions_text(contract.assertions);
+    if (contract.deviation)
+        out += fmt::format("{}deviation: {}", out.empty() ? "" : ", ", spelled(*contract.deviation));
+    return out;
+}
+
 std::string extras(const Step& step) {
     std::string out;
     if (!step.only.patterns.empty()) out += fmt::format("  only [{}]", list_of(step.only.patterns));
     if (step.when)
         out += step.when->known ? (*step.when->known ? "" : "  skipped: when does not hold")
                                 : fmt::format("  when {{{}}}", assertions_text(step.when->predicates));
-    if (step.ensure) out += fmt::format("  ensure {{{}}}", assertions_text(*step.ensure));
+    if (step.ensure) out += fmt::format("  ensure {{{}}}", contract_text(*step.ensure));
     if (step.join) out += "  join";
     return out;
 }
@@ -56,6 +63,12 @@ void describe(const Steps& steps, std::size_t indent, std::string& out) {
 Json assertions_json(const Assertions& assertions) {
     Json out = Json::object();
     for (const auto& a : assertions.all) out[a.property] = OptionType<Bound>::print(a.bound);
+    return out;
+}
+
+Json contract_json(const Contract& contract) {
+    Json out = assertions_json(contract.assertions);
+    if (contract.deviation) out["deviation"] = spelled(*contract.deviation);
     return out;
 }
 
@@ -99,7 +112,7 @@ Json steps_json(const Steps& steps) {
         if (!step.only.patterns.empty()) one["only"] = step.only.patterns;
         if (step.when)
             one["when"] = step.when->known ? Json(*step.when->known) : assertions_json(step.when->predicates);
-        if (step.ensure) one["ensure"] = assertions_json(*step.ensure);
+        if (step.ensure) one["ensure"] = contract_json(*step.ensure);
         if (step.join) one["join"] = true;
         for (const auto& arm : step.arms)
             one["arms"].push_back({{"name", arm.name}, {"stages", steps_json(*arm.steps)}});

@@ -2,7 +2,7 @@
 // Parse -> plan: a document becomes steps whose options are parsed, checked and ready to run. All that can be
 // known without opening a mesh is known here, and all errors are reported at once.
 
-#include "stage/assertions.hpp"
+#include "stage/contract.hpp"
 #include "stage/stage.hpp"
 
 namespace facetmill::pipeline {
@@ -40,7 +40,7 @@ struct Step {
     std::string path;              ///< "stages[3]", "stages[5].branch.far[0]"
     std::optional<Condition> when;
     PartFilter only;
-    std::optional<Assertions> ensure;
+    std::optional<Contract> ensure;
     std::vector<Arm> arms; ///< of a branch, or of a foreach (over parts: as planned for a part yet unknown)
     ArmsOfParts arms_of_parts; ///< of a foreach over parts, else empty
     PartFilter parts;          ///< ... and the parts it runs over

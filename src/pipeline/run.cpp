@@ -65,6 +65,7 @@ class Runner {
     report::RunRecord run() {
         const auto start = Clock::now();
         stages_ = count_stages(plan_.steps);
+        keeps_loaded_ = compares_with_load(plan_.steps);
         for (const auto& warning : plan_.warnings) warn(warning), record().warnings.push_back(warning);
         for (const auto& missing : missing_inputs(plan_)) fail(ErrorKind::missing, missing);
         for (const auto& error : read_headers(plan_).errors) fail(error);
@@ -147,12 +148,15 @@ class Runner {
                 continue;
             }
             std::size_t checked = record().checks.size();
+            std::shared_ptr<const Surface> reference;
+            if (!guarded(step.where, step.name, [&] { reference = reference_of(step, scene); })) return false;
             const bool done = step.kind == Step::Kind::stage ? run_stage(step, scene)
                                                              : run_arms(step, scene, needed || !last);
             if (!done) return false;
             if (step.kind != Step::Kind::stage)
                 checked = record().checks.size(); // those of the arms are judged
-            if (step.ensure && !guarded(step.where, step.name, [&] { check_contract(step, scene); }))
+            if (step.ensure &&
+                !guarded(step.where, step.name, [&] { check_contract(step, scene, reference.get()); }))
                 return false;
             holds = judge_checks(checked) && holds;
         }
@@ -201,6 +205,8 @@ class Runner {
         stage.seconds = seconds_since(start);
         if (done) stage.after = brief(scene);
         if (done && step.stage->loads) state_.load_diagonal = scene.bounds().diagonal();
+        if (done && step.stage->loads && keeps_loaded_)
+            state_.loaded = std::make_shared<const Surface>(surface_of(scene));
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) warn(warning);
         record().stages.push_back(std::move(stage));
@@ -228,9 +234,39 @@ class Runner {
                 fmt::format("'{}' left a scene that breaks an invariant: {}", step.name, broken.front()));
     }
 
-    void check_contract(const Step& step, const Scene& scene) {
-        for (auto& check : evaluate(*step.ensure, properties_for(*step.ensure, scene), step.name))
-            record().checks.push_back(std::move(check));
+    /// The surface that a contract on the deviation compares with.
+    std::shared_ptr<const Surface> reference_of(const Step& step, const Scene& scene) const {
+        if (!step.ensure || !step.ensure->deviation) return {};
+        if (step.ensure->deviation->from == DeviationLimits::From::load && state_.loaded)
+            return state_.loaded;
+        return std::make_shared<const Surface>(surface_of(scene));
+    }
+
+    void check_contract(const Step& step, const Scene& scene, const Surface* reference) {
+        const auto& assertions = step.ensure->assertions;
+        if (!assertions.all.empty())
+            for (auto& check : evaluate(assertions, properties_for(assertions, scene), step.name))
+                record().checks.push_back(std::move(check));
+        if (!step.ensure->deviation || !reference) return;
+        report::StageRecord none; // a branch has no record of its own
+        none.name = step.name;
+        const bool recorded = step.kind == Step::Kind::stage && !record().stages.empty();
+        Context context(state_, recorded ? record().stages.back() : none, step.only, reference->bounds(),
+                        step.where);
+        check_deviation(*step.ensure->deviation, step.ensure->deviation_at, *reference, scene, context);
+    }
+
+    /// Whether a contract compares with the scene as loaded.
+    static bool compares_with_load(const Steps& steps) {
+        return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
+            if (step.ensure && step.ensure->deviation &&
+                step.ensure->deviation->from == DeviationLimits::From::load)
+                return true;
+            if (step.kind == Step::Kind::stage) // the stage ensure always does
+                return step.stage->name == "ensure" && step.given.find("deviation") != nullptr;
+            return std::any_of(step.arms.begin(), step.arms.end(),
+                               [](const Arm& arm) { return compares_with_load(*arm.steps); });
+        });
     }
 
     /// Turns the checks from this one on that do not hold into failures. Those of arms have been judged
@@ -369,7 +405,7 @@ class Runner {
     const Plan& plan_;
     const RunSettings& settings_;
     RunState state_;
-    bool failed_ = false;
+    bool failed_ = false, keeps_loaded_ = false;
     int number_ = 0, stages_ = 0;
 };
 

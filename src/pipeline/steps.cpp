@@ -139,7 +139,7 @@ void Planner::common_keys(Step& step, const Value& item, const Scope& scope, con
         OptionType<std::vector<std::string>>::parse(resolved(*only, scope, problems_), step.only.patterns,
                                                     problems_);
     if (const Value* ensure = item.find("ensure"); ensure && base != "ensure")
-        parse_assertions(resolved(*ensure, scope, problems_), step.ensure.emplace(), "ensure", problems_);
+        parse_contract(resolved(*ensure, scope, problems_), step.ensure.emplace(), problems_);
 }
 
 std::string Planner::unique_name(const std::string& base, const std::string& prefix,

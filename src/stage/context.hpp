@@ -1,12 +1,14 @@
 #pragma once
 // What a stage gets besides its options and the scene: lengths resolved, warnings, the ledger, files.
 
+#include "geometry/surface.hpp"
 #include "io/outputs.hpp"
 #include "mesh/scene.hpp"
 #include "options/quantities.hpp"
 #include "report/record.hpp"
 
 #include <functional>
+#include <memory>
 
 namespace facetmill {
 
@@ -32,6 +34,7 @@ struct RunState {
     io::Outputs outputs;
     report::RunRecord record;
     double load_diagonal = 0; ///< world diagonal of the scene after the last load, for "% of load"
+    std::shared_ptr<const Surface> loaded; ///< the scene after the last load, when a contract compares with it
     bool read_back = true;    ///< decode written files again and compare
 };
 

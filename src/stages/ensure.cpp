@@ -1,4 +1,4 @@
-#include "stage/assertions.hpp"
+#include "stage/contract.hpp"
 #include "stage/stage.hpp"
 
 namespace facetmill {
@@ -7,18 +7,32 @@ namespace {
 
 struct EnsureOptions {
     Assertions assertions;
+    std::optional<DeviationLimits> deviation;
 };
 
-void declare(Declare<EnsureOptions>& d) { declare_properties(d, &EnsureOptions::assertions, "ensure"); }
+void declare(Declare<EnsureOptions>& d) {
+    declare_properties(d, &EnsureOptions::assertions, "ensure");
+    d.group(
+        "deviation", &EnsureOptions::deviation,
+        "How far the surface may be from the scene as loaded, both ways; as a common key of a stage, from "
+        "what entered it.",
+        declare_deviation);
+}
 
 Scene run(Scene scene, const EnsureOptions& o, Context& context) {
-    for (auto& check : evaluate(o.assertions, inspect(scene, o.assertions.settings()), context.name()))
-        context.check(std::move(check));
+    if (!o.assertions.all.empty())
+        for (auto& check : evaluate(o.assertions, inspect(scene, o.assertions.settings()), context.name()))
+            context.check(std::move(check));
+    if (o.deviation) {
+        const auto loaded = context.run().loaded;
+        check_deviation(*o.deviation, context.where(), loaded ? *loaded : Surface{}, scene, context);
+    }
     return scene;
 }
 
 void verify(const EnsureOptions& o, const Value& given, Problems& problems) {
-    if (o.assertions.all.empty() && !given.deferred)
+    if (o.deviation) verify_deviation(*o.deviation, given.mark, problems);
+    if (o.assertions.all.empty() && !o.deviation && !given.deferred)
         problems.add(given.mark, "E-MISSING", "ensure needs at least one property", "ensure: {closed: true}");
 }
 
@@ -29,7 +43,8 @@ const RegisterStage registered{make_stage<EnsureOptions>(
          "The same assertions as the common key `ensure`, as a stage of its own: what it says must hold for "
          "the scene at this place. Use validate to judge with evidence, per part, or as a warning only. The "
          "mesh is passed on as it is.",
-     .examples = {"ensure: {closed: true}", "ensure: {faces: {max: 5000}, components: 1}"},
+     .examples = {"ensure: {closed: true}", "ensure: {faces: {max: 5000}, components: 1}",
+                  "ensure: {deviation: 0.5%}"},
      .checks = true},
     declare, run, StageHooks<EnsureOptions>{.files = {}, .verify = verify})};
 

@@ -120,6 +120,28 @@ TEST_CASE("when skips a stage, and sees the scene at its place", "[pipeline]") {
     CHECK(ground.file("b.txt") == "a 4\n");
 }
 
+TEST_CASE("a contract on the deviation compares with what entered the stage, or with what was loaded",
+          "[pipeline]") {
+    Ground ground;
+    // A cube loses faces twice: two of twelve, then six.
+    const std::string cuts = "  - test-load: a.ply\n  - test-cut: 10\n";
+    const auto close = ground.run(cuts + "    ensure: {deviation: 70%}\n");
+    CHECK(errors_of(close).empty());
+    REQUIRE(close.checks.size() == 1);
+    CHECK(close.checks[0].name == "deviation");
+    CHECK(close.stages.at(1).result["deviation"]["forward"]["samples"] == 100000);
+    const auto far =
+        ground.run(cuts + "    ensure: {deviation: {max: 1%, samples: 10}}\n  - test-write: c.txt\n");
+    CHECK(far.exit_code == 1);
+    CHECK(far.checks.at(0).where.line == 5);
+    CHECK(far.outputs.empty());
+    const std::string again = cuts + "  - test-cut: 10\n    ensure: {deviation: {max: 1%, from: ";
+    CHECK(ground.run(again + "stage}}\n").exit_code == 0);
+    CHECK(ground.run(again + "load}}\n").exit_code == 1);
+    CHECK(ground.run(cuts + "  - ensure: {deviation: 1%}\n").exit_code == 1);
+    CHECK(ground.run(cuts + "  - ensure: {deviation: 70%}\n").exit_code == 0);
+}
+
 TEST_CASE("ensure is checked right after its stage, and a failure keeps all outputs back", "[pipeline]") {
     Ground ground;
     test::put(ground.directory / "b.txt", "older");

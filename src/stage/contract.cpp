@@ -1,0 +1,135 @@
+#include "stage/contract.hpp"
+
+#include "base/numbers.hpp"
+#include "report/deviation_json.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+const Declaration& deviation_declaration() {
+    static const Declaration declaration = [] {
+        Declare<DeviationLimits> d;
+        declare_deviation(d);
+        return std::move(d.declaration);
+    }();
+    return declaration;
+}
+
+/// "0.0123 (0.51 % of the diagonal)".
+std::string found_text(const DeviationResult& measured, double value) {
+    if (!std::isfinite(value)) return "nothing to compare with";
+    return fmt::format("{:.6g} ({:.4g} % of the diagonal)", value, measured.percent(value));
+}
+
+Json evidence_of(const DirectedDeviation& way, bool forward) {
+    return {{"at", {way.from.x, way.from.y, way.from.z}},
+            {"nearest", {way.to.x, way.to.y, way.to.z}},
+            {"of", forward ? "what entered" : "what left"}};
+}
+
+} // namespace
+
+DeviationSettings DeviationLimits::settings() const {
+    return {.samples = static_cast<std::size_t>(samples),
+            .seed = static_cast<std::uint64_t>(seed),
+            .certify = certify};
+}
+
+void declare_deviation(Declare<DeviationLimits>& d) {
+    using From = DeviationLimits::From;
+    d.option("max", &DeviationLimits::max,
+             "The largest distance from either surface to the other, at most (a length).")
+        .at_least(0)
+        .primary();
+    d.option("rms", &DeviationLimits::rms, "The root mean square distance over the area, at most (a length).")
+        .at_least(0);
+    d.option("mean", &DeviationLimits::mean, "The mean distance over the area, at most (a length).")
+        .at_least(0);
+    d.choice<From>(
+        "from", &DeviationLimits::from,
+        {{"stage", From::stage, "the scene that entered the step"},
+         {"load", From::load, "the scene as last loaded"}},
+        "What the scene is compared with; as a stage of its own ensure always compares with load.");
+    d.option(
+         "samples", &DeviationLimits::samples,
+         "How many points of the area are measured each way (a count); all vertices are measured besides.")
+        .between(0, 1e9);
+    d.option("seed", &DeviationLimits::seed, "Where the samples fall.").at_least(0);
+    d.option("certify", &DeviationLimits::certify,
+             "Hold max against a guaranteed upper bound rather than against the largest sample.");
+}
+
+void verify_deviation(const DeviationLimits& limits, const Mark& where, Problems& problems) {
+    if (!limits.max && !limits.rms && !limits.mean)
+        problems.add(where, "E-MISSING", "deviation needs a limit: max, rms or mean",
+                     "deviation: {max: 0.5%}");
+}
+
+bool parse_contract(const Value& value, Contract& out, Problems& problems) {
+    bool good = parse_assertions(value, out.assertions, "ensure", problems, {"deviation"});
+    const auto* entry = value.is_map() && !value.deferred ? value.find_entry("deviation") : nullptr;
+    if (!entry) return good;
+    out.deviation_at = entry->key_mark;
+    const std::size_t before = problems.size();
+    good &= deviation_declaration().parse(entry->value, &out.deviation.emplace(), "deviation", problems);
+    if (problems.size() == before && !entry->value.deferred)
+        verify_deviation(*out.deviation, entry->key_mark, problems);
+    return good && problems.size() == before;
+}
+
+Json contract_schema() {
+    Json schema = assertions_schema();
+    Json deviation = deviation_declaration().schema();
+    deviation["description"] = "How far the surface may be from what entered the step, both ways.";
+    schema["properties"]["deviation"] = std::move(deviation);
+    return schema;
+}
+
+std::string spelled(const DeviationLimits& limits) {
+    std::string text;
+    const auto add = [&](const char* name, const std::optional<Length>& limit) {
+        if (limit) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, limit->text);
+    };
+    add("max", limits.max), add("rms", limits.rms), add("mean", limits.mean);
+    if (limits.certify) text += ", certified";
+    return limits.from == DeviationLimits::From::load ? text + " from load" : text;
+}
+
+void check_deviation(const DeviationLimits& limits, const Mark& where, const Surface& before,
+                     const Scene& scene, Context& context) {
+    const DeviationResult measured = deviation(before, surface_of(scene), limits.settings());
+    context.result()["deviation"] = report::deviation_json(measured);
+    const auto check = [&](const std::string& name, const std::optional<Length>& limit, double value,
+                           const std::string& found) {
+        if (!limit) return;
+        report::Check c;
+        c.name = name;
+        c.where = where;
+        // A bare percentage is of the diagonal of what the scene is compared with.
+        const bool of_reference = limit->kind == Length::Kind::percent && limit->of == Length::Of::stage;
+        const double most =
+            of_reference ? limit->amount / 100 * measured.diagonal : context.resolve(*limit, scene, name);
+        c.expected = fmt::format("at most {}", limit->text);
+        if (limit->kind != Length::Kind::scene) c.expected += fmt::format(" ({:.6g})", most);
+        c.found = found;
+        c.passed = value <= most;
+        const bool forward = measured.forward.maximum >= measured.backward.maximum;
+        if (!c.passed && std::isfinite(value))
+            c.evidence = Json::array({evidence_of(forward ? measured.forward : measured.backward, forward)});
+        context.check(std::move(c));
+    };
+    const double maximum = measured.maximum();
+    if (const auto bound = measured.bound())
+        check("deviation", limits.max, *bound,
+              fmt::format("certainly at most {}, measured {}", found_text(measured, *bound),
+                          found_text(measured, maximum)));
+    else
+        check("deviation", limits.max, maximum, found_text(measured, maximum));
+    check("deviation.rms", limits.rms, measured.rms(), found_text(measured, measured.rms()));
+    check("deviation.mean", limits.mean, measured.mean(), found_text(measured, measured.mean()));
+}
+
+} // namespace facetmill

@@ -1,0 +1,40 @@
+#pragma once
+// What the common key `ensure` takes: assertions on properties, and a limit on the deviation from what
+// entered.
+
+#include "geometry/deviation.hpp"
+#include "stage/assertions.hpp"
+#include "stage/context.hpp"
+
+namespace facetmill {
+
+/// ensure: {deviation: {max: 0.5%}}, or short: {deviation: 0.5%}.
+struct DeviationLimits {
+    enum class From { stage, load };
+    std::optional<Length> max, rms, mean;
+    From from = From::stage; ///< compared with what entered the step, or with the scene as last loaded
+    std::int64_t samples = 100000, seed = 1;
+    bool certify = false;
+
+    DeviationSettings settings() const;
+};
+void declare_deviation(Declare<DeviationLimits>& d);
+/// Adds E-MISSING when no length is limited.
+void verify_deviation(const DeviationLimits& limits, const Mark& where, Problems& problems);
+
+struct Contract {
+    Assertions assertions;
+    std::optional<DeviationLimits> deviation;
+    Mark deviation_at;
+};
+bool parse_contract(const Value& value, Contract& out, Problems& problems);
+Json contract_schema();
+/// "max 0.5%, rms 0.1%", for plans.
+std::string spelled(const DeviationLimits& limits);
+
+/// Measures how far the scene is from `before` and makes a check of every limit, with the place of the
+/// maximum as evidence. The whole measurement goes into the stage's result under "deviation".
+void check_deviation(const DeviationLimits& limits, const Mark& where, const Surface& before,
+                     const Scene& scene, Context& context);
+
+} // namespace facetmill

@@ -1,0 +1,105 @@
+#include "support/catch.hpp"
+
+#include "mesh/shapes.hpp"
+#include "stage/contract.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+Value map(const char* key, Value value) { return Value::map({{key, {}, std::move(value)}}); }
+
+std::string complaint(const Value& deviation) {
+    Problems problems;
+    Contract out;
+    CHECK_FALSE(parse_contract(map("deviation", deviation), out, problems));
+    const auto& d = problems.all().at(0);
+    return d.id + " " + d.message + (d.hint.empty() ? "" : " (" + d.hint + ")");
+}
+
+DeviationLimits limits(const Value& deviation) {
+    Problems problems;
+    Contract out;
+    REQUIRE(parse_contract(map("deviation", deviation), out, problems));
+    return out.deviation.value();
+}
+
+Scene scene_of(Mesh mesh, double lift = 0) {
+    Scene scene;
+    scene.parts.emplace_back().mesh = std::move(mesh);
+    scene.parts[0].transform.m[2][3] = lift;
+    return scene;
+}
+
+/// The checks of a sheet lifted by 0.01 of its diagonal of 5.
+std::vector<report::Check> judged(const Value& deviation, double lift = 0.05) {
+    RunState run;
+    report::StageRecord record;
+    const PartFilter all;
+    Context context(run, record, all, {}, {});
+    check_deviation(limits(deviation), {}, surface_of(scene_of(shapes::grid(4, 3))),
+                    scene_of(shapes::grid(4, 3), lift), context);
+    CHECK(record.result["deviation"]["seed"] == 1);
+    return run.record.checks;
+}
+
+} // namespace
+
+TEST_CASE("a bare deviation limits the maximum", "[stage]") {
+    CHECK(limits(Value::scalar("0.5%")).max->text == "0.5%");
+    CHECK_FALSE(limits(Value::scalar("2")).rms.has_value());
+    CHECK(spelled(limits(map("rms", Value::scalar("1mm")))) == "rms 1mm");
+}
+
+TEST_CASE("a deviation without a limit, or with an unknown key, is refused", "[stage]") {
+    CHECK(complaint(map("samples", Value::scalar("10"))) ==
+          "E-MISSING deviation needs a limit: max, rms or mean (deviation: {max: 0.5%})");
+    CHECK(complaint(map("maximum", Value::scalar("1"))) ==
+          "E-KEY deviation has no option 'maximum' (expected one of: max, rms, mean, from, samples, seed, "
+          "certify)");
+    CHECK(complaint(Value::scalar("-1")).starts_with("E-RANGE"));
+    CHECK(complaint(Value::scalar("true")).starts_with("E-TYPE"));
+}
+
+TEST_CASE("a lift within the limit passes, one beyond it fails with its place", "[stage]") {
+    const auto passed = judged(Value::scalar("1.1%"));
+    REQUIRE(passed.size() == 1);
+    CHECK(passed[0].passed);
+    CHECK(passed[0].name == "deviation");
+    CHECK(passed[0].expected == "at most 1.1% (0.055)");
+    CHECK(passed[0].found == "0.05 (1 % of the diagonal)");
+    CHECK(passed[0].evidence.is_null());
+    const auto failed = judged(map("max", Value::scalar("0.04")));
+    CHECK_FALSE(failed[0].passed);
+    CHECK(failed[0].expected == "at most 0.04");
+    CHECK(failed[0].evidence[0]["at"][2] == 0);
+    CHECK(failed[0].evidence[0]["nearest"][2].get<double>() == Approx(0.05));
+}
+
+TEST_CASE("every limit is a check of its own", "[stage]") {
+    Value all = map("max", Value::scalar("1"));
+    all.set("rms", Value::scalar("0.01"));
+    all.set("mean", Value::scalar("0.06"));
+    const auto checks = judged(all);
+    REQUIRE(checks.size() == 3);
+    CHECK(checks[1].name == "deviation.rms");
+    CHECK((checks[0].passed && !checks[1].passed && checks[2].passed));
+}
+
+TEST_CASE("certified, the bound is held against the limit", "[stage]") {
+    Value sure = map("max", Value::scalar("1.1%"));
+    sure.set("certify", Value::scalar("true"));
+    const auto checks = judged(sure);
+    CHECK(checks[0].passed);
+    CHECK(checks[0].found.starts_with("certainly at most 0.05"));
+}
+
+TEST_CASE("nothing deviates infinitely from something", "[stage]") {
+    RunState run;
+    report::StageRecord record;
+    const PartFilter all;
+    Context context(run, record, all, {}, {});
+    check_deviation(limits(Value::scalar("10%")), {}, {}, scene_of(shapes::cube()), context);
+    CHECK_FALSE(run.record.checks.at(0).passed);
+    CHECK(run.record.checks.at(0).found == "nothing to compare with");
+}
