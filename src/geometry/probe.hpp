@@ -1,0 +1,27 @@
+#pragma once
+// Questions asked of a surface, point by point and line by line: what the probe stage answers.
+
+#include "geometry/closest_point.hpp"
+#include "geometry/rays.hpp"
+
+namespace facetmill {
+
+enum class Side { inside, outside, on, unknown };
+const char* spelled(Side side);
+
+struct PointAnswer {
+    Side side = Side::unknown; ///< unknown for open surfaces, unless on
+    int winding = 0;           ///< how often the surface goes around the point; 0 when on it
+    Closest closest;
+};
+
+struct PointSettings {
+    bool closed = true;   ///< whether the surface has an inside
+    double tolerance = 0; ///< up to this distance a point is on the surface; 0: exactly on it
+};
+
+/// In parallel, the same for any number of threads. Inside is where the winding number is not zero.
+std::vector<PointAnswer> probe_points(const FaceTree& tree, std::span<const Vec3> points,
+                                      const PointSettings& settings = {});
+
+} // namespace facetmill

@@ -1,0 +1,22 @@
+#pragma once
+// Tables of numbers: what probes are read from and answers are written to.
+
+#include "io/bytes.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace facetmill::io {
+
+/// Reads rows of `columns` numbers each, one row a line, parted by commas, semicolons, tabs or blanks;
+/// further columns are left alone. Empty lines and what follows # are skipped, and so is a first line without
+/// a number (a heading). The numbers come row by row. Throws malformed (E-CSV) with the line.
+std::vector<double> read_table(const Input& input, std::size_t columns);
+
+/// A number as the shortest text that reads back the same; empty when it is not finite.
+std::string csv_number(double x);
+/// A text, in quotes when it needs them.
+std::string csv_text(const std::string& text);
+
+} // namespace facetmill::io
