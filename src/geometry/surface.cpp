@@ -74,15 +74,21 @@ Surface surface_of(const Part& part) {
     return surface;
 }
 
-Surface surface_of(const Scene& scene) {
-    if (scene.parts.size() == 1) return surface_of(scene.parts[0]);
+Surface surface_of(std::span<const Part* const> parts) {
+    if (parts.size() == 1) return surface_of(*parts[0]);
     Surface all;
     Index first_face = 0;
-    for (const auto& part : scene.parts) {
-        append(all, surface_of(part), first_face);
-        first_face += static_cast<Index>(part.mesh.face_count());
+    for (const Part* part : parts) {
+        append(all, surface_of(*part), first_face);
+        first_face += static_cast<Index>(part->mesh.face_count());
     }
     return all;
+}
+
+Surface surface_of(const Scene& scene) {
+    std::vector<const Part*> parts;
+    for (const auto& part : scene.parts) parts.push_back(&part);
+    return surface_of(parts);
 }
 
 } // namespace facetmill

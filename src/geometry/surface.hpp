@@ -4,6 +4,7 @@
 #include "mesh/scene.hpp"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace facetmill {
@@ -29,7 +30,9 @@ struct Surface {
 Surface surface_of(const Mesh& mesh);
 /// The part in world space (a skinned part in bind pose, as glTF has it).
 Surface surface_of(const Part& part);
-/// All parts in world space. Throws limit (E-LIMIT) when the vertices of all cannot be numbered.
+/// These parts, or all of a scene, in world space. Throws limit (E-LIMIT) when the vertices of all cannot be
+/// numbered.
+Surface surface_of(std::span<const Part* const> parts);
 Surface surface_of(const Scene& scene);
 
 } // namespace facetmill

@@ -1,0 +1,177 @@
+#include "geometry/measure.hpp"
+
+#include "io/csv.hpp"
+#include "report/measure_json.hpp"
+#include "stage/stage.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+struct MeasureOptions {
+    double density = 1;
+    Angle sharp = Angle::degrees(30);
+    bool areas = false, curvature = false;
+    std::vector<PathText> to;
+};
+
+void declare(Declare<MeasureOptions>& d) {
+    d.option("density", &MeasureOptions::density,
+             "Mass per cubic scene unit; mass and inertia are multiplied by it.")
+        .above(0);
+    d.option("sharp", &MeasureOptions::sharp, "Edges that turn by more than this count as sharp.")
+        .between(0, 3.141592653589793);
+    d.option("areas", &MeasureOptions::areas,
+             "Writes the area of every face, in square scene units, as face attribute area.");
+    d.option(
+        "curvature", &MeasureOptions::curvature,
+        "Writes the curvature at every vertex as vertex attributes gaussian_curvature and mean_curvature "
+        "(per square scene unit and per scene unit; 0 where there is none).");
+    d.option(
+        "to", &MeasureOptions::to,
+        "Writes the results there: .json all of them, .csv one line per face (part, face, corners, area, "
+        "centroid, unit normal, farthest corner from its plane); - is JSON on standard output.");
+}
+
+/// The mesh as it stands in the world.
+Mesh in_world(const Part& part) {
+    Mesh mesh = part.mesh;
+    mesh.attributes.clear();
+    mesh.primitives.clear();
+    if (!part.skinned && !part.transform.identity()) apply(mesh, part.transform);
+    return mesh;
+}
+
+void set_attribute(Mesh& mesh, const char* name, Domain domain, std::vector<double> values) {
+    mesh.drop(name, domain);
+    for (double& x : values)
+        if (!std::isfinite(x)) x = 0;
+    mesh.attributes.push_back({name, domain, Role::generic, 1, false, std::move(values)});
+}
+
+void add_faces(std::string& csv, const std::string& part, const Mesh& mesh) {
+    std::vector<Vec3> corners;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        corners.clear();
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners.push_back(mesh.point(c));
+        const Vec3 area = polygon::area_vector(corners), normal = normalised(area);
+        // The fan's signed parts, about the first corner: right for concave faces too.
+        Vec3 moment;
+        for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+            const Vec3 a = corners[i] - corners[0], b = corners[i + 1] - corners[0];
+            moment += (a + b) * (dot(cross(a, b), normal) / 6);
+        }
+        const double size = length(area);
+        const Vec3 centroid = corners[0] + (size > 0 ? moment / size : Vec3{});
+        csv += fmt::format("{},{},{},{}", io::csv_text(part), f, corners.size(), io::csv_number(size));
+        for (const Vec3& v : {centroid, normal})
+            for (std::size_t i = 0; i < 3; ++i) csv += "," + io::csv_number(v[i]);
+        csv += "," + io::csv_number(polygon::plane_deviation(corners)) + "\n";
+    }
+}
+
+bool is_csv(const PathText& path) { return path.text.ends_with(".csv"); }
+
+struct Measures {
+    Json parts = Json::array();
+    ShellMass shell;
+    std::optional<SolidMass> solid = SolidMass{};
+    std::string csv = "part,face,corners,area,x,y,z,nx,ny,nz,off_plane\n";
+};
+
+void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures& all, Context& context) {
+    const Mesh mesh = in_world(part);
+    const MassResult mass = measure_mass(mesh);
+    FaceResult faces = measure_faces(mesh);
+    CurvatureResult curvature = measure_curvature(mesh);
+    all.parts.push_back({{"part", part.name},
+                         {"shell", report::shell_json(mass.shell)},
+                         {"solid", report::solid_json(mass.solid, o.density)},
+                         {"faces", report::faces_json(faces)},
+                         {"edges", report::edges_json(measure_edges(mesh, {.sharp = o.sharp.radians}))},
+                         {"curvature", report::curvature_json(curvature)}});
+    all.shell = joined(all.shell, mass.shell);
+    all.solid = all.solid && mass.solid ? std::optional(joined(*all.solid, *mass.solid)) : std::nullopt;
+    if (list_faces) add_faces(all.csv, part.name, mesh);
+    if (mass.solid && mass.solid->volume < 0)
+        context.warn("W-INSIDE-OUT",
+                     fmt::format("part '{}' is inside out: its volume and inertia are negative", part.name),
+                     "orient turns it outward");
+    if (o.areas) set_attribute(part.mesh, "area", Domain::face, std::move(faces.areas));
+    if (!o.curvature) return;
+    set_attribute(part.mesh, "gaussian_curvature", Domain::vertex, std::move(curvature.gaussian));
+    set_attribute(part.mesh, "mean_curvature", Domain::vertex, std::move(curvature.mean));
+}
+
+Scene run(Scene scene, const MeasureOptions& o, Context& context) {
+    const bool list_faces = std::any_of(o.to.begin(), o.to.end(), is_csv);
+    Measures all;
+    for (auto& part : scene.parts) {
+        if (!context.selects(part, scene)) continue;
+        measure_part(part, o, list_faces, all, context);
+        part.changed = part.changed || o.areas || o.curvature;
+    }
+    if (all.parts.empty()) all.solid.reset();
+    context.result() = {
+        {"unit", spelled(scene.unit)},
+        {"density", o.density},
+        {"total",
+         {{"shell", report::shell_json(all.shell)}, {"solid", report::solid_json(all.solid, o.density)}}},
+        {"parts", std::move(all.parts)}};
+    for (const auto& path : o.to) {
+        const std::string text = is_csv(path) ? all.csv : context.result().dump(2) + "\n";
+        context.run().outputs.add(context.places().output(path.text), std::as_bytes(std::span(text)));
+    }
+    return scene;
+}
+
+void verify(const MeasureOptions& o, const Value& given, Problems& problems) {
+    for (const auto& path : o.to)
+        if (path.text != "-" && !is_csv(path) && !path.text.ends_with(".json"))
+            problems.add(given.mark, "E-FORMAT", fmt::format("measure cannot write '{}'", path.text),
+                         "a name that ends in .json or .csv");
+}
+
+const RegisterStage registered{make_stage<MeasureOptions>(
+    {.name = "measure",
+     .about = "Measures areas, volume, centroids, inertia, edges, angles and curvature.",
+     .details =
+         "The results stand in the report, for every part and in all, in world space and scene units; angles "
+         "are in degrees. The area of a polygon in space is half the length of the sum of cross products "
+         "around it, "
+         "right for concave faces, and for faces that are not planar the area of their projection along the "
+         "mean normal. "
+         "shell is the surface without thickness: its centroid is weighted by area. solid is the inside of a "
+         "closed surface, filled with the density: volume, mass, centroid, inertia about the centroid, "
+         "principal "
+         "moments (ascending) with their axes, radii of gyration. It is null for open surfaces, and in all "
+         "when one part "
+         "is open.\n\n"
+         "Edges turn by the angle between the normals of their two faces, negative where concave. aspect is "
+         "1 for "
+         "an equilateral triangle: longest edge over the height on it. kinds are the note's types of "
+         "polygon. The mean "
+         "curvature at a vertex comes from the turns of its edges, the Gaussian one from what its angles "
+         "lack of a "
+         "full turn, both over a third of the area around; their statistics leave out borders. "
+         "total_in_turns is "
+         "Euler's number of a manifold, whatever its shape.\n\n"
+         "The mesh passes on as it is, but for attributes asked for. Sources: the notes on the area of a 3D "
+         "polygon and "
+         "the centroid of a surface; D. Eberly, 'Polyhedral mass properties' (2002); M. Meyer et al., "
+         "'Discrete "
+         "differential-geometry operators' (2003).",
+     .examples = {"measure", "measure: {density: 7.85, to: part.json}",
+                  "measure: {curvature: true, to: [all.json, faces.csv]}"}},
+    declare, run,
+    StageHooks<MeasureOptions>{.files =
+                                   [](const MeasureOptions& o) {
+                                       return StageFiles{{}, o.to};
+                                   },
+                               .verify = verify})};
+
+} // namespace
+
+} // namespace facetmill

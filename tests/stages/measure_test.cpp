@@ -1,0 +1,89 @@
+#include "support/catch.hpp"
+
+#include "mesh/invariants.hpp"
+#include "mesh/shapes.hpp"
+#include "support/run_stage.hpp"
+#include "support/temporary.hpp"
+
+using namespace facetmill;
+using test::run_stage;
+using test::scene_of;
+
+namespace {
+
+std::string refusal(const std::string& options) {
+    try {
+        run_stage("measure", options, scene_of(shapes::cube()));
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "none";
+}
+
+} // namespace
+
+TEST_CASE("measure reports the mass of a cube where the world has it", "[stages]") {
+    Scene scene = scene_of(shapes::quad_cube());
+    scene.parts[0].transform = {{{2, 0, 0, 5}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    const auto r = run_stage("measure", "{density: 3}", std::move(scene)).record.result;
+    const Json& total = r["total"];
+    CHECK(total["shell"]["area"] == 10);
+    CHECK(total["solid"]["volume"].get<double>() == Approx(2));
+    CHECK(total["solid"]["mass"].get<double>() == Approx(6));
+    CHECK(total["solid"]["centroid"][0].get<double>() == Approx(6));
+    CHECK(total["solid"]["inertia"][0][0].get<double>() == Approx(1)); // m/12 (1 + 1)
+    CHECK(total["solid"]["principal"]["moments"][2].get<double>() == Approx(2.5));
+    CHECK(r["parts"][0]["faces"]["kinds"]["quad"] == 6);
+    CHECK(r["parts"][0]["edges"]["turn"]["maximum"].get<double>() == Approx(90));
+    CHECK(r["parts"][0]["curvature"]["total_in_turns"].get<double>() == Approx(2));
+}
+
+TEST_CASE("an open part has no solid, nor has the whole then", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts.push_back(scene_of(shapes::grid(1, 1)).parts[0]);
+    const auto r = run_stage("measure", "{}", std::move(scene)).record.result;
+    CHECK(r["parts"][0]["solid"].is_object());
+    CHECK(r["parts"][1]["solid"].is_null());
+    CHECK(r["total"]["solid"].is_null());
+    CHECK(r["total"]["shell"]["area"] == 7);
+}
+
+TEST_CASE("a solid inside out is warned of, an empty scene has nothing", "[stages]") {
+    Mesh turned = shapes::cube();
+    for (std::size_t c = 0; c < turned.corners.size(); c += 3)
+        std::swap(turned.corners[c], turned.corners[c + 1]);
+    const auto r = run_stage("measure", "{}", scene_of(turned));
+    CHECK(r.record.warnings.at(0).id == "W-INSIDE-OUT");
+    CHECK(run_stage("measure", "{}", {}).record.result["total"]["shell"]["centroid"].is_null());
+    CHECK(run_stage("measure", "{}", scene_of({})).record.result["total"]["shell"]["area"] == 0);
+}
+
+TEST_CASE("areas and curvature are attributes when asked for", "[stages]") {
+    const auto plain = run_stage("measure", "{}", scene_of(shapes::uv_cube()));
+    CHECK(plain.scene.parts[0].mesh.attributes.size() == shapes::uv_cube().attributes.size());
+    CHECK_FALSE(plain.scene.parts[0].changed);
+    const auto r = run_stage("measure", "{areas: true, curvature: true}", scene_of(shapes::uv_cube()));
+    const Mesh& mesh = r.scene.parts[0].mesh;
+    CHECK(broken_invariants(mesh).empty());
+    CHECK(mesh.find("area", Domain::face)->value(3, 0) == 0.5);
+    CHECK(mesh.find("gaussian_curvature", Domain::vertex)->value(0, 0) > 0);
+    CHECK(r.scene.parts[0].changed);
+    const auto again = run_stage("measure", "{areas: true}", r.scene);
+    CHECK(again.scene.parts[0].mesh.attributes.size() == mesh.attributes.size());
+}
+
+TEST_CASE("measure writes all as JSON and the faces as a table", "[stages]") {
+    test::TemporaryDirectory directory;
+    const auto json = (directory / "a.json").string(), csv = (directory / "a.csv").string();
+    const auto r = run_stage("measure", "{to: [" + json + ", " + csv + "]}", scene_of(shapes::quad_cube()));
+    r.state->outputs.commit();
+    CHECK(Json::parse(test::get(json)) == r.record.result);
+    const std::string table = test::get(csv);
+    CHECK(table.starts_with("part,face,corners,area,x,y,z,nx,ny,nz,off_plane\npart,0,4,1,"));
+    CHECK(std::count(table.begin(), table.end(), '\n') == 7);
+}
+
+TEST_CASE("measure refuses what it cannot use", "[stages]") {
+    CHECK(refusal("{density: 0}").find("E-RANGE") != std::string::npos);
+    CHECK(refusal("{to: a.xls}").find("measure cannot write 'a.xls'") != std::string::npos);
+}

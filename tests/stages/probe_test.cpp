@@ -1,0 +1,129 @@
+#include "support/catch.hpp"
+
+#include "mesh/shapes.hpp"
+#include "support/run_stage.hpp"
+#include "support/temporary.hpp"
+
+using namespace facetmill;
+using test::run_stage;
+using test::scene_of;
+
+namespace {
+
+Json probed(const std::string& options, Scene scene) {
+    return run_stage("probe", options, std::move(scene)).record.result;
+}
+
+std::string refusal(const std::string& options, Scene scene = scene_of(shapes::cube())) {
+    try {
+        run_stage("probe", options, std::move(scene));
+    } catch (const Error& e) {
+        const auto& d = e.diagnostics().front();
+        return d.id + " " + d.message;
+    }
+    return "none";
+}
+
+} // namespace
+
+TEST_CASE("points are inside, outside or on, with the closest face", "[stages]") {
+    const Json r =
+        probed("[[0.5, 0.5, 0.75], [0.5, 0.5, 3], [1, 0.25, 0.25]]", scene_of(shapes::quad_cube()));
+    CHECK((r["inside"] == 1 && r["outside"] == 1 && r["on"] == 1));
+    CHECK(r["answers"][0]["side"] == "inside");
+    CHECK(r["answers"][0]["winding"] == 1);
+    CHECK(r["answers"][0]["distance"] == 0.25);
+    CHECK(r["answers"][0]["closest"] == Json({0.5, 0.5, 1.0}));
+    CHECK(r["answers"][1]["part"] == "part");
+    CHECK(r["distance"]["maximum"] == 2);
+}
+
+TEST_CASE("one point, also as a one-liner has it, and a tolerance", "[stages]") {
+    CHECK(probed("[0.5, 0.5, 1.1]", scene_of(shapes::cube()))["outside"] == 1);
+    CHECK(probed("\"0.5,0.5,0.5\"", scene_of(shapes::cube()))["inside"] == 1);
+    CHECK(probed("{points: [0.5, 0.5, 1.1], on: 0.2}", scene_of(shapes::cube()))["on"] == 1);
+}
+
+TEST_CASE("an open surface is warned of", "[stages]") {
+    const auto run = run_stage("probe", "[1, 1, 1]", scene_of(shapes::grid(2, 2)));
+    CHECK(run.record.warnings.at(0).id == "W-PROBE-OPEN");
+    CHECK(run.record.result["unknown"] == 1);
+    CHECK(run.record.result["answers"][0]["distance"] == 1);
+}
+
+TEST_CASE("the vertices of one part are asked of the others", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts.push_back(scene_of(shapes::tetrahedron()).parts[0]);
+    scene.parts[1].name = "tool";
+    scene.parts[1].transform = {{{0.01, 0, 0, 0.5}, {0, 0.01, 0, 0.5}, {0, 0, 0.01, 0.5}}};
+    const Json r = probed("{points_of: tool}", scene);
+    CHECK((r["count"] == 4 && r["inside"] == 4));
+    CHECK(refusal("{points_of: nothing}", scene) == "E-PART 'points_of' names no part of the scene");
+}
+
+TEST_CASE("segments and rays have hits in order, with part and face", "[stages]") {
+    Scene scene = scene_of(shapes::quad_cube());
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].name = "second";
+    scene.parts[1].transform.m[2][3] = 4;
+    const Json segment = probed("{segments: [0.5, 0.5, -1, 0.5, 0.5, 9]}", scene)["answers"][0];
+    REQUIRE(segment["hits"].size() == 4);
+    CHECK(segment["hits"][0]["t"] == 0.1);
+    CHECK(segment["hits"][0]["enters"] == true);
+    CHECK(segment["hits"][2]["part"] == "second");
+    CHECK(segment["hits"][2]["face"].get<int>() < 6);
+    const Json ray = probed("{rays: [0.5, 0.5, -2, 0, 0, 5], hits: first}", scene);
+    CHECK(ray["answers"][0]["hits"].size() == 1);
+    CHECK(ray["answers"][0]["hits"][0]["t"] == 2); // a distance
+    CHECK(ray["answers"][0]["direction"] == Json({0.0, 0.0, 5.0}));
+    CHECK((ray["hit"] == 1 && ray["missed"] == 0));
+}
+
+TEST_CASE("a face alone tells the note's cases", "[stages]") {
+    const Json r =
+        probed("{face: 0, segments: [[0.5, 0.5, -1, 0.5, 0.5, 1], [2, 2, -1, 2, 2, 1], [0, 0, 1, 1, 0, 1], "
+               "[0.5, 0.5, 0.5, 0.5, 0.5, 2], [0, 0, 0, 1, 0, 0]]}",
+               scene_of(shapes::quad_cube()));
+    CHECK(r["meetings"] ==
+          Json({{"hit", 1}, {"outside facet", 1}, {"parallel", 1}, {"outside segment", 1}, {"in plane", 1}}));
+    CHECK(r["answers"][0]["plane"]["t"] == 0.5);
+    CHECK(refusal("{face: 6, rays: [0, 0, 0, 1, 0, 0]}", scene_of(shapes::quad_cube())) ==
+          "E-FACE there is no face 6: the last is 5");
+}
+
+TEST_CASE("rays along an attribute measure walls", "[stages]") {
+    const Json r = probed("{along: NORMAL, reverse: true}", scene_of(shapes::uv_cube()));
+    CHECK(r["count"] == 8);
+    CHECK(r["hit"] == 8); // the sum of normals at a corner is its diagonal, which ends in the corner opposite
+    CHECK(r["answers"][0]["hits"][0]["t"].get<double>() == Approx(std::sqrt(3.0)));
+    CHECK(refusal("{along: NORMAL}") ==
+          "E-ATTRIBUTE part 'part' has no attribute 'NORMAL' of three numbers at vertices");
+}
+
+TEST_CASE("probes are read from a table and answers written as one", "[stages]") {
+    test::TemporaryDirectory directory;
+    const auto in = (directory / "in.csv").string(), out = (directory / "out.csv").string();
+    test::put(in, "x,y,z\n0.5,0.5,0.5\n0.5,0.5,2\n");
+    const auto run =
+        run_stage("probe", "{points: " + in + ", to: " + out + ", list: 1}", scene_of(shapes::cube()));
+    run.state->outputs.commit();
+    CHECK(run.record.result["answers"].size() == 1);
+    CHECK(run.state->record.inputs.at(0).path == in);
+    const std::string table = test::get(out);
+    CHECK(table.starts_with(
+        "x,y,z,side,winding,distance,closest_x,closest_y,closest_z,part,face\n0.5,0.5,0.5,inside,1,0.5,"));
+    CHECK(table.find("0.5,0.5,2,outside,0,1,0.5,0.5,1,part,") != std::string::npos);
+    const auto lines = (directory / "lines.csv").string();
+    run_stage("probe", "{rays: [0.5, 0.25, -1, 0, 0, 1], to: " + lines + "}", scene_of(shapes::quad_cube()))
+        .state->outputs.commit();
+    CHECK(test::get(lines).starts_with("line,hit,t,x,y,z,enters,part,face\n0,0,1,0.5,0.25,0,1,part,"));
+}
+
+TEST_CASE("probe refuses what it cannot use", "[stages]") {
+    CHECK(refusal("{}") == "E-MISSING probe: one of points, points_of, segments, rays, along is needed");
+    CHECK(refusal("[1, 2]") == "E-TYPE expected rows of 3 numbers or a .csv file, found a list of 2");
+    CHECK(refusal("[1, 2, x]") == "E-TYPE expected rows of 3 numbers or a .csv file, found 'x'");
+    CHECK(refusal("{points: [0, 0, 0], face: 1}") == "E-FACE 'face' goes with segments or rays");
+    CHECK(refusal("{points: [0, 0, 0], to: a.txt}") == "E-FORMAT probe cannot write 'a.txt'");
+    CHECK(refusal("none.csv").starts_with("E-FILE"));
+}
