@@ -41,9 +41,24 @@ Value split(const std::string& text, const Mark& mark) {
     return list;
 }
 
+/// Whether the short form of a group is a list, or one word of such a list.
+bool short_list(const Declaration& group) {
+    const Json& schema = group.shorthand_schema;
+    if (!schema.contains("anyOf")) return schema.contains("type") && schema["type"] == "array";
+    const auto is_list = [](const Json& form) { return form.contains("type") && form["type"] == "array"; };
+    const auto is_word = [](const Json& form) { return form.contains("enum"); };
+    bool any = false;
+    for (const Json& form : schema["anyOf"]) {
+        if (!is_list(form) && !is_word(form)) return false;
+        any |= is_list(form);
+    }
+    return any;
+}
+
 /// Whether commas part the values of the option.
 bool comma_list(const Option& option) {
     if (option.type == "vector") return true;
+    if (option.fields && short_list(*option.fields)) return true;
     if (!option.repeatable || !option.schema.contains("anyOf")) return false;
     const Json& one = option.schema["anyOf"][0];
     return one != OptionType<PathText>::schema() && one != OptionType<Vec3>::schema();

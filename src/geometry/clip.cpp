@@ -104,7 +104,7 @@ class Clipper {
             paint.cut_id = last_cut_ + 1 + static_cast<Index>(number);
             paint.group = last_group_ + 1 + static_cast<Index>(number);
         }
-        Side made = assemble(cut, side, pieces, cap, paint);
+        ClippedSide made = assemble(cut, side, pieces, cap, paint);
         merge_fates(result_.fates, made.fates);
         return std::move(made.mesh);
     }

@@ -44,14 +44,14 @@ class Assembler {
     Assembler(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap)
         : cut_(cut), from_(*cut.mesh), side_(side), pieces_(pieces), cap_(cap) {}
 
-    Side run(const CapPaint& paint) {
+    ClippedSide run(const CapPaint& paint) {
         number_elements();
         place_vertices();
         number_cap_wedges();
         describe_wedges();
         fill_faces();
         add_cap_faces();
-        Side result;
+        ClippedSide result;
         result.fates = inherit_attributes(out_, from_, descent_);
         if (!cap_.corners.empty()) {
             std::vector<Index> own;
@@ -276,7 +276,8 @@ class Assembler {
 
 } // namespace
 
-Side assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap, const CapPaint& paint) {
+ClippedSide assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap,
+                     const CapPaint& paint) {
     return Assembler(cut, side, pieces, cap).run(paint);
 }
 

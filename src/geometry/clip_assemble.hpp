@@ -6,7 +6,7 @@
 
 namespace facetmill {
 
-struct Side {
+struct ClippedSide {
     Mesh mesh;
     Fates fates;
 };
@@ -21,7 +21,8 @@ struct CapPaint {
 };
 
 /// side: 1 front, -1 back. Expects flat faces settled.
-Side assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap, const CapPaint& paint);
+ClippedSide assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap,
+                     const CapPaint& paint);
 
 /// Sets the attributes that a cap has of its own: the face attributes of faces from first_face on, and the
 /// normals, tangents and first texture coordinates of wedges (empty: the cap shares the walls').

@@ -100,13 +100,13 @@ class Cropper {
         for (const Vec2& p : face) box.add(p);
         return box;
     }
-    Meeting meeting_of(const Mesh& mesh, Index f, std::vector<Vec2>& face) const {
+    OutlineMeeting meeting_of(const Mesh& mesh, Index f, std::vector<Vec2>& face) const {
         gather(mesh, f, face);
-        Meeting most = Meeting::apart;
+        OutlineMeeting most = OutlineMeeting::apart;
         footprint_.tree().query(bounds_of(face), [&](Index i) {
             const auto& e = footprint_.tree().edges()[i];
             most = std::max(most, meeting(face, e.a, e.b));
-            return most != Meeting::crossing;
+            return most != OutlineMeeting::crossing;
         });
         return most;
     }
@@ -127,8 +127,8 @@ class Cropper {
             const bool on = place > Place::inside;
             any |= !on && kept(place), all &= on || kept(place);
         }
-        if (settings_.by == CropBy::whole && (!all || meets_[f] == Meeting::crossing)) return false;
-        if (settings_.by == CropBy::touching && (any || meets_[f] == Meeting::crossing)) return true;
+        if (settings_.by == CropBy::whole && (!all || meets_[f] == OutlineMeeting::crossing)) return false;
+        if (settings_.by == CropBy::touching && (any || meets_[f] == OutlineMeeting::crossing)) return true;
         return any || (all && kept(middle(mesh, f)));
     }
 
@@ -198,7 +198,7 @@ class Cropper {
         std::vector<std::uint8_t> near(mesh.vertex_count());
         std::vector<Index> whole, beside;
         for (Index f = 0; f < mesh.face_count(); ++f)
-            if (meets_[f] == Meeting::crossing)
+            if (meets_[f] == OutlineMeeting::crossing)
                 for (const Index w : mesh.face_wedges(f)) near[mesh.vertex_of_wedge(w)] = 1;
         for (Index f = 0; f < mesh.face_count(); ++f) {
             bool any = false;
@@ -250,7 +250,7 @@ class Cropper {
                 face.clear();
                 for (const Index w : mesh.face_wedges(f))
                     face.push_back(seen(mesh.positions[mesh.vertex_of_wedge(w)]));
-                wanted[f] = meeting(face, e.a, e.b) == Meeting::crossing;
+                wanted[f] = meeting(face, e.a, e.b) == OutlineMeeting::crossing;
                 any |= wanted[f] != 0;
                 if (wanted[f]) was_cut[origin[f]] = 1;
             }
@@ -291,7 +291,7 @@ class Cropper {
                 face.push_back(seen(mesh.positions[mesh.vertex_of_wedge(w)]));
             footprint_.tree().query(bounds_of(face), [&](Index i) {
                 const auto& e = footprint_.tree().edges()[i];
-                if (meeting(face, e.a, e.b) == Meeting::crossing) lists[i].push_back(f);
+                if (meeting(face, e.a, e.b) == OutlineMeeting::crossing) lists[i].push_back(f);
                 return true;
             });
         }
@@ -310,7 +310,7 @@ class Cropper {
     const CropSettings& settings_;
     Inside inside_;
     Seen seen_;
-    std::vector<Meeting> meets_; ///< [faces] with any segment
+    std::vector<OutlineMeeting> meets_; ///< [faces] with any segment
     CropResult result_;
 };
 

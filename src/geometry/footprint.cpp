@@ -108,7 +108,7 @@ double Footprint::area() const {
     return sum;
 }
 
-Meeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b) {
+OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b) {
     bool left = false, right = false, on = false;
     RingTree::Bounds box, stretch;
     stretch.add(a), stretch.add(b);
@@ -117,16 +117,16 @@ Meeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b) {
         const int s = turn(a, b, p);
         (s > 0 ? left : s < 0 ? right : on) = true;
     }
-    if (!box.meets(stretch) || (!on && left != right)) return Meeting::apart;
-    Meeting most = left && right ? Meeting::crossing : Meeting::touching;
+    if (!box.meets(stretch) || (!on && left != right)) return OutlineMeeting::apart;
+    OutlineMeeting most = left && right ? OutlineMeeting::crossing : OutlineMeeting::touching;
     if (!polygon::is_convex(face)) return most;
     const int way = polygon::orientation(face);
     for (std::size_t i = 0; i < face.size(); ++i) {
         const Vec2 &p = face[i], &q = face[i + 1 == face.size() ? 0 : i + 1];
         const int sa = turn(p, q, a) * way, sb = turn(p, q, b) * way;
         if (p == q) continue;
-        if (sa < 0 && sb < 0) return Meeting::apart;
-        if (sa <= 0 && sb <= 0) most = Meeting::touching;
+        if (sa < 0 && sb < 0) return OutlineMeeting::apart;
+        if (sa <= 0 && sb <= 0) most = OutlineMeeting::touching;
     }
     return most;
 }

@@ -6,7 +6,7 @@
 namespace facetmill {
 
 /// How a face and a stretch of the outline lie to each other, both seen along the axis.
-enum class Meeting {
+enum class OutlineMeeting {
     apart,
     touching, ///< they share points, but the stretch does not enter the face
     crossing, ///< it does; also said of concave faces and of faces seen edge-on whenever it may
@@ -36,7 +36,7 @@ class Footprint {
     polygon::RingTree tree_;
 };
 
-/// Exact but for what Meeting says of concave faces and those seen edge-on.
-Meeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b);
+/// Exact but for what OutlineMeeting says of concave faces and those seen edge-on.
+OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b);
 
 } // namespace facetmill
