@@ -74,6 +74,12 @@ def main():
             first = types.setdefault((space, type_name), f"{name}:{line}")
             if first != f"{name}:{line}":
                 found.append(f"{name}:{line}: {space}::{type_name} is also defined at {first}")
+    for path in sorted((root / "tests").rglob("*.hpp")):
+        name = path.relative_to(root).as_posix()
+        for space, type_name, line in types_in(path.read_text(encoding="utf-8")):
+            first = types.setdefault((space, type_name), f"{name}:{line}")
+            if first != f"{name}:{line}":
+                found.append(f"{name}:{line}: {space}::{type_name} is also defined at {first}")
     for problem in found:
         print(problem)
     print(f"layers: {len(files)} files, {len(found)} problems")

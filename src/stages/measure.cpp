@@ -22,7 +22,7 @@ void declare(Declare<MeasureOptions>& d) {
              "Mass per cubic scene unit; mass and inertia are multiplied by it.")
         .above(0);
     d.option("sharp", &MeasureOptions::sharp, "Edges that turn by more than this count as sharp.")
-        .between(0, 3.141592653589793);
+        .between(0, 180);
     d.option("areas", &MeasureOptions::areas,
              "Writes the area of every face, in square scene units, as face attribute area.");
     d.option(

@@ -171,7 +171,27 @@ TEST_CASE("the table of properties", "[geometry]") {
                                                  "isolated_vertices",
                                                  "self_intersections",
                                                  "area",
-                                                 "volume"});
+                                                 "volume",
+                                                 "min_angle",
+                                                 "max_angle",
+                                                 "aspect_ratio",
+                                                 "shortest_edge",
+                                                 "longest_edge",
+                                                 "planarity",
+                                                 "folded_faces",
+                                                 "t_vertices",
+                                                 "boundary_length",
+                                                 "longest_boundary",
+                                                 "outward",
+                                                 "coplanar_overlaps",
+                                                 "wall_thickness",
+                                                 "uvs_in_range",
+                                                 "uv_overlaps",
+                                                 "finite_attributes",
+                                                 "unit_normals",
+                                                 "weights_sum",
+                                                 "joints",
+                                                 "extent"});
     const Properties cube = inspect(shapes::cube());
     CHECK(property_named("faces")->get(cube) == 12);
     CHECK(property_named("closed")->get(cube) == 1);

@@ -7,7 +7,7 @@
 
 namespace facetmill::test {
 
-struct StageRun {
+struct StageOutcome {
     Scene scene;
     report::StageRecord record;
 
@@ -33,7 +33,7 @@ inline std::string problems_of(const std::string& stage, const Value& value) {
     return text;
 }
 
-inline StageRun run_stage(const std::string& stage, const Value& value, Scene scene) {
+inline StageOutcome run_stage(const std::string& stage, const Value& value, Scene scene) {
     if (const std::string problems = problems_of(stage, value); !problems.empty())
         throw std::runtime_error(problems);
     const StageInfo* info = stage_named(stage);
@@ -41,7 +41,7 @@ inline StageRun run_stage(const std::string& stage, const Value& value, Scene sc
     Problems problems;
     info->options.parse(value, options.get(), stage, problems);
     RunState state;
-    StageRun run;
+    StageOutcome run;
     const PartFilter all;
     Context context(state, run.record, all, scene.bounds(), {});
     run.scene = info->run(std::move(scene), options.get(), context);
