@@ -41,8 +41,7 @@ class Text(Case):
             if path.name != "warnings.cpp":
                 used |= set(re.findall(r'"(W-[A-Z0-9-]+)"', path.read_text()))
         table = re.findall(r'\{"(W-[A-Z0-9-]+)"', (SOURCE / "src/report/warnings.cpp").read_text())
-        self.assertEqual(sorted(used - set(table)), [], "src/report/warnings.cpp does not list these")
-        self.assertEqual(table, sorted(table), "src/report/warnings.cpp")
+        self.assertEqual(table, sorted(used), "src/report/warnings.cpp")
         run = self.mill("run", "quickstart", "-D", "input=a.ply", "--strict=W-UNIT", expect=2)
         self.assertIn("did you mean 'W-UNITS'?", run.stderr)
 
