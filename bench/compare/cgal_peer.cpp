@@ -45,7 +45,7 @@ void CgalPeer::simplify(double ratio, bool quadric) {
     Surface& s = own_->surface;
     const Stop stop(ratio, s);
     if (quadric) {
-        using Policies = sms::GarlandHeckbert_policies<Surface, Kernel>;
+        using Policies = sms::GarlandHeckbert_plane_policies<Surface, Kernel>;
         const Policies policies(s);
         sms::edge_collapse(
             s, stop, CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
