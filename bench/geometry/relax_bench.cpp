@@ -2,9 +2,8 @@
 // that it has built already; and the cost against the number of faces.
 
 #include "geometry/relax.hpp"
-#include "support/meshes.hpp"
+#include "support/openmesh.hpp"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
 #include <benchmark/benchmark.h>
 
@@ -24,32 +23,15 @@ void relax_scan(benchmark::State& state, Method method) {
     for (auto _ : state) benchmark::DoNotOptimize(relax(mesh, ten(method)).moved);
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.face_count()));
 }
-BENCHMARK_CAPTURE(relax_scan, laplacian, Method::laplacian)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(relax_scan, taubin, Method::taubin)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(relax_scan, cotangent, Method::cotangent)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(relax_scan, hc, Method::hc)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+BENCHMARK_CAPTURE(relax_scan, laplacian, Method::laplacian)->Apply(bench::as_process);
+BENCHMARK_CAPTURE(relax_scan, taubin, Method::taubin)->Apply(bench::as_process);
+BENCHMARK_CAPTURE(relax_scan, cotangent, Method::cotangent)->Apply(bench::as_process);
+BENCHMARK_CAPTURE(relax_scan, hc, Method::hc)->Apply(bench::as_process);
 
 void relax_scan_openmesh(benchmark::State& state) {
-    using Theirs = OpenMesh::TriMesh_ArrayKernelT<>;
+    using Theirs = bench::OpenMeshTriangles;
     const Mesh& mesh = bench::closed_scan();
-    Theirs theirs;
-    for (const Vec3& p : mesh.positions)
-        theirs.add_vertex({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-    const auto vertex = [&](Index c) { return Theirs::VertexHandle(static_cast<int>(mesh.vertex(c))); };
-    for (Index c = 0; c < mesh.corner_count(); c += 3)
-        theirs.add_face(vertex(c), vertex(c + 1), vertex(c + 2));
+    Theirs theirs = bench::to_openmesh(mesh);
     theirs.request_vertex_normals();
     theirs.request_face_normals();
     theirs.update_normals();
@@ -61,7 +43,7 @@ void relax_scan_openmesh(benchmark::State& state) {
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.face_count()));
 }
-BENCHMARK(relax_scan_openmesh)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(relax_scan_openmesh)->Apply(bench::as_process);
 
 /// Spheres of 20 * 4^levels faces: the time for a face is to stay the same.
 void relax_sphere(benchmark::State& state) {
@@ -69,10 +51,6 @@ void relax_sphere(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(relax(mesh, ten(Method::laplacian)).moved);
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.face_count()));
 }
-BENCHMARK(relax_sphere)
-    ->DenseRange(6, 10)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+BENCHMARK(relax_sphere)->DenseRange(6, 10)->Apply(bench::as_process);
 
 } // namespace

@@ -2,9 +2,8 @@
 // methods; and the cost against the number of faces.
 
 #include "geometry/split.hpp"
-#include "support/meshes.hpp"
+#include "support/openmesh.hpp"
 
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/MidpointT.hh>
 #include <benchmark/benchmark.h>
 
@@ -19,32 +18,15 @@ void split_scan(benchmark::State& state, SplitMethod method) {
     for (auto _ : state) benchmark::DoNotOptimize(split(mesh, settings).added);
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.face_count()));
 }
-BENCHMARK_CAPTURE(split_scan, midpoint, SplitMethod::midpoint)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(split_scan, bisect, SplitMethod::bisect)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(split_scan, centroid, SplitMethod::centroid)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
-BENCHMARK_CAPTURE(split_scan, loop, SplitMethod::loop)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+BENCHMARK_CAPTURE(split_scan, midpoint, SplitMethod::midpoint)->Apply(bench::as_process);
+BENCHMARK_CAPTURE(split_scan, bisect, SplitMethod::bisect)->Apply(bench::as_process);
+BENCHMARK_CAPTURE(split_scan, centroid, SplitMethod::centroid)->Apply(bench::as_process);
+BENCHMARK_CAPTURE(split_scan, loop, SplitMethod::loop)->Apply(bench::as_process);
 
 void split_scan_openmesh(benchmark::State& state) {
-    using Theirs = OpenMesh::TriMesh_ArrayKernelT<>;
+    using Theirs = bench::OpenMeshTriangles;
     const Mesh& mesh = bench::closed_scan();
-    Theirs theirs;
-    for (const Vec3& p : mesh.positions)
-        theirs.add_vertex({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
-    const auto vertex = [&](Index c) { return Theirs::VertexHandle(static_cast<int>(mesh.vertex(c))); };
-    for (Index c = 0; c < mesh.corner_count(); c += 3)
-        theirs.add_face(vertex(c), vertex(c + 1), vertex(c + 2));
+    const Theirs theirs = bench::to_openmesh(mesh);
     for (auto _ : state) {
         state.PauseTiming();
         Theirs copy = theirs;
@@ -57,7 +39,7 @@ void split_scan_openmesh(benchmark::State& state) {
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.face_count()));
 }
-BENCHMARK(split_scan_openmesh)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+BENCHMARK(split_scan_openmesh)->Apply(bench::as_process);
 
 /// Spheres of 20 * 4^levels faces: the time for a face is to stay the same.
 void split_sphere(benchmark::State& state) {
@@ -65,10 +47,6 @@ void split_sphere(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(split(mesh, {}).added);
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mesh.face_count()));
 }
-BENCHMARK(split_sphere)
-    ->DenseRange(6, 10)
-    ->Unit(benchmark::kMillisecond)
-    ->MeasureProcessCPUTime()
-    ->UseRealTime();
+BENCHMARK(split_sphere)->DenseRange(6, 10)->Apply(bench::as_process);
 
 } // namespace

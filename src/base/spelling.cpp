@@ -35,10 +35,14 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     return found;
 }
 
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                         std::string otherwise) {
+    const std::string name = nearest(word, candidates);
+    return name.empty() ? std::move(otherwise) : fmt::format("did you mean '{}'?", name);
+}
+
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
-    if (const std::string name = nearest(word, candidates); !name.empty())
-        return fmt::format("did you mean '{}'?", name);
-    return fmt::format("expected one of: {}", fmt::join(candidates, ", "));
+    return did_you_mean(word, candidates, fmt::format("expected one of: {}", fmt::join(candidates, ", ")));
 }
 
 } // namespace facetmill

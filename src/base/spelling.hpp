@@ -15,6 +15,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// meaning.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
+/// "did you mean 'x'?" when there is a likely meaning, else otherwise.
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates,
+                         std::string otherwise = {});
+
 /// "did you mean 'x'?" when there is a likely meaning, else "expected one of: a, b, c".
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 

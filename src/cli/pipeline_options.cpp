@@ -74,12 +74,9 @@ void check_strict(const PipelineOptions& options, const CommandLine& line, Probl
     std::vector<std::string> ids;
     for (const auto& known : report::known_warnings()) ids.emplace_back(known.id);
     for (const auto& id : options.strict)
-        if (id != "*" && std::find(ids.begin(), ids.end(), id) == ids.end()) {
-            const std::string near = nearest(id, ids);
+        if (id != "*" && std::find(ids.begin(), ids.end(), id) == ids.end())
             problems.add(line.find("--strict=" + id), "E-STRICT", fmt::format("there is no warning '{}'", id),
-                         near.empty() ? "facetmill-stages(7) lists the warnings"
-                                      : fmt::format("did you mean '{}'?", near));
-        }
+                         did_you_mean(id, ids, "facetmill-stages(7) lists the warnings"));
 }
 
 } // namespace

@@ -30,6 +30,15 @@ bool straighten(Attribute& tangent, const Attribute& normals) {
 
 } // namespace
 
+Fates joined(const Fates& first, Fates second) {
+    for (auto& fate : second)
+        for (const auto& earlier : first)
+            if (fate.kind == Fate::Kind::kept && earlier.attribute == fate.attribute &&
+                earlier.domain == fate.domain)
+                fate = earlier;
+    return second;
+}
+
 bool straighten_tangents(Mesh& mesh) {
     const Attribute* normals = mesh.find("NORMAL", Domain::wedge);
     bool any = false;

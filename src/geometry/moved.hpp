@@ -13,6 +13,9 @@ namespace facetmill {
 /// mesh's order.
 Fates settle_moved(Mesh& mesh);
 
+/// What two steps in a row did to the attributes: what the second one kept has the fate of the first.
+Fates joined(const Fates& first, Fates second);
+
 /// Takes the part along NORMAL out of the wedge attribute TANGENT (float32 or float64); whether there was
 /// one.
 bool straighten_tangents(Mesh& mesh);

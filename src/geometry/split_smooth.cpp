@@ -249,16 +249,6 @@ Mesh sqrt3_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rin
     return finer;
 }
 
-/// What moving did to attributes that splitting had interpolated.
-Fates joined(const Fates& first, Fates second) {
-    for (auto& fate : second)
-        for (const auto& earlier : first)
-            if (fate.kind == Fate::Kind::kept && earlier.attribute == fate.attribute &&
-                earlier.domain == fate.domain)
-                fate = earlier;
-    return second;
-}
-
 [[noreturn]] void refuse(SplitMethod method, const std::string& found, const std::string& hint) {
     throw Error(ErrorKind::stage, "E-MANIFOLD",
                 fmt::format("split: {} needs a manifold, oriented mesh; {}", spelled(method), found), hint);

@@ -65,8 +65,7 @@ std::string nearest_file(const fs::path& path) {
     }
     if (ignored) return fmt::format("there is no folder '{}' either", folder.string());
     std::sort(names.begin(), names.end());
-    const std::string near = nearest(path.filename().string(), names);
-    return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
+    return did_you_mean(path.filename().string(), names);
 }
 
 std::vector<fs::path> paths_of(const Plan& plan, bool written) {

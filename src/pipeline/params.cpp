@@ -102,11 +102,6 @@ std::optional<double> checked(Type type, const Value& value, bool& good, Problem
     return checked<std::string>(value, good, problems);
 }
 
-std::string nearest_hint(const std::string& word, const std::vector<std::string>& choices) {
-    const std::string near = nearest(word, choices);
-    return near.empty() ? "" : fmt::format("did you mean '{}'?", near);
-}
-
 /// A file named on the command line, as a pipeline file would name it: relative to the pipeline when that
 /// leads to the same file, else absolute.
 std::string from_working_directory(const std::string& text, const PlanSettings& settings) {
@@ -227,7 +222,7 @@ class Params {
         problems.add(value.mark, "E-CHOICE",
                      fmt::format("'{}' is one of {}, found {}", entry.key, fmt::join(options.choices, ", "),
                                  value.described()),
-                     nearest_hint(value.text, options.choices));
+                     did_you_mean(value.text, options.choices));
         return false;
     }
 

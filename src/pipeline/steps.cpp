@@ -27,9 +27,8 @@ std::vector<std::string> all_stage_names() {
 }
 
 void no_such_stage(const std::string& name, const Mark& where, Problems& problems) {
-    const std::string near = nearest(name, all_stage_names());
     problems.add(where, "E-STAGE", fmt::format("there is no stage '{}'", name),
-                 near.empty() ? "facetmill stages lists them all" : fmt::format("did you mean '{}'?", near));
+                 did_you_mean(name, all_stage_names(), "facetmill stages lists them all"));
 }
 
 /// Which entry of the item is its stage; null after a problem.

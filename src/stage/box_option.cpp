@@ -1,5 +1,7 @@
 #include "stage/box_option.hpp"
 
+#include "stage/numbers_option.hpp"
+
 #include "base/functions.hpp"
 #include "base/numbers.hpp"
 
@@ -8,37 +10,17 @@
 namespace facetmill {
 
 bool OptionType<BoxCorners>::parse(const Value& value, BoxCorners& out, Problems& problems) {
-    if (value.deferred) return true;
-    if (value.is_scalar() && value.text.find(',') != std::string::npos) { // as the one-liner writes it
-        Value list = Value::list({}, value.mark);
-        for (std::size_t at = 0; at <= value.text.size();) {
-            const auto end = std::min(value.text.find(',', at), value.text.size());
-            list.items.push_back(Value::scalar(value.text.substr(at, end - at), value.mark));
-            at = end + 1;
-        }
-        return parse(list, out, problems);
-    }
-    if (!value.is_list() || value.items.size() != 6) {
-        problems.add(
-            value.mark, "E-TYPE",
-            fmt::format("expected a box ({{min: [0, 0, 0], max: [1, 1, 1]}}, {{centre: [0, 0, 0], size: "
-                        "[1, 1, 1]}}, [0, 0, 0, 1, 1, 1]), found {}",
-                        value.described()));
-        return false;
-    }
-    bool good = true;
-    for (std::size_t i = 0; i < 6; ++i)
-        good &= OptionType<double>::parse(value.items[i], out.numbers[i], problems);
-    return good;
+    return parse_numbers(value, out.numbers,
+                         "a box ({min: [0, 0, 0], max: [1, 1, 1]}, {centre: [0, 0, 0], size: [1, 1, 1]}, "
+                         "[0, 0, 0, 1, 1, 1])",
+                         problems);
 }
 std::string OptionType<BoxCorners>::print(const BoxCorners& value) {
     std::string text;
     for (const double x : value.numbers) text += (text.empty() ? "[" : ", ") + spelled(x);
     return text + "]";
 }
-Json OptionType<BoxCorners>::schema() {
-    return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 6}, {"maxItems", 6}};
-}
+Json OptionType<BoxCorners>::schema() { return numbers_schema(6); }
 
 void declare_box(Declare<BoxOption>& d) {
     d.option("min", &BoxOption::min, "The corner with the least coordinates, in scene units.");

@@ -1,5 +1,7 @@
 #include "stage/plane_option.hpp"
 
+#include "stage/numbers_option.hpp"
+
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
 
@@ -118,31 +120,13 @@ Json OptionType<PlanePlace>::schema() {
 }
 
 bool OptionType<PlaneCoefficients>::parse(const Value& value, PlaneCoefficients& out, Problems& problems) {
-    if (value.deferred) return true;
-    if (value.is_scalar() &&
-        value.text.find(',') != std::string::npos) { // "0,0,1,-2", as the one-liner writes it
-        Value list = Value::list({}, value.mark);
-        for (std::size_t at = 0; at <= value.text.size();) {
-            const auto end = std::min(value.text.find(',', at), value.text.size());
-            list.items.push_back(Value::scalar(value.text.substr(at, end - at), value.mark));
-            at = end + 1;
-        }
-        return parse(list, out, problems);
-    }
-    if (!value.is_list() || value.items.size() != 4)
-        return refuse(value, "four numbers ([A, B, C, D])", problems);
-    bool good = true;
-    for (std::size_t i = 0; i < 4; ++i)
-        good &= OptionType<double>::parse(value.items[i], out.abcd[i], problems);
-    return good;
+    return parse_numbers(value, out.abcd, "four numbers ([A, B, C, D])", problems);
 }
 std::string OptionType<PlaneCoefficients>::print(const PlaneCoefficients& value) {
     const auto& v = value.abcd;
     return fmt::format("[{}, {}, {}, {}]", spelled(v[0]), spelled(v[1]), spelled(v[2]), spelled(v[3]));
 }
-Json OptionType<PlaneCoefficients>::schema() {
-    return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 4}, {"maxItems", 4}};
-}
+Json OptionType<PlaneCoefficients>::schema() { return numbers_schema(4); }
 
 void declare_plane(Declare<PlaneOption>& d) {
     d.option("normal", &PlaneOption::normal,

@@ -1,5 +1,6 @@
 #include "geometry/crumple.hpp"
 
+#include "geometry/moved.hpp"
 #include "geometry/split.hpp"
 #include "stage/mask_option.hpp"
 #include "stage/stage.hpp"
@@ -81,16 +82,6 @@ void declare(Declare<CrumpleOptions>& d) {
     declare_noise(d);
     d.option("triangulate", &CrumpleOptions::triangulate,
              "Cut the quads, which are no longer planar, into triangles along the shorter diagonal.");
-}
-
-/// What two steps in a row did to the attributes.
-Fates joined(const Fates& first, Fates second) {
-    for (auto& fate : second)
-        for (const auto& earlier : first)
-            if (fate.kind == Fate::Kind::kept && earlier.attribute == fate.attribute &&
-                earlier.domain == fate.domain)
-                fate = earlier;
-    return second;
 }
 
 /// A part between being split and being moved.

@@ -1,6 +1,7 @@
 #include "geometry/generate.hpp"
 
 #include "io/convert.hpp"
+#include "stage/convention_option.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
@@ -119,15 +120,7 @@ void declare(Declare<GenerateOptions>& d) {
              "of the shape's diagonal).")
         .at_least(0);
     d.option("seed", &GenerateOptions::seed, "Of the noise (an integer, without unit).").at_least(0);
-    d.choice<Unit>("unit", &GenerateOptions::unit,
-                   {{"auto", Unit::unknown, "the scene's"},
-                    {"um", Unit::um, "micrometres"},
-                    {"mm", Unit::mm, "millimetres"},
-                    {"cm", Unit::cm, "centimetres"},
-                    {"m", Unit::m, "metres"},
-                    {"km", Unit::km, "kilometres"},
-                    {"in", Unit::inch, "inches"},
-                    {"ft", Unit::foot, "feet"}},
+    d.choice<Unit>("unit", &GenerateOptions::unit, unit_choices("auto", "the scene's"),
                    "What one unit of the shape's numbers is.");
     d.option("name", &GenerateOptions::name, "Of the new part; the shape's name unless given.");
 }

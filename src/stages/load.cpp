@@ -2,6 +2,7 @@
 #include "base/hash.hpp"
 #include "base/spelling.hpp"
 #include "io/convert.hpp"
+#include "stage/convention_option.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -24,19 +25,10 @@ void declare(Declare<LoadOptions>& d) {
         .primary()
         .required();
     d.choice<Unit>("unit", &LoadOptions::unit,
-                   {{"auto", Unit::unknown, "as the format says; unknown where it says nothing"},
-                    {"um", Unit::um, "micrometres"},
-                    {"mm", Unit::mm, "millimetres"},
-                    {"cm", Unit::cm, "centimetres"},
-                    {"m", Unit::m, "metres"},
-                    {"km", Unit::km, "kilometres"},
-                    {"in", Unit::inch, "inches"},
-                    {"ft", Unit::foot, "feet"}},
+                   unit_choices("auto", "as the format says; unknown where it says nothing"),
                    "What one unit of the file's numbers is.");
     d.choice<UpAxis>("up", &LoadOptions::up,
-                     {{"auto", UpAxis::unknown, "as the format says; unknown where it says nothing"},
-                      {"y", UpAxis::y, "the y axis"},
-                      {"z", UpAxis::z, "the z axis"}},
+                     up_choices("auto", "as the format says; unknown where it says nothing"),
                      "Which axis points up in the file.");
     d.option("format", &LoadOptions::format, "The format's name, when neither content nor suffix tell it.");
     d.choice<io::Weld>(

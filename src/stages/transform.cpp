@@ -1,5 +1,6 @@
 #include "base/functions.hpp"
 #include "io/convert.hpp"
+#include "stage/convention_option.hpp"
 #include "stage/stage.hpp"
 
 #include <cmath>
@@ -27,15 +28,7 @@ struct TransformOptions {
 };
 
 void declare(Declare<TransformOptions>& d) {
-    d.choice<Unit>("unit", &TransformOptions::unit,
-                   {{"unknown", Unit::unknown, "as it is"},
-                    {"um", Unit::um, "micrometres"},
-                    {"mm", Unit::mm, "millimetres"},
-                    {"cm", Unit::cm, "centimetres"},
-                    {"m", Unit::m, "metres"},
-                    {"km", Unit::km, "kilometres"},
-                    {"in", Unit::inch, "inches"},
-                    {"ft", Unit::foot, "feet"}},
+    d.choice<Unit>("unit", &TransformOptions::unit, unit_choices("unknown", "as it is"),
                    "The unit that numbers are in from here on; they change so that sizes stay.");
     d.choice<UpAxis>(
         "up", &TransformOptions::up,

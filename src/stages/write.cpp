@@ -1,6 +1,7 @@
 #include "base/spelling.hpp"
 #include "io/convert.hpp"
 #include "io/read_back.hpp"
+#include "stage/convention_option.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -52,19 +53,9 @@ void declare(Declare<WriteOptions>& d) {
         .required();
     d.option("format", &WriteOptions::format, "The format's name, when the suffix does not tell it.");
     d.choice<Unit>("unit", &WriteOptions::unit,
-                   {{"auto", Unit::unknown, "the format's (glTF: metres), else the scene's"},
-                    {"um", Unit::um, "micrometres"},
-                    {"mm", Unit::mm, "millimetres"},
-                    {"cm", Unit::cm, "centimetres"},
-                    {"m", Unit::m, "metres"},
-                    {"km", Unit::km, "kilometres"},
-                    {"in", Unit::inch, "inches"},
-                    {"ft", Unit::foot, "feet"}},
+                   unit_choices("auto", "the format's (glTF: metres), else the scene's"),
                    "The unit that the file's numbers are in.");
-    d.choice<UpAxis>("up", &WriteOptions::up,
-                     {{"auto", UpAxis::unknown, "the format's (glTF: y), else the scene's"},
-                      {"y", UpAxis::y, "the y axis"},
-                      {"z", UpAxis::z, "the z axis"}},
+    d.choice<UpAxis>("up", &WriteOptions::up, up_choices("auto", "the format's (glTF: y), else the scene's"),
                      "The axis that points up in the file.");
     d.option("ascii", &WriteOptions::ascii, "PLY and STL as text instead of binary.");
     d.option("big_endian", &WriteOptions::big_endian, "Binary PLY with the most significant byte first.");

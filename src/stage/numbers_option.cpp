@@ -1,0 +1,39 @@
+#include "stage/numbers_option.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+Value split_at_commas(const Value& text) {
+    Value list = Value::list({}, text.mark);
+    for (std::size_t at = 0; at <= text.text.size();) {
+        const auto end = std::min(text.text.find(',', at), text.text.size());
+        list.items.push_back(Value::scalar(text.text.substr(at, end - at), text.mark));
+        at = end + 1;
+    }
+    return list;
+}
+
+} // namespace
+
+bool parse_numbers(const Value& value, std::span<double> out, std::string_view expected, Problems& problems) {
+    if (value.deferred) return true;
+    if (value.is_scalar() && value.text.find(',') != std::string::npos)
+        return parse_numbers(split_at_commas(value), out, expected, problems);
+    if (!value.is_list() || value.items.size() != out.size()) {
+        problems.add(value.mark, "E-TYPE", fmt::format("expected {}, found {}", expected, value.described()));
+        return false;
+    }
+    bool good = true;
+    for (std::size_t i = 0; i < out.size(); ++i)
+        good &= OptionType<double>::parse(value.items[i], out[i], problems);
+    return good;
+}
+
+Json numbers_schema(std::size_t count) {
+    return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", count}, {"maxItems", count}};
+}
+
+} // namespace facetmill
