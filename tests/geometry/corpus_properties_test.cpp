@@ -1,5 +1,6 @@
 // The properties of a corpus of real meshes, against those that another tool found (its MANIFEST.tsv).
 #include "support/catch.hpp"
+#include "support/corpus.hpp"
 #include "support/temporary.hpp"
 
 #include "geometry/evidence.hpp"
@@ -8,8 +9,6 @@
 #include "mesh/topology.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <iostream>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -90,19 +89,16 @@ const std::map<std::string, std::string> explained = {
 } // namespace
 
 TEST_CASE("the properties of the corpus are those of its manifest", "[geometry]") {
-    const char* corpus = std::getenv("FACETMILL_CORPUS");
-    if (!corpus) {
-        std::cout << "skipped: FACETMILL_CORPUS does not name a folder of meshes\n";
-        return;
-    }
-    std::istringstream lines(test::get(fs::path(corpus) / "MANIFEST.tsv"));
+    const auto corpus = test::corpus();
+    if (!corpus) return;
+    std::istringstream lines(test::get(*corpus / "MANIFEST.tsv"));
     int compared = 0;
     for (std::string line; std::getline(lines, line);) {
         std::vector<std::string> cells;
         std::istringstream in(line);
         for (std::string cell; std::getline(in, cell, '\t');) cells.push_back(cell);
         if (cells.size() < 8) continue;
-        const fs::path path = fs::path(corpus) / cells[0];
+        const fs::path path = *corpus / cells[0];
         const auto there = found_there(cells[7]);
         const std::string suffix = path.extension();
         const bool text = suffix == ".ply" || suffix == ".stl" || suffix == ".obj" || suffix == ".off";

@@ -1,4 +1,5 @@
 #include "support/catch.hpp"
+#include "support/corpus.hpp"
 
 #include "io/codec.hpp"
 #include "mesh/invariants.hpp"
@@ -41,19 +42,16 @@ std::vector<Row> manifest(const fs::path& corpus) {
 } // namespace
 
 TEST_CASE("every text mesh of the corpus is read with its counts, or refused when it is malformed", "[io]") {
-    const char* corpus = std::getenv("FACETMILL_CORPUS");
-    if (!corpus) {
-        std::cout << "skipped: FACETMILL_CORPUS does not name a folder of meshes\n";
-        return;
-    }
-    for (const Row& row : manifest(corpus)) {
+    const auto corpus = test::corpus();
+    if (!corpus) return;
+    for (const Row& row : manifest(*corpus)) {
         const std::string suffix = fs::path(row.path).extension();
         if (suffix != ".ply" && suffix != ".stl" && suffix != ".obj" && suffix != ".off") continue;
         INFO(row.path);
         io::ReadLog log;
         Scene scene;
         const std::string failed =
-            failure([&] { scene = io::read_scene(io::Input::open(fs::path(corpus) / row.path), {}, log); });
+            failure([&] { scene = io::read_scene(io::Input::open(*corpus / row.path), {}, log); });
         const bool verbose = std::getenv("FACETMILL_CORPUS_VERBOSE") != nullptr;
         if (verbose) {
             std::cout << row.path << ": " << failed;

@@ -2,26 +2,15 @@
 // words.
 #include "io/codec.hpp"
 #include "support/catch.hpp"
+#include "support/corpus.hpp"
 #include "support/gltf.hpp"
 
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 
 using namespace facetmill;
-namespace fs = std::filesystem;
 
 namespace {
-
-std::vector<fs::path> files_of(const fs::path& folder) {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        const auto extension = entry.path().extension();
-        if (extension == ".gltf" || extension == ".glb" || extension == ".drc") files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
 
 void check_written_again(const Scene& scene, bool draco) {
     io::WriteSettings settings;
@@ -34,12 +23,11 @@ void check_written_again(const Scene& scene, bool draco) {
 } // namespace
 
 TEST_CASE("every file of the corpus is read, or refused in words", "[io]") {
-    const char* folder = std::getenv("FACETMILL_CORPUS");
-    if (!folder) {
-        std::cout << "skipped: FACETMILL_CORPUS names no folder of meshes\n";
-        return;
-    }
-    for (const auto& file : files_of(folder)) {
+    const auto folder = test::corpus();
+    if (!folder) return;
+    for (const auto& file : test::meshes_below(*folder)) {
+        const auto suffix = file.extension();
+        if (suffix != ".gltf" && suffix != ".glb" && suffix != ".drc") continue;
         INFO(file.string());
         io::ReadLog log;
         Scene scene;

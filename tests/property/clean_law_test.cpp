@@ -1,18 +1,14 @@
 // What clean promises, over made-up meshes, and over a corpus of real ones when FACETMILL_CORPUS names it.
 #include "support/catch.hpp"
 #include "support/clean_laws.hpp"
+#include "support/corpus.hpp"
 #include "support/meshes.hpp"
 
 #include "io/codec.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-#include <iostream>
-
 using namespace facetmill;
 using namespace facetmill::testing;
 using test::broken_clean_law;
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -78,24 +74,11 @@ TEST_CASE("clean leaves sound faces alone, and changes nothing the second time",
 }
 
 TEST_CASE("clean keeps its promises over the corpus", "[property]") {
-    const char* corpus = std::getenv("FACETMILL_CORPUS");
-    if (!corpus) {
-        std::cout << "skipped: FACETMILL_CORPUS does not name a folder of meshes\n";
-        return;
-    }
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(corpus))
-        if (entry.is_regular_file() && io::codec_for(entry.path())) files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
+    const auto corpus = test::corpus();
+    if (!corpus) return;
     std::size_t checked = 0;
-    for (const auto& file : files) {
-        Scene scene;
-        try {
-            io::ReadLog log;
-            scene = io::read_scene(io::Input::open(file), {}, log);
-        } catch (const Error&) {
-            continue;
-        }
+    for (const auto& file : test::meshes_below(*corpus)) {
+        const Scene scene = test::read_or_nothing(file);
         for (const Part& part : scene.parts)
             for (const auto& [how, settings] : all_settings(part.mesh.bounds().diagonal())) {
                 if (how == "smooth" && part.mesh.face_count() > 20000) continue;

@@ -6,33 +6,16 @@
 #include "io/codec.hpp"
 #include "mesh/invariants.hpp"
 #include "support/catch.hpp"
+#include "support/corpus.hpp"
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 
 using namespace facetmill;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::vector<fs::path> mesh_files(const fs::path& folder) {
-    std::vector<fs::path> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file() && io::codec_for(entry.path())) files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
-Scene read_or_nothing(const fs::path& file) {
-    try {
-        io::ReadLog log;
-        return io::read_scene(io::Input::open(file), {}, log);
-    } catch (const Error&) {
-        return {}; // malformed files are io's own tests
-    }
-}
 
 Plane oblique_plane(std::uint64_t key, const Box& box) {
     const auto number = [&](int which) {
@@ -185,16 +168,13 @@ void check_laws(const Mesh& mesh, std::uint64_t planes, Counts& counts) {
 } // namespace
 
 TEST_CASE("closed meshes of the corpus stay closed and their sides add up", "[property]") {
-    const char* folder = std::getenv("FACETMILL_CORPUS");
-    if (!folder) {
-        std::cout << "skipped: FACETMILL_CORPUS does not name a folder of meshes\n";
-        return;
-    }
+    const auto folder = test::corpus();
+    if (!folder) return;
     const char* planes = std::getenv("FACETMILL_CORPUS_PLANES");
     Counts counts;
-    for (const fs::path& file : mesh_files(folder)) {
+    for (const fs::path& file : test::meshes_below(*folder)) {
         CAPTURE(file.string());
-        const Scene scene = read_or_nothing(file);
+        const Scene scene = test::read_or_nothing(file);
         ++counts.files;
         for (const Part& part : scene.parts)
             check_laws(part.mesh, planes ? static_cast<std::uint64_t>(std::atoi(planes)) : 6, counts);

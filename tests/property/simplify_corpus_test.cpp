@@ -1,31 +1,18 @@
 // The guarantees of simplification, over a corpus of real meshes.
 #include "support/catch.hpp"
+#include "support/corpus.hpp"
 
 #include "geometry/inspect.hpp"
 #include "geometry/simplify.hpp"
 #include "io/codec.hpp"
 #include "mesh/invariants.hpp"
 
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
 
 using namespace facetmill;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::vector<fs::path> meshes_below(const fs::path& folder) {
-    std::vector<fs::path> paths;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        const std::string suffix = entry.path().extension();
-        const bool mesh = suffix == ".ply" || suffix == ".stl" || suffix == ".obj" || suffix == ".off" ||
-                          suffix == ".glb" || suffix == ".gltf";
-        if (mesh && entry.is_regular_file() && entry.file_size() < 4000000) paths.push_back(entry.path());
-    }
-    std::sort(paths.begin(), paths.end());
-    return paths;
-}
 
 /// Polygons cut, unused vertices gone: what the counts of the result can be compared with.
 Mesh comparable(Mesh mesh) {
@@ -55,21 +42,13 @@ void check_kept(const Mesh& given, const SimplifyResult& r) {
 } // namespace
 
 TEST_CASE("law: simplification keeps topology and soundness over a corpus", "[property]") {
-    const char* corpus = std::getenv("FACETMILL_CORPUS");
-    if (!corpus) {
-        std::cout << "skipped: FACETMILL_CORPUS does not name a folder of meshes\n";
-        return;
-    }
+    const auto corpus = test::corpus();
+    if (!corpus) return;
     using Method = SimplifySettings::Method;
     int compared = 0;
-    for (const auto& path : meshes_below(corpus)) {
-        io::ReadLog log;
-        Scene scene;
-        try {
-            scene = io::read_scene(io::Input::open(path), {}, log);
-        } catch (const Error&) {
-            continue; // malformed files are judged elsewhere
-        }
+    for (const auto& path : test::meshes_below(*corpus)) {
+        if (fs::file_size(path) >= 4000000) continue; // the large ones would take minutes
+        const Scene scene = test::read_or_nothing(path);
         for (const Part& part : scene.parts)
             for (const Method method : {Method::quadric, Method::quadric_endpoints, Method::shortest_edge}) {
                 INFO(path.string() << ", part " << part.name << ", method " << static_cast<int>(method));

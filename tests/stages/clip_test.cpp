@@ -1,12 +1,13 @@
 #include "mesh/shapes.hpp"
-#include "stage/stage.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/measure.hpp"
+#include "support/run_stage.hpp"
 
 #include <set>
 
 using namespace facetmill;
+using test::run_stage, test::scene_of;
 
 namespace {
 
@@ -22,40 +23,12 @@ Value map(std::initializer_list<std::pair<const char*, Value>> entries) {
     return m;
 }
 
-Scene scene_of(Mesh mesh) {
-    Scene scene;
-    scene.parts.emplace_back();
-    scene.parts[0].name = "body";
-    scene.parts[0].mesh = std::move(mesh);
-    return scene;
-}
-
-/// A stage run on a scene with options as written, and what it recorded.
-struct StageRun {
-    Scene scene;
-    report::StageRecord record;
-
-    StageRun(const char* stage, const Value& given, Scene in) {
-        const StageInfo* info = stage_named(stage);
-        auto options = info->make_options();
-        Problems problems;
-        info->options.parse(given, options.get(), stage, problems);
-        if (!problems.any_errors() && info->verify) info->verify(options.get(), given, problems);
-        problems.throw_if_any(ErrorKind::usage);
-        RunState state;
-        const PartFilter all;
-        const Mark nowhere;
-        Context context(state, record, all, in.bounds(), nowhere);
-        scene = info->run(std::move(in), options.get(), context);
-    }
-};
-
 std::string refusal(const Value& given) {
-    return test::failure([&] { StageRun("clip", given, scene_of(shapes::cube())); });
+    return test::failure([&] { run_stage("clip", given, scene_of(shapes::cube())); });
 }
 
 double volume_after(const Value& given, Scene scene) {
-    return test::volume(StageRun("clip", given, std::move(scene)).scene.parts[0].mesh);
+    return test::volume(run_stage("clip", given, std::move(scene)).scene.parts[0].mesh);
 }
 
 } // namespace
@@ -108,10 +81,10 @@ TEST_CASE("keep: both makes two parts", "[stages]") {
     Scene two = scene_of(shapes::cube());
     two.parts.push_back(two.parts[0]);
     two.parts[1].name = "other";
-    const StageRun run("clip",
-                       map({{"plane", text("z=0.25")}, {"cap", text("true")}, {"keep", text("both")}}), two);
+    const auto run = run_stage(
+        "clip", map({{"plane", text("z=0.25")}, {"cap", text("true")}, {"keep", text("both")}}), two);
     REQUIRE(run.scene.parts.size() == 4);
-    const char* names[] = {"body.front", "body.back", "other.front", "other.back"};
+    const char* names[] = {"part.front", "part.back", "other.front", "other.back"};
     for (std::size_t i = 0; i < 4; ++i) {
         CHECK(run.scene.parts[i].name == names[i]);
         CHECK(test::volume(run.scene.parts[i].mesh) == Approx(i % 2 == 0 ? 0.75 : 0.25));
@@ -136,11 +109,11 @@ TEST_CASE("clip keeps the inside of a box, the outside, or both", "[stages]") {
     Value turned = square;
     turned.set("angle", text("45deg"));
     CHECK(volume(turned, "inside") == Approx(0.25));
-    const StageRun run("clip", map({{"box", corners}, {"cap", text("true")}, {"keep", text("both")}}),
-                       scene_of(shapes::cube()));
+    const auto run = run_stage("clip", map({{"box", corners}, {"cap", text("true")}, {"keep", text("both")}}),
+                               scene_of(shapes::cube()));
     REQUIRE(run.scene.parts.size() == 2);
-    CHECK(run.scene.parts[0].name == "body.inside");
-    CHECK(run.scene.parts[1].name == "body.outside");
+    CHECK(run.scene.parts[0].name == "part.inside");
+    CHECK(run.scene.parts[1].name == "part.outside");
     CHECK(test::volume(run.scene.parts[1].mesh) == Approx(0.8125));
 }
 
@@ -148,28 +121,28 @@ TEST_CASE("clip remembers its planes from stage to stage, until vertices move", 
     const Value plane =
         map({{"normal", numbers({"1", "0.7", "0.3"})}, {"through", numbers({"0.1", "0.2", "0"})}});
     const Value given = map({{"plane", plane}, {"cap", text("true")}});
-    Scene once = StageRun("clip", given, scene_of(shapes::icosphere(3))).scene;
-    const StageRun twice("clip", given, once);
+    Scene once = run_stage("clip", given, scene_of(shapes::icosphere(3))).scene;
+    const auto twice = run_stage("clip", given, once);
     CHECK(twice.record.result["cut_faces"] == 0);
     CHECK(twice.record.result["remembered"] > 80);
-    const StageRun relaxed("relax", text("1"), once);
-    CHECK(StageRun("clip", given, relaxed.scene).record.result["remembered"] == 0);
+    const auto relaxed = run_stage("relax", text("1"), once);
+    CHECK(run_stage("clip", given, relaxed.scene).record.result["remembered"] == 0);
 }
 
 TEST_CASE("clip snaps unless told not to", "[stages]") {
     Mesh stl = shapes::cube();
     for (Vec3& p : stl.positions) p.z = static_cast<float>(p.z * 0.1);
-    const StageRun snapped("clip", text("z=0.1"), scene_of(stl));
+    const auto snapped = run_stage("clip", text("z=0.1"), scene_of(stl));
     CHECK(snapped.record.result["snapped"] == 4);
     const Value pure = map({{"plane", text("z=0.1")}, {"snap", text("0")}});
-    CHECK(StageRun("clip", pure, scene_of(stl)).record.result["cut_faces"] == 8);
+    CHECK(run_stage("clip", pure, scene_of(stl)).record.result["cut_faces"] == 8);
 }
 
 TEST_CASE("caps are numbered on from what is there, and their material has a name", "[stages]") {
     const Value given = map({{"planes", Value::list({text("z=0.25"), text("x=0.25")})},
                              {"cap", text("true")},
                              {"cap_material", text("steel")}});
-    StageRun once("clip", given, scene_of(shapes::cube()));
+    auto once = run_stage("clip", given, scene_of(shapes::cube()));
     CHECK(once.scene.materials.at(0).name == "steel");
     const auto numbers_of = [](const Scene& scene, const char* name) {
         const Mesh& mesh = scene.parts[0].mesh;
@@ -179,7 +152,7 @@ TEST_CASE("caps are numbered on from what is there, and their material has a nam
         return all;
     };
     CHECK(numbers_of(once.scene, "cut_id") == std::set<double>{0, 1, 2});
-    const StageRun more("clip", map({{"plane", text("y=0.5")}, {"cap", text("true")}}), once.scene);
+    const auto more = run_stage("clip", map({{"plane", text("y=0.5")}, {"cap", text("true")}}), once.scene);
     CHECK(numbers_of(more.scene, "cut_id") == std::set<double>{0, 1, 2, 3});
     CHECK(numbers_of(more.scene, "group") == std::set<double>{0, 1, 2, 3});
     CHECK(more.scene.materials.size() == 2);
@@ -187,21 +160,21 @@ TEST_CASE("caps are numbered on from what is there, and their material has a nam
 
 TEST_CASE("caps have a material of their own, made once and only when needed", "[stages]") {
     const Value given = map({{"plane", text("z=0.25")}, {"cap", text("true")}});
-    StageRun once("clip", given, scene_of(shapes::cube()));
+    auto once = run_stage("clip", given, scene_of(shapes::cube()));
     REQUIRE(once.scene.materials.size() == 1);
     CHECK(once.scene.materials[0].name == "cap");
     CHECK(once.scene.parts[0].mesh.primitives.at(1).material == 0);
     CHECK(once.record.result["cap_faces"] == 6);
     CHECK(once.record.warnings.empty());
-    StageRun twice("clip", map({{"plane", text("x=0.25")}, {"cap", text("true")}}), once.scene);
+    auto twice = run_stage("clip", map({{"plane", text("x=0.25")}, {"cap", text("true")}}), once.scene);
     CHECK(twice.scene.materials.size() == 1);
-    CHECK(StageRun("clip", text("z=0.25"), scene_of(shapes::cube())).scene.materials.empty());
+    CHECK(run_stage("clip", text("z=0.25"), scene_of(shapes::cube())).scene.materials.empty());
 }
 
 TEST_CASE("clip says when everything or nothing stays, and names open contours", "[stages]") {
     const auto warnings = [](const Value& given, Mesh mesh) {
         std::string all;
-        for (const auto& w : StageRun("clip", given, scene_of(std::move(mesh))).record.warnings)
+        for (const auto& w : run_stage("clip", given, scene_of(std::move(mesh))).record.warnings)
             all += w.id + " " + w.message + "\n";
         return all;
     };
@@ -242,7 +215,7 @@ TEST_CASE("clip refuses what is no plane", "[stages]") {
 
 TEST_CASE("split takes a method or a grid", "[stages]") {
     const auto faces = [](const Value& given) {
-        return StageRun("split", given, scene_of(shapes::cube())).scene.face_count();
+        return run_stage("split", given, scene_of(shapes::cube())).scene.face_count();
     };
     CHECK(faces(Value{}) == 48);
     CHECK(faces(text("centroid")) == 36);

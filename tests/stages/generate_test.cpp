@@ -1,6 +1,6 @@
 #include "mesh/invariants.hpp"
 #include "support/catch.hpp"
-#include "support/stage.hpp"
+#include "support/run_stage.hpp"
 #include "support/surface.hpp"
 
 using namespace facetmill;

@@ -4,7 +4,7 @@
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
-#include "support/stage.hpp"
+#include "support/run_stage.hpp"
 #include "support/surface.hpp"
 
 using namespace facetmill;

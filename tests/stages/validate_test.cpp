@@ -66,7 +66,8 @@ Mesh flipped(Mesh mesh) {
 
 TEST_CASE("a bare validate passes a sound solid and lists all that an open one lacks", "[stages]") {
     CHECK(judged("", shapes::cube()) == "");
-    CHECK(judged("{closed: true, edge_manifold: true}", shapes::fan3()) == "closed: true, found false\nedge_manifold: true, found false");
+    CHECK(judged("{closed: true, edge_manifold: true}", shapes::fan3()) ==
+          "closed: true, found false\nedge_manifold: true, found false");
     CHECK(judged("", {}) == "faces: at least 1, found 0");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// One stage on a scene, its options written as in a pipeline.
+// One stage on a scene, as the pipeline would run it; its options written as in a pipeline, or as a value.
 
 #include "pipeline/document.hpp"
 #include "stage/stage.hpp"
@@ -13,25 +13,62 @@ struct StageRun {
     std::unique_ptr<RunState> state = std::make_unique<RunState>();
     report::StageRecord record;
     Scene scene;
+
+    const Mesh& mesh() const { return scene.parts.front().mesh; }
+    std::vector<std::string> warnings() const {
+        std::vector<std::string> ids;
+        for (const auto& w : record.warnings) ids.push_back(w.id);
+        return ids;
+    }
 };
 
-/// The problems of the options go out as one Error; so do the stage's.
-inline StageRun run_stage(const std::string& name, const std::string& options, Scene scene) {
+inline const StageInfo& stage_for_test(const std::string& name) {
     const StageInfo* stage = stage_named(name);
     if (!stage) throw std::logic_error("no stage " + name);
+    return *stage;
+}
+
+/// The stage's options as the value gives them; what is wrong with it goes to problems.
+inline auto options_of(const StageInfo& stage, const Value& value, Problems& problems) {
+    auto options = stage.make_options();
+    stage.options.parse(value, options.get(), stage.name, problems);
+    if (stage.verify && !problems.any_errors()) stage.verify(options.get(), value, problems);
+    return options;
+}
+
+/// The problems of the options go out as one Error; so do the stage's.
+inline StageRun run_stage(const std::string& name, const Value& value, Scene scene) {
+    const StageInfo& stage = stage_for_test(name);
     Problems problems;
-    const auto source = std::make_shared<const SourceText>(SourceText{"test.yaml", options});
-    const Value value = pipeline::parse_yaml(source, problems);
-    const auto parsed = stage->make_options();
-    stage->options.parse(value, parsed.get(), name, problems);
-    if (stage->verify && !problems.any_errors()) stage->verify(parsed.get(), value, problems);
+    const auto options = options_of(stage, value, problems);
     problems.throw_if_any(ErrorKind::usage);
     StageRun run;
     run.record.name = run.record.stage = name;
     const PartFilter all;
     Context context(*run.state, run.record, all, scene.bounds(), {});
-    run.scene = stage->run(std::move(scene), parsed.get(), context);
+    run.scene = stage.run(std::move(scene), options.get(), context);
     return run;
+}
+
+inline StageRun run_stage(const std::string& name, const std::string& options, Scene scene) {
+    Problems problems;
+    const auto source = std::make_shared<const SourceText>(SourceText{"test.yaml", options});
+    const Value value = pipeline::parse_yaml(source, problems);
+    problems.throw_if_any(ErrorKind::usage);
+    return run_stage(name, value, std::move(scene));
+}
+inline StageRun run_stage(const std::string& name, const char* options, Scene scene) {
+    return run_stage(name, std::string(options), std::move(scene));
+}
+
+/// The problems with the value, one per line: "E-RANGE message | hint".
+inline std::string problems_of(const std::string& name, const Value& value) {
+    Problems problems;
+    options_of(stage_for_test(name), value, problems);
+    std::string text;
+    for (const auto& d : problems.all())
+        text += (text.empty() ? "" : "\n") + d.id + " " + d.message + (d.hint.empty() ? "" : " | " + d.hint);
+    return text;
 }
 
 inline Scene scene_of(Mesh mesh, Unit unit = Unit::unknown) {
@@ -41,6 +78,13 @@ inline Scene scene_of(Mesh mesh, Unit unit = Unit::unknown) {
     scene.parts[0].name = "part";
     scene.parts[0].mesh = std::move(mesh);
     return scene;
+}
+
+/// A map of scalars, as the command line would give them.
+inline Value options(std::vector<std::pair<std::string, std::string>> pairs) {
+    Value map = Value::map({});
+    for (auto& [key, text] : pairs) map.set(key, Value::scalar(text));
+    return map;
 }
 
 } // namespace facetmill::test
