@@ -5,7 +5,6 @@
 #include "cli/depfile.hpp"
 #include "docs/ready.hpp"
 #include "io/outputs.hpp"
-#include "pipeline/document.hpp"
 #include "report/render.hpp"
 #include "report/warnings.hpp"
 
@@ -112,12 +111,9 @@ pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings setti
     const auto* ready =
         pipeline == "-" || fs::exists(pipeline, ignored) ? nullptr : docs::ready_pipeline(pipeline);
     if (pipeline != "-" && !ready && !fs::exists(pipeline, ignored)) refuse_unknown(pipeline);
-    if (pipeline != "-" && !ready) return pipeline::load_plan(pipeline, std::move(settings), problems);
-    settings.name = ready ? pipeline : "standard input";
-    std::string text(ready ? ready->text : io::as_text(io::Input::open("-").bytes()));
-    auto source = std::make_shared<const SourceText>(SourceText{settings.name, std::move(text)});
-    const Value document = pipeline::parse_yaml(std::move(source), problems);
-    return pipeline::make_plan(document, settings, problems);
+    if (!ready) return pipeline::load_plan(pipeline, std::move(settings), problems);
+    settings.name = pipeline;
+    return pipeline::plan_text(std::string(ready->text), settings, problems);
 }
 
 namespace {

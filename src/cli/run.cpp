@@ -23,12 +23,15 @@ Examples
 /// Two pipelines of one run must not write the same file: the second would replace what the first one made.
 void refuse_common_outputs(const std::vector<pipeline::Plan>& plans, Problems& problems) {
     std::set<std::filesystem::path> seen;
-    for (const auto& plan : plans)
-        for (const auto& output : pipeline::planned_outputs(plan))
+    for (const auto& plan : plans) {
+        auto outputs = pipeline::planned_outputs(plan);
+        for (const auto& report : plan.reports) outputs.push_back(plan.places.output(report));
+        for (const auto& output : outputs)
             if (output != "-" && !seen.insert(output.lexically_normal()).second)
                 problems.add({}, "E-TWICE",
                              fmt::format("{}: '{}' is written by another pipeline of this run too", plan.name,
                                          output.string()));
+    }
 }
 
 int run(const std::vector<std::string>& pipelines, const PipelineOptions& options, const CommandLine& line,

@@ -93,8 +93,13 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places)
 
 void check_collisions(const std::vector<PlannedFile>& files, Problems& problems) {
     std::map<std::string, const PlannedFile*> inputs, outputs;
-    for (const auto& file : files)
-        if (!file.written) inputs.emplace(identity(file.path), &file);
+    for (const auto& file : files) {
+        if (file.written) continue;
+        const auto [first, is_new] = inputs.emplace(identity(file.path), &file);
+        if (!is_new && file.path == "-")
+            problems.add(file.where, "E-TWICE", "standard input can be read only once",
+                         fmt::format("the first is at {}", spelled(first->second->where)));
+    }
     for (const auto& file : files) {
         if (!file.written) continue;
         const std::string path = identity(file.path);

@@ -64,8 +64,11 @@ std::vector<std::string> read_reports(const Value* report, const Scope& scope, c
         if (!has_renderer(path))
             problems.add(where, "E-REPORT",
                          fmt::format("a report is .json, .html, .xml (JUnit) or .txt, found '{}'", path));
+        const fs::path target = settings.places.output(path);
+        for (const auto& known : reports) // asked for in the pipeline and on the command line: once is enough
+            if (settings.places.output(known).lexically_normal() == target.lexically_normal()) return;
         reports.push_back(path);
-        files.push_back({settings.places.output(path), where, true});
+        files.push_back({target, where, true});
     };
     if (report && !report->is_null()) {
         const Value paths = resolved(*report, scope, problems);
@@ -120,17 +123,26 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
     return plan;
 }
 
+Plan plan_text(std::string text, const PlanSettings& settings, Problems& problems) {
+    auto source = std::make_shared<const SourceText>(SourceText{settings.name, std::move(text)});
+    const Value document = parse_yaml(std::move(source), problems);
+    // What the tree still tells after an error is worth planning only when it is whole.
+    if (problems.any_errors() && !document.is_map()) return {};
+    return make_plan(document, settings, problems);
+}
+
 Plan load_plan(const fs::path& file, PlanSettings settings, Problems& problems) {
     const auto input = io::Input::open(file);
-    if (settings.name.empty()) settings.name = file.string();
-    if (settings.places.input_base.empty() && file != "-") settings.places.input_base = file.parent_path();
-    auto source = std::make_shared<const SourceText>(
-        SourceText{settings.name, std::string(io::as_text(input.bytes()))});
-    const Value document = parse_yaml(std::move(source), problems);
-    if (!problems.any_errors()) return make_plan(document, settings, problems);
-    // What the tree still tells is worth planning only when it is whole.
-    if (document.is_map()) return make_plan(document, settings, problems);
-    return {};
+    const bool streamed = file == "-";
+    if (settings.name.empty()) settings.name = streamed ? "standard input" : file.string();
+    if (settings.places.input_base.empty() && !streamed) settings.places.input_base = file.parent_path();
+    Plan plan = plan_text(std::string(io::as_text(input.bytes())), settings, problems);
+    for (const auto& read : planned_files(plan.steps, plan.places))
+        if (streamed && !read.written && read.path == "-")
+            problems.add(read.where, "E-TWICE",
+                         "standard input holds the pipeline, so no mesh can come from it",
+                         "give one of the two as a file");
+    return plan;
 }
 
 } // namespace facetmill::pipeline

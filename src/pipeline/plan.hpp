@@ -70,7 +70,9 @@ struct Plan {
 /// Plans a parsed document. All problems (E-FORMAT-VERSION, E-REQUIRES, E-STAGE, E-KEY, E-PARAM, ...) are
 /// added; the plan is to be run only when there are no errors among them.
 Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems);
-/// Reads a pipeline file and plans it. An unreadable file throws missing.
+/// Parses and plans a pipeline; settings.name is what its text is called in messages.
+Plan plan_text(std::string text, const PlanSettings& settings, Problems& problems);
+/// Reads a pipeline file ("-": standard input) and plans it. An unreadable file throws missing.
 Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problems& problems);
 
 /// A file that a plan reads or writes.
@@ -83,7 +85,8 @@ struct PlannedFile {
 /// The files of these steps in their order, as far as they are known (globs expanded); without those of a
 /// step that will be skipped.
 std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places);
-/// Adds E-TWICE and E-OVERWRITE: two writes to one path (also by case), an output that is an input.
+/// Adds E-TWICE and E-OVERWRITE: two writes to one path (also by case), two readings of standard input, an
+/// output that is an input.
 void check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
 /// An E-FILE for every input that does not exist, at its place; exit code 3. run_plan begins with it.
 std::vector<Diagnostic> missing_inputs(const Plan& plan);

@@ -137,6 +137,13 @@ class Process(Case):
         self.mill("run", "-", stdin=pipeline)
         self.assertTrue((self.dir / "out.ply").exists())
 
+    def test_standard_input_is_read_once(self):
+        twice = self.mill("pipe", "load", "-", "!", "load", "-", stdin=TRIANGLE, expect=2)
+        self.assertIn("error[E-TWICE]: standard input can be read only once", twice.stderr)
+        pipeline = 'facetmill: 1\nstages: [{load: "-"}]\n'
+        both = self.mill("run", "-", stdin=pipeline, expect=2)
+        self.assertIn("error[E-TWICE]: standard input holds the pipeline", both.stderr)
+
     def test_messages_as_json_and_quiet(self):
         import json
         self.write("t.off", TRIANGLE)
@@ -155,6 +162,9 @@ class Process(Case):
         self.write("c.yaml", "facetmill: 1\nstages: [{load: t.off}, {write: a.ply}]\n")
         run = self.mill("run", "a.yaml", "c.yaml", expect=2)
         self.assertIn("E-TWICE", run.stderr)
+        for name in "fg":
+            self.write(f"{name}.yaml", "facetmill: 1\nstages: [{load: t.off}]\nreport: r.json\n")
+        self.assertIn("'r.json' is written by another pipeline", self.mill("run", "f.yaml", "g.yaml", expect=2).stderr)
         self.write("d.yaml", "facetmill: 1\nstages: [{laod: t.off}]\n")
         self.write("e.yaml", "facetmill: 1\nstages: [{load: t.off}, {wirte: a.ply}]\n")
         run = self.mill("check", "d.yaml", "e.yaml", expect=2)

@@ -148,6 +148,11 @@ TEST_CASE("what is wrong with a pipeline is said with its place and the way out"
          "      do: [test-write: o.glb]\n"
          "                       ^~~~~\n"
          "  hint: the first is at p.yaml:5:22"},
+        {stages("  - test-load: \"-\"\n  - test-load: \"-\"\n"),
+         "p.yaml:5:16: error[E-TWICE]: standard input can be read only once\n"
+         "    - test-load: \"-\"\n"
+         "                 ^~~\n"
+         "  hint: the first is at p.yaml:4:16"},
         {stages("  - foreach: {lod: [50%]}\n"),
          "p.yaml:4:5: error[E-MISSING]: foreach: 'do' is needed, the stages for each value\n"
          "    - foreach: {lod: [50%]}\n"
@@ -345,4 +350,13 @@ TEST_CASE("a param without a value stands for any value, as an option too", "[pi
     CHECK(planned("facetmill: 1\nparams: {input: path}\nstages:\n  - test-load: {file: \"${input}\"}\n",
                   settings)
               .problems.empty());
+}
+
+TEST_CASE("a report that the pipeline and the command line ask for is written once", "[pipeline]") {
+    PlanSettings settings;
+    settings.extra_reports = {"./r.json", "r.html"};
+    const auto result =
+        planned("facetmill: 1\nstages:\n  - test-load: a.ply\nreport: [r.json, r.txt]\n", settings);
+    CHECK(result.problems.empty());
+    CHECK(result.plan.reports == std::vector<std::string>{"r.json", "r.txt", "r.html"});
 }

@@ -179,10 +179,10 @@ TEST_CASE("clip says when everything or nothing stays, and names open contours",
         return all;
     };
     CHECK(warnings(text("z=-1"), shapes::cube()) ==
-          "W-CLIP-ALL clip: no plane met part 'body', all of it was kept\n");
-    CHECK(warnings(text("z=2"), shapes::cube()) == "W-CLIP-NOTHING clip: nothing of part 'body' was kept\n");
+          "W-CLIP-ALL clip: no plane met part 'part', all of it was kept\n");
+    CHECK(warnings(text("z=2"), shapes::cube()) == "W-CLIP-NOTHING clip: nothing of part 'part' was kept\n");
     CHECK(warnings(map({{"plane", text("x=1.5")}, {"cap", text("true")}}), shapes::grid(3, 1)) ==
-          "W-CAP-OPEN clip: a contour of 2 edges of part 'body' is open and was not capped; it ends at (1.5, "
+          "W-CAP-OPEN clip: a contour of 2 edges of part 'part' is open and was not capped; it ends at (1.5, "
           "0, 0)\n");
 }
 

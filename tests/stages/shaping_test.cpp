@@ -15,14 +15,15 @@ using test::scene_of;
 
 TEST_CASE("relax: a bare number is the iterations", "[stages]") {
     const auto once = run_stage("relax", Value::scalar("2"), scene_of(shapes::icosphere(2)));
-    const auto twice = run_stage("relax", {}, run_stage("relax", {}, scene_of(shapes::icosphere(2))).scene);
+    const auto twice =
+        run_stage("relax", Value{}, run_stage("relax", Value{}, scene_of(shapes::icosphere(2))).scene);
     CHECK(test::same(once.mesh(), twice.mesh()));
     CHECK(once.record.result["parts"][0]["moved_vertices"] == 162);
     CHECK(once.scene.parts[0].changed);
 }
 
 TEST_CASE("relax: the ledger has every attribute", "[stages]") {
-    const auto r = run_stage("relax", {}, scene_of(shapes::uv_cube()));
+    const auto r = run_stage("relax", Value{}, scene_of(shapes::uv_cube()));
     CHECK(r.record.ledger.size() == 2);
 }
 
@@ -50,7 +51,7 @@ TEST_CASE("crumple: triangulate leaves no bent quads", "[stages]") {
 }
 
 TEST_CASE("crumple: the ledger tells of splitting and of moving", "[stages]") {
-    const auto r = run_stage("crumple", {}, scene_of(shapes::uv_cube()));
+    const auto r = run_stage("crumple", Value{}, scene_of(shapes::uv_cube()));
     REQUIRE(r.record.ledger.size() == 2);
     for (const auto& entry : r.record.ledger)
         CHECK(entry.fate.kind ==
@@ -122,8 +123,8 @@ TEST_CASE("split: a mesh in a single point has no edges longer than a percentage
 
 TEST_CASE("shaping stages take an empty scene and an empty mesh", "[stages]") {
     for (const char* stage : {"split", "crumple", "relax"}) {
-        CHECK(run_stage(stage, {}, Scene{}).scene.parts.empty());
-        CHECK(run_stage(stage, {}, scene_of(Mesh{})).mesh().face_count() == 0);
+        CHECK(run_stage(stage, Value{}, Scene{}).scene.parts.empty());
+        CHECK(run_stage(stage, Value{}, scene_of(Mesh{})).mesh().face_count() == 0);
     }
 }
 
@@ -156,7 +157,7 @@ TEST_CASE("relax: area and volume before and after; options that go with methods
     const auto r = run_stage("relax", options({{"method", "hc"}}), scene_of(shapes::icosphere(2)));
     const auto& part = r.record.result["parts"][0];
     CHECK(part["before"]["volume"].get<double>() > part["after"]["volume"].get<double>());
-    CHECK(run_stage("relax", {}, scene_of(shapes::grid(2, 2)))
+    CHECK(run_stage("relax", Value{}, scene_of(shapes::grid(2, 2)))
               .record.result["parts"][0]["after"]["volume"]
               .is_null());
     CHECK(problems_of("relax", options({{"method", "taubin"}, {"factor", "0.9"}})).substr(0, 8) ==
