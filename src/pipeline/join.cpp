@@ -65,4 +65,17 @@ Scene joined(std::vector<NamedScene> scenes) {
     return all;
 }
 
+Scene with_parts_replaced(Scene scene, std::vector<std::vector<NamedScene>> results) {
+    std::vector<NamedScene> all;
+    for (std::size_t p = 0; p < results.size(); ++p) {
+        if (results[p].empty()) {
+            Scene alone{{}, scene.materials, scene.unit, scene.up, scene.documents};
+            alone.parts.push_back(std::move(scene.parts[p]));
+            all.push_back({"", std::move(alone)});
+        }
+        for (auto& result : results[p]) all.push_back(std::move(result));
+    }
+    return all.empty() ? std::move(scene) : joined(std::move(all));
+}
+
 } // namespace facetmill::pipeline

@@ -16,4 +16,7 @@ struct NamedScene {
 /// its own. Unit and up are those of the first scene that knows them.
 Scene joined(std::vector<NamedScene> scenes);
 
+/// Each part makes way for what its arms made of it (results[i] for part i); parts without arms stay.
+Scene with_parts_replaced(Scene scene, std::vector<std::vector<NamedScene>> results);
+
 } // namespace facetmill::pipeline

@@ -3,13 +3,13 @@
 #include "base/parallel.hpp"
 #include "geometry/inspect.hpp"
 #include "mesh/invariants.hpp"
+#include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
-#include <new>
 #include <sys/resource.h>
 
 namespace facetmill::pipeline {
@@ -17,16 +17,6 @@ namespace facetmill::pipeline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::size_t peak_memory() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
-}
 
 Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
@@ -43,6 +33,16 @@ Json brief(const Scene& scene) {
             {"bounds", bounds}};
 }
 
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::size_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
 int count_stages(const Steps& steps) {
     int count = 0;
     for (const auto& step : steps) {
@@ -50,6 +50,19 @@ int count_stages(const Steps& steps) {
         for (const auto& arm : step.arms) count += count_stages(*arm.steps);
     }
     return count;
+}
+
+/// Whether a contract compares with the scene as loaded.
+bool compares_with_load(const Steps& steps) {
+    return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
+        if (step.ensure && step.ensure->deviation &&
+            step.ensure->deviation->from == DeviationLimits::From::load)
+            return true;
+        if (step.kind == Step::Kind::stage) // the stage ensure always does
+            return step.stage->name == "ensure" && step.given.find("deviation") != nullptr;
+        return std::any_of(step.arms.begin(), step.arms.end(),
+                           [](const Arm& arm) { return compares_with_load(*arm.steps); });
+    });
 }
 
 class Runner {
@@ -66,13 +79,14 @@ class Runner {
         const auto start = Clock::now();
         stages_ = count_stages(plan_.steps);
         keeps_loaded_ = compares_with_load(plan_.steps);
-        for (const auto& warning : plan_.warnings) warn(warning), record().warnings.push_back(warning);
-        for (const auto& missing : missing_inputs(plan_)) fail(ErrorKind::missing, missing);
-        for (const auto& error : read_headers(plan_).errors) fail(error);
+        for (const auto& warning : plan_.warnings)
+            failures_.warn(warning), record().warnings.push_back(warning);
+        for (const auto& missing : missing_inputs(plan_)) failures_.add(ErrorKind::missing, missing);
+        for (const auto& error : read_headers(plan_).errors) failures_.add(error);
         Scene scene;
-        if (!failed_ && run_steps(plan_.steps, scene, true) && !plan_.reports.empty())
-            guarded({}, "the inspection at the end",
-                    [&] { record().final_properties = report::scene_json(scene, inspect(scene)); });
+        if (!failures_.any() && run_steps(plan_.steps, scene, true) && !plan_.reports.empty())
+            failures_.guarded({}, "the inspection at the end",
+                              [&] { record().final_properties = report::scene_json(scene, inspect(scene)); });
         finish_outputs();
         if (settings_.progress) settings_.progress->done();
         record().seconds = seconds_since(start);
@@ -85,54 +99,6 @@ class Runner {
   private:
     report::RunRecord& record() { return state_.record; }
 
-    // --- failures
-
-    void fail(ErrorKind kind, Diagnostic why) {
-        // A check that did not hold gives way to what went wrong in earnest, else the first failure decides.
-        if (!failed_ ||
-            (record().exit_code == static_cast<int>(ErrorKind::check) && kind != ErrorKind::check))
-            record().exit_code = static_cast<int>(kind);
-        failed_ = true;
-        record().errors.push_back(std::move(why));
-    }
-
-    void fail(const Error& error) {
-        for (const auto& d : error.diagnostics()) fail(error.kind(), d);
-    }
-
-    /// Runs body; whatever it throws becomes a failure at this place. False then.
-    template <class Body>
-    bool guarded(const Mark& where, const std::string& what, Body&& body) {
-        try {
-            body();
-            return true;
-        } catch (Error& e) {
-            fail(e.at(where));
-        } catch (const std::bad_alloc&) {
-            fail(ErrorKind::limit,
-                 {Severity::error, "E-MEMORY", fmt::format("not enough memory for {}", what), where,
-                  "simplify earlier, or use a machine with more memory"});
-        } catch (const std::exception& e) {
-            fail(ErrorKind::bug, {Severity::error, "E-BUG",
-                                  fmt::format("{} failed in a way it never should: {}", what, e.what()),
-                                  where, "please report it, with the pipeline and the input"});
-        }
-        return false;
-    }
-
-    void warn(const Diagnostic& warning) {
-        if (settings_.on_warning) settings_.on_warning(warning);
-        const auto& strict = settings_.strict;
-        if (std::find(strict.begin(), strict.end(), "*") == strict.end() &&
-            std::find(strict.begin(), strict.end(), warning.id) == strict.end())
-            return;
-        fail(ErrorKind::check, {Severity::error, "E-STRICT",
-                                fmt::format("--strict makes {} fail: {}", warning.id, warning.message),
-                                warning.where, warning.hint});
-    }
-
-    // --- steps
-
     /// Runs the steps on the scene. False when the chain ended early; the scene is then worth nothing.
     /// needed: whether the scene is looked at afterwards.
     bool run_steps(const Steps& steps, Scene& scene, bool needed) {
@@ -142,23 +108,25 @@ class Runner {
             if (!holds && !judges) return false;
             const bool last = &step == &steps.back();
             bool skip = false;
-            if (!guarded(step.where, "the condition", [&] { skip = is_skipped(step, scene); })) return false;
+            if (!failures_.guarded(step.where, "the condition", [&] { skip = is_skipped(step, scene); }))
+                return false;
             if (skip) {
                 if (step.kind == Step::Kind::stage) record_skipped(step);
                 continue;
             }
             std::size_t checked = record().checks.size();
             std::shared_ptr<const Surface> reference;
-            if (!guarded(step.where, step.name, [&] { reference = reference_of(step, scene); })) return false;
+            if (!failures_.guarded(step.where, step.name, [&] { reference = reference_of(step, scene); }))
+                return false;
             const bool done = step.kind == Step::Kind::stage ? run_stage(step, scene)
                                                              : run_arms(step, scene, needed || !last);
             if (!done) return false;
             if (step.kind != Step::Kind::stage)
                 checked = record().checks.size(); // those of the arms are judged
-            if (step.ensure &&
-                !guarded(step.where, step.name, [&] { check_contract(step, scene, reference.get()); }))
+            if (step.ensure && !failures_.guarded(step.where, step.name,
+                                                  [&] { check_contract(step, scene, reference.get()); }))
                 return false;
-            holds = judge_checks(checked) && holds;
+            holds = failures_.judge_checks(checked) && holds;
         }
         return holds;
     }
@@ -195,7 +163,7 @@ class Runner {
         auto stage = new_record(step);
         stage.before = brief(scene);
         const auto start = Clock::now();
-        const bool done = guarded(step.where, fmt::format("'{}'", step.name), [&] {
+        const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, scene.bounds(), step.where);
             if (!step.only.patterns.empty() && !step.stage->loads)
                 warn_of_empty_selection(step, scene, context);
@@ -208,7 +176,7 @@ class Runner {
         if (done && step.stage->loads && keeps_loaded_)
             state_.loaded = std::make_shared<const Surface>(surface_of(scene));
         if (settings_.on_stage) settings_.on_stage(stage);
-        for (const auto& warning : stage.warnings) warn(warning);
+        for (const auto& warning : stage.warnings) failures_.warn(warning);
         record().stages.push_back(std::move(stage));
         return done;
     }
@@ -256,41 +224,6 @@ class Runner {
         check_deviation(*step.ensure->deviation, step.ensure->deviation_at, *reference, scene, context);
     }
 
-    /// Whether a contract compares with the scene as loaded.
-    static bool compares_with_load(const Steps& steps) {
-        return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
-            if (step.ensure && step.ensure->deviation &&
-                step.ensure->deviation->from == DeviationLimits::From::load)
-                return true;
-            if (step.kind == Step::Kind::stage) // the stage ensure always does
-                return step.stage->name == "ensure" && step.given.find("deviation") != nullptr;
-            return std::any_of(step.arms.begin(), step.arms.end(),
-                               [](const Arm& arm) { return compares_with_load(*arm.steps); });
-        });
-    }
-
-    /// Turns the checks from this one on that do not hold into failures. Those of arms have been judged
-    /// inside.
-    bool judge_checks(std::size_t first) {
-        bool all_hold = true;
-        for (std::size_t i = first; i < record().checks.size(); ++i) {
-            const auto& check = record().checks[i];
-            if (check.passed) continue;
-            const std::string text =
-                fmt::format("'{}' must be {}, found {}{}", check.name, check.expected, check.found,
-                            check.part.empty() ? "" : fmt::format(" in part '{}'", check.part));
-            if (check.severity == Severity::error) {
-                all_hold = false;
-                fail(ErrorKind::check, {Severity::error, "E-CHECK", text, check.where, {}});
-            } else {
-                const Diagnostic warning{Severity::warning, "W-CHECK", text, check.where, {}};
-                record().warnings.push_back(warning);
-                warn(warning);
-            }
-        }
-        return all_hold;
-    }
-
     // --- branches
 
     bool run_arms(const Step& step, Scene& scene, bool needed) {
@@ -300,7 +233,7 @@ class Runner {
         for (const auto& arm : step.arms) {
             const bool last = &arm == &step.arms.back();
             Scene inside;
-            if (!guarded(step.where, step.name, [&] {
+            if (!failures_.guarded(step.where, step.name, [&] {
                     if (last && (step.join || !needed))
                         inside = std::move(scene);
                     else
@@ -326,7 +259,7 @@ class Runner {
         const auto arms = step.arms_of_parts(names, problems);
         check_new_files(arms, problems);
         for (const auto& d : problems.all())
-            if (d.severity == Severity::error) fail(ErrorKind::usage, d);
+            if (d.severity == Severity::error) failures_.add(ErrorKind::usage, d);
         if (problems.any_errors()) return false;
 
         std::vector<std::vector<NamedScene>> results(scene.parts.size());
@@ -338,7 +271,7 @@ class Runner {
             inside.documents = scene.documents;
             inside.unit = scene.unit;
             inside.up = scene.up;
-            if (!guarded(step.where, step.name, [&] { inside.parts.push_back(scene.parts[p]); }))
+            if (!failures_.guarded(step.where, step.name, [&] { inside.parts.push_back(scene.parts[p]); }))
                 return false;
             all_done = run_steps(*arm.steps, inside, step.join) && all_done;
             if (step.join) results[p].push_back({arm.name, std::move(inside)});
@@ -353,21 +286,7 @@ class Runner {
                                  fmt::format("foreach runs over none of the {} parts", scene.parts.size()),
                                  step.where, names_hint(scene)};
         record().warnings.push_back(warning);
-        warn(warning);
-    }
-
-    /// Each part makes way for what its arms made of it; parts without arms stay.
-    static Scene with_parts_replaced(Scene scene, std::vector<std::vector<NamedScene>> results) {
-        std::vector<NamedScene> all;
-        for (std::size_t p = 0; p < results.size(); ++p) {
-            if (results[p].empty()) {
-                Scene alone{{}, scene.materials, scene.unit, scene.up, scene.documents};
-                alone.parts.push_back(std::move(scene.parts[p]));
-                all.push_back({"", std::move(alone)});
-            }
-            for (auto& result : results[p]) all.push_back(std::move(result));
-        }
-        return all.empty() ? std::move(scene) : joined(std::move(all));
+        failures_.warn(warning);
     }
 
     /// Now that the parts have names, so have the files written for each.
@@ -388,14 +307,16 @@ class Runner {
     // --- the end
 
     void finish_outputs() {
-        if (!failed_ && guarded({}, "writing the outputs", [&] { state_.outputs.commit(); })) return;
+        if (!failures_.any() &&
+            failures_.guarded({}, "writing the outputs", [&] { state_.outputs.commit(); }))
+            return;
         state_.outputs.discard();
         record().outputs.clear();
     }
 
     void write_reports() {
         for (const auto& path : plan_.reports) {
-            guarded({}, "the report", [&] {
+            failures_.guarded({}, "the report", [&] {
                 const std::string text = report::render_for(path, record());
                 io::write_now(plan_.places.output(path), std::as_bytes(std::span(text)));
             });
@@ -405,7 +326,8 @@ class Runner {
     const Plan& plan_;
     const RunSettings& settings_;
     RunState state_;
-    bool failed_ = false, keeps_loaded_ = false;
+    Failures failures_{state_.record, settings_};
+    bool keeps_loaded_ = false;
     int number_ = 0, stages_ = 0;
 };
 

@@ -1,0 +1,49 @@
+#include "pipeline/failures.hpp"
+
+#include <algorithm>
+
+namespace facetmill::pipeline {
+
+void Failures::add(ErrorKind kind, Diagnostic why) {
+    const bool only_checks = record_.exit_code == static_cast<int>(ErrorKind::check);
+    if (!any_ || (only_checks && kind != ErrorKind::check)) record_.exit_code = static_cast<int>(kind);
+    any_ = true;
+    record_.errors.push_back(std::move(why));
+}
+
+void Failures::add(const Error& error) {
+    for (const auto& d : error.diagnostics()) add(error.kind(), d);
+}
+
+void Failures::warn(const Diagnostic& warning) {
+    if (settings_.on_warning) settings_.on_warning(warning);
+    const auto& strict = settings_.strict;
+    if (std::find(strict.begin(), strict.end(), "*") == strict.end() &&
+        std::find(strict.begin(), strict.end(), warning.id) == strict.end())
+        return;
+    add(ErrorKind::check,
+        {Severity::error, "E-STRICT", fmt::format("--strict makes {} fail: {}", warning.id, warning.message),
+         warning.where, warning.hint});
+}
+
+bool Failures::judge_checks(std::size_t first) {
+    bool all_hold = true;
+    for (std::size_t i = first; i < record_.checks.size(); ++i) {
+        const auto& check = record_.checks[i];
+        if (check.passed) continue;
+        const std::string text =
+            fmt::format("'{}' must be {}, found {}{}", check.name, check.expected, check.found,
+                        check.part.empty() ? "" : fmt::format(" in part '{}'", check.part));
+        if (check.severity == Severity::error) {
+            all_hold = false;
+            add(ErrorKind::check, {Severity::error, "E-CHECK", text, check.where, {}});
+        } else {
+            const Diagnostic warning{Severity::warning, "W-CHECK", text, check.where, {}};
+            record_.warnings.push_back(warning);
+            warn(warning);
+        }
+    }
+    return all_hold;
+}
+
+} // namespace facetmill::pipeline
