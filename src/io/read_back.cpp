@@ -12,22 +12,52 @@ namespace facetmill::io {
 
 namespace {
 
-/// World positions of the vertices that faces use; of all vertices when there are no faces.
-std::vector<Vec3> used_points(const Scene& scene) {
+/// A scene in world space: the points of all parts and the points of all corners, in order.
+struct Flat {
     std::vector<Vec3> points;
-    const bool all = scene.face_count() == 0;
-    for (const auto& part : scene.parts) {
-        const Transform to_world = effective(part);
-        std::vector<std::uint8_t> used(part.mesh.vertex_count(), all ? 1 : 0);
-        for (Index c = 0; c < part.mesh.corner_count(); ++c) used[part.mesh.vertex(c)] = 1;
-        for (std::size_t v = 0; v < used.size(); ++v)
-            if (used[v]) points.push_back(to_world.point(part.mesh.positions[v]));
+    std::vector<Index> corners;
+
+    explicit Flat(const Scene& scene) {
+        for (const auto& part : scene.parts) {
+            const Transform to_world = effective(part);
+            const std::size_t first = points.size(), first_corner = corners.size();
+            points.resize(first + part.mesh.vertex_count());
+            corners.resize(first_corner + part.mesh.corner_count());
+            parallel_for(part.mesh.vertex_count(),
+                         [&](std::size_t v) { points[first + v] = to_world.point(part.mesh.positions[v]); });
+            parallel_for(part.mesh.corner_count(), [&](std::size_t c) {
+                corners[first_corner + c] =
+                    static_cast<Index>(first) + part.mesh.vertex(static_cast<Index>(c));
+            });
+        }
     }
-    return points;
+
+    /// The points that faces use; all points when there are no faces.
+    std::vector<Vec3> used() const {
+        if (corners.empty()) return points;
+        std::vector<std::uint8_t> is_used(points.size());
+        for (const Index p : corners) is_used[p] = 1;
+        std::vector<Vec3> found;
+        for (std::size_t p = 0; p < points.size(); ++p)
+            if (is_used[p]) found.push_back(points[p]);
+        return found;
+    }
+};
+
+template <class Distance>
+double largest(std::size_t count, Distance&& distance) {
+    return parallel_reduce(
+        count, 0.0,
+        [&](std::size_t begin, std::size_t end) {
+            double most = 0;
+            for (std::size_t i = begin; i < end; ++i) most = std::max(most, distance(i));
+            return most;
+        },
+        [](double a, double b) { return std::max(a, b); });
 }
 
-/// Points in cells of a hashed grid, sorted by cell: the nearest point is looked for in a cell and its
-/// neighbours.
+/// Points in cells of a grid, in the order of the cells' hashes, with a table of where each share of the
+/// hashes begins: a cell is found at once.
 class Grid {
   public:
     Grid(const std::vector<Vec3>& points, double cell) : points_(points), cell_(cell) {
@@ -36,24 +66,28 @@ class Grid {
             entries_[i] = {key(cell_of(points[i])), static_cast<Index>(i)};
         });
         radix_sort(entries_, [](const Entry& e) { return e.key; });
+        while (points.size() >> bits_ != 0) ++bits_;
+        begins_.assign((std::size_t{1} << bits_) + 1, 0);
+        for (const Entry& e : entries_) ++begins_[share(e.key) + 1];
+        for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
     }
 
-    /// The distance to the nearest point when it is below half a cell, else infinity.
+    /// The distance to the nearest point when it is below half a cell, else infinity or more than that.
     double nearest(const Vec3& p) const {
         const Cell centre = cell_of(p);
-        double best = HUGE_VAL;
-        for (int i = 0; i < 8; ++i) {
+        double best = nearest_in(centre, p, HUGE_VAL);
+        for (int i = 1; i < 8; ++i) {
             Cell c = centre;
+            double gap = 0; // to the cell, squared
             for (std::size_t axis = 0; axis < 3; ++axis)
                 if (i >> axis & 1) {
                     const double within = p[axis] / cell_ - static_cast<double>(centre[axis]);
                     c[axis] += within < 0.5 ? -1 : 1;
+                    const double side = std::min(within, 1 - within) * cell_;
+                    gap += side * side;
                 }
-            const std::uint64_t k = key(c);
-            auto it = std::lower_bound(entries_.begin(), entries_.end(), k,
-                                       [](const Entry& e, std::uint64_t x) { return e.key < x; });
-            for (; it != entries_.end() && it->key == k; ++it)
-                best = std::min(best, length(points_[it->point] - p));
+            // The margin: a point beside the border is looked for on both sides, however that was rounded.
+            if (gap * (1 - 1e-9) <= best * best) best = nearest_in(c, p, best);
         }
         return best;
     }
@@ -64,6 +98,12 @@ class Grid {
         std::uint64_t key;
         Index point;
     };
+    double nearest_in(const Cell& cell, const Vec3& p, double best) const {
+        const std::uint64_t k = key(cell);
+        for (std::size_t i = begins_[share(k)]; i < begins_[share(k) + 1]; ++i)
+            if (entries_[i].key == k) best = std::min(best, length(points_[entries_[i].point] - p));
+        return best;
+    }
     Cell cell_of(const Vec3& p) const {
         Cell c;
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -75,35 +115,33 @@ class Grid {
         for (const std::int64_t x : c) h = hashed(h, static_cast<std::uint64_t>(x));
         return h;
     }
+    std::size_t share(std::uint64_t k) const {
+        return bits_ == 0 ? 0 : static_cast<std::size_t>(k >> (64 - bits_));
+    }
 
     const std::vector<Vec3>& points_;
     double cell_;
+    int bits_ = 0;
     std::vector<Entry> entries_;
+    std::vector<std::size_t> begins_;
 };
 
 double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to, double tolerance) {
-    // Most formats keep the order: then nothing need be searched.
-    const auto max = [](double a, double b) { return std::max(a, b); };
-    if (from.size() == to.size()) {
-        const double same_order = parallel_reduce(
-            from.size(), 0.0,
-            [&](std::size_t begin, std::size_t end) {
-                double most = 0;
-                for (std::size_t i = begin; i < end; ++i) most = std::max(most, length(from[i] - to[i]));
-                return most;
-            },
-            max);
-        if (same_order <= tolerance) return same_order;
-    }
     const Grid grid(to, std::max(2.5 * tolerance, 1e-300));
-    return parallel_reduce(
-        from.size(), 0.0,
-        [&](std::size_t begin, std::size_t end) {
-            double most = 0;
-            for (std::size_t i = begin; i < end; ++i) most = std::max(most, grid.nearest(from[i]));
-            return most;
-        },
-        max);
+    return largest(from.size(), [&](std::size_t i) { return grid.nearest(from[i]); });
+}
+
+/// How far a corner or, where the format orders faces anew, a point is from the one that it was; either way.
+double position_error(const Scene& before, const Scene& after, double tolerance) {
+    const Flat wanted(before), found(after);
+    if (wanted.corners.size() == found.corners.size() && !wanted.corners.empty()) {
+        const double in_order = largest(wanted.corners.size(), [&](std::size_t c) {
+            return length(wanted.points[wanted.corners[c]] - found.points[found.corners[c]]);
+        });
+        if (in_order <= tolerance) return in_order;
+    }
+    const std::vector<Vec3> here = wanted.used(), there = found.used();
+    return std::max(farthest(here, there, tolerance), farthest(there, here, tolerance));
 }
 
 /// How far the format may move a point: float32's rounding of the largest coordinate (twice, for a node's
@@ -134,10 +172,34 @@ double allowed(const Scene& scene, const WriteSettings& settings) {
            step; // half a step times the square root of three, and a margin for rounding
 }
 
+/// The properties that a file should not lose; truths, or counts of what is wrong.
+constexpr const char* sound_properties[] = {"closed",   "edge_manifold",    "vertex_manifold",
+                                            "oriented", "degenerate_faces", "duplicate_faces"};
+
+std::vector<std::string> losses(const Properties& before, const Properties& after) {
+    std::vector<std::string> lost;
+    for (const char* name : sound_properties) {
+        const Property& property = *property_named(name);
+        const double was = property.get(before).value_or(0), is = property.get(after).value_or(0);
+        if (property.truth && was != 0 && is == 0) lost.push_back(fmt::format("no longer {}", name));
+        if (!property.truth && is > was) lost.push_back(fmt::format("{} {} (before: {})", is, name, was));
+    }
+    return lost;
+}
+
 } // namespace
 
 Json ReadBack::json() const {
-    return {{"vertices", vertices}, {"faces", faces}, {"position_error", position_error}};
+    Json all = {{"vertices", vertices}, {"faces", faces}, {"position_error", position_error}};
+    for (const char* name : sound_properties) {
+        const Property& property = *property_named(name);
+        const double value = property.get(soundness).value_or(0);
+        if (property.truth)
+            all[name] = value != 0;
+        else
+            all[name] = static_cast<std::int64_t>(value);
+    }
+    return all;
 }
 
 ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings) {
@@ -165,11 +227,11 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, co
                            polygons == triangles ? fmt::format("{}", polygons)
                                                  : fmt::format("{} (or {} triangles)", polygons, triangles)));
     back.tolerance = allowed(scene, settings);
-    const std::vector<Vec3> wanted = used_points(scene), found = used_points(back.scene);
-    back.position_error =
-        std::max(farthest(wanted, found, back.tolerance), farthest(found, wanted, back.tolerance));
+    back.position_error = position_error(scene, back.scene, back.tolerance);
     if (back.position_error > back.tolerance)
         refuse(fmt::format("a vertex moved farther than {}", back.tolerance));
+    back.soundness = inspect(back.scene);
+    back.losses = losses(inspect(scene), back.soundness);
     return back;
 }
 

@@ -2,6 +2,7 @@
 // What is claimed is measured: a written file is decoded again and compared with what it was to hold.
 
 #include "base/json.hpp"
+#include "geometry/inspect.hpp"
 #include "io/codec.hpp"
 
 namespace facetmill::io {
@@ -9,15 +10,18 @@ namespace facetmill::io {
 struct ReadBack {
     Scene scene; ///< the file as decoded
     std::size_t vertices = 0, faces = 0;
-    double position_error = 0; ///< how far a vertex that faces use moved at most, in the file's units
-    double tolerance = 0;      ///< how far the format and its settings may move one
-    Json json() const;         ///< vertices, faces, position_error
+    double position_error = 0;       ///< how far a vertex that faces use moved at most, in the file's units
+    double tolerance = 0;            ///< how far the format and its settings may move one
+    Properties soundness;            ///< of the file as decoded
+    std::vector<std::string> losses; ///< how it is less sound than the scene: rounding may merge points
+    Json json() const; ///< vertices, faces, position_error, closed, edge_manifold, vertex_manifold, ...
 };
 
 /// Decodes the file and compares it with the scene (in the file's convention): the number of faces (polygons,
 /// or the triangles that they are cut into), and the distance from every vertex that faces use to the nearest
 /// one of the other side, within what float32 or Draco's bits allow. Throws output (E-READBACK) when it does
-/// not hold what was written.
+/// not hold what was written. What such rounding did to closedness, manifoldness, orientation and degenerate
+/// or duplicate faces is told, not judged.
 ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io

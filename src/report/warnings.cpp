@@ -34,6 +34,7 @@ const std::vector<KnownWarning>& known_warnings() {
         {"W-ORIENT", "A part is not orientable and stays as it was."},
         {"W-ORIENT-OPEN", "The outside of an open part is not clear."},
         {"W-PROBE-OPEN", "The surface is open, so nothing is inside or outside of it."},
+        {"W-ROUNDED", "A written file, read again, is less sound than the scene: rounding merged points."},
         {"W-SECTION-CROSSES",
          "Contours of a section intersect themselves: no centroid and moments for them."},
         {"W-SIMPLIFY-NOTHING", "simplify has nothing to do: the target is not below the mesh."},

@@ -152,9 +152,14 @@ void stage_files(const io::Written& written, const std::filesystem::path& target
         if (!main) main = &staged;
         run.record.outputs.push_back({staged.target.string(), staged.bytes, staged.sha256, {}});
     }
-    if (main && run.read_back)
-        run.record.outputs[first].read_back =
-            io::read_back(run.outputs.staged(*main), codec, scene, settings).json();
+    if (!main || !run.read_back) return;
+    const io::ReadBack back = io::read_back(run.outputs.staged(*main), codec, scene, settings);
+    run.record.outputs[first].read_back = back.json();
+    if (!back.losses.empty())
+        context.warn("W-ROUNDED",
+                     fmt::format("'{}' as read again is less sound than the scene: {}", target.string(),
+                                 fmt::join(back.losses, ", ")),
+                     "its numbers are coarser: precision: full, more position_bits, or clean before writing");
 }
 
 /// Where a part came from and stood.

@@ -111,13 +111,32 @@ TEST_CASE("write stages a file, reads it back, and passes the scene on as it was
     CHECK(b.scene.parts[0].transform.m[0][3] == 2);
     CHECK(b.scene.unit == Unit::m);
     REQUIRE(b.state.record.outputs.size() == 1);
-    CHECK(b.state.record.outputs[0].read_back.dump() == R"({"vertices":8,"faces":12,"position_error":0.0})");
+    CHECK(b.state.record.outputs[0].read_back.dump() ==
+          R"({"vertices":8,"faces":12,"position_error":0.0,"closed":true,"edge_manifold":true,)"
+          R"("vertex_manifold":true,"oriented":true,"degenerate_faces":0,"duplicate_faces":0})");
+    CHECK(b.record.warnings.empty());
 
     Bench again;
     again.state.places = b.state.places;
     again.run("load", Value::scalar("out/c.ply"));
     CHECK(again.scene.bounds().min == Vec3{2000, 0, -1000});
     CHECK(again.scene.bounds().max == Vec3{3000, 1000, 0});
+}
+
+TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
+    Bench b;
+    Mesh& mesh = b.scene.parts.emplace_back().mesh;
+    mesh = shapes::cube();
+    mesh.positions[0].x = 1 - 1e-9; // so near vertex 1 that float32 makes them one
+    b.run("write", options({{"path", "full.ply"}, {"precision", "full"}}));
+    CHECK(b.record.warnings.empty());
+    b.run("write", Value::scalar("c.ply"));
+    REQUIRE(b.record.warnings.size() == 1);
+    CHECK(b.record.warnings[0].id == "W-ROUNDED");
+    CHECK(b.record.warnings[0].message ==
+          fmt::format("'{}' as read again is less sound than the scene: 2 degenerate_faces (before: 0)",
+                      (b.dir / "c.ply").string()));
+    CHECK(b.state.record.outputs[1].read_back["closed"] == true);
 }
 
 TEST_CASE("write refuses what it cannot mean", "[stages]") {
