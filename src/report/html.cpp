@@ -18,6 +18,9 @@ th, td { text-align: left; padding: .3rem .8rem .3rem 0; border-bottom: 1px soli
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 code { font-family: ui-monospace, monospace; font-size: .9em; overflow-wrap: anywhere; }
 .good { color: var(--good); } .bad { color: var(--bad); } .warn { color: var(--warn); } .soft { opacity: .7; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(15rem, 1fr)); gap: .8rem; }
+figure { margin: 0; background: var(--soft); border-radius: .4rem; } img { display: block; width: 100%; height: auto; }
+figcaption { padding: .3rem .7rem .5rem; font-size: .9em; }
 .verdict { font-weight: 600; padding: .6rem 1rem; background: var(--soft); border-radius: .4rem; }
 )";
 
@@ -68,6 +71,21 @@ std::string stage_rows(const RunRecord& record) {
                             number_cell(count(s.after, "vertices")), cell(notes));
     }
     return rows;
+}
+
+std::string pictures(const RunRecord& record) {
+    std::string figures;
+    for (const auto& s : record.stages) {
+        if (s.picture.empty()) continue;
+        const std::string caption = fmt::format("{}: {} faces", s.name, count(s.after, "faces"));
+        figures += fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
+                               "<figcaption>{0}</figcaption></figure>\n",
+                               escaped(caption), s.picture);
+    }
+    if (figures.empty()) return {};
+    return fmt::format("<h2>Pictures</h2>\n<div class=\"pictures\">\n{}</div>\n<p class=\"soft\">After each "
+                       "stage that changed what is seen. The inner side of a surface is orange.</p>\n",
+                       figures);
 }
 
 std::string check_rows(const RunRecord& record) {
@@ -147,6 +165,7 @@ std::string to_html(const RunRecord& record) {
     out +=
         table("Stages", heads({"name", "stage", "#faces before", "#faces after", "#vertices after", "notes"}),
               stage_rows(record));
+    out += pictures(record);
     out += table("Checks", heads({"", "property", "expected", "found", "part", "stage"}), check_rows(record));
     out += table("Outputs", heads({"file", "#size", "SHA-256"}), file_rows(record.outputs));
     out += table("Inputs", heads({"file", "#size", "SHA-256"}), file_rows(record.inputs));

@@ -12,14 +12,14 @@ namespace facetmill::report {
 
 /// A validate or ensure assertion and how it went.
 struct Check {
-    std::string name;     ///< the property: "closed"
-    std::string stage;    ///< the name of the stage that made it
+    std::string name;  ///< the property: "closed"
+    std::string stage; ///< the name of the stage that made it
     bool passed = true;
     Severity severity = Severity::error;
     std::string expected; ///< "true", "2", "at most 5"
     std::string found;
-    std::string part;     ///< the part it is about; empty: the scene
-    Json evidence;        ///< places: [{face, at}], or null
+    std::string part; ///< the part it is about; empty: the scene
+    Json evidence;    ///< places: [{face, at}], or null
     Mark where;
 };
 
@@ -29,16 +29,19 @@ struct LedgerEntry {
 };
 
 struct StageRecord {
-    std::string name;  ///< unique in the run: the common key name, or the stage's own with a number
-    std::string stage; ///< "clip"
-    std::string path;  ///< where in the pipeline: "stages[3]" or "stages[5].branch.far[0]"
+    std::string name;   ///< unique in the run: the common key name, or the stage's own with a number
+    std::string stage;  ///< "clip"
+    std::string path;   ///< where in the pipeline: "stages[3]" or "stages[5].branch.far[0]"
     Json before, after; ///< brief properties: vertices, faces, parts, bounds
     std::vector<LedgerEntry> ledger;
     std::vector<Diagnostic> warnings;
     Json result = Json::object(); ///< what the stage itself reports
-    Json resolved = Json::object(); ///< lengths that depended on the scene: {"amplitude": {"given": "0.2%", "is": 0.03}}
+    Json resolved =
+        Json::object(); ///< lengths that depended on the scene: {"amplitude": {"given": "0.2%", "is": 0.03}}
     bool skipped = false; ///< its `when` did not hold
     double seconds = 0;
+    std::string
+        picture; ///< of the scene after it, for pages: a PNG in base64; empty: as after the stage before
 };
 
 struct FileRecord {

@@ -170,6 +170,11 @@ TEST_CASE("HTML is one page that escapes what others wrote", "[report]") {
     CHECK(html.find("Mills &lt;cubes&gt; &amp; more") != std::string::npos);
     CHECK(html.find("<cubes>") == std::string::npos);
     CHECK(html.find("src=") == std::string::npos); // nothing is fetched
+    auto record = full_record();
+    record.stages[0].picture = "iVBORw0KGgo=";
+    const std::string shown = to_html(record);
+    CHECK(shown.find("<img alt=\"" + record.stages[0].name + ": ") != std::string::npos);
+    CHECK(shown.find("src=\"data:image/png;base64,iVBORw0KGgo=\"") == shown.find("src="));
     CHECK(html.find("href=") == std::string::npos);
     CHECK(html.find("prefers-color-scheme: dark") != std::string::npos);
 }

@@ -1,0 +1,15 @@
+#pragma once
+// Pictures as PNG files, and as text inside a page.
+
+#include "geometry/picture.hpp"
+#include "io/bytes.hpp"
+
+namespace facetmill::io {
+
+/// A PNG of 8 bits a channel with alpha. Throws limit (E-MEMORY) when zlib has no memory.
+Bytes png(const Picture& picture);
+
+/// The bytes in base64 (RFC 4648, with padding).
+std::string base64(Span bytes);
+
+} // namespace facetmill::io
