@@ -24,11 +24,15 @@ int check(const std::vector<std::string>& pipelines, const PipelineOptions& opti
     std::vector<Error> of_inputs;
     for (const auto& pipeline : pipelines) {
         Problems of_this;
-        const auto plan = plan_of(pipeline, settings, of_this);
-        const auto headers =
-            of_this.any_errors() ? facetmill::pipeline::Headers{} : facetmill::pipeline::read_headers(plan);
-        of_inputs.insert(of_inputs.end(), headers.errors.begin(), headers.errors.end());
-        if (!of_this.any_errors() && headers.errors.empty()) console.say(pipeline + ": ok");
+        try {
+            const auto plan = plan_of(pipeline, settings, of_this);
+            const auto headers = of_this.any_errors() ? facetmill::pipeline::Headers{}
+                                                      : facetmill::pipeline::read_headers(plan);
+            of_inputs.insert(of_inputs.end(), headers.errors.begin(), headers.errors.end());
+            if (!of_this.any_errors() && headers.errors.empty()) console.say(pipeline + ": ok");
+        } catch (const Error& unreadable) { // the others are checked all the same
+            of_inputs.push_back(unreadable);
+        }
         for (const auto& d : of_this.all()) {
             if (d.severity == Severity::error)
                 problems.add(d.where, d.id, d.message, d.hint);

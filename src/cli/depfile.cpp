@@ -6,15 +6,17 @@
 
 namespace facetmill::cli {
 
-std::string make_spelling(const std::string& path) {
+std::string make_spelling(const std::string& path, bool target) {
     std::string text;
     std::size_t backslashes = 0;
     for (const char c : path) {
         if (c == '\n' || c == '\r')
             throw Error(ErrorKind::output, "E-DEPFILE",
                         "a depfile cannot name a path with a line break: " + path);
-        // Backslashes before a blank or # would escape it, so they are doubled; elsewhere they are plain.
-        if (c == ' ' || c == '#' || c == '\t') text.append(backslashes + 1, '\\');
+        // A colon would end the targets, and a % among them make a pattern. Backslashes before one of these
+        // would escape it, so they are doubled; elsewhere they are plain.
+        if (c == ' ' || c == '#' || c == '\t' || c == ':' || (c == '%' && target))
+            text.append(backslashes + 1, '\\');
         if (c == '$') text += '$';
         text += c;
         backslashes = c == '\\' ? backslashes + 1 : 0;
@@ -24,12 +26,11 @@ std::string make_spelling(const std::string& path) {
 
 std::string depfile_text(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
     std::string text;
-    for (const auto& output : outputs) text += (text.empty() ? "" : " ") + make_spelling(output);
+    for (const auto& output : outputs) text += (text.empty() ? "" : " ") + make_spelling(output, true);
     text += ":";
-    for (const auto& input : inputs) text += " \\\n  " + make_spelling(input);
+    for (const auto& input : inputs) text += " \\\n  " + make_spelling(input, false);
     text += "\n";
-    for (const auto& input : inputs) // a % would make it a pattern
-        if (input.find('%') == input.npos) text += make_spelling(input) + ":\n";
+    for (const auto& input : inputs) text += make_spelling(input, true) + ":\n";
     return text;
 }
 

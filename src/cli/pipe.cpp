@@ -16,7 +16,8 @@ constexpr const char* pipe_examples =
     R"(The same language as a pipeline file. Options of facetmill pipe itself come first; then the stages, parted by ! or +.
 A stage is its name, a bare value for its primary option, and --key value, --key=value or --flag for the others.
 Nested keys are dotted (--plane.normal=0,0,1), and so are --ensure.closed and --when.closed; --name and --only as in
-a file. Lists are given by commas or by repetition. @{x} stands for ${x}, and 50pct for 50%.
+a file. Lists are given by commas or by repetition; paths, which may hold commas, by repetition. @{x} stands for ${x},
+and 50pct for 50%.
 
   foreach VARIABLE=VALUE,VALUE... [ STAGE ! STAGE ]
   branch NAME [ STAGE ! STAGE ] NAME [ STAGE ]
@@ -59,10 +60,10 @@ int pipe(const PipelineOptions& options, const std::string& save_to, const Invoc
     Problems problems;
     auto settings = plan_settings(options, invocation.line, problems);
     settings.name = "pipe";
+    if (!save_to.empty()) settings.others.push_back({save_to, invocation.line.find("--save"), true});
     const Value document = parse_pipe(invocation.line, invocation.rest, problems);
-    problems.throw_if_any(ErrorKind::usage);
-    const auto plan = pipeline::make_plan(document, settings, problems);
-    problems.throw_if_any(ErrorKind::usage); // warnings come with the run
+    const auto plan = pipeline::make_plan(problems.any_errors() ? Value{} : document, settings, problems);
+    refuse({plan}, problems);
     if (!save_to.empty()) save(document, options.reports, save_to);
     return run_with_messages(plan, options, console, "");
 }

@@ -89,6 +89,7 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     check_strict(options, line, problems);
     settings.working_directory = fs::current_path();
     settings.extra_reports = options.reports;
+    if (!options.depfile.empty()) settings.others.push_back({options.depfile, line.find("--depfile"), true});
     return settings;
 }
 
@@ -158,6 +159,12 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (record.exit_code == 0 && !options.depfile.empty())
         write_depfile(options.depfile, plan, record, pipeline);
     return record.exit_code;
+}
+
+void refuse(const std::vector<pipeline::Plan>& plans, const Problems& problems) {
+    if (!problems.any_errors()) return; // warnings come with the run
+    for (const auto& plan : plans) pipeline::report_refusal(plan, problems);
+    problems.throw_if_any(ErrorKind::usage);
 }
 
 void settle(const Problems& problems, const Console& console) {

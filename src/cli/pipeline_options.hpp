@@ -27,6 +27,9 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
 /// that cannot be read throws missing.
 pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems);
 
+/// When there are errors: writes the reports of these plans, as far as they are known, and throws usage.
+void refuse(const std::vector<pipeline::Plan>& plans, const Problems& problems);
+
 /// Runs a plan with messages and progress, and writes the depfile when all went well. Returns the exit code.
 /// pipeline: the file that the plan came from, for the depfile; empty when there is none.
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,

@@ -11,7 +11,7 @@
 namespace facetmill::io {
 
 struct CleanUp {
-    std::string path;
+    std::string path, aside{}; ///< aside: what is renamed to path; empty: path is removed
     bool directory = false;
     std::atomic<bool> active{true};
     CleanUp* next = nullptr;
@@ -30,9 +30,10 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<CleanUp*>::is
     while (true) ::pause();
 }
 
-CleanUp* enter(const std::filesystem::path& path, bool directory) {
+CleanUp* enter(std::string path, std::string aside, bool directory) {
     auto* entry = new CleanUp;
-    entry->path = path.string();
+    entry->path = std::move(path);
+    entry->aside = std::move(aside);
     entry->directory = directory;
     entry->next = entries.load();
     while (!entries.compare_exchange_weak(entry->next, entry)) {
@@ -44,7 +45,12 @@ CleanUp* enter(const std::filesystem::path& path, bool directory) {
 
 void undo_all() {
     for (const CleanUp* e = entries; e; e = e->next)
-        if (e->active && !e->directory) ::unlink(e->path.c_str());
+        if (e->active && !e->directory) {
+            if (e->aside.empty())
+                ::unlink(e->path.c_str());
+            else
+                ::rename(e->aside.c_str(), e->path.c_str());
+        }
     for (const CleanUp* e = entries; e; e = e->next) // the last made first
         if (e->active && e->directory) ::rmdir(e->path.c_str());
 }
@@ -84,8 +90,11 @@ void install(int number, void (*handler)(int)) {
 
 } // namespace
 
-CleanUp* clean_up_file(const std::filesystem::path& path) { return enter(path, false); }
-CleanUp* clean_up_directory(const std::filesystem::path& path) { return enter(path, true); }
+CleanUp* clean_up_file(const std::filesystem::path& path) { return enter(path.string(), {}, false); }
+CleanUp* clean_up_restore(const std::filesystem::path& aside, const std::filesystem::path& path) {
+    return enter(path.string(), aside.string(), false);
+}
+CleanUp* clean_up_directory(const std::filesystem::path& path) { return enter(path.string(), {}, true); }
 void keep(CleanUp* entry) {
     if (entry) entry->active = false;
 }

@@ -216,6 +216,10 @@ void Outputs::stage(File& file, Span bytes) {
     if (files_.size() >= most_locks) ::close(std::exchange(file.lock, -1));
 }
 
+void Outputs::protect(const fs::path& input, std::string sum) {
+    if (!is_stream(input)) inputs_.insert_or_assign(identity(input), std::move(sum));
+}
+
 const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark& where) {
     auto file = std::make_unique<File>();
     file->target = target;
@@ -225,6 +229,10 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     file->bytes = bytes.size();
     file->sha256 = sha256(bytes);
     const fs::path self = stream ? target : identity(file->resolved);
+    if (const auto input = inputs_.find(self); input != inputs_.end() && input->second != file->sha256)
+        throw Error(ErrorKind::output, "E-OVERWRITE",
+                    fmt::format("'{}' would overwrite an input", target.string()),
+                    "give the output another name, or write elsewhere with --output-dir", where);
     for (const auto& other : files_) {
         if (self != (other->temporary.empty() ? other->target : identity(other->resolved))) continue;
         // Two glTF files in one folder share their textures.
@@ -254,47 +262,81 @@ Input Outputs::staged(const File& file) const {
     return Input::open(file.temporary).staged_as(file.target, std::move(instead));
 }
 
-void Outputs::rename_all() {
-    const HoldSignals hold;
-    std::vector<std::pair<const File*, fs::path>> done; // with what was there before
-    std::error_code ignored;
-    const auto several =
-        std::count_if(files_.begin(), files_.end(), [](const auto& f) { return !f->temporary.empty(); }) > 1;
+namespace {
+
+template <class AllRenamed>
+void put_back(const AllRenamed& all) {
+    for (const auto& renamed : all) {
+        if (renamed.aside.empty())
+            ::unlink(renamed.file->resolved.c_str());
+        else
+            ::rename(renamed.aside.c_str(), renamed.file->resolved.c_str());
+        keep(renamed.clean_up);
+    }
+}
+
+} // namespace
+
+std::vector<Outputs::Renamed> Outputs::rename_all(bool streams_follow) {
+    std::vector<Renamed> all;
     try {
         for (const auto& file : files_) {
             if (file->temporary.empty()) continue;
-            fs::path aside = several ? set_aside(file->resolved) : fs::path();
+            fs::path aside = files_.size() > 1 ? set_aside(file->resolved) : fs::path();
             if (::rename(file->temporary.c_str(), file->resolved.c_str()) != 0) {
                 const int why = errno;
+                std::error_code ignored;
                 fs::remove(aside, ignored);
                 cannot_write(*file, why);
             }
-            done.emplace_back(file.get(), std::move(aside));
+            all.push_back({file.get(), std::move(aside)});
         }
     } catch (...) {
-        for (const auto& [file, aside] : done)
-            if (aside.empty())
-                ::unlink(file->resolved.c_str());
-            else
-                ::rename(aside.c_str(), file->resolved.c_str());
+        put_back(all);
         forget(true);
         throw;
     }
-    for (const auto& [file, aside] : done)
-        if (!aside.empty()) fs::remove(aside, ignored);
+    for (auto& renamed : all) {
+        keep(renamed.file->clean_up); // the temporary has another name now
+        if (!streams_follow) continue;
+        const fs::path& path = renamed.file->resolved;
+        renamed.clean_up =
+            renamed.aside.empty() ? clean_up_file(path) : clean_up_restore(renamed.aside, path);
+    }
+    return all;
+}
+
+void Outputs::settle(const std::vector<Renamed>& all) {
+    for (const auto& renamed : all) {
+        std::error_code ignored;
+        keep(renamed.clean_up);
+        if (!renamed.aside.empty()) fs::remove(renamed.aside, ignored);
+    }
     for (const auto& directory : made_directories_) keep(directory.clean_up);
     made_directories_.clear();
+    forget(false);
 }
 
 void Outputs::commit() {
-    rename_all();
-    const auto staged = std::exchange(files_, {});
-    for (const auto& file : staged) {
-        keep(file->clean_up);
-        if (file->lock >= 0) ::close(file->lock);
+    const bool streams =
+        std::any_of(files_.begin(), files_.end(), [](const auto& f) { return f->temporary.empty(); });
+    std::vector<Renamed> all;
+    {
+        const HoldSignals hold;
+        all = rename_all(streams);
+        if (!streams) return settle(all);
     }
-    for (const auto& file : staged)
-        if (file->temporary.empty()) stream_out(*file);
+    try {
+        for (const auto& file : files_)
+            if (file->temporary.empty()) stream_out(*file);
+    } catch (...) {
+        const HoldSignals hold;
+        put_back(all);
+        forget(true);
+        throw;
+    }
+    const HoldSignals hold;
+    settle(all);
 }
 
 void Outputs::forget(bool remove) {

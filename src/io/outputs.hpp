@@ -5,6 +5,7 @@
 
 #include "io/bytes.hpp"
 
+#include <map>
 #include <set>
 
 namespace facetmill::io {
@@ -32,14 +33,17 @@ class Outputs {
         CleanUp* clean_up = nullptr;
     };
 
-    /// Stages a file; makes its directory when missing. Throws output (E-WRITE, E-SPACE, E-DIRECTORY). A
-    /// target that was staged already with other bytes is E-TWICE. "-" is standard output.
+    /// An input with its SHA-256: from now on only the same bytes may be written there.
+    void protect(const std::filesystem::path& input, std::string sum);
+    /// Stages a file; makes its directory when missing. Throws output (E-WRITE, E-SPACE, E-DIRECTORY,
+    /// E-OVERWRITE for a protected input). A target that was staged already with other bytes is E-TWICE. "-"
+    /// is standard output.
     const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
     /// Bytes of a staged file, for reading back.
     Input staged(const File& file) const;
     /// Renames all, then streams the streams. On error everything not yet renamed is removed, what was
-    /// renamed is put back as it was, and it throws. A signal that arrives between the renames waits for the
-    /// last.
+    /// renamed is put back as it was (what a stream's reader has got is gone), and it throws. A signal that
+    /// arrives between the renames waits for the last; one that ends the streaming puts the files back too.
     void commit();
     /// Forgets everything staged (a failed run).
     void discard();
@@ -52,13 +56,21 @@ class Outputs {
     };
     void make_directory(const std::filesystem::path& directory);
     void remove_stale(const std::filesystem::path& directory);
+    /// A file under its own name, and what was there before (empty: nothing).
+    struct Renamed {
+        const File* file;
+        std::filesystem::path aside;
+        CleanUp* clean_up = nullptr; ///< as long as streams may fail
+    };
     void stage(File& file, Span bytes);
-    void rename_all();
+    std::vector<Renamed> rename_all(bool streams_follow);
+    void settle(const std::vector<Renamed>& all); ///< there is no way back from here
     void forget(bool remove);
 
     std::vector<std::unique_ptr<File>> files_;
     std::vector<Directory> made_directories_;
     std::set<std::filesystem::path> swept_;
+    std::map<std::filesystem::path, std::string> inputs_; ///< by identity: the sum
 };
 
 /// Writes one file at once, atomically (reports, --save, depfiles). "-" is standard output.

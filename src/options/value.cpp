@@ -77,6 +77,27 @@ std::optional<double> Value::as_real() const {
     return parse_real(text);
 }
 
+namespace {
+
+/// The beginning of a text on one line: what a message can hold of it.
+std::string shortened(const std::string& text) {
+    constexpr std::size_t longest = 60;
+    std::string out;
+    for (const char c : text) {
+        const bool continues = (static_cast<unsigned char>(c) & 0xC0) == 0x80; // inside a UTF-8 character
+        if (out.size() >= longest && !continues) return out + "...";
+        if (c == '\n')
+            out += "\\n";
+        else if (static_cast<unsigned char>(c) < 0x20)
+            out += '?';
+        else
+            out += c;
+    }
+    return out;
+}
+
+} // namespace
+
 std::string Value::described() const {
     switch (kind) {
     case Kind::null:
@@ -86,7 +107,8 @@ std::string Value::described() const {
     case Kind::map:
         return "a map";
     default:
-        return quoted ? fmt::format("the text \"{}\"", text) : fmt::format("'{}'", text);
+        return quoted ? fmt::format("the text \"{}\"", shortened(text))
+                      : fmt::format("'{}'", shortened(text));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <map>
+#include <set>
 #include <sstream>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
@@ -18,6 +19,13 @@ constexpr std::size_t deepest = 64;
 
 /// Ends the parse after a problem that makes the rest worthless.
 struct Stop {};
+
+/// Ends the parse at an expression without quotes, bytes [begin, end) of the text: the rest is read as if it
+/// stood in quotes.
+struct Unquoted {
+    std::size_t begin, end;
+    Diagnostic why;
+};
 
 struct Size {
     std::size_t nodes = 1, depth = 1;
@@ -38,8 +46,10 @@ Size size_of(const Value& value) {
 /// Fills our tree from yaml-cpp's events.
 class Builder : public YAML::EventHandler {
   public:
-    Builder(const SourceIndex& source, std::size_t skipped, Problems& problems)
-        : source_(source), skipped_(skipped), problems_(problems) {}
+    /// unknown: where texts begin that stand for any value.
+    Builder(const SourceIndex& source, std::size_t skipped, const std::set<std::size_t>& unknown,
+            Problems& problems)
+        : source_(source), skipped_(skipped), unknown_(unknown), problems_(problems) {}
 
     Value root;
     bool second_document = false; ///< set before the parser looks for another document
@@ -56,7 +66,10 @@ class Builder : public YAML::EventHandler {
         Value value;
         const std::size_t at = content(mark);
         const char c = at < source_.text().size() ? source_.text()[at] : '\n';
-        if (c == '~' || c == 'n' || c == 'N') value.mark = source_.mark(at, c == '~' ? 1 : 4);
+        if (c == '~' || c == 'n' || c == 'N')
+            value.mark = source_.mark(at, c == '~' ? 1 : 4);
+        else if (!stack_.empty() && stack_.back().value.is_list())
+            value.mark = empty_item_mark(at);
         complete(std::move(value), anchor);
     }
 
@@ -66,6 +79,7 @@ class Builder : public YAML::EventHandler {
         if (tag == "?") refuse_unquoted(at, text);
         Value value = Value::scalar(text, scalar_mark(at, text, tag == "?"), tag != "?");
         if (tag != "?" && tag != "!") apply_tag(tag, value);
+        value.deferred = unknown_.contains(at);
         complete(std::move(value), anchor);
     }
 
@@ -127,6 +141,13 @@ class Builder : public YAML::EventHandler {
         return at;
     }
 
+    /// The dash of an item that has nothing behind it; yaml-cpp's mark is at what follows.
+    Mark empty_item_mark(std::size_t at) const {
+        const std::string& text = source_.text();
+        const std::size_t dash = text.find_last_of("-[,", std::min(at, text.size() - 1));
+        return source_.mark(dash == std::string::npos ? at : dash);
+    }
+
     int alias_length(std::size_t at) const {
         const std::size_t end =
             std::min(source_.text().size(), source_.text().find_first_of(" \t\r\n,[]{}", at));
@@ -160,10 +181,11 @@ class Builder : public YAML::EventHandler {
         const std::size_t end =
             std::min(all.size(), all.find_first_of(" ,]}\r\n", std::min(closed, all.size() - 1) + 1));
         const std::string written = all.substr(at, end - at);
-        problems_.add(source_.mark(at, source_.characters(at, end)), "E-UNQUOTED",
-                      fmt::format("inside {{}} and [] an expression must be quoted, found {}", written),
-                      fmt::format("write \"{}\"", written));
-        throw Stop{};
+        throw Unquoted{at,
+                       end,
+                       {Severity::error, "E-UNQUOTED",
+                        fmt::format("inside {{}} and [] an expression must be quoted, found {}", written),
+                        source_.mark(at, source_.characters(at, end)), fmt::format("write \"{}\"", written)}};
     }
 
     void apply_tag(const std::string& tag, Value& value) {
@@ -243,6 +265,9 @@ class Builder : public YAML::EventHandler {
     void add_entry(Frame& frame, Value key, Value value) {
         if (key.text == "<<" && !key.quoted) {
             value.mark = key.mark;
+            if (!frame.merges.empty())
+                problems_.add(key.mark, "E-DUPLICATE", "the key '<<' is there twice",
+                              "several maps are merged by <<: [*a, *b]");
             frame.merges.push_back(std::move(value));
             return;
         }
@@ -275,6 +300,7 @@ class Builder : public YAML::EventHandler {
 
     const SourceIndex& source_;
     std::size_t skipped_; ///< bytes of the text that yaml-cpp did not get
+    const std::set<std::size_t>& unknown_;
     Problems& problems_;
     std::vector<Frame> stack_;
     std::map<YAML::anchor_t, Anchored> anchors_;
@@ -309,14 +335,12 @@ std::optional<std::string> bare_item_hint(const SourceIndex& source, std::size_t
     return fmt::format("a stage with keys beside it needs a colon: '{}:' in the line above", above);
 }
 
-} // namespace
-
-Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems) {
-    const SourceIndex index(std::move(source));
-    if (!check_text(index, problems)) return {};
-    const std::size_t mark_bytes = index.text().starts_with("\xEF\xBB\xBF") ? 3 : 0;
-    std::istringstream stream(index.text().substr(mark_bytes));
-    Builder builder(index, mark_bytes, problems);
+/// Parses the text, which is the source's but for what stands for unknown texts. Throws Unquoted.
+Value parse_text(const std::string& text, const SourceIndex& index, const std::set<std::size_t>& unknown,
+                 Problems& problems) {
+    const std::size_t mark_bytes = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    std::istringstream stream(text.substr(mark_bytes));
+    Builder builder(index, mark_bytes, unknown, problems);
     try {
         YAML::Parser parser(stream);
         parser.HandleNextDocument(builder);
@@ -333,6 +357,33 @@ Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems) {
         problems.add(index.mark(at), "E-YAML", message, bare_item_hint(index, at).value_or(hint));
     }
     return {};
+}
+
+} // namespace
+
+Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems) {
+    const SourceIndex index(std::move(source));
+    if (!check_text(index, problems)) return {};
+    constexpr std::size_t most_unquoted = 100; // then the others wait for the next run
+    std::string text = index.text();
+    std::set<std::size_t> unknown;
+    std::vector<Diagnostic> found;
+    Value root;
+    for (bool whole = false; !whole && unknown.size() < most_unquoted;) {
+        Problems of_this_parse;
+        try {
+            root = parse_text(text, index, unknown, of_this_parse);
+            whole = true;
+            found.insert(found.end(), of_this_parse.all().begin(), of_this_parse.all().end());
+        } catch (const Unquoted& unquoted) {
+            const std::size_t size = unquoted.end - unquoted.begin;
+            text.replace(unquoted.begin, size, size, 'x');
+            unknown.insert(unquoted.begin);
+            found.push_back(unquoted.why);
+        }
+    }
+    if (!found.empty()) problems.add(Error(ErrorKind::usage, std::move(found)));
+    return root;
 }
 
 } // namespace facetmill::pipeline

@@ -160,10 +160,13 @@ class Resolver {
             return text(variable.from_file ? safe_name(t) : std::move(t));
         };
         if (name == "stem") return shown(stem_of(path));
-        if (name == "ext") return text(extension_of(path));
+        if (name == "ext") {
+            const std::string ext = extension_of(path);
+            return text(variable.from_file && !ext.empty() ? "." + safe_name(ext.substr(1)) : ext);
+        }
         if (name == "name") return shown(std::filesystem::path(path).filename().string());
         const std::string dir = std::filesystem::path(path).parent_path().string();
-        return text(dir.empty() ? "." : dir);
+        return shown(dir.empty() ? "." : dir);
     }
 
     void fail(const Value& v, std::string_view inside, const char* id, std::string message,
@@ -191,6 +194,13 @@ bool is_variable_name(std::string_view text) {
 
 Value resolved(const Value& value, const Scope& scope, Problems& problems) {
     return Resolver(scope, problems).value(value);
+}
+
+bool is_name_from_file(const Value& value, const Scope& scope) {
+    if (!value.is_scalar() || !value.text.starts_with("${") || !value.text.ends_with("}")) return false;
+    const Variable* variable =
+        find_variable(scope, std::string_view(value.text).substr(2, value.text.size() - 3));
+    return variable && variable->from_file;
 }
 
 bool is_deferred(const Value& value) {

@@ -36,6 +36,9 @@ bool is_variable_name(std::string_view text);
 /// parameter that was not given is left out. Adds E-VARIABLE and E-EXPRESSION.
 Value resolved(const Value& value, const Scope& scope, Problems& problems);
 
+/// Whether the value is exactly "${x}", x being a name that was found in a file.
+bool is_name_from_file(const Value& value, const Scope& scope);
+
 /// Whether anything in the tree is known only at run time.
 bool is_deferred(const Value& value);
 

@@ -106,7 +106,9 @@ void check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
         if (const auto input = inputs.find(path); input != inputs.end() && path != "-")
             problems.add(
                 file.where, "E-OVERWRITE", fmt::format("'{}' would overwrite an input", file.path.string()),
-                fmt::format("it is read at {}; give the output another name", spelled(input->second->where)));
+                input->second->where.known() ? fmt::format("it is read at {}; give the output another name",
+                                                           spelled(input->second->where))
+                                             : "it is the pipeline itself; give the output another name");
         const auto [first, is_new] = outputs.emplace(lower_case(path), &file);
         if (is_new) continue;
         const bool same = identity(first->second->path) == path;

@@ -83,11 +83,16 @@ void Overrides::apply(const std::vector<std::string>& names, const StageInfo& st
     }
 }
 
-void Overrides::check_all_used(const std::vector<std::string>& names, Problems& problems) const {
+void Overrides::check_all_used(const std::set<std::string>& names, Problems& problems) const {
+    constexpr std::size_t most_listed = 20;
+    const std::vector<std::string> all(names.begin(), names.end());
     for (const auto& change : all_)
         if (!change.used)
             problems.add(change.where, "E-SET", fmt::format("the pipeline has no stage '{}'", change.target),
-                         names.empty() ? "" : suggestion(change.target, names));
+                         all.empty() ? ""
+                         : all.size() <= most_listed
+                             ? suggestion(change.target, all)
+                             : did_you_mean(change.target, all, "facetmill plan lists them"));
 }
 
 } // namespace facetmill::pipeline

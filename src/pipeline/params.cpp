@@ -128,7 +128,8 @@ class Params {
                           "a name is made of letters, digits, _ and -, and begins with a letter");
         static const Declaration declaration = param_declaration();
         ParamOptions options;
-        const bool good = declaration.parse(entry.value, &options, entry.key, problems_, {"default"});
+        const bool good = declaration.parse(entry.value, &options, entry.key, problems_, {"default"}) &&
+                          check_declaration(entry, options);
         Variable variable{entry.key, {}, {}, false};
         Json shown;
         if (good)
@@ -146,6 +147,39 @@ class Params {
     Scope scope;
 
   private:
+    /// Limits that the type does not have, or that nothing can meet.
+    bool check_declaration(const Value::Entry& entry, const ParamOptions& options) {
+        const auto place = [&](const char* key) {
+            const Value::Entry* found = entry.value.is_map() ? entry.value.find_entry(key) : nullptr;
+            return found ? found->key_mark : entry.key_mark;
+        };
+        bool good = true;
+        const auto refuse = [&](const char* key, std::string message, std::string hint) {
+            problems_.add(place(key), "E-PARAM", std::move(message), std::move(hint));
+            good = false;
+        };
+        if (!options.choices.empty() && options.type != Type::choice)
+            refuse("choices", fmt::format("'{}' has choices, but is no choice", entry.key), "type: choice");
+        const bool limited = options.type != Type::text && options.type != Type::path &&
+                             options.type != Type::boolean && options.type != Type::choice;
+        for (const auto& [key, limit] : {std::pair{"min", &options.min}, std::pair{"max", &options.max}})
+            if (*limit && !limited)
+                refuse(key, fmt::format("'{}' has no order that {} could limit", entry.key, key),
+                       "leave it out, or say type: number");
+        if (!good || !options.min || !options.max) return good;
+        bool readable = true;
+        const auto least =
+            checked(options.type, Value::scalar(*options.min, place("min")), readable, problems_);
+        const auto most =
+            checked(options.type, Value::scalar(*options.max, place("max")), readable, problems_);
+        if (least && most && *least > *most)
+            refuse(
+                "min",
+                fmt::format("no value of '{}' is between {} and {}", entry.key, *options.min, *options.max),
+                "exchange min and max");
+        return good && readable;
+    }
+
     Value value(const Value::Entry& entry, const ParamOptions& options, Json& shown) {
         Value out;
         const Value* default_value = entry.value.is_map() ? entry.value.find("default") : nullptr;

@@ -94,7 +94,9 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
     Plan plan;
     plan.name = settings.name;
     plan.places = settings.places;
+    plan.others = settings.others;
     if (!document.is_map()) {
+        plan.reports = read_reports(nullptr, {}, settings, plan.others, problems);
         problems.add(
             document.mark, "E-TYPE",
             fmt::format("a pipeline is a map with facetmill and stages, found {}", document.described()),
@@ -115,8 +117,9 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
         problems.add(stages ? stages->mark : document.mark, "E-MISSING", "a pipeline needs stages",
                      "stages: [{load: scan.ply}]");
     planner.finish();
+    plan.reports = read_reports(document.find("report"), scope, settings, plan.others, problems);
     auto files = planned_files(plan.steps, plan.places);
-    plan.reports = read_reports(document.find("report"), scope, settings, files, problems);
+    files.insert(files.end(), plan.others.begin(), plan.others.end());
     check_collisions(files, problems);
     for (const auto& d : problems.all())
         if (d.severity == Severity::warning) plan.warnings.push_back(d);
@@ -127,13 +130,19 @@ Plan plan_text(std::string text, const PlanSettings& settings, Problems& problem
     auto source = std::make_shared<const SourceText>(SourceText{settings.name, std::move(text)});
     const Value document = parse_yaml(std::move(source), problems);
     // What the tree still tells after an error is worth planning only when it is whole.
-    if (problems.any_errors() && !document.is_map()) return {};
+    if (problems.any_errors() && !document.is_map()) {
+        Plan nothing;
+        nothing.name = settings.name, nothing.places = settings.places;
+        nothing.reports = read_reports(nullptr, {}, settings, nothing.others, problems);
+        return nothing;
+    }
     return make_plan(document, settings, problems);
 }
 
 Plan load_plan(const fs::path& file, PlanSettings settings, Problems& problems) {
     const auto input = io::Input::open(file);
     const bool streamed = file == "-";
+    if (!streamed) settings.others.push_back({file, {}, false});
     if (settings.name.empty()) settings.name = streamed ? "standard input" : file.string();
     if (settings.places.input_base.empty() && !streamed) settings.places.input_base = file.parent_path();
     Plan plan = plan_text(std::string(io::as_text(input.bytes())), settings, problems);

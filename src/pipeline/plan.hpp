@@ -48,6 +48,13 @@ struct Step {
     Mark where;
 };
 
+/// A file that a plan reads or writes.
+struct PlannedFile {
+    std::filesystem::path path;
+    Mark where;
+    bool written = false;
+};
+
 struct PlanSettings {
     std::string name; ///< of the pipeline, for messages and the report
     std::vector<std::pair<std::string, std::string>> defines; ///< -D
@@ -55,7 +62,8 @@ struct PlanSettings {
     Places places;
     std::filesystem::path working_directory; ///< what -D paths are relative to
     std::vector<std::string> extra_reports;  ///< --report
-    bool parameters_needed = true; ///< false (check without -D): params without a value stand for any value
+    std::vector<PlannedFile> others; ///< what is read and written besides: the pipeline itself, --save ...
+    bool parameters_needed = true;   ///< false (check without -D): params without a value stand for any value
 };
 
 struct Plan {
@@ -63,6 +71,7 @@ struct Plan {
     Json params = Json::object();
     Steps steps;
     std::vector<std::string> reports;
+    std::vector<PlannedFile> others; ///< what is read and written besides by steps: reports, the pipeline ...
     Places places;
     std::vector<Diagnostic> warnings;
 };
@@ -74,13 +83,6 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
 Plan plan_text(std::string text, const PlanSettings& settings, Problems& problems);
 /// Reads a pipeline file ("-": standard input) and plans it. An unreadable file throws missing.
 Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problems& problems);
-
-/// A file that a plan reads or writes.
-struct PlannedFile {
-    std::filesystem::path path;
-    Mark where;
-    bool written = false;
-};
 
 /// The files of these steps in their order, as far as they are known (globs expanded); without those of a
 /// step that will be skipped.

@@ -15,7 +15,7 @@ class Overrides {
     void apply(const std::vector<std::string>& names, const StageInfo& stage, Value& given,
                Problems& problems);
     /// Complains of targets that no stage answered to.
-    void check_all_used(const std::vector<std::string>& names, Problems& problems) const;
+    void check_all_used(const std::set<std::string>& names, Problems& problems) const;
 
   private:
     struct Override {
@@ -49,6 +49,8 @@ class Planner {
     void finish() const { overrides_.check_all_used(names_, problems_); }
 
   private:
+    /// Counts one more step; false, after a problem (E-FOREACH), when there are too many.
+    bool count_step(const Mark& where);
     std::optional<Step> step(const Value& item, const Scope& scope, const Position& position,
                              std::size_t index, bool& has_scene);
     void plan_stage(Step& step, const Value::Entry& entry, const Scope& scope, bool& has_scene);
@@ -63,8 +65,9 @@ class Planner {
     const PlanSettings& settings_;
     Problems& problems_;
     Overrides overrides_;
+    std::size_t steps_ = 0; ///< planned so far: nested foreach multiply
     std::set<std::string> used_names_;
-    std::vector<std::string> names_; ///< by which --set may name the steps
+    std::set<std::string> names_; ///< by which --set may name the steps
 };
 
 /// The common key `when`: a truth, a comparison of expressions, or predicates on the scene.

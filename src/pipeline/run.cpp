@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/inspect.hpp"
+#include "io/png.hpp"
 #include "mesh/invariants.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
@@ -65,6 +66,13 @@ bool compares_with_load(const Steps& steps) {
     });
 }
 
+void write_reports(const Plan& plan, const report::RunRecord& record) {
+    for (const auto& path : plan.reports) {
+        const std::string text = report::render_for(path, record);
+        io::write_now(plan.places.output(path), std::as_bytes(std::span(text)));
+    }
+}
+
 class Runner {
   public:
     Runner(const Plan& plan, const RunSettings& settings) : plan_(plan), settings_(settings) {
@@ -79,6 +87,8 @@ class Runner {
         const auto start = Clock::now();
         stages_ = count_stages(plan_.steps);
         keeps_loaded_ = compares_with_load(plan_.steps);
+        takes_pictures_ = std::any_of(plan_.reports.begin(), plan_.reports.end(),
+                                      [](const std::string& path) { return path.ends_with(".html"); });
         for (const auto& warning : plan_.warnings)
             failures_.warn(warning), record().warnings.push_back(warning);
         for (const auto& missing : missing_inputs(plan_)) failures_.add(ErrorKind::missing, missing);
@@ -92,7 +102,7 @@ class Runner {
         record().seconds = seconds_since(start);
         record().peak_memory = peak_memory();
         record().threads = threads();
-        write_reports();
+        failures_.guarded({}, "the report", [&] { write_reports(plan_, record()); });
         return std::move(record());
     }
 
@@ -175,10 +185,23 @@ class Runner {
         if (done && step.stage->loads) state_.load_diagonal = scene.bounds().diagonal();
         if (done && step.stage->loads && keeps_loaded_)
             state_.loaded = std::make_shared<const Surface>(surface_of(scene));
+        if (done && takes_pictures_) add_picture(scene, stage);
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
         record().stages.push_back(std::move(stage));
         return done;
+    }
+
+    /// A page shows what a stage changed, as long as it stays small.
+    void add_picture(const Scene& scene, report::StageRecord& stage) {
+        constexpr std::size_t most_bytes = 4 << 20;
+        if (picture_bytes_ > most_bytes) return;
+        failures_.guarded({}, "a picture", [&] {
+            std::string picture = io::base64(io::png(picture_of(scene)));
+            if (picture == last_picture_) return;
+            picture_bytes_ += picture.size();
+            last_picture_ = stage.picture = std::move(picture);
+        });
     }
 
     static void warn_of_empty_selection(const Step& step, const Scene& scene, Context& context) {
@@ -292,6 +315,7 @@ class Runner {
     /// Now that the parts have names, so have the files written for each.
     void check_new_files(const std::vector<Arm>& arms, Problems& problems) {
         auto files = planned_files(plan_.steps, plan_.places);
+        files.insert(files.end(), plan_.others.begin(), plan_.others.end());
         for (const auto& arm : arms) {
             auto inner = planned_files(*arm.steps, plan_.places);
             for (auto& file : inner) {
@@ -314,24 +338,28 @@ class Runner {
         record().outputs.clear();
     }
 
-    void write_reports() {
-        for (const auto& path : plan_.reports) {
-            failures_.guarded({}, "the report", [&] {
-                const std::string text = report::render_for(path, record());
-                io::write_now(plan_.places.output(path), std::as_bytes(std::span(text)));
-            });
-        }
-    }
-
     const Plan& plan_;
     const RunSettings& settings_;
     RunState state_;
     Failures failures_{state_.record, settings_};
-    bool keeps_loaded_ = false;
+    bool keeps_loaded_ = false, takes_pictures_ = false;
+    std::string last_picture_;
+    std::size_t picture_bytes_ = 0;
     int number_ = 0, stages_ = 0;
 };
 
 } // namespace
+
+void report_refusal(const Plan& plan, const Problems& problems) {
+    report::RunRecord record;
+    record.pipeline = plan.name, record.about = plan.about, record.params = plan.params;
+    record.exit_code = static_cast<int>(ErrorKind::usage);
+    for (const auto& d : problems.all()) {
+        if (d.id == "E-OVERWRITE" || d.id == "E-TWICE") return;
+        (d.severity == Severity::error ? record.errors : record.warnings).push_back(d);
+    }
+    write_reports(plan, record);
+}
 
 report::RunRecord run_plan(const Plan& plan, const RunSettings& settings) {
     return Runner(plan, settings).run();

@@ -17,6 +17,10 @@ struct RunSettings {
     std::function<void(const Diagnostic&)> on_warning;
 };
 
+/// Writes the reports of a pipeline that is not run because of these problems (exit code 2); none when one of
+/// them is that a file would be overwritten. Throws output when a report cannot be written.
+void report_refusal(const Plan& plan, const Problems& problems);
+
 /// Runs the plan, writes its outputs (all or none) and its reports (always), and returns the record;
 /// exit_code and errors in it say how it went. Throws only for bugs.
 report::RunRecord run_plan(const Plan& plan, const RunSettings& settings);

@@ -18,6 +18,13 @@ bool belongs(std::string_view key, std::string_view stage) {
            (key == "do" && stage == "foreach");
 }
 
+std::vector<std::string> keys_beside(const std::string& stage) {
+    std::vector<std::string> keys;
+    for (const char* key : {"name", "when", "only", "ensure", "join", "do"})
+        if (belongs(key, stage)) keys.emplace_back(key);
+    return keys;
+}
+
 bool is_stage(std::string_view key) { return key == "branch" || key == "foreach" || stage_named(key); }
 
 std::vector<std::string> all_stage_names() {
@@ -60,10 +67,27 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
                      is_option
                          ? fmt::format("it is an option of {}: write {}: {{{}: ...}}, or indent it more",
                                        stage->key, stage->key, entry.key)
-                         : suggestion(entry.key, {"name", "when", "only", "ensure"}));
+                         : suggestion(entry.key, keys_beside(stage->key)));
     }
     if (!stage && good) problems.add(item.mark, "E-STAGE", "the item has no stage", "- clip: {plane: z=0}");
     return good ? stage : nullptr;
+}
+
+/// A name from a file that is a path as a whole ("${part}") becomes the name of a file, not a way to
+/// anywhere. given: with the expressions that value holds resolved.
+Value with_safe_paths(const Value& value, Value given, const StageInfo& stage, const Scope& scope) {
+    const auto make_safe = [&](const Value& before, Value& after) {
+        if (after.is_scalar() && is_name_from_file(before, scope)) after.text = safe_name(after.text);
+    };
+    const Option* primary = stage.options.primary();
+    if (value.is_scalar() && primary && primary->type == OptionType<PathText>::name) make_safe(value, given);
+    if (!value.is_map() || !given.is_map()) return given;
+    for (auto& entry : given.entries) {
+        const Option* option = stage.options.find(entry.key);
+        const Value* before = value.find(entry.key);
+        if (option && before && option->type == OptionType<PathText>::name) make_safe(*before, entry.value);
+    }
+    return given;
 }
 
 } // namespace
@@ -77,9 +101,19 @@ Steps Planner::steps(const Value& list, const Scope& scope, const Position& posi
                       "begin every stage with '- '");
         return all;
     }
-    for (std::size_t i = 0; i < list.items.size(); ++i)
+    for (std::size_t i = 0; i < list.items.size() && count_step(list.items[i].mark); ++i)
         if (auto one = step(list.items[i], scope, position, i, has_scene)) all.push_back(std::move(*one));
     return all;
+}
+
+bool Planner::count_step(const Mark& where) {
+    constexpr std::size_t most_steps = 50'000;
+    if (steps_ > most_steps) return false; // said once
+    if (++steps_ <= most_steps) return true;
+    problems_.add(where, "E-FOREACH",
+                  fmt::format("with every foreach written out there are more than {} stages", most_steps),
+                  "foreach inside foreach multiplies; take fewer values");
+    return false;
 }
 
 std::optional<Step> Planner::step(const Value& item, const Scope& scope, const Position& position,
@@ -130,13 +164,16 @@ void Planner::common_keys(Step& step, const Value& item, const Scope& scope, con
             problems_.add(value->mark, "E-NAME", fmt::format("'{}' cannot name a stage", name),
                           "a name has no . / [ ]");
     }
-    names_.push_back(name);
-    if (name != base) names_.push_back(base);
     step.name = unique_name(name, position.prefix, explicit_at);
+    names_.insert({base, step.name});
     if (const Value* when = item.find("when")) step.when = read_condition(*when, scope, problems_);
-    if (const Value* only = item.find("only"))
-        OptionType<std::vector<std::string>>::parse(resolved(*only, scope, problems_), step.only.patterns,
-                                                    problems_);
+    if (const Value* only = item.find("only")) {
+        const Value names = resolved(*only, scope, problems_);
+        OptionType<std::vector<std::string>>::parse(names, step.only.patterns, problems_);
+        if (names.is_list() && names.items.empty())
+            problems_.add(only->mark, "E-MISSING", "'only' names no part or material",
+                          "only: wheel, only: [\"tree*\", \"!tree_9\"], or leave it out for all");
+    }
     if (const Value* ensure = item.find("ensure"); ensure && base != "ensure")
         parse_contract(resolved(*ensure, scope, problems_), step.ensure.emplace(), problems_);
 }
@@ -162,7 +199,7 @@ void Planner::plan_stage(Step& step, const Value::Entry& entry, const Scope& sco
         has_scene = true; // said once
     }
     has_scene = has_scene || step.stage->loads;
-    step.given = resolved(entry.value, scope, problems_);
+    step.given = with_safe_paths(entry.value, resolved(entry.value, scope, problems_), *step.stage, scope);
     if (!step.given.mark.known()) step.given.mark = entry.key_mark;
     std::vector<std::string> names = {entry.key, step.name};
     const auto slash = step.name.rfind('/');

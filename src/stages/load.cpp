@@ -50,7 +50,9 @@ void verify(const LoadOptions& o, const Value& given, Problems& problems) {
 }
 
 void record_input(Context& context, const std::string& path, io::Span bytes) {
-    context.run().record.inputs.push_back({path, bytes.size(), sha256(bytes), {}});
+    std::string sum = sha256(bytes);
+    context.run().outputs.protect(path, sum);
+    context.run().record.inputs.push_back({path, bytes.size(), std::move(sum), {}});
 }
 
 io::ReadSettings read_settings(const LoadOptions& o) {

@@ -4,7 +4,9 @@
 #include "stage/convention_option.hpp"
 #include "stage/stage.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <utility>
 
 namespace facetmill {
@@ -69,6 +71,36 @@ void declare(Declare<WriteOptions>& d) {
              "glTF with EXT_mesh_manifold, so that readers need not weld.");
 }
 
+/// The formats that know an option.
+struct FormatsOf {
+    const char* option;
+    std::vector<std::string> formats;
+};
+const std::vector<FormatsOf>& format_options() {
+    static const std::vector<FormatsOf> table{{"ascii", {"ply", "stl"}},
+                                              {"big_endian", {"ply"}},
+                                              {"precision", {"ply", "obj", "off"}},
+                                              {"draco", {"gltf", "glb", "drc"}},
+                                              {"mesh_manifold", {"gltf", "glb"}}};
+    return table;
+}
+
+/// Options that say something another format knows.
+void verify_options(const WriteOptions& o, const std::string& format, const Value& given,
+                    Problems& problems) {
+    const std::map<std::string_view, bool> says{{"ascii", o.ascii},
+                                                {"big_endian", o.big_endian},
+                                                {"precision", o.precision == Precision::full},
+                                                {"draco", o.draco && o.draco->on},
+                                                {"mesh_manifold", o.mesh_manifold}};
+    for (const auto& [option, formats] : format_options())
+        if (says.at(option) && std::find(formats.begin(), formats.end(), format) == formats.end())
+            problems.add(given.find_entry(option)->key_mark, "E-EXCLUSIVE",
+                         fmt::format("write: '{}' goes with {}, not with {}", option,
+                                     fmt::join(formats, ", "), format),
+                         "leave it out");
+}
+
 const io::Codec* codec_of(const WriteOptions& o) {
     return o.format.empty() ? io::codec_for(o.path.text) : io::codec_named(o.format);
 }
@@ -91,16 +123,27 @@ void verify(const WriteOptions& o, const Value& given, Problems& problems) {
     else if (!codec->write)
         problems.add(mark, "E-FORMAT", fmt::format("{} is read but not written", codec->name),
                      suggestion("", names));
+    else if (codec->name == "gltf" && o.path.text == "-")
+        problems.add(mark, "E-FORMAT", "a gltf has a file beside it, which standard output cannot hold",
+                     "format: glb");
+    else
+        verify_options(o, codec->name, given, problems);
 }
 
-io::WriteSettings settings_of(const WriteOptions& o, const std::filesystem::path& target) {
+/// The file's name without suffix and .gz.
+std::string title_of(const std::filesystem::path& target) {
+    const std::filesystem::path name = target.extension() == ".gz" ? target.stem() : target.filename();
+    return target == "-" ? "mesh" : name.stem().string();
+}
+
+io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
+                              const std::filesystem::path& target) {
     io::WriteSettings s;
     s.ascii = o.ascii;
     s.big_endian = o.big_endian;
     s.mesh_manifold = o.mesh_manifold;
     s.double_positions = o.precision == Precision::full;
-    const std::filesystem::path name = target.extension() == ".gz" ? target.stem() : target.filename();
-    s.title = target == "-" ? "mesh" : name.stem().string();
+    s.title = title_of(target);
     if (o.draco && o.draco->on)
         s.draco = {.on = true,
                    .position_bits = static_cast<int>(o.draco->position_bits),
@@ -109,6 +152,7 @@ io::WriteSettings settings_of(const WriteOptions& o, const std::filesystem::path
                    .colour_bits = static_cast<int>(o.draco->colour_bits),
                    .generic_bits = static_cast<int>(o.draco->generic_bits),
                    .speed = static_cast<int>(o.draco->speed)};
+    s.draco.on |= codec.name == "drc";
     return s;
 }
 
@@ -188,7 +232,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context) {
                     context.where());
     to_convention(out, o, *codec, context);
     const std::filesystem::path target = context.places().output(o.path.text);
-    const io::WriteSettings settings = settings_of(o, target);
+    const io::WriteSettings settings = settings_of(o, *codec, target);
     const io::Written written = codec->write(out, settings);
     for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.ledger(out.parts.front(), written.fates);
@@ -201,7 +245,13 @@ Scene run(Scene scene, const WriteOptions& o, Context& context) {
     return scene;
 }
 
-StageFiles files(const WriteOptions& o) { return {{}, {o.path}}; }
+/// The file and, of a .gltf, the buffer beside it.
+StageFiles files(const WriteOptions& o) {
+    const io::Codec* codec = codec_of(o);
+    const std::filesystem::path path = o.path.text;
+    if (!codec || codec->name != "gltf" || o.path.text == "-") return {{}, {o.path}};
+    return {{}, {o.path, {(path.parent_path() / (title_of(path) + ".bin")).string()}}};
+}
 
 const RegisterStage registered{
     make_stage<WriteOptions>({.name = "write",

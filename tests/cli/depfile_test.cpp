@@ -11,14 +11,17 @@ TEST_CASE("a depfile names outputs and inputs, and each input alone", "[cli]") {
 }
 
 TEST_CASE("names in a depfile are escaped as Make wants it", "[cli]") {
-    CHECK(make_spelling("a b.stl") == "a\\ b.stl");
-    CHECK(make_spelling("cost$.stl") == "cost$$.stl");
-    CHECK(make_spelling("no#1.stl") == "no\\#1.stl");
-    CHECK(make_spelling("back\\slash.stl") == "back\\slash.stl");
-    CHECK(make_spelling("back\\ blank") == "back\\\\\\ blank");
-    CHECK_THROWS_AS(make_spelling("two\nlines"), Error);
+    for (const bool target : {false, true}) {
+        CHECK(make_spelling("a b.stl", target) == "a\\ b.stl");
+        CHECK(make_spelling("cost$.stl", target) == "cost$$.stl");
+        CHECK(make_spelling("no#1.stl", target) == "no\\#1.stl");
+        CHECK(make_spelling("c:x.stl", target) == "c\\:x.stl");
+        CHECK(make_spelling("back\\slash.stl", target) == "back\\slash.stl");
+        CHECK(make_spelling("back\\ blank", target) == "back\\\\\\ blank");
+        CHECK_THROWS_AS(make_spelling("two\nlines", target), Error);
+    }
 }
 
-TEST_CASE("an input with a percent sign gets no rule of its own, which would be a pattern", "[cli]") {
-    CHECK(depfile_text({"o"}, {"50%.stl"}) == "o: \\\n  50%.stl\n");
+TEST_CASE("a percent sign makes no pattern", "[cli]") {
+    CHECK(depfile_text({"o-50%.glb"}, {"50%.stl"}) == "o-50\\%.glb: \\\n  50%.stl\n50\\%.stl:\n");
 }

@@ -144,6 +144,82 @@ class Process(Case):
         both = self.mill("run", "-", stdin=pipeline, expect=2)
         self.assertIn("error[E-TWICE]: standard input holds the pipeline", both.stderr)
 
+    def test_no_output_replaces_what_is_read_or_written_besides(self):
+        scan = self.write("t.off", TRIANGLE)
+        for arguments in (["pipe", "--save", "t.off", "load", "t.off"],
+                          ["pipe", "--depfile", "t.off", "load", "t.off"],
+                          ["pipe", "--save", "p.ply", "load", "t.off", "!", "write", "p.ply"],
+                          ["pipe", "--depfile", "p.ply", "load", "t.off", "!", "write", "p.ply"],
+                          ["pipe", "--report", "r.json", "--depfile", "r.json", "load", "t.off"],
+                          ["pipe", "--save", "-", "load", "t.off", "!", "write", "-", "--format", "ply"]):
+            run = self.mill(*arguments, expect=2)
+            self.assertTrue("E-OVERWRITE" in run.stderr or "E-TWICE" in run.stderr, run.stderr)
+        for name, text in {"self.yaml": "facetmill: 1\nstages: [{load: t.off}, {write: {path: self.yaml, format: ply}}]\n",
+                           "self.json": "facetmill: 1\nstages: [{load: t.off}]\nreport: self.json\n",
+                           "dep.yaml": "facetmill: 1\nstages: [{load: t.off}]\n"}.items():
+            self.write(name, text)
+            extra = ["--depfile", name] if name == "dep.yaml" else []
+            self.assertIn("it is the pipeline itself", self.mill("run", name, *extra, expect=2).stderr)
+            self.assertEqual((self.dir / name).read_text(), text)
+        self.assertEqual((self.dir / "t.off").read_text(), TRIANGLE)
+
+    def test_files_beside_an_output_replace_no_input(self):
+        self.write("t.off", TRIANGLE)
+        self.mill("pipe", "load", "t.off", "!", "write", "a.gltf")
+        (self.dir / "a.bin").rename(self.dir / "b.bin")
+        self.write("a.gltf", (self.dir / "a.gltf").read_text().replace("a.bin", "b.bin"))
+        before = (self.dir / "b.bin").read_bytes()
+        run = self.mill("pipe", "load", "a.gltf", "!", "split", "midpoint", "!", "write", "b.gltf", expect=4)
+        self.assertIn("'b.bin' would overwrite an input", run.stderr)
+        self.assertEqual((self.dir / "b.bin").read_bytes(), before)
+        self.mill("pipe", "load", "t.off", "!", "write", "c.gltf", "!", "write", "c.bin", "--format", "ply", expect=2)
+
+    def test_names_of_parts_lead_nowhere_else(self):
+        self.write("evil.obj", "o ../evil.ply\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+                   "o /tmp/facetmill-evil.ply\nv 0 0 1\nv 1 0 1\nv 0 1 1\nf 4 5 6\n")
+        pipeline = ("facetmill: 1\nstages: [{load: evil.obj}, {foreach: {part: '*'}, do: [{write: '${part}'}, "
+                    "{write: '${part.dir}${part.index}${part.ext}'}]}]\n")
+        self.write("p.yaml", pipeline)
+        self.mill("run", "p.yaml", "--output-dir", "o")
+        self.assertFalse((self.dir / "evil.ply").exists())
+        import pathlib
+        self.assertFalse(pathlib.Path("/tmp/facetmill-evil.ply").exists())
+        self.assertEqual(len(list((self.dir / "o").iterdir())), 4)
+
+    def test_a_stream_that_fails_takes_the_files_back(self):
+        self.write("t.off", TRIANGLE)
+        self.write("old.ply", "old")
+        self.mill("pipe", "load", "t.off", "!", "write", "new.ply", "!", "write", "old.ply", "!", "write", "/dev/full",
+                  "--format", "ply", expect=4)
+        self.assertFalse((self.dir / "new.ply").exists())
+        self.assertEqual((self.dir / "old.ply").read_text(), "old")
+
+    def test_a_refused_pipeline_has_a_report_too(self):
+        import json
+        self.write("t.off", TRIANGLE)
+        self.write("p.yaml", "facetmill: 1\nstages: [{load: t.off}, {relax: -3}]\nreport: r.json\n")
+        self.mill("run", "p.yaml", "--report", "r.xml", expect=2)
+        report = json.loads((self.dir / "r.json").read_text())
+        self.assertEqual(report["errors"][0]["id"], "E-RANGE")
+        self.assertIn("E-RANGE", (self.dir / "r.xml").read_text())
+        self.write("q.yaml", "facetmill: 1\nstages: [{load: t.off]\n")
+        self.mill("run", "q.yaml", "--report", "q.json", expect=2)
+        self.assertEqual(json.loads((self.dir / "q.json").read_text())["errors"][0]["id"], "E-YAML")
+
+    def test_every_pipeline_is_checked(self):
+        self.write("bad.yaml", "facetmill: 1\nstages: [{load: t.off}, {relux: 3}]\n")
+        run = self.mill("check", "none.yaml", "bad.yaml", expect=2)
+        self.assertIn("E-STAGE", run.stderr)
+        self.assertIn("there is no pipeline 'none.yaml'", run.stderr)
+
+    def test_draco_files_and_options_of_other_formats(self):
+        self.write("t.off", TRIANGLE)
+        self.mill("pipe", "load", "t.off", "!", "write", "t.drc")
+        for bad in (["a.ply", "--draco"], ["a.glb", "--ascii"], ["a.stl", "--mesh_manifold"], ["a.glb", "--big_endian"],
+                    ["a.stl", "--precision", "full"]):
+            self.assertIn("E-EXCLUSIVE", self.mill("pipe", "load", "t.off", "!", "write", *bad, expect=2).stderr)
+        self.assertIn("format: glb", self.mill("pipe", "load", "t.off", "!", "write", "-", "--format", "gltf", expect=2).stderr)
+
     def test_messages_as_json_and_quiet(self):
         import json
         self.write("t.off", TRIANGLE)

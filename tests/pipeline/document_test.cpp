@@ -86,7 +86,11 @@ TEST_CASE("merge keys: the map's own keys win, then the earlier of several", "[p
     const std::string base = "a: &a {p: 1, q: 2}\nb: &b {q: 3, r: 4}\n";
     CHECK(shown(*parsed(base + "c: {<<: *a, q: 9}").find("c")) == "{q: 9, p: 1}");
     CHECK(shown(*parsed(base + "c: {<<: [*a, *b]}").find("c")) == "{p: 1, q: 2, r: 4}");
-    CHECK(shown(*parsed(base + "c:\n  <<: *a\n  <<: *b\n").find("c")) == "{p: 1, q: 2, r: 4}");
+    CHECK(problems_of(base + "c:\n  <<: *a\n  <<: *b\n") ==
+          "p.yaml:5:3: error[E-DUPLICATE]: the key '<<' is there twice\n"
+          "    <<: *b\n"
+          "    ^~\n"
+          "  hint: several maps are merged by <<: [*a, *b]");
     CHECK(shown(*parsed("c: {'<<': 1}").find("c")) == "{<<: 1}");
 }
 
@@ -123,6 +127,19 @@ TEST_CASE("what is wrong with a text is said with its place and the way out", "[
                                            "  w: {path: out/${x.stem}.glb}\n"
                                            "            ^~~~~~~~~~~~~~~~~\n"
                                            "  hint: write \"out/${x.stem}.glb\""},
+        {"a: {b: ${c}, d: 1}\ne: [${f}]\ng: 1\ng: 2\n",
+         "p.yaml:1:8: error[E-UNQUOTED]: inside {} and [] an expression must be quoted, found ${c}\n"
+         "  a: {b: ${c}, d: 1}\n"
+         "         ^~~~\n"
+         "  hint: write \"${c}\"\n"
+         "p.yaml:2:5: error[E-UNQUOTED]: inside {} and [] an expression must be quoted, found ${f}\n"
+         "  e: [${f}]\n"
+         "      ^~~~\n"
+         "  hint: write \"${f}\"\n"
+         "p.yaml:4:1: error[E-DUPLICATE]: the key 'g' is there twice\n"
+         "  g: 2\n"
+         "  ^\n"
+         "  hint: the first is at p.yaml:3:1"},
         {"a: 1\n---\nb: 2\n", "p.yaml:2:1: error[E-YAML]: a second document begins here\n"
                               "  ---\n"
                               "  ^\n"

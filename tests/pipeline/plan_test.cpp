@@ -4,6 +4,8 @@
 #include "pipeline/planner.hpp"
 #include "support/planning.hpp"
 
+#include <fmt/format.h>
+
 using namespace facetmill;
 using pipeline::PlanSettings;
 using pipeline::Step;
@@ -359,4 +361,41 @@ TEST_CASE("a report that the pipeline and the command line ask for is written on
         planned("facetmill: 1\nstages:\n  - test-load: a.ply\nreport: [r.json, r.txt]\n", settings);
     CHECK(result.problems.empty());
     CHECK(result.plan.reports == std::vector<std::string>{"r.json", "r.txt", "r.html"});
+}
+
+TEST_CASE("nested foreach end at a bound", "[pipeline]") {
+    std::string items = "  - test-load: a.ply\n", indent = "  ";
+    for (int depth = 0; depth < 20; ++depth) {
+        items += fmt::format("{}- foreach: {{v{}: [1, 2]}}\n{}  do:\n", indent, depth, indent);
+        indent += "    ";
+    }
+    items += indent + "- test-cut: 3\n";
+    const auto result = planned_stages(items);
+    CHECK(result.problems.find("E-FOREACH") != std::string::npos);
+    CHECK(result.problems.find("more than 50000 stages") != std::string::npos);
+    CHECK(result.problems.find("E-FOREACH", result.problems.find("E-FOREACH") + 1) == std::string::npos);
+}
+
+TEST_CASE("limits that a param's type does not have, or that nothing meets, are refused", "[pipeline]") {
+    const auto problem = [](const std::string& param) {
+        const std::string all =
+            planned("facetmill: 1\nparams: {q: " + param + "}\nstages:\n  - test-load: a.ply\n").problems;
+        return all.substr(0, all.find('\n'));
+    };
+    CHECK(problem("{type: number, choices: [1, 2], default: 1}") ==
+          "p.yaml:2:28: error[E-PARAM]: 'q' has choices, but is no choice");
+    CHECK(problem("{type: text, min: 2, default: a}") ==
+          "p.yaml:2:26: error[E-PARAM]: 'q' has no order that min could limit");
+    CHECK(problem("{type: integer, min: 5, max: 2, default: 3}") ==
+          "p.yaml:2:29: error[E-PARAM]: no value of 'q' is between 5 and 2");
+    CHECK(problem("{type: integer, min: 2, max: 5, default: 3}") == "");
+}
+
+TEST_CASE("items and keys that say nothing are refused with their place", "[pipeline]") {
+    CHECK(planned("facetmill: 1\nstages:\n  - test-load: a.ply\n  -\n")
+              .problems.find("p.yaml:4:3: error[E-TYPE]") == 0);
+    CHECK(planned(stages("  - test-cut: 3\n    only: []\n")).problems.find("p.yaml:5:11: error[E-MISSING]") ==
+          0);
+    const auto problems = planned(stages("  - branch: {a: [test-cut: 3]}\n    joined: true\n")).problems;
+    CHECK(problems.find("did you mean 'join'?") != std::string::npos);
 }
