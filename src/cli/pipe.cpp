@@ -41,6 +41,9 @@ void save(Value document, const std::vector<std::string>& reports, const std::st
         all.items.push_back(Value::scalar(report));
     }
     const std::string text = pipeline::emit_yaml(document);
+    Problems unreadable; // a path need not be UTF-8, a pipeline must be
+    pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{target, text}), unreadable);
+    unreadable.throw_if_any(ErrorKind::usage);
     io::write_now(target, std::as_bytes(std::span(text)));
 }
 

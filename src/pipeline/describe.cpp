@@ -39,13 +39,25 @@ std::string extras(const Step& step) {
     return out;
 }
 
-void describe(const Steps& steps, std::size_t indent, std::string& out) {
+/// "  (amplitude: 0.1in is 2.54 mm)".
+std::string lengths_text(const Headers& headers, const Step& step) {
+    const auto lengths = headers.lengths.find(step.path);
+    if (lengths == headers.lengths.end()) return "";
+    std::string out;
+    for (const auto& [option, length] : lengths->second.items())
+        out += fmt::format("{}{}: {} is {} {}", out.empty() ? "" : ", ", option,
+                           length["given"].get<std::string>(), length["is"].dump(),
+                           length["unit"].get<std::string>());
+    return fmt::format("  ({})", out);
+}
+
+void describe(const Steps& steps, const Headers& headers, std::size_t indent, std::string& out) {
     const std::string lead(indent, ' ');
     for (const auto& step : steps) {
         if (step.kind == Step::Kind::stage) {
             const std::string options = step.given.is_null() ? "" : ": " + emit_flow(step.given);
-            out += fmt::format("{}{:<16} {}{}{}\n", lead, step.name, step.stage ? step.stage->name : "",
-                               options, extras(step));
+            out += fmt::format("{}{:<16} {}{}{}{}\n", lead, step.name, step.stage ? step.stage->name : "",
+                               options, lengths_text(headers, step), extras(step));
             continue;
         }
         out += fmt::format("{}{}{}\n", lead,
@@ -55,7 +67,7 @@ void describe(const Steps& steps, std::size_t indent, std::string& out) {
                            extras(step));
         for (const auto& arm : step.arms) {
             out += fmt::format("{}  {}:\n", lead, arm.name);
-            describe(*arm.steps, indent + 4, out);
+            describe(*arm.steps, headers, indent + 4, out);
         }
     }
 }
@@ -101,7 +113,7 @@ Json options_json(const Step& step) {
     return out;
 }
 
-Json steps_json(const Steps& steps) {
+Json steps_json(const Steps& steps, const Headers& headers) {
     Json all = Json::array();
     for (const auto& step : steps) {
         Json one = {{"name", step.name}, {"path", step.path}};
@@ -109,13 +121,15 @@ Json steps_json(const Steps& steps) {
             one["stage"] = step.stage->name, one["options"] = options_json(step);
         else
             one["stage"] = step.kind == Step::Kind::branch ? "branch" : "foreach";
+        if (const auto lengths = headers.lengths.find(step.path); lengths != headers.lengths.end())
+            one["resolved"] = lengths->second;
         if (!step.only.patterns.empty()) one["only"] = step.only.patterns;
         if (step.when)
             one["when"] = step.when->known ? Json(*step.when->known) : assertions_json(step.when->predicates);
         if (step.ensure) one["ensure"] = contract_json(*step.ensure);
         if (step.join) one["join"] = true;
         for (const auto& arm : step.arms)
-            one["arms"].push_back({{"name", arm.name}, {"stages", steps_json(*arm.steps)}});
+            one["arms"].push_back({{"name", arm.name}, {"stages", steps_json(*arm.steps, headers)}});
         all.push_back(std::move(one));
     }
     return all;
@@ -167,7 +181,7 @@ std::string describe(const Plan& plan, const Headers& headers) {
     for (const auto& [name, value] : plan.params.items())
         out += fmt::format("  {} = {}\n", name, value.is_string() ? value.get<std::string>() : value.dump());
     out += "stages:\n";
-    describe(plan.steps, 2, out);
+    describe(plan.steps, headers, 2, out);
     const auto files = [&](const char* title, const std::vector<std::filesystem::path>& paths) {
         if (!paths.empty()) out += fmt::format("{}:\n", title);
         for (const auto& path : paths)
@@ -183,7 +197,7 @@ Json describe_json(const Plan& plan, const Headers& headers) {
     return {{"pipeline", plan.name},
             {"about", plan.about},
             {"params", plan.params},
-            {"stages", steps_json(plan.steps)},
+            {"stages", steps_json(plan.steps, headers)},
             {"inputs", paths_json(planned_inputs(plan))},
             {"headers", headers_json(headers)},
             {"outputs", paths_json(planned_outputs(plan))},

@@ -60,7 +60,9 @@ class Walk {
             if (step.stage->outline)
                 load(step, unit);
             else if (unit == Unit::unknown)
-                lengths(step);
+                refuse_units(step);
+            else if (unit)
+                resolve_lengths(step, *unit);
             // A stage that says what the numbers mean ends what is known here.
             if (!step.stage->outline && step.given.is_map() && step.given.find("unit")) unit.reset();
         }
@@ -88,7 +90,29 @@ class Walk {
         }
     }
 
-    void lengths(const Step& step) {
+    void resolve_lengths(const Step& step, Unit unit) {
+        std::vector<std::pair<std::string, const Value*>> found;
+        find_physical(step.stage->options, step.given, found);
+        for (const auto& [option, value] : found) {
+            Problems ignored; // it was found because it can be read
+            Length length;
+            OptionType<Length>::parse(*value, length, ignored);
+            headers.lengths[step.path][option] = {
+                {"given", value->text}, {"is", length.amount / metres(unit)}, {"unit", spelled(unit)}};
+        }
+    }
+
+    /// Of a scene without a unit, whatever needs one.
+    void refuse_units(const Step& step) {
+        const auto files = planned_files({step}, places_);
+        const bool writes = std::any_of(files.begin(), files.end(), [](const auto& f) { return f.written; });
+        const Value* wanted = step.given.is_map() ? step.given.find("unit") : nullptr;
+        if (writes && wanted && wanted->is_scalar() &&
+            unit_named(wanted->text).value_or(Unit::unknown) != Unit::unknown)
+            headers.errors.push_back(
+                Error(ErrorKind::usage, "E-UNIT",
+                      fmt::format("the scene has no unit, so it cannot be written in {}", wanted->text),
+                      "say what the numbers of the file mean (load: {unit: mm})", wanted->mark));
         std::vector<std::pair<std::string, const Value*>> found;
         find_physical(step.stage->options, step.given, found);
         for (const auto& [option, value] : found)

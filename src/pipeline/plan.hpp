@@ -102,11 +102,14 @@ struct InputHeader {
 struct Headers {
     std::vector<InputHeader> inputs; ///< in the order of the plan, each file once
     std::vector<Error> errors;       ///< in the order of the plan
+    /// By the path of a step, its lengths with a physical unit where the scene's is known: {"amplitude":
+    /// {"given": "0.1in", "is": 2.54, "unit": "mm"}}.
+    std::map<std::string, Json> lengths;
 };
 
 /// Reads the headers of those inputs that exist: files that no stage could load (as their load would throw),
-/// and lengths with a physical unit (E-UNIT, usage) where what was loaded first has none. Streams and
-/// compressed files wait for the run, since they would have to be read whole.
+/// and units (E-UNIT, usage) of lengths and of a stage's option `unit` where what was loaded first has none.
+/// Streams and compressed files wait for the run, since they would have to be read whole.
 Headers read_headers(const Plan& plan);
 
 /// Files that the plan reads and writes, as far as they are known before it runs (globs expanded).

@@ -57,6 +57,22 @@ TEST_CASE("headers tell formats, units and the names of parts", "[pipeline]") {
     CHECK(describe_json(plan, headers)["headers"][0]["parts"] == Json({"hull", "mast"}));
 }
 
+TEST_CASE("lengths with a unit are resolved where the scene's is known", "[pipeline]") {
+    Ground ground;
+    const auto plan = ground.plan("  - load: {path: good.off, unit: mm}\n  - crumple: {amplitude: 0.1in}\n");
+    const auto headers = read_headers(plan);
+    CHECK(describe(plan, headers).find("crumple: {amplitude: 0.1in}  (amplitude: 0.1in is 2.54 mm)\n") !=
+          std::string::npos);
+    CHECK(describe_json(plan, headers)["stages"][1]["resolved"].dump() ==
+          R"({"amplitude":{"given":"0.1in","is":2.54,"unit":"mm"}})");
+    CHECK(ground.errors("  - load: good.off\n  - transform: {unit: mm}\n  - write: {path: a.ply, unit: m}\n")
+              .empty());
+    const auto errors = ground.errors("  - load: good.off\n  - write: {path: a.ply, unit: mm}\n");
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].find("E-UNIT]: the scene has no unit, so it cannot be written in mm") !=
+          std::string::npos);
+}
+
 TEST_CASE("inputs that no stage could load are found before anything runs", "[pipeline]") {
     Ground ground;
     const auto errors = ground.errors("  - load: [broken.ply, noise.xyz, good.off]\n");
