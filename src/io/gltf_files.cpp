@@ -45,6 +45,24 @@ bool write_nothing(std::string*, const std::string&, const std::vector<unsigned 
     return false;
 }
 
+[[maybe_unused]] bool file_size(std::size_t* out, std::string*, const std::string&, void* user) {
+    *out = static_cast<const Neighbour*>(user)->bytes;
+    return true;
+}
+
+/// tinygltf's callbacks; newer ones ask for the size first.
+template <class Callbacks>
+Callbacks callbacks_for(Neighbour& neighbour) {
+    Callbacks callbacks{};
+    callbacks.FileExists = file_exists;
+    callbacks.ExpandFilePath = same_path;
+    callbacks.ReadWholeFile = read_file;
+    callbacks.WriteWholeFile = write_nothing;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = file_size;
+    callbacks.user_data = &neighbour;
+    return callbacks;
+}
+
 int hex(char c) {
     return c >= '0' && c <= '9'   ? c - '0'
            : c >= 'a' && c <= 'f' ? c - 'a' + 10
@@ -86,7 +104,7 @@ Bytes resolve_with_tinygltf(const Place& buffer, const std::string& uri, Neighbo
                            {"buffers", {{{"uri", uri}, {"byteLength", neighbour.bytes}}}}};
     const std::string text = document.dump();
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({file_exists, same_path, read_file, write_nothing, &neighbour});
+    loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(neighbour));
     loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
                              const unsigned char*, int, void*) { return true; },
                           nullptr);
