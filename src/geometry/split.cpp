@@ -1,20 +1,17 @@
 #include "geometry/split.hpp"
 
 #include "base/error.hpp"
-#include "base/memory.hpp"
+#include "geometry/split_estimate.hpp"
 #include "geometry/split_marked.hpp"
 #include "geometry/split_patterns.hpp"
 #include "geometry/split_smooth.hpp"
+#include "geometry/split_spots.hpp"
 
 #include <fmt/format.h>
 
 namespace facetmill {
 
 namespace {
-
-constexpr double corner_limit = 2147483648.0; ///< 2^31
-/// Of memory, at the peak: the result, the edges it comes from, and where everything descends from.
-constexpr double bytes_per_corner = 36;
 
 /// The most corners of a face that the method knows; 0: any.
 Index most_corners(SplitMethod method) {
@@ -52,154 +49,82 @@ bool halves_edges(SplitMethod m) {
            m == SplitMethod::butterfly || m == SplitMethod::catmull_clark;
 }
 
-Mesh split_once(const Mesh& mesh, const SplitSettings& settings, int pass, Fates& fates) {
+/// One pass; what it did to attributes and where it could not keep its promises goes to the result. Without
+/// faces when min_angle finds no narrow one.
+Mesh split_once(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {
+    Fates& fates = so_far.fates;
+    so_far.folded += folding_faces(mesh, settings.method);
     const auto with_points = [&](int pieces, const auto& pattern) {
         const EdgeTable table = build_edges(mesh);
+        if (pieces > 1) so_far.shared += shared_cuts(mesh, table, {});
         const EdgePoints points(mesh, table, pieces);
         return apply_pattern(mesh, &points, pattern, fates);
     };
     switch (settings.method) {
     case SplitMethod::midpoint:
         return with_points(2, QuadsPattern{true});
-    case SplitMethod::quads:
-        return with_points(2, QuadsPattern{});
-    case SplitMethod::varignon:
-        return with_points(2, VarignonPattern{});
     case SplitMethod::grid:
         return with_points(settings.grid, GridPattern{settings.grid});
+    case SplitMethod::quads:
+    case SplitMethod::varignon: {
+        const EdgeTable table = build_edges(mesh);
+        const EdgePoints points(mesh, table, 2);
+        if (settings.method == SplitMethod::quads) return apply_pattern(mesh, &points, QuadsPattern{}, fates);
+        const auto shared = shared_corners(mesh, table);
+        return apply_pattern(mesh, &points, VarignonPattern{shared}, fates);
+    }
     case SplitMethod::centroid:
         return apply_pattern(mesh, nullptr, CentroidPattern{}, fates);
     case SplitMethod::fan:
         return apply_pattern(mesh, nullptr, FanPattern{}, fates);
     case SplitMethod::core:
         return apply_pattern(mesh, nullptr, CorePattern{}, fates);
-    case SplitMethod::diagonal:
-        return apply_pattern(mesh, nullptr, DiagonalPattern{}, fates);
+    case SplitMethod::diagonal: {
+        const QuadCuts cuts = mesh.all_triangles() ? QuadCuts{} : quad_cuts(mesh);
+        so_far.shared += cuts.coinciding;
+        return apply_pattern(mesh, nullptr, DiagonalPattern{cuts.at_second}, fates);
+    }
     case SplitMethod::bisect:
     case SplitMethod::notch:
     case SplitMethod::halve:
-        return split_marked(mesh, settings, fates).value_or(Mesh{});
+        return split_marked(mesh, settings, so_far).value_or(Mesh{});
     default:
-        return split_smooth(mesh, settings, pass, fates);
+        return split_smooth(mesh, settings, so_far.passes, fates);
     }
 }
 
-/// How the numbers of triangles, quads and larger faces, and the corners of these, change in one pass.
-struct Census {
-    double triangles = 0, quads = 0, larger = 0, larger_corners = 0;
-
-    explicit Census(const Mesh& mesh) {
-        if (mesh.all_triangles()) {
-            triangles = static_cast<double>(mesh.face_count());
-            return;
-        }
-        for (Index f = 0; f < mesh.face_count(); ++f) {
-            const Index n = mesh.face_size(f);
-            if (n == 3)
-                ++triangles;
-            else if (n == 4)
-                ++quads;
-            else
-                ++larger, larger_corners += n;
-        }
-    }
-    double corners() const { return 3 * triangles + 4 * quads + larger_corners; }
-    double faces() const { return triangles + quads + larger; }
-    void set(double t, double q, double l, double c) {
-        triangles = t, quads = q, larger = l, larger_corners = c;
-    }
-    void pass(SplitMethod method, double n) {
-        switch (method) {
-        case SplitMethod::midpoint:
-        case SplitMethod::loop:
-        case SplitMethod::butterfly:
-            return set(4 * triangles, 4 * quads + larger_corners, 0, 0);
-        case SplitMethod::quads:
-        case SplitMethod::catmull_clark:
-            return set(0, corners(), 0, 0);
-        case SplitMethod::bisect:
-            return set(4 * triangles, quads, larger, larger_corners);
-        case SplitMethod::notch: // 4 triangles have more corners than a triangle and a quad
-            return set(4 * triangles, 0, larger, larger_corners);
-        case SplitMethod::halve:
-            return set(4 * triangles, 4 * quads, larger, larger_corners);
-        case SplitMethod::centroid:
-            return set(corners(), 0, 0, 0);
-        case SplitMethod::fan:
-            return set(triangles + 4 * quads + larger_corners, 0, 0, 0);
-        case SplitMethod::sqrt3:
-            return set(3 * triangles, quads, larger, larger_corners);
-        case SplitMethod::grid:
-            return set(n * n * triangles, n * n * quads, larger, larger_corners);
-        case SplitMethod::varignon:
-            return set(triangles + corners(), quads, larger, larger_corners);
-        case SplitMethod::core:
-            return set(triangles, quads + corners(), larger, larger_corners);
-        case SplitMethod::diagonal:
-            return set(triangles + 2 * quads, 0, larger, larger_corners);
-        }
-    }
-};
-
-/// About how many triangles refining to max_edge makes: a triangle with all edges that long has at most
-/// sqrt(3) / 4 of its square as area, and cuts leave it smaller than that.
-double refined_estimate(const Mesh& mesh, const SplitSettings& s) {
-    constexpr double fullest = 0.3;
-    return parallel_reduce(
-        mesh.face_count(), 0.0,
-        [&](std::size_t begin, std::size_t end) {
-            double sum = 0;
-            for (std::size_t f = begin; f < end; ++f) {
-                const auto c = static_cast<Index>(3 * f);
-                const Vec3 a = s.to_world.vector(mesh.point(c + 1) - mesh.point(c)),
-                           b = s.to_world.vector(mesh.point(c + 2) - mesh.point(c));
-                const double area = length(cross(a, b)) / 2,
-                             longest = std::max({length(a), length(b), length(b - a)});
-                sum += std::max({1.0, longest / s.max_edge, area / (fullest * s.max_edge * s.max_edge)});
-            }
-            return sum;
-        },
-        [](double a, double b) { return a + b; });
+/// Whether the mesh is as the target wants it; false without a target that can be looked for.
+bool is_reached(const Mesh& mesh, const SplitSettings& settings) {
+    return settings.max_edge > 0 && facet_shape(mesh, settings.to_world).longest_edge <= settings.max_edge;
 }
-
-/// Of all attributes, for a wedge or vertex; there is half of one for each corner of a triangle mesh at most.
-double attribute_bytes(const Mesh& mesh) {
-    double bytes = 0;
-    for (const auto& a : mesh.attributes)
-        bytes += std::visit([](const auto& data) { return sizeof(data.front()); }, a.data) * a.components;
-    return bytes;
-}
-
-void refuse_giants(const Mesh& mesh, double corners, const char* hint) {
-    if (corners > corner_limit)
-        throw Error(
-            ErrorKind::limit, "E-LIMIT",
-            fmt::format("split: the result would have about {:.3g} corners, at most {:.0f} are possible",
-                        corners, corner_limit),
-            hint);
-    require_memory((bytes_per_corner + attribute_bytes(mesh) / 2) * corners,
-                   fmt::format("split: a result of {:.3g} corners", corners), hint);
-}
-
-constexpr const char* coarser = "use fewer passes, a coarser grid or a longer max_edge";
 
 /// Passes over all faces, as many as the settings allow and the targets need.
 SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
+    using Stop = SplitResult::Stop;
     SplitResult result;
     const Mesh* from = &mesh;
-    while (result.passes < settings.passes) {
-        if (settings.max_edge > 0 && facet_shape(*from, settings.to_world).longest_edge <= settings.max_edge)
-            break;
-        Census next(*from);
-        next.pass(settings.method, settings.grid);
-        if (settings.faces > 0 && next.faces() > static_cast<double>(settings.faces)) {
-            result.budget_reached = true;
+    while (true) {
+        if (is_reached(*from, settings)) {
+            result.stop = Stop::target;
             break;
         }
-        if (settings.min_angle > 0) refuse_giants(*from, next.corners(), coarser);
-        check_polygons(*from, settings.method);
-        Mesh finer = split_once(*from, settings, result.passes, result.fates);
-        if (settings.min_angle > 0 && finer.face_count() == 0) break; // none is narrow
+        if (result.passes >= settings.passes) break;
+        const bool quads_left = settings.method == SplitMethod::notch && result.passes > 0;
+        const Mesh triangles = quads_left ? triangulated(*from) : Mesh{};
+        const Mesh& next_from = quads_left ? triangles : *from;
+        SplitCensus next(next_from);
+        next.pass(settings.method, settings.grid);
+        if (settings.faces > 0 && next.faces() > static_cast<double>(settings.faces)) {
+            result.stop = Stop::budget;
+            break;
+        }
+        refuse_giant_split(next_from, next.corners());
+        check_polygons(next_from, settings.method);
+        Mesh finer = split_once(next_from, settings, result);
+        if (settings.min_angle > 0 && finer.face_count() == 0) {
+            result.stop = Stop::target; // none is narrow
+            break;
+        }
         result.mesh = std::move(finer);
         from = &result.mesh;
         ++result.passes;
@@ -230,35 +155,18 @@ void check_split_targets(const SplitSettings& s) {
         refuse("max_edge", "bisect, midpoint, quads, loop, butterfly or catmull-clark");
     if (s.min_angle > 0 && s.method != SplitMethod::bisect && s.method != SplitMethod::notch)
         refuse("min_angle", "bisect or notch");
+    if (s.cut == SplitSettings::Cut::widest_angle && (s.max_edge > 0 || s.min_angle > 0 || s.faces > 0))
+        throw Error(ErrorKind::usage, "E-TARGET", "split: the cut at the widest angle reaches no target",
+                    "cut in the middle of the longest edge, or give passes and no target");
     if (s.min_angle > 0 && (s.max_edge > 0 || s.faces > 0))
         throw Error(ErrorKind::usage, "E-TARGET", "split: min_angle goes with no other target",
                     "use two split stages");
 }
 
-double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings) {
-    const bool refines = settings.method == SplitMethod::bisect && mesh.all_triangles();
-    if (refines && (settings.max_edge > 0 || settings.faces > 0)) {
-        double faces = settings.max_edge > 0 ? refined_estimate(mesh, settings) : 1e300;
-        if (settings.faces > 0) faces = std::min(faces, static_cast<double>(settings.faces));
-        return 3 * std::max(faces, static_cast<double>(mesh.face_count()));
-    }
-    Census census(mesh);
-    double longest = settings.max_edge > 0 ? facet_shape(mesh, settings.to_world).longest_edge : 0;
-    for (int pass = 0; pass < settings.passes && census.corners() <= 1e18; ++pass) {
-        if (settings.max_edge > 0 && longest <= settings.max_edge) break;
-        Census next = census;
-        next.pass(settings.method, settings.grid);
-        if (settings.faces > 0 && next.faces() > static_cast<double>(settings.faces)) break;
-        census = next;
-        longest /= 2;
-    }
-    return census.corners();
-}
-
 SplitResult split(const Mesh& mesh, const SplitSettings& settings) {
     check_split_targets(settings);
     check_polygons(mesh, settings.method);
-    if (settings.min_angle <= 0) refuse_giants(mesh, split_corner_estimate(mesh, settings), coarser);
+    if (settings.min_angle <= 0) refuse_giant_split(mesh, split_corner_estimate(mesh, settings));
     if (is_smooth(settings.method) && settings.passes > 0) require_manifold(mesh, settings.method);
     if (settings.method == SplitMethod::bisect && (settings.max_edge > 0 || settings.faces > 0))
         return refine(mesh, settings);

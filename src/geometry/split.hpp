@@ -19,7 +19,7 @@ enum class SplitMethod {
     fan,           ///< quads and larger -> triangles around the centroid; triangles stay
     varignon,      ///< every n-gon -> the n-gon of its edge midpoints and n triangles at its corners
     core,          ///< every n-gon -> the same shape at half size around its centroid and n quads
-    diagonal,      ///< quads -> 2 triangles along the shorter diagonal; triangles stay
+    diagonal,      ///< quads -> 2 triangles along a diagonal, as triangulated() does; triangles stay
     loop,          ///< smooth, triangles -> 4
     sqrt3,         ///< smooth, triangles -> 3
     butterfly,     ///< smooth and through the old vertices, triangles -> 4
@@ -34,7 +34,8 @@ const char* spelled(SplitMethod method);
 struct SplitSettings {
     enum class Cut {
         longest_edge, ///< in the middle of the longest edge
-        widest_angle, ///< where the bisector of the widest angle, which is opposite to that edge, meets it
+        widest_angle, ///< where the bisector of the widest angle, which is opposite to that edge, meets it (a
+                      ///< thousandth of the edge from its ends at least); not with a target
     };
     SplitMethod method = SplitMethod::midpoint;
     int passes = 1;              ///< how many times; at least 0. With a target: at most so often
@@ -45,22 +46,36 @@ struct SplitSettings {
     std::uint64_t faces = 0;     ///< target: longest edges first, and never more faces than this (0: none)
     std::optional<double> creases = {}; ///< smooth methods, radians: edges that bend more stay sharp (none:
                                         ///< only boundaries do)
-    Transform to_world = {}; ///< part space -> world, where lengths and angles are measured
+    Transform to_world = {};            ///< part space -> world, where lengths and angles are measured
 };
 
 struct SplitResult {
+    enum class Stop {
+        passes,  ///< as many as were asked for
+        target,  ///< no edge is longer than max_edge, or no triangle narrower than min_angle
+        budget,  ///< the next cut would have made more than SplitSettings::faces
+        nothing, ///< no edge has a length
+    };
     Mesh mesh;
-    Fates fates;                 ///< what became of the attributes
-    std::size_t added = 0;       ///< faces more than before
-    int passes = 0;              ///< done
-    bool budget_reached = false; ///< the next cut would have made more than SplitSettings::faces
+    Fates fates;           ///< what became of the attributes
+    std::size_t added = 0; ///< faces more than before
+    int passes = 0;        ///< done
+    Stop stop = Stop::passes;
+    std::size_t folded = 0; ///< faces whose pieces lie over each other (folding_faces), summed over passes
+    std::size_t shared = 0; ///< spots where two faces share two edges, so that new edges of theirs coincide
+                            ///< and have more than two faces; summed over passes
 };
 
 /// The mesh with every face split. Conforming on open, closed and non-manifold meshes: a point on an edge is
 /// one vertex for all faces at the edge, with one wedge per pair of wedges there (seams stay seams), computed
 /// once with the edge's ends in index order. Old vertices keep their numbers and, but for the smooth methods,
 /// their places; the faces that replace a face follow each other in its place and keep its direction, so a
-/// closed mesh stays closed and Euler's number stays.
+/// closed mesh stays closed. Euler's number and manifoldness stay too, but where two faces share two edges
+/// (triangles back to back, for one): new edges between these are one edge of both, which SplitResult::shared
+/// counts. varignon leaves such corners whole, diagonal takes the other diagonal where that is sound.
+///
+/// Concave quads are cut to the middle of their inner diagonal, so that no piece looks the other way; what
+/// cannot be cut so, larger faces and the cuts of grid, halve and varignon, SplitResult::folded counts.
 ///
 /// Closures, where a neighbour puts points on a face's edges: midpoint, quads, varignon and grid put the same
 /// points on every edge, so none is needed; centroid, fan, core and diagonal put none. bisect marks the
@@ -69,14 +84,16 @@ struct SplitResult {
 /// at theirs: two pieces, or three or four. With Cut::widest_angle the point is the one of the triangle with
 /// the wider angle at that edge (ties: the lower face). notch marks two edges of each triangle: with one mark
 /// a triangle is cut to the opposite corner, with two it becomes a triangle and a quad, with three four
-/// triangles. halve marks the edges at which quads are cut: triangles as for notch; a quad with one mark more
-/// cuts a triangle off the half there, with two more it becomes four quads around its centroid.
+/// triangles; before another pass triangulated() cuts the quads. halve marks the edges at which quads are
+/// cut: triangles as for notch; a quad with one mark more cuts a triangle off the half there, with two more
+/// it becomes four quads around its centroid.
 ///
-/// Targets. max_edge: with bisect only edges longer than that are marked, again and again; with midpoint,
-/// quads and the smooth methods of four faces all faces are split until it holds. min_angle: bisect or notch
-/// of the triangles with a smaller angle (and the closure). No angle becomes smaller than half the smallest
-/// there was with bisect (Rosenberg, Stenger 1975). faces: with bisect the longest edges first, with other
-/// methods as many passes as fit.
+/// Targets, which end at SplitSettings::passes at the latest: SplitResult::stop says why it ended. max_edge:
+/// with bisect only edges longer than that are marked, again and again; with midpoint, quads and the smooth
+/// methods of four faces all faces are split until it holds. min_angle: bisect or notch of the triangles with
+/// a smaller angle (and the closure). No angle becomes smaller than half the smallest there was with bisect
+/// (Rosenberg, Stenger 1975). faces: with bisect the longest edges first, with other methods as many passes
+/// as fit.
 ///
 /// Smooth methods: Loop 1987 (Biermann's boundary rules), Kobbelt 2000, Zorin, Schroeder, Sweldens 1996,
 /// Catmull, Clark 1978. Their masks are those of OpenMesh's subdividers, which test them. A crease follows
@@ -109,8 +126,8 @@ FacetShape facet_shape(const Mesh& mesh, const Transform& to_world = {});
 /// The mean over all corners of the edge that begins there; 0 without faces.
 double mean_edge(const Mesh& mesh, const Transform& to_world = {});
 
-/// About how many corners split would make (an upper bound without max_edge), as a real number because it may
-/// be beyond any integer.
+/// About how many corners split would make (an upper bound but for bisect and smooth methods with max_edge;
+/// split looks again before every pass), as a real number because it may be beyond any integer.
 double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings);
 
 } // namespace facetmill

@@ -2,6 +2,7 @@
 
 #include "base/functions.hpp"
 #include "geometry/split_patterns.hpp"
+#include "geometry/split_spots.hpp"
 
 #include <atomic>
 
@@ -153,8 +154,7 @@ std::vector<std::uint8_t> chosen_faces(const Mesh& mesh, const SplitSettings& se
 
 /// Marks the longest edge of every triangle that has a mark, until nothing changes. Whatever the order, the
 /// result is the least set of marks that is closed.
-void close_marks(const Mesh& mesh, const MeasuredEdges& edges, const std::vector<std::uint8_t>& longest,
-                 EdgeMarks& marks) {
+void close_marks(const MeasuredEdges& edges, const std::vector<std::uint8_t>& longest, EdgeMarks& marks) {
     std::vector<Index> fresh;
     for (Index e = 0; e < edges.table.size(); ++e)
         if (marks[e]) fresh.push_back(e);
@@ -168,7 +168,6 @@ void close_marks(const Mesh& mesh, const MeasuredEdges& edges, const std::vector
             fresh.push_back(next);
         }
     }
-    (void)mesh;
 }
 
 /// Where each marked edge is cut: at the foot of the bisector of the widest angle opposite to it.
@@ -194,7 +193,7 @@ std::vector<double> feet(const Mesh& mesh, const MeasuredEdges& edges, const Edg
     return at;
 }
 
-std::optional<Mesh> bisected(const Mesh& mesh, const SplitSettings& settings, Fates& fates) {
+std::optional<Mesh> bisected(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {
     const MeasuredEdges edges = measure_edges(mesh, settings.to_world);
     const auto longest = longest_edges(mesh, edges);
     const auto chosen = chosen_faces(mesh, settings);
@@ -204,12 +203,12 @@ std::optional<Mesh> bisected(const Mesh& mesh, const SplitSettings& settings, Fa
     });
     if (settings.min_angle > 0) {
         if (std::find(marks.begin(), marks.end(), 1) == marks.end()) return {};
-        close_marks(mesh, edges, longest, marks);
+        close_marks(edges, longest, marks);
     }
-    return cut_marked(mesh, edges, marks, longest, settings.cut, settings.to_world, fates);
+    return cut_marked(mesh, edges, marks, longest, settings.cut, settings.to_world, so_far);
 }
 
-std::optional<Mesh> notched(const Mesh& mesh, const SplitSettings& settings, Fates& fates) {
+std::optional<Mesh> notched(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {
     const MeasuredEdges edges = measure_edges(mesh, settings.to_world);
     const auto chosen = chosen_faces(mesh, settings);
     EdgeMarks marks(edges.table.size());
@@ -225,11 +224,27 @@ std::optional<Mesh> notched(const Mesh& mesh, const SplitSettings& settings, Fat
             if (e[k] != none && k != shortest) mark(marks, e[k]);
     });
     if (settings.min_angle > 0 && std::find(marks.begin(), marks.end(), 1) == marks.end()) return {};
+    so_far.shared += shared_cuts(mesh, edges.table, marks);
     const EdgePoints points(mesh, edges.table, 2, marks);
-    return apply_pattern(mesh, &points, NotchPattern{{edges.table, marks}}, fates);
+    return apply_pattern(mesh, &points, NotchPattern{{edges.table, marks}}, so_far.fates);
 }
 
-Mesh halved(const Mesh& mesh, const SplitSettings& settings, Fates& fates) {
+/// Pairs of quads that are cut between the same two edges: the new edges there coincide.
+std::size_t twin_cuts(const Mesh& mesh, const EdgeTable& table, const std::vector<std::uint8_t>& first_edge) {
+    std::vector<std::uint64_t> pairs;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (mesh.face_size(f) != 4) continue;
+        const Index c = mesh.face_begin(f) + first_edge[f];
+        const std::uint64_t a = table.corner_edge[c], b = table.corner_edge[c + 2];
+        pairs.push_back(std::min(a, b) << 32 | std::max(a, b));
+    }
+    radix_sort(pairs, [](std::uint64_t p) { return p; });
+    std::size_t twins = 0;
+    for (std::size_t i = 1; i < pairs.size(); ++i) twins += pairs[i] == pairs[i - 1];
+    return twins;
+}
+
+Mesh halved(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {
     const MeasuredEdges edges = measure_edges(mesh, settings.to_world);
     std::vector<std::uint8_t> first_edge(mesh.face_count());
     EdgeMarks marks(edges.table.size());
@@ -245,8 +260,9 @@ Mesh halved(const Mesh& mesh, const SplitSettings& settings, Fates& fates) {
         for (const std::size_t cut : {std::size_t{k}, std::size_t{k} + 2})
             if (e[cut] != none) mark(marks, e[cut]);
     });
+    so_far.shared += shared_cuts(mesh, edges.table, marks) + twin_cuts(mesh, edges.table, first_edge);
     const EdgePoints points(mesh, edges.table, 2, marks);
-    return apply_pattern(mesh, &points, HalvePattern{{edges.table, marks}, first_edge}, fates);
+    return apply_pattern(mesh, &points, HalvePattern{{edges.table, marks}, first_edge}, so_far.fates);
 }
 
 /// Marks edges and what follows from them, one after the other, as long as the faces stay within the budget.
@@ -337,40 +353,48 @@ std::vector<std::uint8_t> longest_edges(const Mesh& mesh, const MeasuredEdges& e
 
 Mesh cut_marked(const Mesh& mesh, const MeasuredEdges& edges, const EdgeMarks& marks,
                 const std::vector<std::uint8_t>& longest, SplitSettings::Cut cut, const Transform& to_world,
-                Fates& fates) {
+                SplitResult& so_far) {
+    so_far.shared += shared_cuts(mesh, edges.table, marks);
     std::vector<double> at;
     if (cut == SplitSettings::Cut::widest_angle) at = feet(mesh, edges, marks, to_world);
     const EdgePoints points(mesh, edges.table, 2, marks, std::move(at));
-    return apply_pattern(mesh, &points, BisectPattern{{edges.table, marks}, longest}, fates);
+    return apply_pattern(mesh, &points, BisectPattern{{edges.table, marks}, longest}, so_far.fates);
 }
 
-std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings, Fates& fates) {
-    if (settings.method == SplitMethod::bisect) return bisected(mesh, settings, fates);
-    if (settings.method == SplitMethod::notch) return notched(mesh, settings, fates);
-    return halved(mesh, settings, fates);
+std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {
+    if (settings.method == SplitMethod::bisect) return bisected(mesh, settings, so_far);
+    if (settings.method == SplitMethod::notch) return notched(mesh, settings, so_far);
+    return halved(mesh, settings, so_far);
 }
 
 SplitResult refine(const Mesh& mesh, const SplitSettings& settings) {
+    using Stop = SplitResult::Stop;
     SplitResult result;
     const double limit = settings.max_edge * settings.max_edge;
     const bool budget = settings.faces > 0;
+    const std::uint64_t most = budget ? settings.faces : UINT64_MAX;
     const Mesh* from = &mesh;
-    while (result.passes < settings.passes && !result.budget_reached) {
+    while (result.stop != Stop::budget) {
         const MeasuredEdges edges = measure_edges(*from, settings.to_world);
+        const std::vector<Index> wanted = candidates(edges, limit, budget);
+        if (wanted.empty()) {
+            result.stop = settings.max_edge > 0 ? Stop::target : Stop::nothing;
+            break;
+        }
+        if (result.passes >= settings.passes) break;
         const auto longest = longest_edges(*from, edges);
         EdgeMarks marks(edges.table.size());
         bool any = false;
-        const std::uint64_t most = budget ? settings.faces : UINT64_MAX;
         Budget room(edges, longest, most - std::min<std::uint64_t>(most, from->face_count()));
-        for (const Index e : candidates(edges, limit, budget)) {
+        for (const Index e : wanted) {
             if (!room.add(marks, e)) {
-                result.budget_reached = true;
+                result.stop = Stop::budget;
                 break;
             }
             any = true;
         }
         if (!any) break;
-        result.mesh = cut_marked(*from, edges, marks, longest, settings.cut, settings.to_world, result.fates);
+        result.mesh = cut_marked(*from, edges, marks, longest, settings.cut, settings.to_world, result);
         from = &result.mesh;
         ++result.passes;
     }

@@ -3,6 +3,9 @@
 // frame).
 
 #include "geometry/split_pattern.hpp"
+#include "mesh/quad_diagonal.hpp"
+
+#include <algorithm>
 
 namespace facetmill {
 
@@ -78,9 +81,24 @@ struct GridPattern {
     }
 };
 
-inline void centroid(const PatternFace& face, PatternOut& out) {
+/// What each corner counts in the centre that a face is cut to: all the same, but in a concave quad the two
+/// at the ends of the diagonal that lies inside, because from its middle all of the quad is seen.
+struct CentreWeights {
+    double even, odd; ///< of corners 0, 2 ... and 1, 3 ...
+    double of(Index k) const { return k % 2 == 0 ? even : odd; }
+};
+inline CentreWeights centre_weights(const PatternFace& face) {
     const Index n = face.size();
-    for (Index k = 0; k < n; ++k) out.source(face.at(k), 1.0 / n);
+    if (n == 4) {
+        const QuadDiagonals quad = quad_diagonals(face.mesh, face.face);
+        if (quad.concave()) return quad.first ? CentreWeights{0.5, 0} : CentreWeights{0, 0.5};
+    }
+    return {1.0 / n, 1.0 / n};
+}
+
+inline void centroid(const PatternFace& face, PatternOut& out) {
+    const CentreWeights weights = centre_weights(face);
+    for (Index k = 0; k < face.size(); ++k) out.source(face.at(k), weights.of(k));
     out.end_mix();
 }
 
@@ -142,19 +160,34 @@ struct FanPattern {
     }
 };
 
-/// A triangle at every corner, and the polygon of the edges' middles.
+/// A triangle at every corner, and the polygon of the edges' middles; corners that another face shares with
+/// both their edges stay in the polygon, because the edge across them would belong to both.
 struct VarignonPattern {
-    PatternCounts counts(const Mesh& mesh, Index f) const {
-        const Index n = mesh.face_size(f);
-        return {n + 1, 4 * n, 0, 0};
+    const std::vector<std::uint8_t>& shared; ///< [corners]
+
+    Index kept(const Mesh& mesh, Index f) const {
+        Index n = 0;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) n += shared[c];
+        return n;
     }
-    bool triangles_only(const Mesh& mesh) const { return mesh.all_triangles(); }
+    PatternCounts counts(const Mesh& mesh, Index f) const {
+        const Index n = mesh.face_size(f), k = kept(mesh, f);
+        return {n - k + 1, 4 * n - 2 * k, 0, 0};
+    }
+    bool triangles_only(const Mesh& mesh) const {
+        return mesh.all_triangles() && std::find(shared.begin(), shared.end(), 1) == shared.end();
+    }
     void emit(const PatternFace& face, PatternOut& out) const {
-        const Index n = face.size();
-        std::vector<Index> middles(n);
-        for (Index k = 0; k < n; ++k) middles[k] = face.on(k);
-        for (Index k = 0; k < n; ++k) out.face(face.at(k), middles[k], middles[k == 0 ? n - 1 : k - 1]);
-        out.face_of(middles);
+        const Index n = face.size(), begin = face.mesh.face_begin(face.face);
+        std::vector<Index> polygon;
+        for (Index k = 0; k < n; ++k) {
+            if (shared[begin + k])
+                polygon.push_back(face.at(k));
+            else
+                out.face(face.at(k), face.on(k), face.on(k == 0 ? n - 1 : k - 1));
+            polygon.push_back(face.on(k));
+        }
+        out.face_of(polygon);
     }
 };
 
@@ -167,9 +200,10 @@ struct CorePattern {
     bool triangles_only(const Mesh&) const { return false; }
     void emit(const PatternFace& face, PatternOut& out) const {
         const Index n = face.size();
+        const CentreWeights weights = centre_weights(face);
         std::vector<Index> inner(n);
         for (Index k = 0; k < n; ++k) {
-            for (Index s = 0; s < n; ++s) out.source(face.at(s), (s == k ? 0.5 : 0.0) + 0.5 / n);
+            for (Index s = 0; s < n; ++s) out.source(face.at(s), (s == k ? 0.5 : 0.0) + 0.5 * weights.of(s));
             out.end_mix();
             inner[k] = face.inside(k);
         }
@@ -181,8 +215,10 @@ struct CorePattern {
     }
 };
 
-/// Quads along their shorter diagonal (ties: the one at the first corner).
+/// Quads along a diagonal.
 struct DiagonalPattern {
+    const std::vector<std::uint8_t>& at_second; ///< [faces] 1: from the second corner
+
     PatternCounts counts(const Mesh& mesh, Index f) const {
         const Index n = mesh.face_size(f);
         return {n - 2, 3 * (n - 2), 0, 0};
@@ -190,12 +226,7 @@ struct DiagonalPattern {
     bool triangles_only(const Mesh&) const { return true; }
     void emit(const PatternFace& face, PatternOut& out) const {
         if (face.size() == 3) return out.face(face.at(0), face.at(1), face.at(2));
-        const Index c = face.mesh.face_begin(face.face);
-        const auto squared = [&](Index a, Index b) {
-            const Vec3 d = face.mesh.point(c + a) - face.mesh.point(c + b);
-            return dot(d, d);
-        };
-        const Index s = squared(0, 2) <= squared(1, 3) ? 0 : 1;
+        const Index s = at_second[face.face];
         out.face(face.at(s), face.at(s + 1), face.at(s + 2));
         out.face(face.at(s), face.at(s + 2), face.at((s + 3) % 4));
     }

@@ -1,7 +1,7 @@
 // Polygons into triangles, without new points.
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/quad_diagonal.hpp"
 
 #include <algorithm>
 #include <array>
@@ -101,19 +101,6 @@ class EarClipper {
     std::vector<Index> next_, previous_, reflex_;
 };
 
-/// True when a quad is to be cut from its second corner to its fourth: when that diagonal alone lies inside,
-/// or when both do and it is the shorter.
-bool cut_at_second(const Mesh& mesh, Index f) {
-    const Index c = mesh.face_begin(f);
-    const Vec3 &p0 = mesh.point(c), &p1 = mesh.point(c + 1), &p2 = mesh.point(c + 2), &p3 = mesh.point(c + 3);
-    const auto agree = [](const Vec3& a, const Vec3& b) { return dot(a, b) > 0; };
-    const bool first = agree(cross(p1 - p0, p2 - p0), cross(p2 - p0, p3 - p0));
-    const bool second = agree(cross(p2 - p1, p3 - p1), cross(p3 - p1, p0 - p1));
-    if (first != second) return second;
-    const Vec3 d0 = p2 - p0, d1 = p3 - p1;
-    return dot(d1, d1) < dot(d0, d0);
-}
-
 /// Calls out(Triangle) for the triangles of face f: always its size less two.
 template <class Out>
 void cut_face(const Mesh& mesh, Index f, Out&& out) {
@@ -122,7 +109,7 @@ void cut_face(const Mesh& mesh, Index f, Out&& out) {
         for (Index i = 1; i + 1 < n; ++i) out(Triangle{from, (from + i) % n, (from + i + 1) % n});
     };
     if (n == 3) return fan(0);
-    if (n == 4) return fan(cut_at_second(mesh, f) ? 1 : 0);
+    if (n == 4) return fan(quad_diagonals(mesh, f).cut_at_second ? 1 : 0);
     const auto points = flattened(mesh, f);
     constexpr Index tried = 16; // each trial is linear; ears do what fans cannot
     for (Index from = 0; from < std::min(n, tried); ++from)
@@ -131,6 +118,18 @@ void cut_face(const Mesh& mesh, Index f, Out&& out) {
 }
 
 } // namespace
+
+QuadDiagonals quad_diagonals(const Mesh& mesh, Index f) {
+    const Index c = mesh.face_begin(f);
+    const Vec3 &p0 = mesh.point(c), &p1 = mesh.point(c + 1), &p2 = mesh.point(c + 2), &p3 = mesh.point(c + 3);
+    const auto agree = [](const Vec3& a, const Vec3& b) { return dot(a, b) > 0; };
+    QuadDiagonals quad;
+    quad.first = agree(cross(p1 - p0, p2 - p0), cross(p2 - p0, p3 - p0));
+    quad.second = agree(cross(p2 - p1, p3 - p1), cross(p3 - p1, p0 - p1));
+    const Vec3 d0 = p2 - p0, d1 = p3 - p1;
+    quad.cut_at_second = quad.concave() ? quad.second : dot(d1, d1) < dot(d0, d0);
+    return quad;
+}
 
 Mesh triangulated(const Mesh& mesh) {
     if (mesh.all_triangles()) return mesh;

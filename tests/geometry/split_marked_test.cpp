@@ -145,14 +145,14 @@ TEST_CASE("a budget of faces is kept and nearly used up, the longest edges first
         const SplitResult r = split(mesh, s);
         CHECK(r.mesh.face_count() <= faces);
         CHECK(r.mesh.face_count() + 40 > faces);
-        CHECK(r.budget_reached);
+        CHECK(r.stop == SplitResult::Stop::budget);
         CHECK(test::sound(r.mesh, 2));
     }
     s.faces = 20000;
     CHECK(facet_shape(split(mesh, s).mesh).longest_edge < 0.4 * facet_shape(mesh).longest_edge);
     s.method = SplitMethod::midpoint;
     CHECK(split(mesh, s).mesh.face_count() == 4 * mesh.face_count());
-    CHECK(split(mesh, s).budget_reached);
+    CHECK(split(mesh, s).stop == SplitResult::Stop::budget);
 }
 
 TEST_CASE("min_angle: only narrow triangles and what follows, and no angle below half the smallest",

@@ -143,14 +143,52 @@ TEST_CASE("split: targets and what they report", "[stages]") {
     const auto& part = r.record.result["parts"][0];
     CHECK(part["longest_edge"]["after"].get<double>() <= std::sqrt(3.0) / 10);
     CHECK(part["smallest_angle"]["before"].get<double>() == Approx(45));
-    CHECK(run_stage("split", options({{"faces", "100"}}), scene_of(shapes::cube())).mesh().face_count() <=
-          100);
+    CHECK(part["stopped_by"] == "max_edge");
+    CHECK(r.warnings().empty());
+    const auto few = run_stage("split", options({{"faces", "100"}}), scene_of(shapes::cube()));
+    CHECK(few.mesh().face_count() <= 100);
+    CHECK(few.mesh().face_count() > 92);
+    CHECK(few.record.result["parts"][0]["stopped_by"] == "faces");
     CHECK(problems_of("split", options({{"method", "core"}, {"max_edge", "1"}})).substr(0, 9) == "E-TARGET ");
     CHECK(problems_of("split", options({{"min_angle", "20"}, {"faces", "9"}})).substr(0, 12) ==
           "E-EXCLUSIVE ");
     CHECK(problems_of("split", options({{"method", "sqrt3"}, {"creases", "20"}})).substr(0, 12) ==
           "E-EXCLUSIVE ");
     CHECK(problems_of("split", options({{"cut", "widest-angle"}})).substr(0, 12) == "E-EXCLUSIVE ");
+}
+
+TEST_CASE("split: a target that is not reached is warned of", "[stages]") {
+    const auto r =
+        run_stage("split", options({{"max_edge", "10%"}, {"passes", "1"}}), scene_of(shapes::cube()));
+    CHECK(r.record.result["parts"][0]["stopped_by"] == "passes");
+    REQUIRE(r.warnings() == std::vector<std::string>{"W-SPLIT-STOPPED"});
+    CHECK(r.record.warnings[0].message == "part 'part' has edges of 0.7071 left, above max_edge "
+                                          "0.1732: passes (1) ended the split");
+    const auto full = run_stage("split", options({{"faces", "4"}}), scene_of(shapes::cube()));
+    CHECK(full.mesh().face_count() == 12);
+    REQUIRE(full.warnings() == std::vector<std::string>{"W-SPLIT-NOTHING"});
+    CHECK(full.record.warnings[0].message ==
+          "part 'part' has 12 faces, and its share of the target is 4: nothing is split");
+    CHECK(run_stage("split", options({{"max_edge", "9"}}), scene_of(shapes::cube())).warnings().empty());
+    for (const char* target : {"max_edge", "min_angle", "faces"})
+        CHECK(problems_of("split", options({{"cut", "widest-angle"}, {"method", "bisect"}, {target, "9"}})) ==
+              std::string("E-EXCLUSIVE split: 'cut: widest-angle' does not go with the target '") + target +
+                  "', which its cuts may never reach | leave out cut, or give passes and no target");
+}
+
+TEST_CASE("split: pieces over each other and edges of more than two faces are warned of", "[stages]") {
+    Mesh dart;
+    dart.positions = {{0.5, 0, 0}, {2, 1, 0}, {0, 0, 0}, {2, -1, 0}};
+    const Index face[] = {0, 1, 2, 3};
+    add_face(dart, face);
+    CHECK(run_stage("split", options({{"grid", "3"}}), scene_of(dart)).warnings() ==
+          std::vector<std::string>{"W-SPLIT-FOLDED"});
+    CHECK(run_stage("split", Value::scalar("quads"), scene_of(dart)).warnings().empty());
+    Mesh pillow;
+    pillow.positions = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}};
+    pillow.corners = {0, 1, 2, 2, 1, 0};
+    CHECK(run_stage("split", Value{}, scene_of(pillow)).warnings() ==
+          std::vector<std::string>{"W-SPLIT-SHARED"});
 }
 
 TEST_CASE("relax: area and volume before and after; options that go with methods", "[stages]") {

@@ -1,0 +1,193 @@
+#include "geometry/split_spots.hpp"
+
+#include "base/parallel.hpp"
+#include "geometry/surface_normal.hpp"
+#include "mesh/quad_diagonal.hpp"
+
+#include <algorithm>
+#include <span>
+#include <unordered_map>
+
+namespace facetmill {
+
+namespace {
+
+/// A corner at one end of an edge, and the vertex that its other edge goes to.
+struct Turn {
+    Index beyond, corner;
+    bool operator<(const Turn& b) const { return beyond != b.beyond ? beyond < b.beyond : corner < b.corner; }
+};
+
+/// Calls visit(corners of faces that share the edge and the next one at its end) for each end of edge e.
+template <class Visit>
+void visit_shared(const Mesh& mesh, const EdgeTable& edges, const std::vector<Index>& faces, Index e,
+                  std::vector<Turn>& room, Visit&& visit) {
+    const auto around = edges.corners_of(e);
+    if (around.size() < 2) return;
+    const auto face = [&](Index c) { return faces.empty() ? c / 3 : faces[c]; };
+    for (const Index end : {edges.edges[e].low, edges.edges[e].high}) {
+        room.clear();
+        for (const Index c : around) {
+            const Index f = face(c), begin = mesh.face_begin(f), last = mesh.face_end(f) - 1;
+            const Index next = c == last ? begin : c + 1, previous = c == begin ? last : c - 1;
+            if (mesh.vertex(c) == end)
+                room.push_back({mesh.vertex(previous), c});
+            else
+                room.push_back({mesh.vertex(next == last ? begin : next + 1), next});
+        }
+        if (room.size() == 2 && room[0].beyond != room[1].beyond) continue;
+        std::sort(room.begin(), room.end());
+        for (std::size_t i = 0, j = 0; i < room.size(); i = j) {
+            while (j < room.size() && room[j].beyond == room[i].beyond) ++j;
+            if (j - i > 1 && room[i].beyond != end) visit(std::span<const Turn>(&room[i], j - i), end);
+        }
+    }
+}
+
+Index other_end(const EdgeTable::Edge& edge, Index end) { return edge.low == end ? edge.high : edge.low; }
+
+std::vector<Index> faces_of_corners(const Mesh& mesh) {
+    return mesh.all_triangles() ? std::vector<Index>{} : corner_faces(mesh);
+}
+
+std::uint64_t key_of(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+
+std::uint64_t diagonal_of(const Mesh& mesh, Index f, bool second) {
+    const Index c = mesh.face_begin(f) + second;
+    return key_of(mesh.vertex(c), mesh.vertex(c + 2));
+}
+
+/// How often each of the keys that come more than once does.
+std::unordered_map<std::uint64_t, int> repeated_keys(std::vector<std::uint64_t> keys) {
+    radix_sort(keys, [](std::uint64_t k) { return k; });
+    std::unordered_map<std::uint64_t, int> found;
+    for (std::size_t i = 1; i < keys.size(); ++i)
+        if (keys[i] == keys[i - 1]) ++found.emplace(keys[i], 1).first->second;
+    return found;
+}
+
+/// Whether the triangle of three points looks the other way than the normal.
+bool looks_back(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+    return dot(cross(b - a, c - a), normal) < 0;
+}
+
+bool has_reflex_corner(const Mesh& mesh, Index f, const Vec3& normal) {
+    const Index begin = mesh.face_begin(f), n = mesh.face_size(f);
+    for (Index k = 0; k < n; ++k)
+        if (looks_back(mesh.point(begin + k), mesh.point(begin + (k + 1) % n),
+                       mesh.point(begin + (k + 2) % n), normal))
+            return true;
+    return false;
+}
+
+bool hides_from_centre(const Mesh& mesh, Index f, const Vec3& normal) {
+    const Index begin = mesh.face_begin(f), n = mesh.face_size(f);
+    if (n == 4 && quad_diagonals(mesh, f).concave()) return false;
+    Vec3 centre;
+    for (Index k = 0; k < n; ++k) centre += mesh.point(begin + k);
+    centre = centre / n;
+    for (Index k = 0; k < n; ++k)
+        if (looks_back(mesh.point(begin + k), mesh.point(begin + (k + 1) % n), centre, normal)) return true;
+    return false;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edges) {
+    std::vector<std::uint8_t> shared(mesh.corner_count());
+    const std::vector<Index> faces = faces_of_corners(mesh);
+    parallel_chunks(edges.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<Turn> room;
+        for (auto e = static_cast<Index>(begin); e < end; ++e)
+            visit_shared(mesh, edges, faces, e, room, [&](std::span<const Turn> turns, Index at) {
+                if (turns[0].beyond < other_end(edges.edges[e], at)) return; // seen from its other edge
+                for (const Turn& t : turns) shared[t.corner] = 1;
+            });
+    });
+    return shared;
+}
+
+std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks) {
+    const std::vector<Index> faces = faces_of_corners(mesh);
+    const auto is_triangle = [&](const Turn& t) {
+        return faces.empty() || mesh.face_size(faces[t.corner]) == 3;
+    };
+    const auto is_cut = [&](const Turn& t) {
+        if (marks.empty()) return true;
+        const Index f = faces.empty() ? t.corner / 3 : faces[t.corner], begin = mesh.face_begin(f);
+        const Index previous = t.corner == begin ? mesh.face_end(f) - 1 : t.corner - 1;
+        return marks[edges.corner_edge[t.corner]] || marks[edges.corner_edge[previous]];
+    };
+    return parallel_reduce(
+        edges.size(), std::size_t{0},
+        [&](std::size_t begin, std::size_t end) {
+            std::size_t found = 0;
+            std::vector<Turn> room;
+            for (auto e = static_cast<Index>(begin); e < end; ++e)
+                visit_shared(mesh, edges, faces, e, room, [&](std::span<const Turn> turns, Index at) {
+                    if (turns[0].beyond < other_end(edges.edges[e], at)) return;
+                    found += is_cut(turns[0]) && std::count_if(turns.begin(), turns.end(), is_triangle) > 1;
+                });
+            return found;
+        },
+        [](std::size_t a, std::size_t b) { return a + b; });
+}
+
+QuadCuts quad_cuts(const Mesh& mesh) {
+    QuadCuts cuts;
+    cuts.at_second.resize(mesh.face_count());
+    parallel_for(mesh.face_count(), [&](std::size_t f) {
+        if (mesh.face_size(static_cast<Index>(f)) == 4)
+            cuts.at_second[f] = quad_diagonals(mesh, static_cast<Index>(f)).cut_at_second;
+    });
+    std::vector<std::uint64_t> keys;
+    for (const auto& [low, high] : build_edges(mesh).edges) keys.push_back(key_of(low, high));
+    const std::size_t old = keys.size();
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (mesh.face_size(f) == 4) keys.push_back(diagonal_of(mesh, f, cuts.at_second[f]));
+    auto taken = repeated_keys(keys);
+    if (taken.empty()) return cuts;
+    std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(old));
+    std::sort(keys.begin() + static_cast<std::ptrdiff_t>(old), keys.end());
+    const auto is_free = [&](std::uint64_t key) {
+        const auto half = keys.begin() + static_cast<std::ptrdiff_t>(old);
+        return !taken.contains(key) && !std::binary_search(keys.begin(), half, key) &&
+               !std::binary_search(half, keys.end(), key);
+    };
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (mesh.face_size(f) != 4) continue;
+        const auto mine = taken.find(diagonal_of(mesh, f, cuts.at_second[f]));
+        if (mine == taken.end() || mine->second < 2) continue;
+        const QuadDiagonals quad = quad_diagonals(mesh, f);
+        const std::uint64_t other = diagonal_of(mesh, f, !cuts.at_second[f]);
+        if (!quad.first || !quad.second || !is_free(other)) {
+            ++cuts.coinciding;
+            continue;
+        }
+        --mine->second, taken.emplace(other, 1);
+        cuts.at_second[f] = !cuts.at_second[f];
+    }
+    return cuts;
+}
+
+std::size_t folding_faces(const Mesh& mesh, SplitMethod method) {
+    using enum SplitMethod;
+    const bool between = method == grid || method == halve || method == varignon;
+    const bool to_centre =
+        method == midpoint || method == quads || method == centroid || method == fan || method == core;
+    if (mesh.all_triangles() || (!between && !to_centre)) return 0;
+    return parallel_reduce(
+        mesh.face_count(), std::size_t{0},
+        [&](std::size_t begin, std::size_t end) {
+            std::size_t found = 0;
+            for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                if (mesh.face_size(f) == 3) continue;
+                const Vec3 normal = area_vector(mesh, f);
+                found += between ? has_reflex_corner(mesh, f, normal) : hides_from_centre(mesh, f, normal);
+            }
+            return found;
+        },
+        [](std::size_t a, std::size_t b) { return a + b; });
+}
+
+} // namespace facetmill
