@@ -9,6 +9,7 @@
 #include "mesh/shapes.hpp"
 
 #include <fmt/format.h>
+#include <tuple>
 
 namespace facetmill {
 
@@ -16,39 +17,19 @@ namespace {
 
 using Settings = GenerateSettings;
 
-void need(bool holds, std::string_view what, const std::string& found) {
-    if (!holds) throw Error(ErrorKind::usage, "E-RANGE", fmt::format("generate: {}, not {}", what, found));
+void need(bool holds, std::string_view what, const std::string& found, std::string hint = {}) {
+    if (!holds)
+        throw Error(ErrorKind::usage, "E-RANGE", fmt::format("generate: {}, not {}", what, found),
+                    std::move(hint));
 }
 void need_length(double x, std::string_view name) {
-    need(x > 0 && std::isfinite(x), fmt::format("{} is above 0", name), spelled(x));
+    constexpr double most = 1e37; // a diagonal of that is still a float32
+    need(x > 0, fmt::format("{} is above 0", name), spelled(x));
+    need(x <= most, fmt::format("{} is at most 1e+37, because files hold float32", name), spelled(x),
+         "use a smaller length, or a larger unit");
 }
 void need_count(std::int64_t n, std::int64_t least, std::string_view name) {
     need(n >= least, fmt::format("{} is at least {}", name, least), std::to_string(n));
-}
-
-void check(const Settings& s) {
-    const bool square = s.shape == Shape::cube || s.shape == Shape::grid || s.shape == Shape::gaussian;
-    const bool tall = s.shape == Shape::cylinder || s.shape == Shape::cone;
-    need(s.noise >= 0 && std::isfinite(s.noise), "noise is at least 0", spelled(s.noise));
-    if (square || s.shape == Shape::menger)
-        need_length(s.size, "size");
-    else
-        need_length(s.radius, "radius");
-    if (square) need_count(s.cells, 1, "cells");
-    if (tall || s.shape == Shape::gaussian) need_length(s.height, "height");
-    if (s.shape == Shape::gaussian) need_length(s.spread, "spread");
-    if (s.shape == Shape::torus) {
-        need_length(s.tube, "tube");
-        need(s.tube < s.radius, fmt::format("tube is below the radius {}", spelled(s.radius)),
-             spelled(s.tube));
-    }
-    const bool round = tall || s.shape == Shape::sphere || s.shape == Shape::torus;
-    if (round) need_count(s.around, 3, "around");
-    if (round) need_count(s.across, s.shape == Shape::torus ? 3 : s.shape == Shape::sphere ? 2 : 1, "across");
-    if (s.shape == Shape::menger)
-        need(s.level >= 1 && s.level <= 4, "level is 1 to 4", std::to_string(s.level));
-    if (s.shape == Shape::icosphere)
-        need(s.level >= 0 && s.level <= 12, "level is 0 to 12", std::to_string(s.level));
 }
 
 void refuse_giants(const Settings& s) {
@@ -253,31 +234,66 @@ double generate_face_estimate(const Settings& s) {
     return 0;
 }
 
+void check_generate_settings(const Settings& s) {
+    const bool square = s.shape == Shape::cube || s.shape == Shape::grid || s.shape == Shape::gaussian;
+    const bool tall = s.shape == Shape::cylinder || s.shape == Shape::cone;
+    need(s.noise >= 0 && s.noise <= 1e37, "noise is at least 0 and at most 1e+37", spelled(s.noise));
+    if (square || s.shape == Shape::menger)
+        need_length(s.size, "size");
+    else
+        need_length(s.radius, "radius");
+    if (square) need_count(s.cells, 1, "cells");
+    if (tall || s.shape == Shape::gaussian) need_length(s.height, "height");
+    if (s.shape == Shape::gaussian) need_length(s.spread, "spread");
+    if (s.shape == Shape::torus) {
+        need_length(s.tube, "tube");
+        need(s.tube < s.radius, fmt::format("tube is below the radius {}", spelled(s.radius)),
+             spelled(s.tube), "use a thinner tube or a larger radius");
+    }
+    const bool round = tall || s.shape == Shape::sphere || s.shape == Shape::torus;
+    if (round) need_count(s.around, 3, "around");
+    if (round) need_count(s.across, s.shape == Shape::torus ? 3 : s.shape == Shape::sphere ? 2 : 1, "across");
+    if (s.shape == Shape::menger)
+        need(s.level >= 1 && s.level <= 4, "level is 1 to 4", std::to_string(s.level));
+    if (s.shape == Shape::icosphere)
+        need(s.level >= 0 && s.level <= 12, "level is 0 to 12", std::to_string(s.level));
+}
+
 SphereBands sphere_bands(std::int64_t faces) {
     const std::int64_t half = std::max<std::int64_t>(faces, 6) / 2; // around * (across - 1)
-    const double side = std::sqrt(static_cast<double>(half) * 2);
-    SphereBands best{std::max<std::int64_t>(3, static_cast<std::int64_t>(side + 0.5)), 0};
-    best.across = std::max<std::int64_t>(1, (half + best.around / 2) / best.around) + 1;
-    double best_skew = 2;
-    for (std::int64_t around = 3; around <= half && static_cast<double>(around) <= 2 * side; ++around) {
-        if (half % around != 0 || faces % 2 != 0) continue;
-        const double ratio = static_cast<double>(around) / (2 * static_cast<double>(half / around + 1));
-        const double skew = ratio < 1 ? 1 / ratio : ratio;
-        if (skew < best_skew) best_skew = skew, best = {around, half / around + 1};
-    }
+    SphereBands best;
+    std::int64_t best_miss = 0, best_count = 0;
+    double best_skew = 0;
+    const auto consider = [&](std::int64_t around, std::int64_t across) {
+        if (across < 2 || around < across || around > 4 * across) return;
+        const std::int64_t count = 2 * around * (across - 1), miss = std::abs(count - faces);
+        const double ratio = static_cast<double>(around) / (2 * static_cast<double>(across)),
+                     skew = std::max(ratio, 1 / ratio);
+        const auto rank = std::tuple(miss, count, skew);
+        if (best.around > 0 && !(rank < std::tuple(best_miss, best_count, best_skew))) return;
+        best = {around, across}, best_miss = miss, best_count = count, best_skew = skew;
+    };
+    // Wider than 4 across it cannot be, and across - 1 is half / around or the next.
+    for (std::int64_t around = 3; around <= 12 || around * around <= 16 * half; ++around)
+        for (std::int64_t across = half / around + 1; across <= half / around + 2; ++across)
+            consider(around, across);
     return best;
 }
 
+Mesh with_noise(Mesh mesh, double deviation, std::uint64_t seed) {
+    if (deviation == 0) return mesh;
+    CrumpleSettings noise;
+    noise.amplitude = deviation;
+    noise.seed = seed;
+    return std::move(crumple(std::move(mesh), noise).mesh);
+}
+
 Mesh generate(const Settings& settings) {
-    check(settings);
+    check_generate_settings(settings);
     refuse_giants(settings);
     Mesh mesh = shaped(settings);
     if (!settings.quads) mesh = triangulated(mesh);
-    if (settings.noise == 0) return mesh;
-    CrumpleSettings noise;
-    noise.amplitude = settings.noise;
-    noise.seed = settings.seed;
-    return std::move(crumple(std::move(mesh), noise).mesh);
+    return with_noise(std::move(mesh), settings.noise, settings.seed);
 }
 
 } // namespace facetmill

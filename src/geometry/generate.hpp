@@ -17,8 +17,9 @@ enum class Shape {
     menger,    ///< the outer surface of a Menger sponge
 };
 
-/// Lengths in scene units, all above zero. Each shape is centred on the origin (grid and gaussian stand on z
-/// = 0) and uses the members that are named with it.
+/// Lengths in scene units, all above zero and at most 1e37, so that files of float32 can hold them. Each
+/// shape is centred on the origin (grid and gaussian stand on z = 0) and uses the members that are named with
+/// it.
 struct GenerateSettings {
     Shape shape = Shape::sphere;
     double radius = 1;   ///< sphere, icosphere, cylinder, cone; torus: of the circle that the tube follows
@@ -29,10 +30,10 @@ struct GenerateSettings {
     std::int64_t around = 48; ///< sphere, torus, cylinder, cone: pieces around the axis, at least 3
     std::int64_t across = 24; ///< sphere: bands from pole to pole, at least 2; torus: pieces around the tube,
                               ///< at least 3; cylinder, cone: rows, at least 1
-    std::int64_t cells = 10; ///< cube, grid, gaussian: cells along a side, at least 1
-    std::int64_t level = 3;  ///< icosphere 0 to 12: refinements; menger 1 to 4
-    bool caps = true;        ///< cylinder, cone: closed by fans
-    bool quads = false;      ///< quads where the shape has them, rather than triangles
+    std::int64_t cells = 10;  ///< cube, grid, gaussian: cells along a side, at least 1
+    std::int64_t level = 3;   ///< icosphere 0 to 12: refinements; menger 1 to 4
+    bool caps = true;         ///< cylinder, cone: closed by fans
+    bool quads = false;       ///< quads where the shape has them, rather than triangles
     double noise = 0;       ///< standard deviation of Gaussian noise on x, y and z of each vertex; at least 0
     std::uint64_t seed = 0; ///< of the noise
 };
@@ -47,12 +48,20 @@ Mesh generate(const GenerateSettings& settings);
 /// How many faces generate would make, as a real number because it may be beyond any integer.
 double generate_face_estimate(const GenerateSettings& settings);
 
-/// The pieces around and across a latitude-longitude sphere of that many triangles (2 around (across - 1)):
-/// the exact pair nearest to square facets at the equator (around = 2 across) when one is within a factor of
-/// two, else the pair nearest in number. 4000 gives 80 x 26. At least 6.
+/// The shape with noise on x, y and z of each vertex, of that standard deviation: crumple's.
+Mesh with_noise(Mesh mesh, double deviation, std::uint64_t seed);
+
+/// The pieces around and across a latitude-longitude sphere of about that many triangles, which is 2 around
+/// (across - 1). Of all pairs of at least 3 around and 2 across whose facets at the equator are neither more
+/// than twice as wide as high nor the reverse (across <= around <= 4 across): the one nearest in number
+/// (ties: fewer), then nearest to square facets (around = 2 across), then with fewer around. 4000 gives 80
+/// x 26.
 struct SphereBands {
     std::int64_t around = 0, across = 0;
 };
 SphereBands sphere_bands(std::int64_t faces);
+
+/// Throws usage (E-RANGE) when a setting is out of range; generate does it first of all.
+void check_generate_settings(const GenerateSettings& settings);
 
 } // namespace facetmill

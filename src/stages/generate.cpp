@@ -1,5 +1,6 @@
 #include "geometry/generate.hpp"
 
+#include "base/error.hpp"
 #include "io/convert.hpp"
 #include "stage/convention_option.hpp"
 #include "stage/stage.hpp"
@@ -75,8 +76,9 @@ void declare_sizes(Declare<GenerateOptions>& d) {
 
 void declare_counts(Declare<GenerateOptions>& d) {
     d.option("faces", &GenerateOptions::faces,
-             "Triangles of the sphere, as near as bands allow (a count; 4000 unless given): 4000 gives "
-             "exactly 80 around and 26 across.")
+             "Triangles of the sphere: the nearest number that bands allow whose faces at the equator are at "
+             "most twice as wide as high, or as high as wide (a count; 4000 unless given, which is 80 around "
+             "and 26 across).")
         .between(6, 700e6);
     d.option("around", &GenerateOptions::around,
              "Pieces around the axis of sphere, torus, cylinder and cone (a count; 48 unless given).")
@@ -125,6 +127,34 @@ void declare(Declare<GenerateOptions>& d) {
     d.option("name", &GenerateOptions::name, "Of the new part; the shape's name unless given.");
 }
 
+/// Counts whose least and most depend on the shape.
+void verify_counts(const GenerateOptions& o, const Value& given, Problems& problems) {
+    const auto at_least = [&](const char* name, const std::optional<std::int64_t>& count, std::int64_t least,
+                              std::int64_t most) {
+        if (count && given.find(name) && (*count < least || *count > most))
+            problems.add(given.find(name)->mark, "E-RANGE",
+                         fmt::format("'{}' of {} must be {} <= x <= {}, not {}", name, row_of(o.shape).name,
+                                     least, most, *count));
+    };
+    if (o.shape == Shape::menger) at_least("level", o.level, 1, 4);
+    if (o.shape == Shape::sphere) at_least("across", o.across, 2, 1000000);
+    if (o.shape == Shape::torus) at_least("across", o.across, 3, 1000000);
+}
+
+/// A tube that fills the torus' hole, as far as both lengths can be compared before there is a scene.
+void verify_torus(const GenerateOptions& o, const Value& given, Problems& problems) {
+    const Value* tube = given.find("tube");
+    if (o.shape != Shape::torus || !o.tube || !tube || tube->deferred) return;
+    const Value* radius = given.find("radius");
+    if (radius && radius->deferred) return;
+    const Length middle = o.radius.value_or(Length::scene(1));
+    if (middle.kind != o.tube->kind || middle.of != o.tube->of || o.tube->amount < middle.amount) return;
+    problems.add(tube->mark, "E-RANGE",
+                 fmt::format("generate: tube must be below the radius{}, not {}",
+                             o.radius ? " " + o.radius->text : ", which is 1 unless given", o.tube->text),
+                 "use a thinner tube or a larger radius");
+}
+
 void verify(const GenerateOptions& o, const Value& given, Problems& problems) {
     if (!given.is_map()) return;
     const Value* shape = given.find("shape");
@@ -140,13 +170,23 @@ void verify(const GenerateOptions& o, const Value& given, Problems& problems) {
                 fmt::format("generate: '{}' goes with {}, not with {}", entry.key, others, mine.name),
                 "leave it out");
     }
+    verify_counts(o, given, problems);
+    verify_torus(o, given, problems);
     if (o.faces && (o.around || o.across))
         problems.add(given.mark, "E-EXCLUSIVE", "generate: 'faces' stands for 'around' and 'across'",
                      "give either faces, or around and across");
-    const bool menger = o.shape == Shape::menger;
-    if (menger && o.level && (*o.level < 1 || *o.level > 4))
-        problems.add(given.find("level")->mark, "E-RANGE",
-                     fmt::format("'level' of menger must be 1 <= x <= 4, not {}", *o.level));
+}
+
+/// The length in the unit of the shape. Refuses a percentage of nothing.
+double resolved_length(const Length& length, const Scene& made, const char* name, Context& context) {
+    const double x = context.resolve(length, made, name);
+    if (length.kind == Length::Kind::percent && length.amount > 0 && x == 0)
+        throw Error(ErrorKind::usage, "E-RANGE",
+                    fmt::format("generate: '{}' is {}, but {}", name, length.text,
+                                length.of == Length::Of::load ? "nothing has been loaded yet"
+                                                              : "the scene is empty yet"),
+                    "give a number, or a length with a unit");
+    return x;
 }
 
 /// The options as numbers; lengths in the unit of the scene that they are read for.
@@ -155,7 +195,7 @@ GenerateSettings resolved(const GenerateOptions& o, const Scene& scene, Context&
     s.shape = o.shape;
     const auto set = [&](double& out, const std::optional<Length>& length, const char* name,
                          double otherwise) {
-        out = length ? context.resolve(*length, scene, name) : otherwise;
+        out = length ? resolved_length(*length, scene, name, context) : otherwise;
     };
     set(s.radius, o.radius, "radius", 1);
     set(s.size, o.size, "size", 2);
@@ -172,8 +212,16 @@ GenerateSettings resolved(const GenerateOptions& o, const Scene& scene, Context&
     s.cells = o.cells.value_or(o.shape == Shape::gaussian ? 40 : 10);
     s.level = o.level.value_or(o.shape == Shape::menger ? 2 : 3);
     s.caps = o.caps, s.quads = o.quads;
-    s.seed = static_cast<std::uint64_t>(o.seed);
     return s;
+}
+
+/// A percentage of noise is of the shape itself: the scene that enters may be empty.
+double noise_of(const GenerateOptions& o, const Scene& made, const Part& part, Context& context) {
+    if (o.noise.kind != Length::Kind::percent || o.noise.of == Length::Of::load)
+        return resolved_length(o.noise, made, "noise", context);
+    Length of_shape = o.noise;
+    of_shape.of = Length::Of::part;
+    return context.resolve(of_shape, made, "noise", &part);
 }
 
 Scene run(Scene scene, const GenerateOptions& o, Context& context) {
@@ -183,17 +231,9 @@ Scene run(Scene scene, const GenerateOptions& o, Context& context) {
     Part& part = made.parts.emplace_back();
     part.name = o.name.empty() ? row_of(o.shape).name : o.name;
     part.changed = true;
-    GenerateSettings settings = resolved(o, made, context);
-    if (o.noise.amount > 0 && o.noise.kind == Length::Kind::percent && o.noise.of == Length::Of::stage) {
-        // The scene that enters may be empty: the shape itself is what the percentage is of.
-        part.mesh = generate(settings);
-        Length of_shape = o.noise;
-        of_shape.of = Length::Of::part;
-        settings.noise = context.resolve(of_shape, made, "noise", &part);
-    } else {
-        settings.noise = context.resolve(o.noise, made, "noise");
-    }
-    part.mesh = generate(settings);
+    part.mesh = generate(resolved(o, made, context));
+    const double noise = noise_of(o, made, part, context);
+    part.mesh = with_noise(std::move(part.mesh), noise, static_cast<std::uint64_t>(o.seed));
     const Json result = {{"shape", row_of(o.shape).name},
                          {"vertices", part.mesh.vertex_count()},
                          {"faces", part.mesh.face_count()}};
