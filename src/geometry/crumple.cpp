@@ -6,8 +6,10 @@
 #include "base/random.hpp"
 #include "geometry/moved.hpp"
 #include "geometry/neighbours.hpp"
+#include "geometry/surface_normal.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace facetmill {
 
@@ -46,6 +48,31 @@ Transform inverse_linear(const Transform& t) {
     return inverse;
 }
 
+/// The vertices, those with equal keys side by side and ascending.
+std::vector<Index> by_place(const std::vector<std::uint64_t>& keys) {
+    std::vector<Index> order(keys.size());
+    for (std::size_t v = 0; v < order.size(); ++v) order[v] = static_cast<Index>(v);
+    radix_sort(order, [&](Index v) { return keys[v]; });
+    return order;
+}
+
+/// One byte per vertex: 1 when its place ends an edge between places that has exactly one face.
+std::vector<std::uint8_t> boundary_places(const Mesh& mesh, const std::vector<std::uint64_t>& keys) {
+    const std::vector<Index> order = by_place(keys);
+    std::vector<Index> first(keys.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        first[order[i]] = i > 0 && keys[order[i]] == keys[order[i - 1]] ? first[order[i - 1]] : order[i];
+    Mesh welded;
+    welded.positions = mesh.positions, welded.face_offsets = mesh.face_offsets;
+    welded.corners.resize(mesh.corner_count());
+    parallel_for(mesh.corner_count(),
+                 [&](std::size_t c) { welded.corners[c] = first[mesh.vertex(static_cast<Index>(c))]; });
+    const std::vector<std::uint8_t> boundary = boundary_vertices(welded);
+    std::vector<std::uint8_t> held(keys.size());
+    parallel_for(held.size(), [&](std::size_t v) { held[v] = boundary[first[v]]; });
+    return held;
+}
+
 /// Sums, over the vertices at one place, the area vectors of their faces: a normal that copies of a vertex
 /// share.
 std::vector<Vec3> place_normals(const Mesh& mesh, const std::vector<Vec3>& world,
@@ -58,16 +85,11 @@ std::vector<Vec3> place_normals(const Mesh& mesh, const std::vector<Vec3>& world
         Vec3 sum;
         for (const Index c : at.of(static_cast<Index>(v))) {
             const Index f = faces.empty() ? c / 3 : faces[c];
-            const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-            const Vec3& first = world[mesh.vertex(begin)];
-            for (Index i = begin + 1; i + 1 < end; ++i)
-                sum += cross(world[mesh.vertex(i)] - first, world[mesh.vertex(i + 1)] - first);
+            sum += area_vector_at(mesh, f, [&](Index i) { return world[mesh.vertex(i)]; });
         }
         normals[v] = mirrored ? -sum : sum;
     });
-    std::vector<Index> order(n);
-    for (std::size_t v = 0; v < n; ++v) order[v] = static_cast<Index>(v);
-    radix_sort(order, [&](Index v) { return keys[v]; });
+    const std::vector<Index> order = by_place(keys);
     for (std::size_t i = 0, j = 0; i < n; i = j) {
         Vec3 sum;
         for (; j < n && keys[order[j]] == keys[order[i]]; ++j) sum += normals[order[j]];
@@ -76,10 +98,27 @@ std::vector<Vec3> place_normals(const Mesh& mesh, const std::vector<Vec3>& world
     return normals;
 }
 
-struct Moves {
-    double largest = 0, sum = 0; ///< of squares
-    std::size_t count = 0;
-};
+/// Refuses moves that leave the numbers of float32, which files hold.
+void check_reach(const Mesh& mesh, const std::vector<Vec3>& moves, double amplitude) {
+    constexpr double most = std::numeric_limits<float>::max();
+    const auto fits = [](const Vec3& p) {
+        return std::abs(p.x) <= most && std::abs(p.y) <= most && std::abs(p.z) <= most;
+    };
+    const auto leaving = parallel_reduce(
+        moves.size(), std::size_t{0},
+        [&](std::size_t begin, std::size_t end) {
+            std::size_t count = 0;
+            for (std::size_t v = begin; v < end; ++v)
+                count += fits(mesh.positions[v]) && !fits(mesh.positions[v] + moves[v]);
+            return count;
+        },
+        [](std::size_t a, std::size_t b) { return a + b; });
+    if (leaving > 0)
+        throw Error(ErrorKind::stage, "E-RANGE",
+                    "crumple: the amplitude " + spelled(amplitude) +
+                        " moves vertices beyond 3.4e+38, the largest number that files hold",
+                    "use a smaller amplitude");
+}
 
 /// The amount of each vertex along an axis, in world units.
 class Amounts {
@@ -119,39 +158,26 @@ CrumpleMoves crumple_moves(const Mesh& mesh, const Settings& settings) {
     const std::vector<Vec3> normals =
         along ? place_normals(mesh, world, result.keys, settings.to_world.determinant() < 0)
               : std::vector<Vec3>{};
-    const std::vector<std::uint8_t> held = settings.boundary == Settings::Boundary::fixed
-                                               ? boundary_vertices(mesh)
-                                               : std::vector<std::uint8_t>{};
     const Amounts amount(settings, world, result.keys);
     parallel_for(n, [&](std::size_t v) {
-        if (!held.empty() && held[v]) return;
-        Vec3 move = along ? normals[v] * amount(v, 0) : Vec3{amount(v, 0), amount(v, 1), amount(v, 2)};
-        if (!settings.mask.empty()) move *= settings.mask[v];
+        const Vec3 move = along ? normals[v] * amount(v, 0) : Vec3{amount(v, 0), amount(v, 1), amount(v, 2)};
         result.moves[v] = placed ? back.vector(move) : move;
     });
-    for (const auto h : held) result.held += h;
+    check_reach(mesh, result.moves, settings.amplitude);
+    result.shares = settings.mask;
+    if (settings.boundary == Settings::Boundary::free) return result;
+    result.shares.resize(n, 1);
+    const std::vector<std::uint8_t> held = boundary_places(mesh, result.keys);
+    for (std::size_t v = 0; v < n; ++v)
+        if (held[v]) result.shares[v] = 0, ++result.held;
     return result;
 }
 
 CrumpleResult crumple_settled(Mesh mesh, const std::vector<Vec3>& before, const Transform& to_world) {
     CrumpleResult result;
-    const std::size_t n = mesh.vertex_count();
-    const Moves moves = parallel_reduce(
-        n, Moves{},
-        [&](std::size_t begin, std::size_t end) {
-            Moves m;
-            for (std::size_t v = begin; v < end; ++v) {
-                if (mesh.positions[v] == before[v]) continue;
-                const Vec3 d = to_world.vector(mesh.positions[v] - before[v]);
-                m.largest = std::max(m.largest, dot(d, d)), m.sum += dot(d, d), ++m.count;
-            }
-            return m;
-        },
-        [](Moves a, Moves b) {
-            return Moves{std::max(a.largest, b.largest), a.sum + b.sum, a.count + b.count};
-        });
-    result.largest_move = std::sqrt(moves.largest);
-    result.root_mean_square = n > 0 ? std::sqrt(moves.sum / static_cast<double>(n)) : 0;
+    const MoveSize moves = move_size(before, mesh.positions, to_world);
+    result.largest_move = moves.largest;
+    result.root_mean_square = moves.root_mean_square;
     result.moved = moves.count;
     result.fates = settle_moved(mesh);
     result.mesh = std::move(mesh);
@@ -159,11 +185,12 @@ CrumpleResult crumple_settled(Mesh mesh, const std::vector<Vec3>& before, const 
 }
 
 CrumpleResult crumple(Mesh mesh, const Settings& settings) {
-    const CrumpleMoves moves = crumple_moves(mesh, settings);
+    CrumpleSheet sheet{&mesh, crumple_moves(mesh, settings)};
+    hold_together({&sheet, 1});
     const std::vector<Vec3> before = mesh.positions;
-    parallel_for(before.size(), [&](std::size_t v) { mesh.positions[v] += moves.moves[v]; });
+    parallel_for(before.size(), [&](std::size_t v) { mesh.positions[v] += sheet.moves.moves[v]; });
     CrumpleResult result = crumple_settled(std::move(mesh), before, settings.to_world);
-    result.held = moves.held;
+    result.held = sheet.moves.held;
     return result;
 }
 

@@ -33,8 +33,10 @@ struct CrumpleSettings {
 /// How the vertices of a mesh are to move, before any has.
 struct CrumpleMoves {
     std::vector<std::uint64_t> keys; ///< [vertices] of the places: equal keys move together
-    std::vector<Vec3> moves;         ///< [vertices] in part space
-    std::size_t held = 0;            ///< boundary vertices that were held
+    std::vector<Vec3> moves;         ///< [vertices] in part space, as if nothing were held or masked
+    std::vector<double> shares; ///< [vertices] 0 to 1: how much of it the vertex itself allows, because of
+                                ///< the boundary and the mask; empty: all
+    std::size_t held = 0;       ///< boundary vertices that were held
 };
 
 struct CrumpleResult {
@@ -51,11 +53,14 @@ struct CrumpleResult {
 ///
 /// The noise at a vertex is a pure function of the seed and of the world position rounded to float32 (-0 is
 /// 0). So vertices at one place move together, across seams, unwelded duplicates, parts and files, and
-/// neither the order of the vertices nor the number of threads matters. With `direction: normal` the normal
+/// neither the order of the vertices nor the number of threads matters. Boundary and mask are of places too:
+/// a boundary edge is one between two places with one face there, and a place moves by the least share of its
+/// vertices. With `direction: normal` the normal
 /// is that of all faces of this mesh that meet at the place. Amounts follow the normal distribution cut off
 /// at `truncate` (drawn again, never clamped, so nothing heaps up at the limit); with a frequency, vertices
 /// that are near each other move alike (see CorrelatedNoise). Throws usage (E-RANGE) for a setting out of
-/// range, stage (E-TRANSFORM) when to_world is singular. Source: the note 'Geometric crumpling' (1994).
+/// range, stage (E-TRANSFORM) when to_world is singular, (E-RANGE) when a vertex would leave the numbers that
+/// float32 has. Source: the note 'Geometric crumpling' (1994).
 CrumpleResult crumple(Mesh mesh, const CrumpleSettings& settings);
 
 /// The first half of crumple: nothing moves yet.
@@ -70,9 +75,14 @@ struct CrumpleSheet {
     CrumpleMoves moves;
 };
 
+/// Takes the shares into the moves: each place, over all sheets, takes the least that its vertices allow. To
+/// be called once, before anything moves.
+void hold_together(std::span<CrumpleSheet> sheets);
+
 struct AvoidResult {
     std::size_t exempt = 0; ///< pairs of faces that met before
-    std::size_t found = 0;  ///< new pairs that the full moves would make, and faces that lose their area
+    std::size_t found = 0;  ///< new pairs that the full moves would make (most_pairs at most), and faces that
+                            ///< lose their area
     std::size_t left = 0;   ///< new pairs in the result: 0, but with `only_look`
     std::pair<Index, Index> first{}; ///< of the pairs found, faces of sheet first_sheet
     std::size_t first_sheet = 0;
@@ -90,7 +100,16 @@ struct AvoidResult {
 ///
 /// Positions are rounded to float32 in part space, before and after: what is decided, exactly, is what files
 /// hold. Polygons stand for their triangles as triangulated() cuts them. With only_look nothing is lowered.
-/// The same for any number of threads.
-AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look = false);
+/// The same for any number of threads. Every round lowers a place at least, so there are at most nine for
+/// each place.
+///
+/// Only faces of one sheet are kept apart. Throws limit (E-LIMIT) when more than most_pairs pairs of a sheet
+/// meet before: they could not all be exempt. A round looks at that many new pairs; what is left comes in the
+/// next one.
+AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look = false,
+                       std::size_t most_pairs = std::size_t{8} << 20);
+
+/// About the bytes that move_apart takes for a mesh of so many triangles, besides the mesh.
+double move_apart_memory(double triangles);
 
 } // namespace facetmill

@@ -1,57 +1,31 @@
+#include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "base/random.hpp"
-#include "geometry/crumple.hpp"
+#include "geometry/crumple_places.hpp"
 #include "geometry/evidence.hpp"
 #include "geometry/self_intersections.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace facetmill {
 
 namespace {
 
-constexpr std::uint8_t last_level = 9;      ///< no move at all
-constexpr int patient_rounds = 8;           ///< after these, the places around are lowered too
-constexpr std::size_t most_pairs = 8 << 20; ///< that a round looks at; what is left comes in the next one
+constexpr std::uint8_t last_level = 9; ///< no move at all
+constexpr int patient_rounds = 8;      ///< after these, the places around are lowered too
 
 double share_of(std::uint8_t level) { return level == last_level ? 0 : 1.0 / (1 << level); }
 
 Vec3 rounded(const Vec3& p) { return {as_float32(p.x), as_float32(p.y), as_float32(p.z)}; }
 
-/// Numbers for equal keys, over all sheets.
-struct Places {
-    std::vector<std::uint8_t> levels;          ///< [places]
-    std::vector<std::vector<Index>> of_vertex; ///< [sheets][vertices]
-
-    explicit Places(std::span<const CrumpleSheet> sheets) {
-        struct Item {
-            std::uint64_t key;
-            std::uint32_t sheet;
-            Index vertex;
-        };
-        std::vector<Item> items;
-        for (std::size_t s = 0; s < sheets.size(); ++s) {
-            const auto& keys = sheets[s].moves.keys;
-            for (Index v = 0; v < keys.size(); ++v)
-                items.push_back({keys[v], static_cast<std::uint32_t>(s), v});
-            of_vertex.emplace_back(keys.size());
-        }
-        radix_sort(items, [](const Item& i) { return i.key; });
-        Index count = 0;
-        for (std::size_t i = 0; i < items.size(); ++i) {
-            if (i > 0 && items[i].key != items[i - 1].key) ++count;
-            of_vertex[items[i].sheet][items[i].vertex] = count;
-        }
-        levels.assign(items.empty() ? 0 : std::size_t{count} + 1, 0);
-    }
-};
-
 /// A sheet as it is tested: vertices at one place are one.
 class TestSheet {
   public:
-    TestSheet(const CrumpleSheet& sheet, const std::vector<Index>& places) : sheet_(sheet), places_(places) {
+    TestSheet(const CrumpleSheet& sheet, const std::vector<Index>& places, std::size_t most_pairs)
+        : sheet_(sheet), places_(places), most_pairs_(most_pairs) {
         const Mesh& from = *sheet.mesh;
         const std::size_t n = from.vertex_count();
         before_.resize(n);
@@ -62,7 +36,7 @@ class TestSheet {
         parallel_for(from.corner_count(),
                      [&](std::size_t c) { mesh_.corners[c] = first_[from.vertex(static_cast<Index>(c))]; });
         mesh_.positions = before_;
-        exempt_ = find(std::vector<std::uint8_t>{}).pairs;
+        remember_exempt();
         flat_.resize(mesh_.face_count());
         parallel_for(flat_.size(), [&](std::size_t f) { flat_[f] = is_flat(static_cast<Index>(f)); });
     }
@@ -80,7 +54,8 @@ class TestSheet {
             const double share = share_of(levels[places_[from]]);
             mesh_.positions[v] = share == 0 ? before_[from] : rounded(start + moves[from] * share);
         });
-        touched_.assign(mesh_.face_count(), changed.empty());
+        // Pairs that were not listed may be of faces that this round leaves alone.
+        if (!unlisted_) touched_.assign(mesh_.face_count(), changed.empty());
         parallel_for(changed.empty() ? 0 : touched_.size(), [&](std::size_t f) {
             for (const Index v : mesh_.face_wedges(static_cast<Index>(f)))
                 if (changed[places_[v]]) touched_[f] = 1;
@@ -88,14 +63,16 @@ class TestSheet {
     }
 
     /// The new pairs among faces that were touched; a face that lost its area is a pair with itself.
-    std::vector<std::pair<Index, Index>> trouble() const {
-        auto pairs = find(touched_).pairs;
-        std::sort(pairs.begin(), pairs.end());
+    std::vector<std::pair<Index, Index>> trouble() {
+        // With so many listed, one new pair at least is among them when there is any.
+        auto found = find(touched_, exempt_.size() + most_pairs_);
+        auto& pairs = found.pairs;
+        unlisted_ = found.count > pairs.size();
         std::erase_if(pairs,
                       [&](const auto& p) { return std::binary_search(exempt_.begin(), exempt_.end(), p); });
         for (Index f = 0; f < touched_.size(); ++f)
             if (touched_[f] && !flat_[f] && is_flat(f)) pairs.emplace_back(f, f);
-        return pairs;
+        return std::move(pairs);
     }
 
     /// Marks the places of the faces; with around, of all faces that touch these.
@@ -141,9 +118,21 @@ class TestSheet {
 
     bool is_flat(Index f) const { return is_degenerate(mesh_, f); }
 
-    SelfIntersections find(const std::vector<std::uint8_t>& among) const {
+    void remember_exempt() {
+        const auto found = find({}, most_pairs_);
+        if (found.count > found.pairs.size())
+            throw Error(
+                ErrorKind::limit, "E-LIMIT",
+                fmt::format("crumple: {} pairs of faces meet already, at most {} can be told from new "
+                            "ones",
+                            found.count, most_pairs_),
+                "clean takes doubled faces away; self_intersections: allow looks at none");
+        exempt_ = found.pairs;
+    }
+
+    SelfIntersections find(const std::vector<std::uint8_t>& among, std::size_t limit) const {
         SelfIntersectionSettings settings;
-        settings.limit = most_pairs;
+        settings.limit = limit;
         settings.among = among;
         auto found = find_self_intersections(mesh_, settings);
         std::sort(found.pairs.begin(), found.pairs.end());
@@ -152,6 +141,8 @@ class TestSheet {
 
     const CrumpleSheet& sheet_;
     const std::vector<Index>& places_;
+    std::size_t most_pairs_;
+    bool unlisted_ = false;                       ///< the last search found more pairs than it listed
     std::vector<Vec3> before_;                    ///< [vertices] rounded
     std::vector<Index> first_;                    ///< [vertices]
     Mesh mesh_;                                   ///< corners go to the first of equal vertices
@@ -159,21 +150,32 @@ class TestSheet {
     std::vector<std::uint8_t> flat_, touched_;    ///< [faces]
 };
 
+/// Lowers the marked places by one level; whether any was still above the last.
+bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& levels) {
+    bool any = false;
+    for (std::size_t p = 0; p < marked.size(); ++p)
+        if (marked[p] && levels[p] < last_level) ++levels[p], any = true;
+    return any;
+}
+
 } // namespace
 
-AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look) {
+double move_apart_memory(double triangles) { return 300 * triangles; }
+
+AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look, std::size_t most_pairs) {
     AvoidResult result;
-    Places places(sheets);
+    const CrumplePlaces places(sheets);
+    std::vector<std::uint8_t> levels(places.count);
     std::vector<TestSheet> tests;
     tests.reserve(sheets.size());
     for (std::size_t s = 0; s < sheets.size(); ++s) {
-        tests.emplace_back(sheets[s], places.of_vertex[s]);
+        tests.emplace_back(sheets[s], places.of_vertex[s], most_pairs);
         result.exempt += tests.back().exempt();
-        tests.back().place(places.levels, {});
+        tests.back().place(levels, {});
     }
-    for (bool more = true; more;) {
-        std::vector<std::uint8_t> marked(places.levels.size());
-        more = false;
+    while (true) {
+        std::vector<std::uint8_t> marked(levels.size());
+        bool more = false;
         for (std::size_t s = 0; s < tests.size(); ++s) {
             const auto pairs = tests[s].trouble();
             if (pairs.empty()) continue;
@@ -186,15 +188,14 @@ AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look) {
         }
         if (!more || only_look) break;
         ++result.rounds;
-        for (std::size_t p = 0; p < marked.size(); ++p)
-            if (marked[p]) places.levels[p] = std::min<std::uint8_t>(last_level, places.levels[p] + 1);
-        for (auto& test : tests) test.place(places.levels, marked);
+        if (!lower(marked, levels)) // where nothing moves, all pairs were there before
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that stay where they are came to meet");
+        for (auto& test : tests) test.place(levels, marked);
     }
     result.left = only_look ? result.found : 0;
     for (std::size_t s = 0; s < sheets.size(); ++s) {
         auto& positions = sheets[s].mesh->positions;
-        for (std::size_t v = 0; v < positions.size(); ++v)
-            ++result.shares[places.levels[places.of_vertex[s][v]]];
+        for (std::size_t v = 0; v < positions.size(); ++v) ++result.shares[levels[places.of_vertex[s][v]]];
         parallel_for(positions.size(), [&](std::size_t v) { positions[v] = tests[s].position(v); });
     }
     return result;

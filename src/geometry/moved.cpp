@@ -2,6 +2,8 @@
 
 #include "base/parallel.hpp"
 
+#include <algorithm>
+
 namespace facetmill {
 
 namespace {
@@ -37,6 +39,30 @@ Fates joined(const Fates& first, Fates second) {
                 earlier.domain == fate.domain)
                 fate = earlier;
     return second;
+}
+
+MoveSize move_size(const std::vector<Vec3>& before, const std::vector<Vec3>& after,
+                   const Transform& to_world) {
+    struct Sums {
+        double largest = 0, all = 0; ///< of squares
+        std::size_t count = 0;
+    };
+    const Sums sums = parallel_reduce(
+        before.size(), Sums{},
+        [&](std::size_t begin, std::size_t end) {
+            Sums s;
+            for (std::size_t v = begin; v < end; ++v) {
+                if (after[v] == before[v]) continue;
+                const Vec3 d = to_world.vector(after[v] - before[v]);
+                s.largest = std::max(s.largest, dot(d, d)), s.all += dot(d, d), ++s.count;
+            }
+            return s;
+        },
+        [](const Sums& a, const Sums& b) {
+            return Sums{std::max(a.largest, b.largest), a.all + b.all, a.count + b.count};
+        });
+    const double n = static_cast<double>(before.size());
+    return {std::sqrt(sums.largest), n > 0 ? std::sqrt(sums.all / n) : 0, sums.count};
 }
 
 bool straighten_tangents(Mesh& mesh) {

@@ -20,6 +20,14 @@ Fates joined(const Fates& first, Fates second);
 /// one.
 bool straighten_tangents(Mesh& mesh);
 
+/// How far vertices came from where they were, in world units.
+struct MoveSize {
+    double largest = 0, root_mean_square = 0; ///< over all vertices; 0 without any
+    std::size_t count = 0;                    ///< vertices that are elsewhere
+};
+MoveSize move_size(const std::vector<Vec3>& before, const std::vector<Vec3>& after,
+                   const Transform& to_world = {});
+
 /// Area and, when closed, signed volume, in world space; n-gons as fans from their first corner. Closed is
 /// decided by a 64-bit sum of hashed directed edges, which is zero when they cancel. O(corners), parallel.
 struct SurfaceSize {

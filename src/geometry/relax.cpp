@@ -30,30 +30,6 @@ void check_factor(const Settings& s) {
         need(f > 0 && f <= 1, "factor", "0 < x <= 1", spelled(f));
 }
 
-/// How far the vertices are from where they were, in world units.
-struct Moves {
-    double largest = 0; ///< squared
-    std::size_t count = 0;
-};
-
-Moves compare(const std::vector<Vec3>& before, const std::vector<Vec3>& after, const Transform& to_world) {
-    return parallel_reduce(
-        before.size(), Moves{},
-        [&](std::size_t begin, std::size_t end) {
-            Moves m;
-            for (std::size_t v = begin; v < end; ++v) {
-                if (after[v] == before[v]) continue;
-                const Vec3 d = to_world.vector(after[v] - before[v]);
-                m.largest = std::max(m.largest, dot(d, d));
-                ++m.count;
-            }
-            return m;
-        },
-        [](Moves a, Moves b) {
-            return Moves{std::max(a.largest, b.largest), a.count + b.count};
-        });
-}
-
 /// The places after at most so many iterations.
 struct Run {
     std::vector<Vec3> places;
@@ -75,7 +51,7 @@ Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
         step(from, run.places);
         ++run.iterations;
         if (until <= 0) continue;
-        run.last_move = std::sqrt(compare(from, run.places, settings.to_world).largest);
+        run.last_move = move_size(from, run.places, settings.to_world).largest;
         run.settled = run.last_move <= until;
     }
     return run;
@@ -147,11 +123,11 @@ RelaxResult relax(Mesh mesh, const Settings& settings) {
     const Neighbourhoods near = neighbourhoods(mesh, settings);
     result.held = near.held;
     Run done = run(mesh, near, settings, mesh.positions, settings.iterations, settings.until);
-    const Moves moves = compare(mesh.positions, done.places, settings.to_world);
+    const MoveSize moves = move_size(mesh.positions, done.places, settings.to_world);
     result.iterations = done.iterations;
     result.settled = done.settled;
     result.last_move = done.last_move;
-    result.largest_move = std::sqrt(moves.largest);
+    result.largest_move = moves.largest;
     result.moved = moves.count;
     const Fates targets = relax_targets(mesh, near, settings, done);
     mesh.positions = std::move(done.places);

@@ -19,7 +19,8 @@ struct RelaxSettings {
     };
     enum class Boundary {
         fixed, ///< boundary vertices stay
-        slide, ///< averaged with their neighbours along the boundary only
+        slide, ///< averaged with their neighbours along the boundary only: its corners become round, but for
+               ///< those that features hold
         free,  ///< as all others: an open surface shrinks
     };
     Method method = Method::laplacian;

@@ -2,23 +2,11 @@
 
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
+#include "geometry/surface_normal.hpp"
 
 #include <algorithm>
 
 namespace facetmill {
-
-namespace {
-
-Vec3 normal_of(const Mesh& mesh, Index f, const Transform& to_world) {
-    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-    const Vec3& first = mesh.point(begin);
-    Vec3 sum;
-    for (Index c = begin + 1; c + 1 < end; ++c)
-        sum += cross(to_world.vector(mesh.point(c) - first), to_world.vector(mesh.point(c + 1) - first));
-    return normalised(sum);
-}
-
-} // namespace
 
 VertexLists sharp_ends(const Mesh& mesh, double angle, const Transform& to_world, bool boundaries) {
     const EdgeTable table = build_edges(mesh);
@@ -31,10 +19,11 @@ VertexLists sharp_ends(const Mesh& mesh, double angle, const Transform& to_world
             sharp[e] = boundaries || at.size() > 2;
             return;
         }
-        const Vec3 a = normal_of(mesh, faces[at[0]], to_world), b = normal_of(mesh, faces[at[1]], to_world);
+        const Vec3 a = normalised(area_vector(mesh, faces[at[0]], to_world)),
+                   b = normalised(area_vector(mesh, faces[at[1]], to_world));
         const bool agree = mesh.vertex(at[0]) != mesh.vertex(at[1]);
         if (a == Vec3{} || b == Vec3{}) return;
-        sharp[e] = (agree ? dot(a, b) : -dot(a, b)) < limit;
+        sharp[e] = bends_more(agree ? dot(a, b) : -dot(a, b), limit);
     });
     VertexLists lists;
     lists.offsets.assign(mesh.vertex_count() + 1, 0);

@@ -2,22 +2,9 @@
 
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
+#include "geometry/surface_normal.hpp"
 
 namespace facetmill {
-
-namespace {
-
-/// The area vector of a face in world space.
-Vec3 face_normal(const Mesh& mesh, Index f, const Transform& to_world) {
-    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-    Vec3 sum;
-    for (Index c = begin + 1; c + 1 < end; ++c)
-        sum += cross(to_world.vector(mesh.point(c) - mesh.point(begin)),
-                     to_world.vector(mesh.point(c + 1) - mesh.point(begin)));
-    return normalised(sum);
-}
-
-} // namespace
 
 SmoothRings::SmoothRings(const Mesh& m, const EdgeTable& e, const SplitSettings& settings)
     : mesh(m), edges(e), corners(corners_at_vertices(m)), next_(m.corner_count()),
@@ -29,6 +16,7 @@ SmoothRings::SmoothRings(const Mesh& m, const EdgeTable& e, const SplitSettings&
         previous_[next_[c]] = c;
     });
     const double limit = settings.creases ? cosine(*settings.creases) : -2;
+    const auto normal = [&](Index c) { return normalised(area_vector(mesh, faces[c], settings.to_world)); };
     parallel_for(edges.size(), [&](std::size_t i) {
         const auto at = edges.corners_of(static_cast<Index>(i));
         if (at.size() != 2) {
@@ -36,9 +24,7 @@ SmoothRings::SmoothRings(const Mesh& m, const EdgeTable& e, const SplitSettings&
             return;
         }
         twin_[at[0]] = at[1], twin_[at[1]] = at[0];
-        if (settings.creases)
-            sharp_[i] = dot(face_normal(mesh, faces[at[0]], settings.to_world),
-                            face_normal(mesh, faces[at[1]], settings.to_world)) < limit;
+        if (settings.creases) sharp_[i] = bends_more(dot(normal(at[0]), normal(at[1])), limit);
     });
 }
 

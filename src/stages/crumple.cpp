@@ -1,5 +1,6 @@
 #include "geometry/crumple.hpp"
 
+#include "base/memory.hpp"
 #include "geometry/moved.hpp"
 #include "geometry/split.hpp"
 #include "stage/mask_option.hpp"
@@ -36,12 +37,14 @@ void declare_noise(Declare<CrumpleOptions>& d) {
          "How many bumps there are along the diagonal of the scene (a number without unit): vertices near "
          "each other move alike. 0 moves every vertex on its own, as the note does.")
         .at_least(0);
-    d.option("octaves", &CrumpleOptions::octaves,
-             "With frequency: how many noises are added, each of twice the frequency of the one before (a "
-             "count); several give a fractal surface.")
+    d.option(
+         "octaves", &CrumpleOptions::octaves,
+         "Goes with frequency: how many noises are added, each of twice the frequency of the one before (a "
+         "count); several give a fractal surface.")
         .between(1, 32);
-    d.option("roughness", &CrumpleOptions::roughness,
-             "With octaves: the amount of each beside the one before (a share, without unit).")
+    d.option(
+         "roughness", &CrumpleOptions::roughness,
+         "Goes with frequency and octaves: the amount of each beside the one before (a share, without unit).")
         .above(0)
         .at_most(1);
     d.option("seed", &CrumpleOptions::seed, "Another seed gives other noise (an integer, without unit).")
@@ -69,7 +72,7 @@ void declare(Declare<CrumpleOptions>& d) {
     d.choice<Boundary>(
         "boundary", &CrumpleOptions::boundary,
         {{"free", Boundary::free, "they move as all others"}, {"fixed", Boundary::fixed, "they stay"}},
-        "What boundary vertices do: those on an edge with exactly one face.");
+        "What boundary vertices do: those on an edge with exactly one face, unwelded copies counted as one.");
     d.choice<Intersections>(
         "self_intersections", &CrumpleOptions::self_intersections,
         {{"allow", Intersections::allow, "faces may come to meet"},
@@ -82,6 +85,17 @@ void declare(Declare<CrumpleOptions>& d) {
     declare_noise(d);
     d.option("triangulate", &CrumpleOptions::triangulate,
              "Cut the quads, which are no longer planar, into triangles along the shorter diagonal.");
+}
+
+void verify(const CrumpleOptions& o, const Value& given, Problems& problems) {
+    if (!given.is_map() || o.frequency > 0) return;
+    const Value* frequency = given.find("frequency");
+    if (frequency && frequency->deferred) return;
+    for (const char* name : {"octaves", "roughness"})
+        if (const Value* value = given.find(name))
+            problems.add(value->mark, "E-EXCLUSIVE",
+                         fmt::format("crumple: '{}' goes with a frequency above 0 only", name),
+                         "for example frequency: 4, or leave it out");
 }
 
 /// A part between being split and being moved.
@@ -102,14 +116,26 @@ CrumpleSettings settings_of(const CrumpleOptions& o, const Scene& scene) {
     return s;
 }
 
-void refuse(const AvoidResult& r, const std::vector<Work>& works) {
-    const std::string& name = works[r.first_sheet].part->name;
-    const auto& [a, b] = r.first;
+/// Where the face of the split mesh was, in world space: the mean of its corners.
+Vec3 place_of(const Work& work, Index face) {
+    const Mesh& mesh = work.part->mesh;
+    Vec3 sum;
+    for (Index c = mesh.face_begin(face); c < mesh.face_end(face); ++c) sum += work.before[mesh.vertex(c)];
+    return work.to_world.point(sum / mesh.face_size(face));
+}
+
+void refuse(const AvoidResult& r, const std::vector<Work>& works, std::int64_t grid) {
+    const Work& work = works[r.first_sheet];
+    const auto pieces = static_cast<Index>(grid * grid); // of each face, one after the other
+    const Index a = r.first.first / pieces, b = r.first.second / pieces;
+    const Vec3 p = place_of(work, r.first.first);
     throw Error(
         ErrorKind::stage, "E-INTERSECTS",
-        fmt::format("crumple: {} pairs of faces would run into each other, first {} of part '{}'", r.found,
-                    a == b ? fmt::format("face {} into itself", a) : fmt::format("faces {} and {}", a, b),
-                    name),
+        fmt::format("crumple: {} pairs of {} would run into each other, first {} of part '{}', near "
+                    "({:.6g}, {:.6g}, {:.6g})",
+                    r.found, grid > 1 ? "pieces of faces" : "faces",
+                    a == b ? fmt::format("in face {} itself", a) : fmt::format("faces {} and {}", a, b),
+                    work.part->name, p.x, p.y, p.z),
         "use self_intersections: avoid, or a smaller amplitude");
 }
 
@@ -117,7 +143,11 @@ Json described(const AvoidResult& r) {
     Json shares = Json::object();
     for (std::size_t i = 0; i < r.shares.size(); ++i)
         shares[i == 0 ? "1" : i + 1 == r.shares.size() ? "0" : fmt::format("1/{}", 1 << i)] = r.shares[i];
-    return {{"before", r.exempt}, {"found", r.found}, {"rounds", r.rounds}, {"vertices_by_share", shares}};
+    return {{"kept_apart", "faces of the same part"},
+            {"before", r.exempt},
+            {"found", r.found},
+            {"rounds", r.rounds},
+            {"vertices_by_share", shares}};
 }
 
 /// Warns of an amplitude that is larger than the edges: nothing tears, but faces run into each other.
@@ -132,13 +162,81 @@ void warn_of_tangles(const Work& work, double amplitude, Context& context) {
         fmt::format("use self_intersections: avoid, or an amplitude below about {:.2g}", edge / 4));
 }
 
+/// Splits the part, in this stage's words when that cannot be.
+SplitResult split_part(const Part& part, std::int64_t grid) {
+    try {
+        return grid_split(part.mesh, static_cast<int>(grid));
+    } catch (const Error& e) {
+        auto diagnostics = e.diagnostics();
+        for (auto& d : diagnostics) {
+            if (d.message.starts_with("split: "))
+                d.message = fmt::format("crumple: part '{}', every face split {} x {}: {}", part.name, grid,
+                                        grid, d.message.substr(7));
+            if (e.kind() == ErrorKind::limit) d.hint = "use a smaller grid, or simplify before";
+        }
+        throw Error(e.kind(), std::move(diagnostics));
+    }
+}
+
+/// Refuses before anything is split what could not be kept apart afterwards.
+void require_room(const Scene& scene, const CrumpleOptions& o, const Context& context) {
+    if (o.self_intersections == Intersections::allow) return;
+    double triangles = 0;
+    for (const Part& part : scene.parts)
+        if (context.selects(part, scene))
+            triangles += static_cast<double>(part.mesh.corner_count()) - 2.0 * part.mesh.face_count();
+    triangles *= static_cast<double>(o.grid) * static_cast<double>(o.grid);
+    require_memory(move_apart_memory(triangles),
+                   fmt::format("crumple: keeping {:.3g} triangles apart", triangles),
+                   "use a smaller grid, or self_intersections: allow");
+}
+
+Box world_box(const Part& part) {
+    Box box;
+    for (const Vec3& p : part.mesh.positions) box.add(part.skinned ? p : part.transform.point(p));
+    return box;
+}
+
+/// Warns when parts are so near each other that their faces may have come to meet.
+void warn_of_parts(const Scene& scene, Context& context) {
+    std::vector<Box> boxes;
+    for (const Part& part : scene.parts) boxes.push_back(world_box(part));
+    const auto overlap = [&](const Box& a, const Box& b) {
+        bool both = !a.empty() && !b.empty();
+        for (std::size_t i = 0; i < 3; ++i) both = both && a.min[i] <= b.max[i] && b.min[i] <= a.max[i];
+        return both;
+    };
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        for (std::size_t j = i + 1; j < boxes.size(); ++j) {
+            const Part &a = scene.parts[i], &b = scene.parts[j];
+            if (!overlap(boxes[i], boxes[j])) continue;
+            if (!context.selects(a, scene) && !context.selects(b, scene)) continue;
+            return context.warn("W-CRUMPLE-PARTS",
+                                fmt::format("crumple keeps faces of one part apart; the boxes of the parts "
+                                            "'{}' and '{}' overlap, so faces of one may meet the other",
+                                            a.name, b.name),
+                                "merge before it makes one part of them");
+        }
+}
+
+/// Warns of concave quads, which cannot be split n x n without folds.
+void warn_of_folds(const Work& work, Context& context) {
+    if (work.pieces.folded > 0)
+        context.warn("W-SPLIT-FOLDED",
+                     fmt::format("in part '{}' {} faces are concave or cross themselves: their pieces lie "
+                                 "over each other",
+                                 work.part->name, work.pieces.folded),
+                     "triangulate before it");
+}
+
 /// Moves all vertices, as far as self_intersections lets them.
 void move(std::vector<Work>& works, std::vector<CrumpleSheet>& sheets, const CrumpleOptions& o,
           Context& context) {
+    hold_together(sheets);
     if (o.self_intersections != Intersections::allow) {
         const bool forbid = o.self_intersections == Intersections::forbid;
         const AvoidResult r = move_apart(sheets, forbid);
-        if (r.left > 0) refuse(r, works);
+        if (r.left > 0) refuse(r, works, o.grid);
         context.result()["self_intersections"] = described(r);
         return;
     }
@@ -149,20 +247,25 @@ void move(std::vector<Work>& works, std::vector<CrumpleSheet>& sheets, const Cru
 
 Scene run(Scene scene, const CrumpleOptions& o, Context& context) {
     CrumpleSettings settings = settings_of(o, scene);
+    require_room(scene, o, context);
     std::vector<Work> works;
     std::vector<CrumpleSheet> sheets;
+    MaskOfParts masks(scene, o.mask);
     context.for_each_part(scene, [&](Part& part) {
         settings.amplitude = context.resolve(o.amplitude, scene, "amplitude", &part);
         settings.to_world = part.skinned ? Transform{} : part.transform;
-        SplitResult pieces = grid_split(part.mesh, static_cast<int>(o.grid));
+        SplitResult pieces = split_part(part, o.grid);
         part.mesh = std::move(pieces.mesh);
-        settings.mask = o.mask ? vertex_mask(part, scene, *o.mask) : std::vector<double>{};
+        settings.mask = masks.of(part);
         sheets.push_back({&part.mesh, crumple_moves(part.mesh, settings)});
         works.push_back({&part, std::move(pieces), part.mesh.positions, settings.to_world});
+        warn_of_folds(works.back(), context);
         if (o.self_intersections == Intersections::allow && o.frequency == 0)
             warn_of_tangles(works.back(), settings.amplitude, context);
     });
+    masks.warn_if_idle(context);
     move(works, sheets, o, context);
+    if (o.self_intersections != Intersections::allow) warn_of_parts(scene, context);
     Json parts = Json::array();
     for (std::size_t i = 0; i < works.size(); ++i) {
         Part& part = *works[i].part;
@@ -187,7 +290,8 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
          "Each vertex moves once, by normally distributed amounts of mean 0 and the given standard "
          "deviation, cut off "
          "at `truncate`. Faces that share a vertex move with it, so nothing tears and the topology "
-         "stays; faces may "
+         "stays, with boundary: fixed and under a mask too, where a place moves by the least share of all "
+         "vertices there; faces may "
          "come to intersect when the amplitude is large beside their size.\n\n"
          "The noise at a vertex depends on the seed and on its world position rounded to float32, and "
          "on nothing "
@@ -202,7 +306,8 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
          "their vertices take the next lower share, all at once, until there are none; after eight rounds "
          "the vertices around them too. Pairs that met before are exempt. The report has how many pairs "
          "there would have been and how many vertices got which share. Only faces of the same part are "
-         "kept apart.\n\n"
+         "kept apart (W-CRUMPLE-PARTS warns when others are near), and what they need of memory is refused "
+         "before it starts.\n\n"
          "Splitting interpolates vertex and wedge attributes and copies those of faces; then normals "
          "are recomputed, "
          "tangents made perpendicular to them, and all else is kept. The report has the largest and "
@@ -213,7 +318,7 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
                   "crumple: {grid: 1, amplitude: 1%, direction: normal, boundary: fixed}",
                   "crumple: {grid: 4, amplitude: 1%, self_intersections: avoid}",
                   "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"}},
-    declare, run);
+    declare, run, StageHooks<CrumpleOptions>{.files = {}, .verify = verify});
 
 } // namespace
 

@@ -4,6 +4,10 @@
 #include "stage/mask_option.hpp"
 #include "stage/stage.hpp"
 
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+
 namespace facetmill {
 
 namespace {
@@ -13,7 +17,7 @@ using Method = RelaxSettings::Method;
 using Neighbours = RelaxSettings::Neighbours;
 
 struct RelaxOptions {
-    std::int64_t iterations = 1;
+    std::optional<std::int64_t> iterations; ///< none: 1, or most_until
     Method method = Method::laplacian;
     std::optional<double> factor;
     Neighbours neighbours = Neighbours::faces;
@@ -25,6 +29,9 @@ struct RelaxOptions {
     double push_back = RelaxSettings{}.push_back;
     std::optional<MaskSettings> mask;
 };
+
+/// How many iterations there are at most, with until.
+constexpr std::int64_t most_until = 1000;
 
 void declare_methods(Declare<RelaxOptions>& d) {
     d.choice<Method>(
@@ -65,23 +72,28 @@ void declare_limits(Declare<RelaxOptions>& d) {
     d.choice<Boundary>(
         "boundary", &RelaxOptions::boundary,
         {{"fixed", Boundary::fixed, "they stay, and so does the outline of an open surface"},
-         {"slide", Boundary::slide, "they are averaged with their neighbours along the boundary only"},
+         {"slide", Boundary::slide,
+          "they are averaged with their neighbours along the boundary only: its corners become round, unless "
+          "features holds them"},
          {"free", Boundary::free, "they move as all others: an open surface shrinks"}},
         "What boundary vertices do: those on an edge with exactly one face.");
     d.option("features", &RelaxOptions::features,
              "Keep edges that bend by more than this (an angle): vertices on them move along them only, and "
-             "stay where they end, meet or turn. Edges of three and more faces count too.")
+             "stay where they end, meet or turn by more; with slide the boundary counts as such a line. "
+             "Edges of three and more faces count too.")
         .between(0, 180);
     d.option("until", &RelaxOptions::until,
              "Stop when no vertex moved farther in an iteration (a length, 0.01%); iterations is then the "
-             "most there are.")
+             "most there are, 1000 unless given. When that was not enough, a warning says so.")
         .above(0);
     d.group("mask", &RelaxOptions::mask, mask_help, declare_mask);
 }
 
 void declare(Declare<RelaxOptions>& d) {
-    d.option("iterations", &RelaxOptions::iterations,
-             "How many times all vertices move (a count); 0 leaves the mesh as it is.")
+    d.option(
+         "iterations", &RelaxOptions::iterations,
+         "How many times all vertices move (a count; 1 unless given, with until 1000); 0 leaves the mesh as "
+         "it is.")
         .between(0, 1000000)
         .primary();
     declare_methods(d);
@@ -90,7 +102,7 @@ void declare(Declare<RelaxOptions>& d) {
 
 RelaxSettings settings_of(const RelaxOptions& o) {
     RelaxSettings s;
-    s.iterations = o.iterations, s.method = o.method, s.factor = o.factor;
+    s.iterations = o.iterations.value_or(o.until ? most_until : 1), s.method = o.method, s.factor = o.factor;
     s.neighbours = o.neighbours, s.boundary = o.boundary;
     if (o.features) s.features = o.features->radians;
     s.pass_band = o.pass_band, s.original = o.original, s.push_back = o.push_back;
@@ -128,11 +140,14 @@ Json size_json(const SurfaceSize& size) {
 
 Scene run(Scene scene, const RelaxOptions& o, Context& context) {
     RelaxSettings settings = settings_of(o);
+    MaskOfParts masks(scene, o.mask);
     Json parts = Json::array();
     context.for_each_part(scene, [&](Part& part) {
         settings.to_world = part.skinned ? Transform{} : part.transform;
-        if (o.until) settings.until = context.resolve(*o.until, scene, "until", &part);
-        settings.mask = o.mask ? vertex_mask(part, scene, *o.mask) : std::vector<double>{};
+        if (o.until) // above 0 in a part that is a single point too, which settles at once
+            settings.until = std::max(context.resolve(*o.until, scene, "until", &part),
+                                      std::numeric_limits<double>::min());
+        settings.mask = masks.of(part);
         const SurfaceSize before = surface_size(part.mesh, settings.to_world);
         RelaxResult r = relax(std::move(part.mesh), settings);
         part.mesh = std::move(r.mesh);
@@ -145,8 +160,15 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context) {
                       {"before", size_json(before)},
                       {"after", size_json(surface_size(part.mesh, settings.to_world))}};
         if (o.until) entry["last_move"] = r.last_move, entry["settled"] = r.settled;
+        if (o.until && !r.settled && r.iterations > 0)
+            context.warn("W-RELAX-STOPPED",
+                         fmt::format("part '{}' did not settle: the last of {} iterations moved a vertex by "
+                                     "{:.4g}, more than until {:.4g}",
+                                     part.name, r.iterations, r.last_move, settings.until),
+                         "allow more iterations, or a larger until");
         parts.push_back(std::move(entry));
     });
+    masks.warn_if_idle(context);
     context.result()["parts"] = std::move(parts);
     return scene;
 }
@@ -170,7 +192,7 @@ const RegisterStage registered = make_stage<RelaxOptions>(
      .examples = {"relax: 3", "relax: {iterations: 10, factor: 0.5, boundary: slide}",
                   "relax: {method: taubin, iterations: 20, features: 30deg}",
                   "relax: {method: implicit, factor: 20}",
-                  "relax: {iterations: 1000, until: 0.01%, mask: {material: \"skin*\"}}"}},
+                  "relax: {until: 0.01%, mask: {material: \"skin*\"}}"}},
     declare, run, StageHooks<RelaxOptions>{.files = {}, .verify = verify});
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "mesh/shapes.hpp"
 #include "oracle/cgal_oracle.hpp"
 #include "support/catch.hpp"
+#include "support/failure.hpp"
 #include "support/surface.hpp"
 
 #include <algorithm>
@@ -53,6 +54,36 @@ TEST_CASE("a crumpled sponge has no faces that meet, in float32 too", "[geometry
         for (std::size_t i = 0; i < 3; ++i) CHECK(p[i] == as_float32(p[i]));
     CHECK(oracle::self_intersections(after).empty());
     CHECK(test::count(after).flat == 0);
+}
+
+TEST_CASE("a crumpled sponge of level 3 has no faces that meet", "[geometry]") {
+    GenerateSettings s;
+    s.shape = Shape::menger, s.level = 3, s.size = 1;
+    AvoidResult r;
+    const Mesh after = apart(generate(s), by(0.015), &r);
+    CHECK(r.found > 1000);
+    CHECK(oracle::self_intersections(after).empty());
+    CHECK(test::count(after).flat == 0);
+    CHECK(test::count(after).unbalanced == 0);
+}
+
+TEST_CASE("however few pairs a round looks at, it ends without any", "[geometry]") {
+    Mesh mesh = sponge();
+    std::vector<CrumpleSheet> sheets{{&mesh, crumple_moves(mesh, by(0.04))}};
+    const AvoidResult r = move_apart(sheets, false, 7);
+    CHECK(r.rounds > 4);
+    CHECK(oracle::self_intersections(mesh).empty());
+    // Among pairs that met before, which fill the list, new ones are found still.
+    Mesh crossing = grid_split(shapes::crossing(), 3).mesh;
+    const std::size_t before = find_self_intersections(crossing).count;
+    std::vector<CrumpleSheet> crossed{{&crossing, crumple_moves(crossing, by(0.4))}};
+    move_apart(crossed, false, before);
+    CHECK(find_self_intersections(crossing).count <= before);
+    Mesh again = grid_split(shapes::crossing(), 3).mesh;
+    std::vector<CrumpleSheet> refused{{&again, crumple_moves(again, by(0.4))}};
+    CHECK(test::failure([&] {
+              move_apart(refused, false, before - 1);
+          }).starts_with("limit [E-LIMIT] crumple: "));
 }
 
 TEST_CASE("places that have no trouble move all the way", "[geometry]") {

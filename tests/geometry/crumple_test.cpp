@@ -88,6 +88,52 @@ TEST_CASE("along the normal, unwelded faces stay together too", "[geometry]") {
             if (whole.vertex(c) == whole.vertex(d)) CHECK(b.positions[c] == b.positions[d]);
 }
 
+TEST_CASE("a mask and a fixed boundary tear no unwelded copies apart", "[geometry]") {
+    const Mesh whole = shapes::grid(6, 6);
+    Mesh loose; // every face by itself
+    for (Index c = 0; c < whole.corner_count(); ++c)
+        loose.corners.push_back(c), loose.positions.push_back(whole.point(c));
+    CrumpleSettings s{.amplitude = 0.1, .boundary = Boundary::fixed};
+    const auto same = [&](const Mesh& a, const Mesh& b) {
+        for (Index c = 0; c < whole.corner_count(); ++c) CHECK(a.point(c) == b.point(c));
+    };
+    const CrumpleResult a = crumple(whole, s), b = crumple(loose, s);
+    same(a.mesh, b.mesh); // the boundary is that of the surface, not of every face
+    CHECK(a.moved == 25);
+    s.boundary = Boundary::free;
+    s.mask.assign(loose.vertex_count(), 1);
+    s.mask[0] = 0.25, s.mask[9] = 0; // one copy of each place
+    const Mesh masked = crumple(loose, s).mesh;
+    CHECK(masked.positions[9] == loose.positions[9]);
+    for (Index c = 0; c < loose.vertex_count(); ++c)
+        for (Index d = 0; d < c; ++d)
+            if (loose.positions[c] == loose.positions[d]) CHECK(masked.positions[c] == masked.positions[d]);
+}
+
+TEST_CASE("sheets that meet are held together", "[geometry]") {
+    Mesh a = shapes::grid(2, 2), b = shapes::grid(2, 2);
+    for (auto& p : b.positions) p.x += 2; // side by side
+    CrumpleSettings s{.amplitude = 0.1};
+    std::vector<CrumpleSheet> sheets{{&b, crumple_moves(b, s)}};
+    s.mask.assign(a.vertex_count(), 0);
+    sheets.push_back({&a, crumple_moves(a, s)});
+    hold_together(sheets);
+    std::size_t met = 0;
+    for (std::size_t v = 0; v < b.vertex_count(); ++v) {
+        const bool shared = b.positions[v].x == 2;
+        met += shared;
+        CHECK((sheets[0].moves.moves[v] == Vec3{}) == shared);
+    }
+    CHECK(met == 3);
+}
+
+TEST_CASE("moves beyond float32 are refused", "[geometry]") {
+    CHECK(
+        test::failure([] { crumple(shapes::cube(), {.amplitude = 1e39}); }) ==
+        "stage [E-RANGE] crumple: the amplitude 1e+39 moves vertices beyond 3.4e+38, the largest number that "
+        "files hold | use a smaller amplitude");
+}
+
 TEST_CASE("the displacement is made in world space", "[geometry]") {
     Transform large;
     large.m[0][0] = large.m[1][1] = large.m[2][2] = 4;

@@ -251,3 +251,23 @@ TEST_CASE("a mask by material, group and attribute", "[geometry]") {
     CHECK(test::failure([&] { vertex_mask(part, scene, {.attribute = "cold"}); }) ==
           "stage [E-MASK] mask: part 'head' has no attribute 'cold' | it has primitive, group, heat");
 }
+
+TEST_CASE("slide rounds the corners of the outline, and features hold them", "[geometry]") {
+    const Mesh square = shapes::grid(6, 6);
+    RelaxSettings s;
+    s.iterations = 5, s.boundary = RelaxSettings::Boundary::slide;
+    CHECK(test::area(relax(square, s).mesh) < 36);
+    s.features = 30 * 3.14159265358979 / 180;
+    const Mesh held = relax(square, s).mesh;
+    CHECK(test::area(held) == Approx(36).epsilon(1e-12));
+    for (const Index corner : {0, 6, 42, 48}) CHECK(held.positions[corner] == square.positions[corner]);
+}
+
+TEST_CASE("edges that bend by exactly the angle are no features", "[geometry]") {
+    const double right = 1.5707963267948966;
+    RelaxSettings s;
+    s.features = right;
+    CHECK(relax(shapes::cube(), s).held == 0);
+    s.features = right - 1e-6;
+    CHECK(relax(shapes::cube(), s).held == 8);
+}

@@ -166,3 +166,16 @@ TEST_CASE("smooth methods give the same for any number of threads", "[geometry]"
     for (const auto method : {SplitMethod::loop, SplitMethod::sqrt3, SplitMethod::butterfly})
         CHECK(test::same_for_any_threads([&] { return split(mesh, by(method)).mesh; }));
 }
+
+TEST_CASE("creases: a right angle is not more than 90 degrees", "[geometry]") {
+    const double right = 1.5707963267948966;
+    for (const auto method : {SplitMethod::loop, SplitMethod::catmull_clark}) {
+        SplitSettings s;
+        s.method = method;
+        const Mesh without = split(shapes::cube(), s).mesh;
+        s.creases = right;
+        CHECK(split(shapes::cube(), s).mesh.positions == without.positions);
+        s.creases = right - 1e-6;
+        CHECK(split(shapes::cube(), s).mesh.positions != without.positions);
+    }
+}

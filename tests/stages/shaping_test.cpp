@@ -7,6 +7,8 @@
 #include "support/run_stage.hpp"
 #include "support/surface.hpp"
 
+#include <cstdio>
+
 using namespace facetmill;
 using test::options;
 using test::problems_of;
@@ -63,7 +65,6 @@ TEST_CASE("crumple: parts that meet stay together", "[stages]") {
     scene.parts.push_back(scene.parts.front());
     scene.parts[1].name = "other";
     scene.parts[1].transform.m[0][3] = 1; // its face x = 0 lies on the first one's x = 1
-    for (auto& p : scene.parts[0].mesh.positions) p.x += 0;
     const auto r = run_stage("crumple", options({{"grid", "1"}, {"amplitude", "0.05"}}), scene);
     int met = 0;
     const Mesh cube = shapes::cube();
@@ -92,8 +93,91 @@ TEST_CASE("crumple: avoid keeps faces apart, forbid refuses", "[stages]") {
     CHECK(test::failure([&] {
               run_stage("crumple", with("forbid"), scene_of(shapes::quad_cube()));
           }).starts_with("stage [E-INTERSECTS] crumple: "));
+    CHECK(report["kept_apart"] == "faces of the same part");
     CHECK(find_self_intersections(run_stage("crumple", with("allow"), scene_of(shapes::quad_cube())).mesh())
               .count > 0);
+}
+
+TEST_CASE("crumple: forbid names faces of the input and a place on them", "[stages]") {
+    const Mesh cube = shapes::quad_cube();
+    const std::string text = test::failure([&] {
+        run_stage("crumple", options({{"amplitude", "0.2"}, {"self_intersections", "forbid"}}),
+                  scene_of(cube));
+    });
+    CAPTURE(text);
+    unsigned found = 0, a = 99, b = 99;
+    double x = 9, y = 9, z = 9;
+    const std::size_t at = text.find("crumple: ");
+    const char* both =
+        "crumple: %u pairs of pieces of faces would run into each other, first faces %u and %u of "
+        "part 'part', near (%lf, %lf, %lf)";
+    const char* one =
+        "crumple: %u pairs of pieces of faces would run into each other, first in face %u itself of "
+        "part 'part', near (%lf, %lf, %lf)";
+    const bool two = std::sscanf(text.c_str() + at, both, &found, &a, &b, &x, &y, &z) == 6;
+    CHECK((two || std::sscanf(text.c_str() + at, one, &found, &a, &x, &y, &z) == 5));
+    CHECK(a < 6);
+    CHECK((!two || b < 6));
+    double far = 0; // from the plane of the face that is named
+    for (Index c = cube.face_begin(a); c < cube.face_end(a); ++c)
+        far = std::max(far, length(cube.point(c) - Vec3{x, y, z}));
+    CHECK(far < std::sqrt(2.0));
+}
+
+TEST_CASE("crumple: parts near each other are warned of when faces are kept apart", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts.push_back(scene.parts.front());
+    scene.parts[1].name = "other";
+    const Value o = options({{"grid", "1"}, {"amplitude", "0.01"}, {"self_intersections", "avoid"}});
+    scene.parts[1].transform.m[0][3] = 0.5;
+    CHECK(run_stage("crumple", o, scene).warnings() == std::vector<std::string>{"W-CRUMPLE-PARTS"});
+    scene.parts[1].transform.m[0][3] = 5;
+    CHECK(run_stage("crumple", o, scene).warnings().empty());
+}
+
+TEST_CASE("crumple: octaves go with a frequency, and refusals speak of crumple", "[stages]") {
+    for (const char* name : {"octaves", "roughness"})
+        CHECK(problems_of("crumple", options({{name, "1"}})) ==
+              std::string("E-EXCLUSIVE crumple: '") + name +
+                  "' goes with a frequency above 0 only | for example frequency: 4, or leave it out");
+    CHECK(problems_of("crumple", options({{"octaves", "2"}, {"frequency", "3"}})) == "");
+    const std::string giant = test::failure([] {
+        run_stage("crumple", options({{"grid", "10000"}}), scene_of(shapes::icosphere(2)));
+    });
+    CHECK(giant.starts_with("limit [E-LIMIT] crumple: part 'part', every face split 10000 x 10000: "));
+    CHECK(giant.ends_with("| use a smaller grid, or simplify before"));
+    const Value avoid = options({{"grid", "9000"}, {"self_intersections", "avoid"}});
+    CHECK(test::failure([&] {
+              run_stage("crumple", avoid, scene_of(shapes::icosphere(2)));
+          }).starts_with("limit [E-MEMORY] crumple: keeping "));
+}
+
+TEST_CASE("a mask that selects nothing is warned of", "[stages]") {
+    for (const char* stage : {"crumple", "relax"}) {
+        Value o = stage == std::string("crumple") ? options({{"grid", "1"}}) : options({});
+        o.set("mask", options({{"material", "nowhere"}}));
+        const auto r = run_stage(stage, o, scene_of(shapes::icosphere(1)));
+        REQUIRE(r.warnings() == std::vector<std::string>{"W-MASK"});
+        CHECK(r.record.warnings[0].message ==
+              std::string(stage) + ": the mask selects none of 42 vertices: nothing moves");
+        CHECK(r.mesh().positions == shapes::icosphere(1).positions);
+    }
+}
+
+TEST_CASE("relax: until has many iterations, and says when they were not enough", "[stages]") {
+    const auto r = run_stage("relax", options({{"until", "0.01%"}}), scene_of(shapes::icosphere(2)));
+    const auto& part = r.record.result["parts"][0];
+    CHECK(part["iterations"] > 10);
+    CHECK(part["settled"] == true);
+    CHECK(r.warnings().empty());
+    const auto few = run_stage("relax", options({{"until", "0.01%"}, {"iterations", "2"}}),
+                               scene_of(shapes::icosphere(2)));
+    CHECK(few.record.result["parts"][0]["iterations"] == 2);
+    CHECK(few.warnings() == std::vector<std::string>{"W-RELAX-STOPPED"});
+    Mesh point = shapes::tetrahedron();
+    for (auto& p : point.positions) p = {};
+    CHECK(run_stage("relax", options({{"until", "1%"}}), scene_of(point))
+              .record.result["parts"][0]["iterations"] == 1);
 }
 
 TEST_CASE("crumple: an amplitude beyond the edges is warned of, with the way out", "[stages]") {
