@@ -1,40 +1,14 @@
 #include "geometry/cap.hpp"
 
 #include "geometry/cap_section.hpp"
-#include "geometry/cgal/triangulate_polygon.hpp"
+#include "geometry/fill_apart.hpp"
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 namespace facetmill {
 
 namespace {
-
-/// A directed edge between vertices and how often it is there; negative: the other way.
-struct CountedEdge {
-    Index low, high;
-    int count;
-};
-
-void add_edge(std::vector<CountedEdge>& edges, Index from, Index to, int count) {
-    if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to ? count : -count});
-}
-
-/// One entry per edge that does not cancel, ascending.
-void cancel(std::vector<CountedEdge>& edges) {
-    std::sort(edges.begin(), edges.end(), [](const CountedEdge& a, const CountedEdge& b) {
-        return a.low != b.low ? a.low < b.low : a.high < b.high;
-    });
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < edges.size();) {
-        CountedEdge sum = edges[i++];
-        while (i < edges.size() && edges[i].low == sum.low && edges[i].high == sum.high)
-            sum.count += edges[i++].count;
-        if (sum.count != 0) edges[kept++] = sum;
-    }
-    edges.resize(kept);
-}
 
 /// Makes the cap of one section.
 class Capper {
@@ -46,12 +20,11 @@ class Capper {
         cap_.open = drop_open_contours(section_, cut_);
         if (section_.edges.empty()) return std::move(cap_);
         make_contours();
-        filling_ = fill(contours_);
+        filling_ = fill_apart(contours_);
         add_points();
         insert_into_walls();
         for (const auto& t : filling_.triangles)
             for (const Index i : t) cap_.corners.push_back(vertex(i));
-        stitch();
         find_cap_wedges();
         return std::move(cap_);
     }
@@ -180,42 +153,6 @@ class Capper {
         extra.wedges.mix_offsets.push_back(static_cast<Index>(extra.wedges.mix_sources.size()));
         extra.wedge_vertex.push_back(vertex(point));
         return at->second;
-    }
-
-    /// Vertices at one place are one point for the filling but stay apart in the mesh. What is therefore left
-    /// of the boundary runs between such vertices only; triangles without area close it.
-    void stitch() {
-        bool apart = false;
-        for (Index i = 0; i < filling_.same.size(); ++i) apart |= filling_.same[i] != i;
-        if (!apart) return;
-        std::vector<CountedEdge> left;
-        for (std::size_t e = 0; e < section_.edges.size(); ++e) {
-            Index last = section_.edges[e].low;
-            for (const Index i : path(e))
-                add_edge(left, std::exchange(last, vertex(i)), vertex(i), section_.edges[e].count);
-            add_edge(left, last, section_.edges[e].high, section_.edges[e].count);
-        }
-        for (std::size_t c = 0; c < cap_.corners.size(); c += 3)
-            for (std::size_t k = 0; k < 3; ++k)
-                add_edge(left, cap_.corners[c + k], cap_.corners[c + (k + 1) % 3], 1);
-        cancel(left);
-        for (const auto& e : left) stitch_edge(e);
-    }
-    /// Triangles of the polygon high, low, and the points that stand for them; the same ones for either
-    /// sense.
-    void stitch_edge(const CountedEdge& e) {
-        std::vector<Index> polygon;
-        for (const Index v : {e.high, e.low, standing_for(e.low), standing_for(e.high)})
-            if (polygon.empty() || (polygon.back() != v && polygon.front() != v)) polygon.push_back(v);
-        for (int times = 0; times < std::abs(e.count); ++times)
-            for (std::size_t i = 2; i < polygon.size(); ++i) {
-                const Index a = polygon[i - 1], b = polygon[i];
-                cap_.corners.insert(cap_.corners.end(),
-                                    {polygon[0], e.count > 0 ? a : b, e.count > 0 ? b : a});
-            }
-    }
-    Index standing_for(Index v) const {
-        return v >= cut_.first_extra_vertex() ? v : local_[filling_.same[local(v)]];
     }
 
     /// A wall wedge for every vertex of the cap: the lowest there.

@@ -1,6 +1,6 @@
-// The attributes that a cap has of its own.
+#include "geometry/cap_paint.hpp"
+
 #include "base/parallel.hpp"
-#include "geometry/clip_assemble.hpp"
 
 #include <algorithm>
 
@@ -26,15 +26,15 @@ Attribute& numbers(Mesh& mesh, std::string_view name) {
     return mesh.attributes.back();
 }
 
-void paint_faces(Mesh& mesh, std::size_t first_face, const CapPaint& paint) {
+void paint_faces(Mesh& mesh, FaceRange faces, const CapPaint& paint) {
     for (Attribute& a : mesh.attributes)
         if (a.domain == Domain::face)
-            for (std::size_t f = first_face; f < mesh.face_count(); ++f)
+            for (std::size_t f = faces.first; f < faces.last; ++f)
                 for (int c = 0; c < a.components; ++c) a.set_value(f, c, 0);
     const auto set = [&](std::string_view name, Index number) {
         if (number == 0) return;
         Attribute& a = numbers(mesh, name);
-        for (std::size_t f = first_face; f < mesh.face_count(); ++f) a.set_value(f, 0, number);
+        for (std::size_t f = faces.first; f < faces.last; ++f) a.set_value(f, 0, number);
     };
     set(primitive_attribute, primitive_number(mesh, paint.primitive));
     set(cut_id_attribute, paint.cut_id);
@@ -61,9 +61,37 @@ void set(Attribute& a, Index element, std::initializer_list<double> values) {
 
 } // namespace
 
-void paint_cap(Mesh& mesh, std::size_t first_face, std::span<const Index> wedges, const Plane& plane,
+Index largest_number(const Mesh& mesh, std::string_view name) {
+    const Attribute* a = mesh.find(name, Domain::face);
+    if (!a) return 0;
+    return parallel_reduce(
+        mesh.face_count(), Index{0},
+        [&](std::size_t begin, std::size_t end) {
+            Index most = 0;
+            for (std::size_t f = begin; f < end; ++f)
+                most = std::max(most, as_component<std::uint32_t>(a->value(f, 0)));
+            return most;
+        },
+        [](Index a, Index b) { return std::max(a, b); });
+}
+
+bool caps_have_own_wedges(const Mesh& mesh) {
+    return std::any_of(mesh.attributes.begin(), mesh.attributes.end(), [](const Attribute& a) {
+        return a.domain == Domain::wedge &&
+               (a.role == Role::normal || a.role == Role::tangent || a.role == Role::uv);
+    });
+}
+
+Vec3 area_of_triangles(const Mesh& mesh, Index first_corner, Index last_corner) {
+    Vec3 sum;
+    for (Index c = first_corner; c < last_corner; c += 3)
+        sum += cross(mesh.point(c + 1) - mesh.point(c), mesh.point(c + 2) - mesh.point(c));
+    return sum;
+}
+
+void paint_cap(Mesh& mesh, FaceRange faces, std::span<const Index> wedges, const Plane& plane,
                const CapPaint& paint) {
-    paint_faces(mesh, first_face, paint);
+    paint_faces(mesh, faces, paint);
     if (wedges.empty()) return;
     // A normal may be tiny or huge, being as the user gave it; its direction is what counts.
     const double largest =

@@ -1,7 +1,6 @@
 #include "geometry/clip.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "geometry/clip_assemble.hpp"
 #include "geometry/clip_body.hpp"
 
@@ -10,21 +9,6 @@
 namespace facetmill {
 
 namespace {
-
-/// The largest number of a face attribute; 0 without it.
-Index largest(const Mesh& mesh, std::string_view name) {
-    const Attribute* a = mesh.find(name, Domain::face);
-    if (!a) return 0;
-    return parallel_reduce(
-        mesh.face_count(), Index{0},
-        [&](std::size_t begin, std::size_t end) {
-            Index most = 0;
-            for (std::size_t f = begin; f < end; ++f)
-                most = std::max(most, as_component<std::uint32_t>(a->value(f, 0)));
-            return most;
-        },
-        [](Index a, Index b) { return std::max(a, b); });
-}
 
 void make_triangles(ClipResult& result) {
     for (Mesh* m : {&result.front, &result.back})
@@ -40,7 +24,8 @@ class Clipper {
         result_.memory = settings_.memory;
         if (settings_.snap) snap_ = float32_ulp(mesh.bounds());
         if (settings_.cap && settings_.cap_numbers)
-            last_cut_ = largest(mesh, cut_id_attribute), last_group_ = largest(mesh, group_attribute);
+            last_cut_ = largest_number(mesh, cut_id_attribute),
+            last_group_ = largest_number(mesh, group_attribute);
         for (std::size_t i = 0; i < settings_.planes.size(); ++i) cut(mesh, i);
         if (settings_.keep != Keep::both)
             (settings_.keep == Keep::front ? result_.front : result_.back) = std::move(mesh);

@@ -57,7 +57,7 @@ class Assembler {
             std::vector<Index> own;
             if (own_wedges_)
                 for (const Index w : cap_wedge_) own.push_back(w);
-            paint_cap(out_, cap_face_, own, outward(), paint);
+            paint_cap(out_, {cap_face_, out_.face_count()}, own, outward(), paint);
         }
         normalise_offsets(out_);
         result.mesh = std::move(out_);
@@ -114,11 +114,7 @@ class Assembler {
     /// A cap with normals or coordinates of its own has a wedge at each of its vertices, made of what the
     /// wall's is made of. In order of those, copies come before points on edges and these before mixes.
     void number_cap_wedges() {
-        own_wedges_ = !cap_.corners.empty() &&
-                      std::any_of(from_.attributes.begin(), from_.attributes.end(), [](const Attribute& a) {
-                          return a.domain == Domain::wedge &&
-                                 (a.role == Role::normal || a.role == Role::tangent || a.role == Role::uv);
-                      });
+        own_wedges_ = !cap_.corners.empty() && caps_have_own_wedges(from_);
         if (!own_wedges_) return;
         cap_order_.resize(cap_.wedges.size());
         for (Index i = 0; i < cap_order_.size(); ++i) cap_order_[i] = i;
@@ -249,11 +245,8 @@ class Assembler {
 
     /// The plane with its normal the way the cap's faces look.
     Plane outward() const {
-        Vec3 sum;
-        for (std::size_t f = cap_face_; f < descent_.faces.size(); ++f) {
-            const auto c = static_cast<Index>(out_.corners.size() - 3 * (descent_.faces.size() - f));
-            sum += cross(out_.point(c + 1) - out_.point(c), out_.point(c + 2) - out_.point(c));
-        }
+        const auto end = static_cast<Index>(out_.corners.size());
+        const Vec3 sum = area_of_triangles(out_, end - static_cast<Index>(cap_.corners.size()), end);
         Plane plane = cut_.plane;
         const double agrees = dot(sum, plane.normal);
         if (agrees < 0 || (agrees == 0 && side_ > 0)) plane.normal = -plane.normal;

@@ -134,7 +134,7 @@ class Rest {
         if (caps.face_count() == 0) return;
         const auto first_wedge = static_cast<Index>(walls.wedge_count());
         const std::size_t first_corner = walls.corner_count();
-        const bool own = has_own_wedges(walls);
+        const bool own = caps_have_own_wedges(walls);
         append(walls, caps);
         if (own && !walls.has_seams()) {
             walls.wedge_vertex.resize(walls.vertex_count());
@@ -164,12 +164,6 @@ class Rest {
         if (numbered < from_.vertex_count() && walls.positions[numbered] == p) return numbered;
         const auto at = vertex_at_.find({p.x, p.y, p.z});
         return at == vertex_at_.end() ? none : at->second;
-    }
-    static bool has_own_wedges(const Mesh& mesh) {
-        return std::any_of(mesh.attributes.begin(), mesh.attributes.end(), [](const Attribute& a) {
-            return a.domain == Domain::wedge &&
-                   (a.role == Role::normal || a.role == Role::tangent || a.role == Role::uv);
-        });
     }
 
     /// The front's caps alone, seen from behind.

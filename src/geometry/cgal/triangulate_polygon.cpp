@@ -165,7 +165,7 @@ class Filler {
             Vertex before;
             for_path(e, [&](Vertex v) {
                 lost_ |= before != Vertex() && !t_.is_edge(before, v);
-                lost_ |= !exact && v->info() >= in_.points.size() && is_beside(in_.edges[e], v->info());
+                lost_ |= !exact && v->info() != from && v->info() != to && is_beside(in_.edges[e], v->info());
                 before = v;
                 const Index i = v->info();
                 if (i == last) return;
@@ -178,13 +178,17 @@ class Filler {
         }
     }
 
-    /// Whether the point of a crossing is farther from an edge through it than rounding its coordinates would
-    /// put it: where edges are almost parallel, rounded constructions are off by far more.
+    /// Whether a point on the path of an edge is farther from it than rounding its coordinates would put it:
+    /// where edges are almost parallel, rounded constructions are off by far more, and beyond its ends.
     bool is_beside(const Contours::Edge& edge, Index point) const {
         const Vec2 &a = in_.points[edge.from], &b = in_.points[edge.to],
-                   p = out_.added[point - in_.points.size()].at;
+                   p = point < in_.points.size() ? in_.points[point]
+                                                 : out_.added[point - in_.points.size()].at;
         const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
-        return std::abs(cross(b - a, p - a)) > 8 * 2.220446049250313e-16 * size * length(b - a);
+        const double rounding = 8 * 2.220446049250313e-16 * size;
+        const Vec2 d = b - a;
+        const double along = dot(d, p - a), length_squared = dot(d, d), slack = rounding * length(d);
+        return std::abs(cross(d, p - a)) > slack || along < -slack || along > length_squared + slack;
     }
 
     /// Whether the triangles end where the contours are, and nowhere else.

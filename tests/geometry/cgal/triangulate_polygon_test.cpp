@@ -129,3 +129,31 @@ TEST_CASE("contours that cross all over, almost in the same places, are filled e
         CHECK(bounded_by_contours(contours, fill(contours)));
     }
 }
+
+TEST_CASE("edges along one line, but for rounding, keep their points between their ends", "[geometry]") {
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        Contours contours;
+        const auto number = [&](std::uint64_t key) { return uniform(hashed(seed, key)); };
+        for (std::uint64_t loop = 0; loop < 10; ++loop) { // triangles whose long sides overlap
+            const double a = number(4 * loop), b = number(4 * loop + 1), off = number(4 * loop + 2) - 0.5;
+            const double x = 1.2659652925814369;
+            add_loop(contours,
+                     {{x + (loop % 3) * 2.2e-16, a}, {x - (loop % 2) * 2.2e-16, b}, {x + off, (a + b) / 2}});
+        }
+        CAPTURE(seed);
+        const Filling filling = fill(contours);
+        CHECK(bounded_by_contours(contours, filling));
+        for (std::size_t e = 0; e < contours.edges.size(); ++e) {
+            const Vec2 a = contours.points[contours.edges[e].from],
+                       d = contours.points[contours.edges[e].to] - a;
+            for (Index k = filling.path_offsets[e]; k < filling.path_offsets[e + 1]; ++k) {
+                const Index i = filling.path[k];
+                const Vec2 p = i < contours.points.size() ? contours.points[i]
+                                                          : filling.added[i - contours.points.size()].at;
+                CHECK(dot(p - a, d) >= -1e-14 * length(d));
+                CHECK(dot(p - a, d) <= dot(d, d) + 1e-14 * length(d));
+                CHECK(std::fabs(cross(d, p - a)) <= 1e-14 * length(d));
+            }
+        }
+    }
+}
