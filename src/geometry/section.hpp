@@ -6,7 +6,7 @@
 // outline when it is a top and nothing when it is a bottom, and the sections of two halves of a solid never
 // count the same place twice.
 
-#include "geometry/plane.hpp"
+#include "geometry/cut_memory.hpp"
 #include "geometry/polygon.hpp"
 
 namespace facetmill {
@@ -29,6 +29,9 @@ struct SectionSettings {
     Plane plane;                    ///< in world space
     std::vector<double> heights{0}; ///< ascending, world units along the normal from the plane
     Transform to_world;             ///< from the mesh's space
+    /// Points known to be on planes, in the mesh's space: those on a plane of the stack count as on it. None:
+    /// nothing is known.
+    const CutMemory* memory = nullptr;
 };
 
 /// What a contour is to the others of its section.

@@ -27,12 +27,15 @@ class StackPlanes {
         const double scale = length(s.plane.normal);
         for (const double h : s.heights) offsets_.push_back(local_.offset - h * scale);
         local_.offset = 0;
+        if (!s.memory || s.memory->entries.empty()) return;
+        for (std::size_t k = 0; k < size(); ++k) known_.push_back(s.memory->find(plane(k)));
     }
     std::size_t size() const { return offsets_.size(); }
+    /// 0 for points that are known to be on the plane, too.
     double side_of(std::size_t k, const Vec3& p) const {
-        Plane plane = local_;
-        plane.offset = offsets_[k];
-        return side(plane, p);
+        const double s = side(plane(k), p);
+        const CutMemory::Entry* known = known_.empty() ? nullptr : known_[k];
+        return known && known->has(p, side(known->plane, p)) ? 0 : s;
     }
     /// How many planes the point is on or above. Exact signs decide; the search in doubles only says where to
     /// look.
@@ -47,8 +50,15 @@ class StackPlanes {
     }
 
   private:
+    Plane plane(std::size_t k) const {
+        Plane plane = local_;
+        plane.offset = offsets_[k];
+        return plane;
+    }
+
     Plane local_;
-    std::vector<double> offsets_; ///< descending
+    std::vector<double> offsets_;                ///< descending
+    std::vector<const CutMemory::Entry*> known_; ///< [planes] or none; empty: nothing is known
 };
 
 /// The pieces of all faces, ordered by plane, then face. plane: in the mesh's space. Throws limit

@@ -83,7 +83,7 @@ std::vector<polygon::Segment> hatched(const SectionOptions& o, double spacing, c
 
 void add_part(io::Drawing& drawing, const Part& part, const Plane& plane, const Stack& stack,
               const SectionOptions& o, double spacing) {
-    auto sections = section(part.mesh, {plane, stack.heights, world_of(part)});
+    auto sections = section(part.mesh, {plane, stack.heights, world_of(part), part.cuts.get()});
     for (std::size_t k = 0; k < sections.size(); ++k) {
         auto lines = hatched(o, spacing, sections[k]);
         drawing.sheets[k].parts.push_back({part.name, std::move(sections[k]), std::move(lines)});

@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "geometry/clip.hpp"
 #include "geometry/inspect.hpp"
 #include "geometry/section.hpp"
 #include "mesh/shapes.hpp"
@@ -190,4 +191,28 @@ TEST_CASE("frames are right-handed and keep world coordinates along the axes", "
     }
     CHECK(frame_of(across_z(0.2)).flat({3, 4, 0.2}) == Vec2{3, 4});
     CHECK(frame_of({{2, 0, 0}, {}, -4}).origin == Vec3{2, 0, 0});
+}
+
+TEST_CASE("a section where a clip was sees the cap as one face in the plane", "[geometry]") {
+    const Plane plane{{0.3, -0.7, 0.61}, {0.11, 0.07, 0.05}, 0};
+    ClipSettings settings;
+    settings.planes = {plane};
+    settings.keep = Keep::both, settings.cap = true;
+    const Mesh sphere = shapes::icosphere(3);
+    const ClipResult sides = clip(sphere, settings);
+    REQUIRE_FALSE(sides.memory.entries.at(0).points.empty()); // rounded beside the plane
+    Plane longer = plane;
+    longer.normal *= -2;
+    const Section bottom = section(sides.front, {plane, {0}, {}, &sides.memory}).at(0);
+    CHECK(bottom.contours.empty());
+    CHECK(bottom.collapsed == 0);
+    const Section top = section(sides.back, {plane, {0}, {}, &sides.memory}).at(0),
+                  below = section(sides.front, {longer, {0}, {}, &sides.memory}).at(0);
+    REQUIRE(top.contours.size() == 1);
+    CHECK(top.area == Approx(cut(sphere, plane).area).epsilon(1e-13));
+    CHECK(below.area == Approx(top.area).epsilon(1e-13));
+    // Forgotten, some of the points are above and some below.
+    CHECK(section(sides.front, {plane, {0}, {}}).at(0).contours.size() +
+              section(sides.front, {plane, {0}, {}}).at(0).collapsed >
+          0);
 }
