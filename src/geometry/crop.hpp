@@ -1,9 +1,8 @@
 #pragma once
 // Crops a mesh to a footprint: a polygon with holes, seen along an axis.
 
-#include "geometry/cut_memory.hpp"
+#include "geometry/clip.hpp"
 #include "geometry/footprint.hpp"
-#include "mesh/lineage.hpp"
 
 namespace facetmill {
 
@@ -28,6 +27,10 @@ struct CropSettings {
     CropBy by = CropBy::cut;
     polygon::Keep keep = polygon::Keep::inside;
     InsideBy inside_by = InsideBy::crossings;
+    bool cap = false; ///< with CropBy::cut: close what is cut open by upright walls along the outline
+    /// As for clip; cut_id numbers the outline's segments, group its rings.
+    std::optional<Primitive> cap_primitive;
+    bool cap_numbers = false;
     CutMemory memory; ///< points known to be on planes
 };
 
@@ -36,7 +39,9 @@ struct CropResult {
     Fates fates;
     std::size_t cut_faces = 0;  ///< faces that the outline passed through (CropBy::cut)
     std::size_t kept_faces = 0; ///< whole
+    std::size_t cap_faces = 0;  ///< of the walls
     bool changed = false;
+    std::vector<OpenContour> open; ///< contours of open meshes that got no wall; plane is the segment
     CutMemory memory;
 };
 
@@ -47,10 +52,13 @@ Vec2 seen_along(std::size_t axis, const Vec3& p);
 /// face, so that a face at a corner falls into more pieces than it must. Points are made once per edge, by
 /// the exact signs of side(), and those of a segment are remembered to be on its plane; neighbours get them
 /// too, so no crack opens. Each piece is then inside or outside by a point in its middle, faces seen edge-on
-/// along the outline by the side that they look to. What is cut open is not capped. Attributes as for clip.
+/// along the outline by the side that they look to. Attributes as for clip.
 /// Vertices that no kept face uses go, isolated ones too. Kept faces come in their order, those beside the
 /// outline last. Throws usage (E-FOOTPRINT) when inside_by needs a convex ring and there is none such.
-/// Source: "Inside a polygon" (notes, 1987).
+/// Capped, a closed mesh stays closed: walls stand on the outline and on its holes, and those of the inside
+/// and of the outside are the same triangles, turned; so the volumes of the two sides add up. Of an open mesh
+/// the contours that close get walls (see close_crop). Throws stage (E-CROP-CAP) when a closed mesh cannot be
+/// closed. Source: "Inside a polygon" (notes, 1987).
 CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings);
 
 } // namespace facetmill

@@ -4,21 +4,10 @@
 
 namespace facetmill {
 
-namespace {
-
-/// Where the material of that name is or will be.
 Index material_number(const Scene& scene, const std::string& name) {
     Index i = 0;
     while (i < scene.materials.size() && scene.materials[i].name != name) ++i;
     return i;
-}
-
-} // namespace
-
-void set_cap(ClipSettings& settings, const Scene& scene, const std::string& material) {
-    settings.cap = true;
-    settings.cap_numbers = true;
-    settings.cap_primitive = Primitive{material_number(scene, material), {}, {}};
 }
 
 void add_material(Scene& scene, const std::string& name) {

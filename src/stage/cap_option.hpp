@@ -17,9 +17,17 @@ void declare_cap(Declare<S>& d, bool S::*cap, std::string S::*material) {
              "Name of the caps' material; made when the scene has none of that name.");
 }
 
-/// Sets what clip needs to cap: the primitive (of the material's number, now or once add_material was called)
-/// and the numbers.
-void set_cap(ClipSettings& settings, const Scene& scene, const std::string& material);
+/// Where the material of that name is or will be.
+Index material_number(const Scene& scene, const std::string& name);
+
+/// Sets what clip or crop needs to cap: the primitive (of the material's number, now or once add_material was
+/// called) and the numbers.
+template <class Settings>
+void set_cap(Settings& settings, const Scene& scene, const std::string& material) {
+    settings.cap = true;
+    settings.cap_numbers = true;
+    settings.cap_primitive = Primitive{material_number(scene, material), {}, {}};
+}
 
 /// Appends a material of that name unless the scene has it. Call it only when a cap was made.
 void add_material(Scene& scene, const std::string& name);

@@ -1,7 +1,7 @@
 #include "geometry/crop.hpp"
 
-#include "base/hash.hpp"
-#include "io/footprint.hpp"
+#include "stage/cap_option.hpp"
+#include "stage/footprint_option.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -12,81 +12,14 @@ namespace {
 
 enum class Axis { up, x, y, z };
 
-/// A file, or rings written in place.
-struct FootprintText {
-    std::string path;
-    io::FootprintRings rings;
-};
-
-} // namespace
-
-template <>
-struct OptionType<FootprintText> {
-    static constexpr const char* name = "footprint";
-    static constexpr Dimension dimension = Dimension::none;
-
-    static bool parse(const Value& value, FootprintText& out, Problems& problems) {
-        if (value.deferred) return true;
-        if (value.is_scalar() && io::is_wkt(value.text)) return parse_text(value, out, problems);
-        if (value.is_scalar() && !value.text.empty()) return out.path = value.text, true;
-        if (!value.is_list() || value.items.empty()) return refuse(value, problems);
-        const bool nested =
-            value.items[0].is_list() && !value.items[0].items.empty() && value.items[0].items[0].is_list();
-        if (!nested) return parse_ring(value, out, problems);
-        bool good = true;
-        for (const Value& ring : value.items) good &= parse_ring(ring, out, problems);
-        return good;
-    }
-    static std::string print(const FootprintText& value) { return value.path; }
-    static Json schema() {
-        const Json point = {
-            {"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
-        const Json ring = {{"type", "array"}, {"items", point}, {"minItems", 3}};
-        return {{"anyOf", Json::array({{{"type", "string"}}, ring, {{"type", "array"}, {"items", ring}}})}};
-    }
-    static std::optional<double> magnitude(const FootprintText&) { return {}; }
-
-  private:
-    static bool refuse(const Value& value, Problems& problems) {
-        problems.add(
-            value.mark, "E-TYPE",
-            fmt::format("expected a footprint (a file, POLYGON ((0 0, 1 0, 1 1)), [[0, 0], [1, 0], [1, 1]], "
-                        "or a list of such rings), found {}",
-                        value.described()));
-        return false;
-    }
-    static bool parse_text(const Value& value, FootprintText& out, Problems& problems) {
-        try {
-            out.rings = io::parse_wkt(value.text, "the footprint");
-        } catch (const Error& error) {
-            problems.add(value.mark, "E-WKT", error.diagnostics().front().message);
-            return false;
-        }
-        return true;
-    }
-    static bool parse_ring(const Value& value, FootprintText& out, Problems& problems) {
-        if (!value.is_list()) return refuse(value, problems);
-        auto& ring = out.rings.emplace_back();
-        for (const Value& p : value.items) {
-            if (!p.is_list() || p.items.size() != 2) return refuse(p, problems);
-            Vec2 at;
-            if (!OptionType<double>::parse(p.items[0], at.x, problems) ||
-                !OptionType<double>::parse(p.items[1], at.y, problems))
-                return false;
-            ring.push_back(at);
-        }
-        return true;
-    }
-};
-
-namespace {
-
 struct CropOptions {
-    FootprintText footprint;
+    FootprintOption footprint;
     Axis axis = Axis::up;
     CropBy by = CropBy::cut;
     polygon::Keep keep = polygon::Keep::inside;
     InsideBy inside_by = InsideBy::crossings;
+    bool cap = false;
+    std::string cap_material = "cap";
 };
 
 void declare(Declare<CropOptions>& d) {
@@ -120,6 +53,7 @@ void declare(Declare<CropOptions>& d) {
          {"half_planes", InsideBy::half_planes, "one side of all edges; for one convex ring"},
          {"angles_3d", InsideBy::angles_3d, "the sum of unsigned angles; for one convex ring"}},
         "How it is found whether a point is inside; all give the same.");
+    declare_cap(d, &CropOptions::cap, &CropOptions::cap_material);
 }
 
 std::size_t axis_of(const CropOptions& o, const Scene& scene) {
@@ -127,54 +61,56 @@ std::size_t axis_of(const CropOptions& o, const Scene& scene) {
     return o.axis == Axis::x ? 0 : o.axis == Axis::y ? 1 : 2;
 }
 
-Footprint footprint_of(const CropOptions& o, Context& context) {
-    if (o.footprint.path.empty()) return Footprint(o.footprint.rings);
-    const io::Input input = io::Input::open(context.places().input(o.footprint.path));
-    context.run().record.inputs.push_back({input.name(), input.stored().size(), sha256(input.stored()), {}});
-    return Footprint(io::read_footprint(input));
+void warn(const Part& part, const CropResult& r, bool had_faces, Context& context) {
+    warn_of_open("crop", part, r.open, context);
+    constexpr const char* hint = "check the footprint's place and axis; info prints the bounds";
+    if (had_faces && r.mesh.face_count() == 0)
+        context.warn("W-CROP-NOTHING", fmt::format("crop: nothing of part '{}' was kept", part.name), hint);
+    else if (had_faces && !r.changed)
+        context.warn("W-CROP-ALL",
+                     fmt::format("crop: the outline does not meet part '{}', all of it was kept", part.name),
+                     hint);
 }
 
 Scene run(Scene scene, const CropOptions& o, Context& context) {
-    const Footprint footprint = footprint_of(o, context);
-    CropSettings settings{axis_of(o, scene), {}, o.by, o.keep, o.inside_by, {}};
-    std::size_t cut = 0, before = 0, after = 0;
+    const Footprint footprint = resolve_footprint(o.footprint, context);
+    CropSettings settings;
+    settings.axis = axis_of(o, scene), settings.by = o.by, settings.keep = o.keep;
+    settings.inside_by = o.inside_by;
+    if (o.cap) set_cap(settings, scene, o.cap_material);
+    std::size_t cut = 0, before = 0, after = 0, caps = 0, open = 0;
     context.for_each_part(scene, [&](Part& part) {
         settings.to_world = part.skinned ? Transform{} : part.transform;
         settings.memory = part.cuts ? *part.cuts : CutMemory{};
         const std::size_t faces = part.mesh.face_count();
         CropResult r = crop(part.mesh, footprint, settings);
+        warn(part, r, faces > 0, context);
         context.ledger(part, r.fates);
         part.mesh = std::move(r.mesh);
         if (!r.memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(r.memory));
         cut += r.cut_faces, before += faces, after += part.mesh.face_count();
-        if (faces > 0 && part.mesh.face_count() == 0)
-            context.warn("W-CROP-NOTHING", fmt::format("crop: nothing of part '{}' was kept", part.name),
-                         "check the footprint's place and axis; info prints the bounds");
-        else if (faces > 0 && !r.changed)
-            context.warn(
-                "W-CROP-ALL",
-                fmt::format("crop: the outline does not meet part '{}', all of it was kept", part.name),
-                "check the footprint's place and axis; info prints the bounds");
+        caps += r.cap_faces, open += r.open.size();
     });
+    if (caps > 0) add_material(scene, o.cap_material);
     context.result() = {{"rings", footprint.rings().size()},
                         {"footprint_area", footprint.area()},
                         {"axis", std::string(1, "xyz"[settings.axis])},
                         {"cut_faces", cut},
+                        {"cap_faces", caps},
+                        {"open_contours", open},
                         {"faces_before", before},
                         {"faces_after", after}};
     return scene;
 }
 
-/// A footprint written in place is checked before anything runs.
 void verify(const CropOptions& o, const Value& given, Problems& problems) {
-    const Value* value = given.is_map() ? given.find("footprint") : &given;
-    if (!value || value->deferred || !o.footprint.path.empty()) return;
-    try {
-        static_cast<void>(Footprint(o.footprint.rings));
-    } catch (const Error& error) {
-        const Diagnostic& d = error.diagnostics().front();
-        problems.add(value->mark, d.id, "crop: " + d.message, d.hint);
-    }
+    const auto find = [&](const char* name) { return given.is_map() ? given.find(name) : nullptr; };
+    const Value* footprint = given.is_map() ? find("footprint") : &given;
+    if (footprint) verify_footprint(o.footprint, *footprint, "crop", problems);
+    if (o.cap && o.by != CropBy::cut)
+        problems.add(find("cap")->mark, "E-CROP",
+                     "crop: walls stand on the outline, and by whole faces nothing is cut there",
+                     "leave out cap, or take by: cut");
 }
 
 StageFiles files(const CropOptions& o) {
@@ -185,26 +121,32 @@ StageFiles files(const CropOptions& o) {
 const RegisterStage registered{make_stage<CropOptions>(
     {.name = "crop",
      .about = "Keeps what lies in a polygon seen along an axis, or outside it.",
-     .details = "The footprint is a polygon with holes and islands, in the world's coordinates across the "
-                "axis. What is in an "
-                "odd number of its rings is inside, whichever way round they run; a last point that repeats "
-                "the first may be "
-                "there or not. A footprint that crosses itself is refused with the place.\n\n"
-                "Cut at the outline, faces get points where the outline passes over them, one for each edge, "
-                "shared by the "
-                "faces there, so no crack opens; a face at a corner of the outline falls into a few more "
-                "pieces than it must. "
-                "Closed parts become open: a crop does not cap. New vertices and wedges are interpolated, "
-                "pieces copy the "
-                "attributes of their face. By whole faces, nothing is mixed; corners on the outline count to "
-                "either side.\n\n"
-                "Files: GeoJSON (Polygon, MultiPolygon, features and collections of them), WKT (POLYGON, "
-                "MULTIPOLYGON), DXF as "
-                "text (closed polylines and circles; arcs in segments of at most 5 degrees).\n\n"
-                "Source: the note on points inside a polygon (1987).",
+     .details =
+         "The footprint is a polygon with holes and islands, in the world's coordinates across the "
+         "axis. What is in an "
+         "odd number of its rings is inside, whichever way round they run; a last point that repeats "
+         "the first may be "
+         "there or not. A footprint that crosses itself is refused with the place.\n\n"
+         "Cut at the outline, faces get points where the outline passes over them, one for each edge, "
+         "shared by the "
+         "faces there, so no crack opens; a face at a corner of the outline falls into a few more "
+         "pieces than it must. "
+         "With cap, a closed part stays closed: upright walls stand on the outline and on its holes, and "
+         "those of the inside "
+         "and the outside fit exactly. cut_id numbers the walls by the outline's segments, group by its "
+         "rings. Without cap, "
+         "closed parts become open. New vertices and wedges are interpolated, "
+         "pieces copy the "
+         "attributes of their face. By whole faces, nothing is mixed; corners on the outline count to "
+         "either side.\n\n"
+         "Files: GeoJSON (Polygon, MultiPolygon, features and collections of them), WKT (POLYGON, "
+         "MULTIPOLYGON), DXF as "
+         "text (closed polylines and circles; arcs in segments of at most 5 degrees).\n\n"
+         "Source: the note on points inside a polygon (1987).",
      .examples = {"crop: [[0, 0], [10, 0], [10, 5], [0, 5]]",
                   "crop: {footprint: \"POLYGON ((0 0, 4 0, 4 4, 0 4), (1 1, 2 1, 2 2, 1 2))\", by: whole}",
-                  "crop: {footprint: parcel.geojson, keep: outside, axis: z}"}},
+                  "crop: {footprint: parcel.geojson, keep: outside, axis: z}",
+                  "crop: {footprint: [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]], cap: true}"}},
     declare, run, StageHooks<CropOptions>{.files = files, .verify = verify})};
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "base/functions.hpp"
 #include "base/random.hpp"
+#include "geometry/inspect.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -195,4 +196,126 @@ TEST_CASE("a footprint finds points as the plain rule does", "[geometry]") {
     CHECK(footprint.locate({3, 0}) == polygon::Place::on_vertex);
     CHECK(footprint.locate({3.5, 1}) == polygon::Place::on_edge);
     CHECK(footprint.locate({4, 0.25}) == polygon::Place::on_edge);
+}
+
+namespace {
+
+CropResult walled(const Mesh& mesh, const Rings& rings, polygon::Keep keep = polygon::Keep::inside,
+                  const Transform& to_world = {}) {
+    CropSettings settings;
+    settings.keep = keep, settings.to_world = to_world;
+    settings.cap = settings.cap_numbers = true;
+    settings.cap_primitive = Primitive{3, {}, {}};
+    CropResult r = crop(mesh, Footprint(rings), settings);
+    CHECK(broken_invariants(r.mesh).empty());
+    CHECK(r.open.empty());
+    return r;
+}
+
+std::size_t faces_with(const Mesh& mesh, std::string_view name, double number) {
+    const Attribute* a = mesh.find(name, Domain::face);
+    std::size_t count = 0;
+    for (Index f = 0; a && f < mesh.face_count(); ++f) count += a->value(f, 0) == number;
+    return count;
+}
+
+const Rings notched{{{0.25, 0.25}, {2, 0.25}, {2, 0.75}, {0.5, 0.5}, {0.25, 0.875}},
+                    {{0.5, 0.3125}, {0.75, 0.3125}, {0.75, 0.4375}, {0.5, 0.4375}}};
+
+} // namespace
+
+TEST_CASE("a crop with walls is a solid over the footprint, its holes open", "[geometry]") {
+    // Within the unit square: a pentagon whose slanted side rises from (1/2, 1/2) by 1/12, less the hole.
+    const double area = 0.25 * 0.4375 + 0.5 * (0.25 + 0.25 + 1.0 / 12) / 2 - 0.25 * 0.125;
+    for (const Mesh& cube : {shapes::cube(), shapes::quad_cube(), shapes::uv_cube()}) {
+        const CropResult in = walled(cube, notched), out = walled(cube, notched, polygon::Keep::outside);
+        CHECK(inspect(in.mesh).closed);
+        CHECK(inspect(in.mesh).edge_manifold);
+        CHECK(inspect(out.mesh).closed);
+        CHECK(test::volume(in.mesh) == Approx(area).epsilon(1e-14));
+        CHECK(test::volume(out.mesh) == Approx(1 - area).epsilon(1e-14));
+        CHECK(in.cap_faces == out.cap_faces);
+    }
+}
+
+TEST_CASE("walls have numbers, a primitive, normals and coordinates of their own", "[geometry]") {
+    const Rings square_with_hole{{{0.5, 0.125}, {0.875, 0.125}, {0.875, 0.375}, {0.5, 0.375}},
+                                 {{0.625, 0.1875}, {0.75, 0.1875}, {0.75, 0.3125}, {0.625, 0.3125}}};
+    const CropResult r = walled(shapes::uv_cube(), square_with_hole);
+    for (int wall = 1; wall <= 8; ++wall) CHECK(faces_with(r.mesh, "cut_id", wall) >= 2);
+    CHECK(faces_with(r.mesh, "group", 1) >= 8);
+    CHECK(faces_with(r.mesh, "group", 2) == 8);
+    CHECK(faces_with(r.mesh, "group", 1) + faces_with(r.mesh, "group", 2) == r.cap_faces);
+    const Attribute *normals = r.mesh.find("NORMAL", Domain::wedge),
+                    *uvs = r.mesh.find("TEXCOORD_0", Domain::wedge);
+    for (auto f = static_cast<Index>(r.mesh.face_count() - r.cap_faces); f < r.mesh.face_count(); ++f) {
+        const auto w = r.mesh.face_wedges(f);
+        const Vec3 normal = normalised(cross(
+            r.mesh.positions[r.mesh.vertex_of_wedge(w[1])] - r.mesh.positions[r.mesh.vertex_of_wedge(w[0])],
+            r.mesh.positions[r.mesh.vertex_of_wedge(w[2])] - r.mesh.positions[r.mesh.vertex_of_wedge(w[0])]));
+        CHECK(r.mesh.primitives.at(r.mesh.primitive_of(f)).material == 3);
+        for (const Index corner : w) {
+            const Vec3 own{normals->value(corner, 0), normals->value(corner, 1), normals->value(corner, 2)};
+            CHECK(own == normal);
+            CHECK(std::max(uvs->value(corner, 0), uvs->value(corner, 1)) <= 1);
+            CHECK(std::min(uvs->value(corner, 0), uvs->value(corner, 1)) >= 0);
+        }
+    }
+}
+
+TEST_CASE("walls on faces of the part, through its vertices, past straight corners", "[geometry]") {
+    const Rings half{{{0, 0}, {0.5, 0}, {1, 0}, {1, 0.5}, {0.25, 0.5}, {0, 0.5}}};
+    for (const auto keep : {polygon::Keep::inside, polygon::Keep::outside}) {
+        const CropResult r = walled(shapes::cube(), half, keep);
+        CHECK(inspect(r.mesh).closed);
+        CHECK(test::volume(r.mesh) == 0.5);
+        CHECK(r.cap_faces == 8); // the one new wall, past a corner in its middle: 2 contours of 10 points
+    }
+    const Rings diagonal{{{0, 0}, {1, 0}, {1, 1}}};
+    CHECK(test::volume(walled(shapes::cube(), diagonal).mesh) == 0.5);
+    const Rings touching{{{0.25, 0.25}, {0.5, 0.25}, {0.5, 0.5}, {0.25, 0.5}},
+                         {{0.5, 0.5}, {0.75, 0.5}, {0.75, 0.75}, {0.5, 0.75}},
+                         {{0.5, 0.25}, {0.75, 0.25}, {0.75, 0.375}, {0.5, 0.375}}};
+    const CropResult joined = walled(shapes::cube(), touching);
+    CHECK(inspect(joined.mesh).closed);
+    CHECK(test::volume(joined.mesh) == 2 * 0.0625 + 0.03125);
+}
+
+TEST_CASE("an edge that passes a corner of the outline is cut there once", "[geometry]") {
+    const CropResult r = walled(shapes::cube(), {{{0.25, 0.25}, {0.75, 0.25}, {0.75, 0.75}, {0.25, 0.75}}});
+    CHECK(r.mesh.vertex_count() == 8);
+    CHECK(r.cap_faces == 8);
+    CHECK(inspect(r.mesh).edge_manifold);
+}
+
+TEST_CASE("walls of moved, turned and mirrored parts stand in the world", "[geometry]") {
+    Transform mirrored; // x -> 2 - x, y and z swapped
+    mirrored.m[0][0] = -1, mirrored.m[0][3] = 2;
+    mirrored.m[1][1] = 0, mirrored.m[1][2] = 1, mirrored.m[2][2] = 0, mirrored.m[2][1] = 1;
+    const Rings corner{{{1.5, 0.5}, {3, 0.5}, {3, 3}, {1.5, 3}}};
+    const CropResult r = walled(shapes::cube(), corner, polygon::Keep::inside, mirrored);
+    CHECK(inspect(r.mesh).closed);
+    CHECK(test::volume(r.mesh) == 0.25);
+}
+
+TEST_CASE("what covers a place twice has its wall twice", "[geometry]") {
+    Mesh two = shapes::cube(), other = shapes::cube();
+    for (Vec3& p : other.positions) p += Vec3{0.3, 0.2, 0.25};
+    append(two, other);
+    const Rings square{{{0.1, 0.1}, {0.8, 0.1}, {0.8, 0.9}, {0.1, 0.9}}};
+    const CropResult r = walled(two, square);
+    CHECK(inspect(r.mesh).closed);
+    CHECK(test::volume(r.mesh) == Approx(0.7 * 0.8 + 0.5 * 0.7).epsilon(1e-13));
+}
+
+TEST_CASE("open parts get walls where their contours close, and the others are named", "[geometry]") {
+    Mesh mixed = shapes::grid(2, 2), cube = shapes::cube();
+    for (Vec3& p : mixed.positions) p.z = 3;
+    append(mixed, cube);
+    CropSettings settings;
+    settings.cap = true;
+    const CropResult r = crop(mixed, Footprint({{{-1, -1}, {0.5, -1}, {0.5, 3}, {-1, 3}}}), settings);
+    REQUIRE(r.open.size() == 1);
+    CHECK(r.open[0].edges == 4);
+    CHECK(r.cap_faces == 6); // an octagon: the cube's faces have diagonals
 }

@@ -7,6 +7,7 @@
 #include "mesh/invariants.hpp"
 #include "support/catch.hpp"
 #include "support/corpus.hpp"
+#include "support/sums.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -45,37 +46,14 @@ struct Counts {
                 tangled = 0, rows = 0, read_back = 0;
 };
 
-/// Sum over all faces of a term, without rounding to speak of: what is tested is the clip, not the sum.
-template <class Term>
-long double sum_over(const Mesh& mesh, Term&& term) {
-    long double sum = 0;
-    for (Index f = 0; f < mesh.face_count(); ++f)
-        for (Index c = mesh.face_begin(f) + 1; c + 1 < mesh.face_end(f); ++c)
-            sum += term(mesh.point(mesh.face_begin(f)), mesh.point(c), mesh.point(c + 1));
-    return sum;
-}
-
-long double volume_about(const Mesh& mesh, const Vec3& origin) {
-    return sum_over(mesh,
-                    [&](const Vec3& a, const Vec3& b, const Vec3& c) -> long double {
-                        const auto minus = [&](const Vec3& p, std::size_t i) {
-                            return static_cast<long double>(p[i]) - origin[i];
-                        };
-                        const auto term = [&](std::size_t i, std::size_t j, std::size_t k) {
-                            return minus(a, i) * (minus(b, j) * minus(c, k) - minus(b, k) * minus(c, j));
-                        };
-                        return term(0, 1, 2) + term(1, 2, 0) + term(2, 0, 1);
-                    }) /
-           6;
-}
-
 /// Points of the cut are off their edges by a unit in the last place of their coordinates or two, and all
 /// faces there share them: so the volume is off by that times the area.
 bool adds_up(const Mesh& whole, const ClipResult& r, double area) {
     const Box box = whole.bounds();
     const Vec3 o = box.centre();
     const double reach = length(box.min) + length(box.max);
-    const long double lost = volume_about(r.front, o) + volume_about(r.back, o) - volume_about(whole, o);
+    const long double lost =
+        test::volume_about(r.front, o) + test::volume_about(r.back, o) - test::volume_about(whole, o);
     return std::fabs(static_cast<double>(lost)) <= 4 * 2.2e-16 * reach * area;
 }
 

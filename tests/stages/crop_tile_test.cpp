@@ -76,6 +76,24 @@ TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
     CHECK(run.record.result["footprint_area"] == 3);
 }
 
+TEST_CASE("crop stands walls on the outline on request", "[stages]") {
+    const auto run = run_stage("crop", "{footprint: [[0.5, -1], [2, -1], [2, 2], [0.5, 2]], cap: true}",
+                               scene_of(shapes::cube()));
+    CHECK(test::volume(run.scene.parts[0].mesh) == 0.5);
+    CHECK(run.record.result["cap_faces"] == 6);
+    REQUIRE(run.scene.materials.size() == 1);
+    CHECK(run.scene.materials[0].name == "cap");
+    const auto open = run_stage("crop", "{footprint: [[0.5, -1], [2, -1], [2, 2], [0.5, 2]], cap: true}",
+                                scene_of(shapes::grid(1, 1)));
+    REQUIRE(open.record.warnings.size() == 1);
+    CHECK(open.record.warnings[0].id == "W-CAP-OPEN");
+    CHECK(open.scene.materials.empty());
+    CHECK(refusal("crop", "{footprint: [[0, 0], [1, 0], [1, 1]], cap: true, by: whole}") ==
+          "usage [E-CROP] crop: walls stand on the outline, and by whole faces nothing is cut there | leave "
+          "out "
+          "cap, or take by: cut");
+}
+
 TEST_CASE("crop looks along the scene's up axis", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     scene.up = UpAxis::y;

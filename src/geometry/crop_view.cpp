@@ -1,0 +1,74 @@
+#include "geometry/crop_view.hpp"
+
+#include "base/error.hpp"
+#include "geometry/triangulate_rings.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+using polygon::Place;
+
+Inside::Inside(const Footprint& footprint, InsideBy by)
+    : footprint_(footprint), by_(by), spans_(footprint.spans()) {
+    if (by != InsideBy::half_planes && by != InsideBy::angles_3d) return;
+    if (spans_.size() != 1 || !polygon::is_convex(spans_[0]))
+        throw Error(ErrorKind::usage, "E-FOOTPRINT",
+                    "this rule for points inside needs a footprint of one convex ring",
+                    "take inside_by: crossings, which takes any");
+    for (const Vec2& p : spans_[0]) flat_.push_back({p.x, p.y, 0});
+}
+
+Place Inside::operator()(const Vec2& p) const {
+    const Place place = footprint_.locate(p); // on the outline, all rules would depend on rounding
+    if (by_ == InsideBy::crossings || place > Place::inside) return place;
+    if (by_ == InsideBy::half_planes) return polygon::locate_convex(p, spans_[0]);
+    const bool inside = by_ == InsideBy::angles ? polygon::inside_by_angles(p, spans_)
+                                                : polygon::inside_by_angles({p.x, p.y, 0}, flat_);
+    return inside ? Place::inside : Place::outside;
+}
+
+void CropView::gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const {
+    face.clear();
+    for (const Index w : mesh.face_wedges(f)) face.push_back(seen(mesh.positions[mesh.vertex_of_wedge(w)]));
+}
+
+Place CropView::middle(const Mesh& mesh, Index f) const {
+    std::vector<Vec2> face;
+    gather(mesh, f, face);
+    const polygon::Ring ring = face;
+    Vec2 sum;
+    if (face.size() > 3 && !polygon::is_convex(ring) && polygon::orientation(ring) != 0) {
+        const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));
+        double most = -1;
+        for (const auto& abc : t.triangles) {
+            if (*std::max_element(abc.begin(), abc.end()) >= face.size()) continue; // rounded crossings
+            const double area = cross(face[abc[1]] - face[abc[0]], face[abc[2]] - face[abc[0]]);
+            if (area > most) most = area, sum = face[abc[0]] + face[abc[1]] + face[abc[2]];
+        }
+        if (most >= 0) return settle(inside_(sum * (1.0 / 3)), mesh, f);
+    }
+    sum = {};
+    for (const Vec2& p : face) sum = sum + (p - face[0]);
+    return settle(inside_(face[0] + sum * (1 / static_cast<double>(face.size()))), mesh, f);
+}
+
+Place CropView::settle(Place place, const Mesh& mesh, Index f) const {
+    if (place <= Place::inside) return place;
+    std::vector<Vec3> corners;
+    for (const Index w : mesh.face_wedges(f))
+        corners.push_back(settings_.to_world.point(mesh.positions[mesh.vertex_of_wedge(w)]));
+    const Vec3 n = polygon::area_vector(corners);
+    const Vec2 out = seen_along(settings_.axis, n), at = seen_along(settings_.axis, corners[0]);
+    double nearest = HUGE_VAL;
+    bool inside = true;
+    for (const auto& e : footprint_.tree().edges()) { // rare: walls that stand on the outline
+        const Vec2 d = e.b - e.a;
+        const double t = std::clamp(dot(at - e.a, d) / dot(d, d), 0.0, 1.0), far = length(e.a + d * t - at);
+        const double along = std::fabs(dot(d, out)) / (length(d) * length(out));
+        if (far + along < nearest) nearest = far + along, inside = cross(d, out) < 0;
+    }
+    return inside ? Place::inside : Place::outside;
+}
+
+} // namespace facetmill

@@ -1,0 +1,34 @@
+#pragma once
+// Volumes and areas with hardly any rounding: what is tested is what was cut, not the sum.
+
+#include "mesh/mesh.hpp"
+
+#include <cmath>
+
+namespace facetmill::test {
+
+/// Sum of a term over the triangles of the faces' fans.
+template <class Term>
+long double sum_over(const Mesh& mesh, Term&& term) {
+    long double sum = 0;
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        for (Index c = mesh.face_begin(f) + 1; c + 1 < mesh.face_end(f); ++c)
+            sum += term(mesh.point(mesh.face_begin(f)), mesh.point(c), mesh.point(c + 1));
+    return sum;
+}
+
+inline long double volume_about(const Mesh& mesh, const Vec3& origin) {
+    return sum_over(mesh,
+                    [&](const Vec3& a, const Vec3& b, const Vec3& c) -> long double {
+                        const auto minus = [&](const Vec3& p, std::size_t i) {
+                            return static_cast<long double>(p[i]) - origin[i];
+                        };
+                        const auto term = [&](std::size_t i, std::size_t j, std::size_t k) {
+                            return minus(a, i) * (minus(b, j) * minus(c, k) - minus(b, k) * minus(c, j));
+                        };
+                        return term(0, 1, 2) + term(1, 2, 0) + term(2, 0, 1);
+                    }) /
+           6;
+}
+
+} // namespace facetmill::test
