@@ -29,16 +29,18 @@ bool is_centre(std::string_view text) { return text == "centre" || text == "cent
 constexpr std::string_view short_forms =
     "a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, [A, B, C, D])";
 
-/// "z=0.2": an axis and where on it.
+/// "z=0.2": an axis and where on it; blanks do not matter.
 bool parse_short(const Value& value, PlaneOption& out, Problems& problems) {
     if (value.is_list() || value.text.find(',') != std::string::npos)
         return OptionType<PlaneCoefficients>::parse(value, out.coefficients.emplace(), problems);
-    const auto equals = value.text.find('=');
-    const auto axis = std::string_view("xyz").find(value.text.empty() ? '?' : value.text[0]);
+    std::string given = value.text;
+    std::erase(given, ' ');
+    const auto equals = given.find('=');
+    const auto axis = std::string_view("xyz").find(given.empty() ? '?' : given[0]);
     if (equals != 1 || axis == std::string_view::npos) return refuse(value, short_forms, problems);
     out.normal.emplace();
     (*out.normal)[axis] = 1;
-    const std::string text = value.text.substr(2);
+    const std::string text = given.substr(2);
     if (is_centre(text)) return out.through.kind = PlanePlace::Kind::centre, true;
     if (const auto percent = percentage(text))
         return out.through.kind = PlanePlace::Kind::extent, out.through.percent = *percent, true;
@@ -139,7 +141,7 @@ void declare_plane(Declare<PlaneOption>& d) {
              "A, B, C, D of A x + B y + C z + D = 0, in scene units; its normal is (A, B, C).");
     d.at_most_one({"normal", "coefficients"});
     d.at_most_one({"through", "coefficients"});
-    const Json text = {{"type", "string"}, {"pattern", "^[xyz]="}};
+    const Json text = {{"type", "string"}, {"pattern", "^ *[xyz] *="}};
     d.shorthand(
         "z=0.2, x=10%, y=2mm or z=centre: the plane across that axis there; [A, B, C, D]: its coefficients",
         {{"anyOf", Json::array({text, OptionType<PlaneCoefficients>::schema()})}},

@@ -1,8 +1,7 @@
 #include "geometry/clip.hpp"
 
-#include "stage/box_option.hpp"
 #include "stage/cap_option.hpp"
-#include "stage/plane_option.hpp"
+#include "stage/cutter_option.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -11,18 +10,13 @@ namespace facetmill {
 
 namespace {
 
-enum class Space { world, local };
 enum class Snap { automatic, none };
 
-struct ClipOptions {
-    std::optional<PlaneOption> plane;
-    std::vector<PlaneOption> planes;
-    std::optional<BoxOption> box;
+struct ClipOptions : CutterOption {
     Keep keep = Keep::front;
     bool cap = false;
     std::string cap_material = "cap";
     bool triangulate = false;
-    Space space = Space::world;
     Coplanar coplanar = Coplanar::keep;
     Snap snap = Snap::automatic;
 };
@@ -30,11 +24,7 @@ struct ClipOptions {
 void declare_rest(Declare<ClipOptions>& d) {
     d.option("triangulate", &ClipOptions::triangulate,
              "Leave triangles only; without it a cut triangle may become a quad.");
-    d.choice<Space>(
-        "space", &ClipOptions::space,
-        {{"world", Space::world, "planes and boxes stand in the scene"},
-         {"local", Space::local, "they stand in each part's own space, before its node's transform"}},
-        "What coordinates, centre and extent refer to.");
+    declare_space(d);
     d.choice<Coplanar>(
         "coplanar", &ClipOptions::coplanar,
         {{"keep", Coplanar::keep, "they stay"}, {"drop", Coplanar::drop, "they go"}},
@@ -52,10 +42,7 @@ void declare_rest(Declare<ClipOptions>& d) {
 }
 
 void declare(Declare<ClipOptions>& d) {
-    d.group("plane", &ClipOptions::plane, "The plane to clip by.", declare_plane).primary();
-    d.option("planes", &ClipOptions::planes, "Several planes, each as for plane; one after the other.");
-    d.group("box", &ClipOptions::box, "A box to clip by; its front is the inside.", declare_box);
-    d.exactly_one({"plane", "planes", "box"});
+    declare_cutter(d);
     d.choice<Keep>(
         "keep", &ClipOptions::keep,
         {{"inside", Keep::front, "of a box: the same as front"},
@@ -63,48 +50,12 @@ void declare(Declare<ClipOptions>& d) {
          {"front", Keep::front, "what lies on the side that the normal points to, or in the box"},
          {"back", Keep::back, "what lies on the other side, or around the box"},
          {"both", Keep::both,
-          "both, as parts NAME.front and NAME.back (NAME.inside, NAME.outside); for one plane or box"}},
+          "both, as parts NAME.front and NAME.back (NAME.inside, NAME.outside); of several planes the back "
+          "is all that is not in front of every one"}},
         "Which side stays.");
     declare_cap(d, &ClipOptions::cap, &ClipOptions::cap_material);
     declare_rest(d);
 }
-
-/// The value of an option as written, or the whole.
-const Value& written(const Value& given, const char* name) {
-    const Value* value = given.is_map() ? given.find(name) : nullptr;
-    return value ? *value : given;
-}
-
-void verify(const ClipOptions& o, const Value& given, Problems& problems) {
-    const Value& planes = written(given, "planes");
-    if (o.plane) verify_plane(*o.plane, written(given, "plane").mark, problems);
-    if (o.box) verify_box(*o.box, written(given, "box").mark, problems);
-    for (std::size_t i = 0; i < o.planes.size(); ++i)
-        verify_plane(o.planes[i],
-                     planes.is_list() && i < planes.items.size() ? planes.items[i].mark : given.mark,
-                     problems);
-    if (o.keep == Keep::both && o.planes.size() > 1)
-        problems.add(planes.mark, "E-PLANE", "clip: keep: both takes exactly one plane",
-                     "clip once for every plane, or keep the front or the back");
-}
-
-/// The planes for one part, in its own space.
-std::vector<Plane> planes_for(const Part& part, const ClipOptions& o, const std::vector<Plane>& world,
-                              const Scene& scene, Context& context) {
-    std::vector<Plane> planes;
-    if (o.space == Space::world)
-        for (const Plane& p : world) planes.push_back(part.skinned ? p : pulled_back(p, part.transform));
-    else if (o.box)
-        planes = planes_of(*o.box);
-    else if (o.plane)
-        planes.push_back(resolve_plane(*o.plane, scene, context, "plane", &part));
-    else
-        for (const PlaneOption& p : o.planes)
-            planes.push_back(resolve_plane(p, scene, context, "planes", &part));
-    return planes;
-}
-
-Json as_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 /// What users should know of a clip: open contours, everything kept, nothing kept.
 void warn(const Part& part, const ClipResult& r, bool had_faces, Context& context) {
@@ -119,47 +70,45 @@ void warn(const Part& part, const ClipResult& r, bool had_faces, Context& contex
 
 class ClipRun {
   public:
-    ClipRun(Scene& scene, const ClipOptions& o, Context& context) : scene_(scene), o_(o), context_(context) {
-        if (o.space == Space::local) return;
-        if (o.box) world_ = planes_of(*o.box);
-        if (o.plane) world_.push_back(resolve_plane(*o.plane, scene, context, "plane"));
-        for (const PlaneOption& p : o.planes) world_.push_back(resolve_plane(p, scene, context, "planes"));
-        for (const Plane& p : world_)
-            context.result()["planes"].push_back(
-                {{"normal", as_json(p.normal)}, {"through", as_json(p.through)}, {"offset", p.offset}});
-    }
+    ClipRun(Scene& scene, const ClipOptions& o, Context& context)
+        : scene_(scene), o_(o), context_(context), cutter_(o, scene, context) {}
 
     void run() {
         context_.for_each_part(scene_, [&](Part& part) { clip_part(part); });
-        if (cap_faces_ > 0) add_material(scene_, o_.cap_material);
+        if (count_.cap_faces > 0) add_material(scene_, o_.cap_material);
         for (std::size_t k = backs_.size(); k-- > 0;)
             scene_.parts.insert(scene_.parts.begin() + static_cast<std::ptrdiff_t>(backs_[k].first) + 1,
                                 std::move(backs_[k].second));
         Json& result = context_.result();
-        result["cut_faces"] = cut_faces_;
-        result["cap_faces"] = cap_faces_;
+        result["cut_faces"] = count_.cut_faces;
+        result["cap_faces"] = count_.cap_faces;
         result["open_contours"] = open_;
-        result["on_plane"] = on_plane_;
-        result["snapped"] = snapped_;
-        result["remembered"] = remembered_;
+        result["on_plane"] = count_.on_plane;
+        result["snapped"] = count_.snapped;
+        result["remembered"] = count_.remembered;
     }
 
   private:
-    void clip_part(Part& part) {
+    ClipSettings settings_for(const Part& part) const {
         ClipSettings settings;
-        settings.planes = planes_for(part, o_, world_, scene_, context_);
+        settings.planes = cutter_.planes_for(part);
         settings.keep = o_.keep;
-        settings.convex = o_.box.has_value();
+        settings.convex = o_.box || (o_.keep == Keep::both && o_.planes.size() > 1);
         settings.triangulate = o_.triangulate;
         settings.coplanar = o_.coplanar;
         settings.snap = o_.snap == Snap::automatic;
         if (part.cuts) settings.memory = *part.cuts;
         if (o_.cap) set_cap(settings, scene_, o_.cap_material);
+        return settings;
+    }
+    void clip_part(Part& part) {
         const bool had_faces = part.mesh.face_count() > 0;
+        const ClipSettings settings = settings_for(part);
         ClipResult r = clip(std::move(part.mesh), settings);
         warn(part, r, had_faces, context_);
         context_.ledger(part, r.fates);
-        count(r);
+        count_.cut_faces += r.cut_faces, count_.cap_faces += r.cap_faces, open_ += r.open.size();
+        count_.on_plane += r.on_plane, count_.snapped += r.snapped, count_.remembered += r.remembered;
         if (!r.memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(r.memory));
         if (o_.keep == Keep::both) {
             Part back = part;
@@ -169,17 +118,14 @@ class ClipRun {
         }
         part.mesh = std::move(o_.keep == Keep::back ? r.back : r.front);
     }
-    void count(const ClipResult& r) {
-        cut_faces_ += r.cut_faces, cap_faces_ += r.cap_faces, open_ += r.open.size();
-        on_plane_ += r.on_plane, snapped_ += r.snapped, remembered_ += r.remembered;
-    }
 
     Scene& scene_;
     const ClipOptions& o_;
     Context& context_;
-    std::vector<Plane> world_;
+    Cutter cutter_;
     std::vector<std::pair<std::size_t, Part>> backs_; ///< behind which part, and the part
-    std::size_t cut_faces_ = 0, cap_faces_ = 0, open_ = 0, on_plane_ = 0, snapped_ = 0, remembered_ = 0;
+    ClipResult count_;                                ///< sums of its counts
+    std::size_t open_ = 0;
 };
 
 Scene run(Scene scene, const ClipOptions& o, Context& context) {
@@ -204,7 +150,9 @@ const RegisterStage clip_stage = make_stage<ClipOptions>(
          "face in the plane stays only when it looks away from what stays. A contour that does not close "
          "cannot be capped: it is named (W-CAP-OPEN) and the rest is done. A plane that misses says so "
          "(W-CLIP-ALL, W-CLIP-NOTHING); a part of which nothing is kept stays as an empty part.\n\n"
-         "A box keeps what is in it, or around it: the two fit exactly, and with caps both are closed.\n\n"
+         "A box keeps what is in it, or around it: the two fit exactly, and with caps both are closed. So it "
+         "is "
+         "with several planes and keep: both; keep: back alone is what is behind each of them.\n\n"
          "New vertices and wedges are interpolated, once per edge and pair of wedges, so seams stay seams; "
          "pieces copy the attributes of their face. Caps have a primitive and material of their own, the "
          "plane's "
@@ -215,9 +163,10 @@ const RegisterStage clip_stage = make_stage<ClipOptions>(
      .examples = {"clip: z=0.2", "clip: {plane: {normal: [0, 0, 1], through: centre}, cap: true}",
                   "clip: {planes: [x=10%, [-1, 0, 0, 0.5]], cap: true}",
                   "clip: {plane: z=centre, keep: both, cap: true}",
+                  "clip: {planes: [x=20%, y=20%], keep: both, cap: true}",
                   "clip: {box: {min: [0, 0, 0], max: [1, 1, 0.5]}, cap: true}",
                   "clip: {box: {centre: [0, 0, 0], size: [2, 1, 1], angle: 30deg}, keep: outside}"}},
-    declare, run, StageHooks<ClipOptions>{.files = {}, .verify = verify});
+    declare, run, StageHooks<ClipOptions>{.files = {}, .verify = verify_cutter});
 
 } // namespace
 

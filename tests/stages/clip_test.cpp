@@ -1,3 +1,4 @@
+#include "geometry/inspect.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
@@ -171,6 +172,20 @@ TEST_CASE("caps have a material of their own, made once and only when needed", "
     CHECK(run_stage("clip", text("z=0.25"), scene_of(shapes::cube())).scene.materials.empty());
 }
 
+TEST_CASE("both sides of several planes are what is in front of all, and the rest", "[stages]") {
+    const auto run = run_stage("clip",
+                               map({{"planes", Value::list({text("x = 0.25"), text(" y =0.5 ")})},
+                                    {"keep", text("both")},
+                                    {"cap", text("true")}}),
+                               scene_of(shapes::cube()));
+    REQUIRE(run.scene.parts.size() == 2);
+    CHECK(run.scene.parts[0].name == "part.front");
+    CHECK(run.scene.parts[1].name == "part.back");
+    CHECK(test::volume(run.scene.parts[0].mesh) == Approx(0.375));
+    CHECK(test::volume(run.scene.parts[1].mesh) == Approx(0.625));
+    for (const Part& part : run.scene.parts) CHECK(inspect(part.mesh).closed);
+}
+
 TEST_CASE("clip says when everything or nothing stays, and names open contours", "[stages]") {
     const auto warnings = [](const Value& given, Mesh mesh) {
         std::string all;
@@ -198,10 +213,8 @@ TEST_CASE("clip refuses what is no plane", "[stages]") {
     CHECK(refusal(text("w=3")) ==
           "usage [E-TYPE] expected a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, "
           "[A, B, C, D]), found 'w=3'");
-    CHECK(refusal(map({{"planes", Value::list({text("x=1"), text("y=1")})}, {"keep", text("both")}})) ==
-          "usage [E-PLANE] clip: keep: both takes exactly one plane | clip once for every plane, or keep the "
-          "front or "
-          "the back");
+    CHECK(refusal(map({{"planes", Value::list({})}})) ==
+          "usage [E-PLANE] 'planes' is empty | for example planes: [z=0, x=centre]");
     CHECK(refusal(map({{"cap", text("true")}})) ==
           "usage [E-MISSING] clip: one of plane, planes, box is needed");
     const char* way_out =
