@@ -1,28 +1,20 @@
-#include "base/functions.hpp"
-#include "geometry/inspect.hpp"
 #include "geometry/section_stack.hpp"
-#include "io/drawing_summary.hpp"
+#include "stage/hatch_option.hpp"
 #include "stage/plane_option.hpp"
+#include "stage/section_report.hpp"
 #include "stage/stage.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill {
 
 namespace {
 
-struct Hatch {
-    Length spacing = Length::percent(1);
-    Angle angle = Angle::degrees(45);
-    polygon::Keep keep = polygon::Keep::inside;
-};
-
 struct SectionOptions {
     std::optional<PlaneOption> plane;
     std::optional<Length> every;
     std::optional<std::int64_t> count;
-    std::optional<Hatch> hatch;
+    std::optional<HatchOption> hatch;
     std::vector<PathText> to;
 };
 
@@ -37,20 +29,9 @@ void declare(Declare<SectionOptions>& d) {
              "slices of the "
              "extent.")
         .between(1, most_planes);
-    d.group("hatch", &SectionOptions::hatch, "Parallel lines, clipped to the sections.",
-            [](Declare<Hatch>& h) {
-                h.option("spacing", &Hatch::spacing, "Distance between lines.").above(0).primary();
-                h.option("angle", &Hatch::angle, "From the frame's u axis to the lines, anticlockwise.");
-                h.choice<polygon::Keep>(
-                    "keep", &Hatch::keep,
-                    {{"inside", polygon::Keep::inside, "hatch the material"},
-                     {"outside", polygon::Keep::outside, "hatch around it, within its bounds"}},
-                    "Which parts of the lines are kept.");
-            });
+    d.group("hatch", &SectionOptions::hatch, "Parallel lines, clipped to the sections.", declare_hatch);
     d.option("to", &SectionOptions::to, "Drawings to write, to scale: .svg, .dxf or .json.");
 }
-
-Transform world_of(const Part& part) { return part.skinned ? Transform{} : part.transform; }
 
 void verify(const SectionOptions& o, const Value& given, Problems& problems) {
     if (o.plane) verify_plane(*o.plane, given.mark, problems);
@@ -71,58 +52,30 @@ Stack stack_of(const SectionOptions& o, const Scene& scene, const Plane& plane, 
                     "give a length in scene units, or count");
     Extent extent;
     for (const Part& part : scene.parts)
-        if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, world_of(part)));
+        if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, section_space(part)));
     return stack_of(extent, every, o.count);
 }
 
-std::vector<polygon::Segment> hatched(const SectionOptions& o, double spacing, const Section& s) {
-    if (!o.hatch) return {};
-    const Vec2 along{cosine(o.hatch->angle.radians), sine(o.hatch->angle.radians)};
-    return polygon::hatch(s.filled(), {.spacing = spacing, .direction = along, .keep = o.hatch->keep});
-}
-
-void add_part(io::Drawing& drawing, const Part& part, const Plane& plane, const Stack& stack,
-              const SectionOptions& o, double spacing) {
-    auto sections = section(part.mesh, {plane, stack.heights, world_of(part), part.cuts.get()});
-    for (std::size_t k = 0; k < sections.size(); ++k) {
-        auto lines = hatched(o, spacing, sections[k]);
-        drawing.sheets[k].parts.push_back({part.name, std::move(sections[k]), std::move(lines)});
+io::Drawing drawing_of(const Scene& scene, const Plane& plane, const Stack& stack, const SectionOptions& o,
+                       Context& context) {
+    std::optional<polygon::HatchSettings> hatching;
+    if (o.hatch) hatching = resolve_hatch(*o.hatch, scene, context);
+    io::Drawing drawing{context.name(), scene.unit, {}};
+    const SectionFrame frame = frame_of(plane);
+    for (const double h : stack.heights) {
+        drawing.sheets.push_back({h, frame, {}});
+        drawing.sheets.back().frame.origin += frame.normal * h;
     }
-}
-
-void add_volume(Json& result, const Scene& scene, const io::DrawingTotals& totals, const Stack& stack,
-                Context& context) {
-    if (!(stack.spacing > 0)) return;
-    std::optional<double> volume = 0.0;
     for (const Part& part : scene.parts) {
         if (!context.selects(part, scene)) continue;
-        const auto own = inspect(part.mesh).volume;
-        volume = volume && own ? std::optional(*volume + *own * std::abs(world_of(part).determinant()))
-                               : std::nullopt;
+        auto sections = section(part.mesh, {plane, stack.heights, section_space(part), part.cuts.get()});
+        for (std::size_t k = 0; k < sections.size(); ++k) {
+            std::vector<polygon::Segment> lines;
+            if (hatching) lines = polygon::hatch(sections[k].filled(), *hatching);
+            drawing.sheets[k].parts.push_back({part.name, std::move(sections[k]), std::move(lines)});
+        }
     }
-    const double sum = totals.area * stack.spacing;
-    result["spacing"] = stack.spacing;
-    result["area_times_spacing"] = sum;
-    result["volume"] = volume ? Json(*volume) : Json(nullptr);
-    if (volume && *volume != 0) result["ratio"] = sum / *volume;
-}
-
-void warn(const io::DrawingTotals& totals, Context& context) {
-    if (totals.open > 0)
-        context.warn(
-            "W-OPEN-SECTION",
-            fmt::format("{} of {} contours are open: the mesh has a boundary where the plane cuts it",
-                        totals.open, totals.contours),
-            "close the mesh, or weld it (clean), before");
-    if (!totals.oriented)
-        context.warn("W-UNORIENTED",
-                     "neighbouring faces disagree, so outlines and holes were told by nesting",
-                     "orient the mesh before");
-    const auto crossed = totals.count(polygon::Kind::self_intersecting);
-    if (crossed > 0)
-        context.warn(
-            "W-SECTION-CROSSES",
-            fmt::format("{} contours intersect themselves: no centroid and moments for them", crossed));
+    return drawing;
 }
 
 Scene run(Scene scene, const SectionOptions& o, Context& context) {
@@ -131,21 +84,8 @@ Scene run(Scene scene, const SectionOptions& o, Context& context) {
     middle.through.kind = PlanePlace::Kind::centre;
     const Plane plane = resolve_plane(o.plane.value_or(middle), scene, context, "plane");
     const Stack stack = stack_of(o, scene, plane, context);
-    const double spacing = o.hatch ? context.resolve(o.hatch->spacing, scene, "hatch.spacing") : 0;
-    if (o.hatch && !(spacing > 0))
-        throw Error(ErrorKind::usage, "E-HATCH", "the spacing of 'hatch' is 0 in this scene");
-    io::Drawing drawing{context.name(), scene.unit, {}};
-    const SectionFrame frame = frame_of(plane);
-    for (const double h : stack.heights) {
-        drawing.sheets.push_back({h, frame, {}});
-        drawing.sheets.back().frame.origin += frame.normal * h;
-    }
-    for (const Part& part : scene.parts)
-        if (context.selects(part, scene)) add_part(drawing, part, plane, stack, o, spacing);
-    const auto totals = io::totals_of(drawing);
-    context.result() = io::summary_json(drawing, totals);
-    add_volume(context.result(), scene, totals, stack, context);
-    warn(totals, context);
+    const io::Drawing drawing = drawing_of(scene, plane, stack, o, context);
+    report_sections(drawing, scene, stack.spacing, context);
     for (const auto& path : o.to) {
         const std::string text = io::drawing_for(path.text, drawing);
         context.run().outputs.add(context.places().output(path.text), std::as_bytes(std::span(text)));
