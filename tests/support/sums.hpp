@@ -31,4 +31,25 @@ inline long double volume_about(const Mesh& mesh, const Vec3& origin) {
            6;
 }
 
+/// The area of the faces that like(face) picks, as fans: of triangles and convex faces.
+template <class Like>
+long double area_where(const Mesh& mesh, Like&& like) {
+    long double sum = 0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (!like(f)) continue;
+        for (Index c = mesh.face_begin(f) + 1; c + 1 < mesh.face_end(f); ++c) {
+            const auto edge = [&](Index to, std::size_t i) {
+                return static_cast<long double>(mesh.point(to)[i]) - mesh.point(mesh.face_begin(f))[i];
+            };
+            long double squares = 0;
+            for (std::size_t i = 0, j = 1; i < 3; ++i, j = (i + 1) % 3) {
+                const long double n = edge(c, i) * edge(c + 1, j) - edge(c, j) * edge(c + 1, i);
+                squares += n * n;
+            }
+            sum += std::sqrt(squares) / 2;
+        }
+    }
+    return sum;
+}
+
 } // namespace facetmill::test
