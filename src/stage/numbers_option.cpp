@@ -6,11 +6,15 @@ namespace facetmill {
 
 namespace {
 
-Value split_at_commas(const Value& text) {
-    Value list = Value::list({}, text.mark);
-    for (std::size_t at = 0; at <= text.text.size();) {
-        const auto end = std::min(text.text.find(',', at), text.text.size());
-        list.items.push_back(Value::scalar(text.text.substr(at, end - at), text.mark));
+/// "1, 2, 3" or "[1, 2, 3]", as one-liners have it.
+Value split_at_commas(const Value& value) {
+    std::string text = value.text;
+    std::erase(text, ' ');
+    if (text.starts_with('[') && text.ends_with(']')) text = text.substr(1, text.size() - 2);
+    Value list = Value::list({}, value.mark);
+    for (std::size_t at = 0; at <= text.size();) {
+        const auto end = std::min(text.find(',', at), text.size());
+        list.items.push_back(Value::scalar(text.substr(at, end - at), value.mark));
         at = end + 1;
     }
     return list;

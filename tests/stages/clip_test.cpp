@@ -172,6 +172,11 @@ TEST_CASE("caps have a material of their own, made once and only when needed", "
     CHECK(run_stage("clip", text("z=0.25"), scene_of(shapes::cube())).scene.materials.empty());
 }
 
+TEST_CASE("coefficients may be one text, as on the command line", "[stages]") {
+    for (const char* plane : {"[1, 0, 0, -0.25]", "1,0,0,-0.25", "[ 2,0,0,-0.5 ]"})
+        CHECK(test::area(run_stage("clip", text(plane), scene_of(shapes::cube())).scene.parts[0].mesh) == 4);
+}
+
 TEST_CASE("both sides of several planes are what is in front of all, and the rest", "[stages]") {
     const auto run = run_stage("clip",
                                map({{"planes", Value::list({text("x = 0.25"), text(" y =0.5 ")})},

@@ -66,6 +66,8 @@ TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
           Approx(5));
     CHECK(area("{footprint: \"POLYGON ((0.5 0.5, 3.5 0.5, 3.5 2.5))\", keep: outside}") == Approx(9));
     CHECK(area("{footprint: [[0.5, 0.5], [3.5, 0.5], [3.5, 2.5]], by: whole}") == 0.5 * 1);
+    CHECK(area("'[[0.5, 0.5], [3.5, 0.5], [3.5, 2.5]]'") == Approx(3)); // as on the command line
+    CHECK(refusal("crop", "'[[0.5, 0.5], [3.5'").starts_with("usage [E-TYPE] expected a footprint (a file"));
     const test::TemporaryDirectory folder;
     const auto file = folder.path() / "outline.geojson";
     std::ofstream(file)
