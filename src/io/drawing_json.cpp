@@ -10,7 +10,20 @@ namespace {
 
 Json list(const Vec2& p) { return Json::array({p.x, p.y}); }
 Json list(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
-Json second_moments(const polygon::SecondMoments& m) { return {{"x", m.x}, {"y", m.y}, {"xy", m.xy}}; }
+
+/// In the plane as the note has them; in the world the integrals of products of coordinates, about the
+/// world's origin for a centroid that is not 0.
+Json second_moments(const polygon::SecondMoments& plane, const Section& s, const polygon::Moments& m,
+                    const Vec3& centroid) {
+    const Vec3 &u = s.frame.u, &v = s.frame.v;
+    const auto product = [&](std::size_t i, std::size_t j) {
+        return u[i] * u[j] * m.about_centroid.y + v[i] * v[j] * m.about_centroid.x +
+               (u[i] * v[j] + v[i] * u[j]) * m.about_centroid.xy + m.area * centroid[i] * centroid[j];
+    };
+    const Json world = {{"xx", product(0, 0)}, {"yy", product(1, 1)}, {"zz", product(2, 2)},
+                        {"xy", product(0, 1)}, {"xz", product(0, 2)}, {"yz", product(1, 2)}};
+    return {{"x", plane.x}, {"y", plane.y}, {"xy", plane.xy}, {"world", world}};
+}
 
 Json contour_json(const Section& s, const Contour& c) {
     Json j = {{"role", spelled(c.role)}};
@@ -28,8 +41,8 @@ Json contour_json(const Section& s, const Contour& c) {
     }
     const auto& m = *c.moments;
     j["centroid"] = {{"plane", list(m.centroid)}, {"world", list(s.frame.point(m.centroid))}};
-    j["second_moments"] = {{"about_origin", second_moments(m.about_origin)},
-                           {"about_centroid", second_moments(m.about_centroid)}};
+    j["second_moments"] = {{"about_origin", second_moments(m.about_origin, s, m, s.frame.point(m.centroid))},
+                           {"about_centroid", second_moments(m.about_centroid, s, m, {})}};
     j["principal_axes"] = {{"largest", m.axes.largest},
                            {"smallest", m.axes.smallest},
                            {"plane", {{"largest", list(m.axes.major)}, {"smallest", list(m.axes.minor)}}},

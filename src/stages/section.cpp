@@ -96,25 +96,26 @@ Scene run(Scene scene, const SectionOptions& o, Context& context) {
 const RegisterStage registered{make_stage<SectionOptions>(
     {.name = "section",
      .about = "Cuts plane sections: contours with areas, centroids and moments, and drawings to scale.",
-     .details = "A plane, or a stack of parallel ones, gives polygons with their holes, in the frame that "
-                "the report states: its "
-                "origin is the foot of the world's origin on the plane, u is the axis after the normal's "
-                "longest component, v is "
-                "normal x u. Each contour has its orientation, kind (triangle, quad, convex, concave, "
-                "complex, self-intersecting), "
-                "area, centroid, second moments about the origin and the centroid, and principal axes in the "
-                "plane and the world. "
-                "Over a stack, areas times distance are compared with the volume. A plane that misses the "
-                "mesh gives an empty "
-                "section, which is a result.\n\n"
-                "Vertices are classified once, by exact signs; one on the plane counts as above it, so a "
-                "section is that just "
-                "below the plane: of a cube on the floor z = 0 gives nothing and the top gives a square.\n\n"
-                "Drawings are SVG (sections side by side), DXF (one layer a section) and JSON (all points "
-                "and measures). The "
-                "scene passes on unchanged. Sources: the notes on polygon types, ordering, area, centroid "
-                "and moments of polygons, "
-                "and on clipping a line to a complex polygon (hatch).",
+     .details =
+         "A plane, or a stack of parallel ones, gives polygons with their holes, in the frame that "
+         "the report states: its "
+         "origin is the foot of the world's origin on the plane, u is the axis after the normal's "
+         "longest component, v is "
+         "normal x u. Each contour has its orientation, kind (triangle, quad, convex, concave, "
+         "complex, self-intersecting), "
+         "area, centroid, second moments about the origin and the centroid, and principal axes, all in the "
+         "plane and in the world (moments there are the integrals of products of coordinates). "
+         "Over a stack, areas times distance are compared with the volume. A plane that misses the "
+         "mesh gives an empty "
+         "section, which is a result.\n\n"
+         "Vertices are classified once, by exact signs; one on the plane counts as above it, so a "
+         "section is that just "
+         "below the plane: of a cube on the floor z = 0 gives nothing and the top gives a square.\n\n"
+         "Drawings are SVG (sections side by side), DXF (one layer a section) and JSON (all points "
+         "and measures). The "
+         "scene passes on unchanged. Sources: the notes on polygon types, ordering, area, centroid "
+         "and moments of polygons, "
+         "and on clipping a line to a complex polygon (hatch).",
      .examples = {"section: z=50%",
                   "section: {plane: {normal: [1, 0, 1], through: centre}, to: cut.svg, hatch: 2%}",
                   "section: {plane: z=0, every: 2mm, to: [layers.svg, layers.dxf, layers.json]}",

@@ -48,6 +48,32 @@ TEST_CASE("a JSON drawing has points, measures and frames", "[io]") {
     CHECK(c["orientation"] == "anticlockwise");
     CHECK(c["centroid"]["world"] == Json::array({0.5, 0.5, 0.5}));
     CHECK(c["second_moments"]["about_centroid"]["x"].get<double>() == Approx(1.0 / 12));
+    const Json &about = c["second_moments"]["about_origin"]["world"],
+               &central = c["second_moments"]["about_centroid"]["world"];
+    CHECK(about["xx"].get<double>() == Approx(1.0 / 3));
+    for (const char* product : {"zz", "xy", "xz", "yz"}) CHECK(about[product].get<double>() == Approx(0.25));
+    CHECK(central["yy"].get<double>() == Approx(1.0 / 12));
+    for (const char* product : {"zz", "xy", "xz", "yz"}) CHECK(central[product].get<double>() == 0);
+}
+
+TEST_CASE("second moments in the world are those of the points there", "[io]") {
+    const Plane plane{{1, 2, 3}, {0.4, 0.5, 0.6}, 0};
+    const Section s = section(shapes::cube(), {plane, {0}, {}}).at(0);
+    const Json c = contours_json(s, false)[0];
+    // A polygon's: the sum over a fan of triangles of A / 12 (s s^T + the sum of p p^T over the corners), s
+    // being their sum.
+    double xz = 0, yy = 0;
+    const auto ring = s.ring(s.contours[0]);
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+        const Vec3 p = s.frame.point(ring[0]), q = s.frame.point(ring[i]), r = s.frame.point(ring[i + 1]);
+        const double area = length(cross(q - p, r - p)) / 2;
+        const Vec3 sum = p + q + r;
+        xz += area / 12 * (p.x * p.z + q.x * q.z + r.x * r.z + sum.x * sum.z);
+        yy += area / 12 * (p.y * p.y + q.y * q.y + r.y * r.y + sum.y * sum.y);
+    }
+    const Json& world = c["second_moments"]["about_origin"]["world"];
+    CHECK(world["xz"].get<double>() == Approx(xz).epsilon(1e-13));
+    CHECK(world["yy"].get<double>() == Approx(yy).epsilon(1e-13));
 }
 
 TEST_CASE("other extensions are refused", "[io]") {
