@@ -177,7 +177,7 @@ class Closer {
             for (std::size_t i = 0; i < panels_.size(); ++i) {
                 if (!good[i]) refuse(walls_, panels_[i].wall());
                 for (const auto& [post, vertex] : panels_[i].missed())
-                    if (!view_.post_of.contains(vertex)) view_.stand(vertex, post), again = true;
+                    again |= view_.at_post[post].insert(vertex).second;
                 if (!again && !panels_[i].missed().empty()) refuse(walls_, panels_[i].wall());
             }
         }

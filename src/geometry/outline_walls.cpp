@@ -79,7 +79,11 @@ double Walls::distance(Index wall, const Vec2& p) const {
 }
 
 double Walls::distance(Index wall, const Vec2& p, const Vec2& q) const {
-    return distance(wall, p) + distance(wall, q) + distance(wall, p + (q - p) * 0.5);
+    const auto& e = edges()[wall];
+    const auto off_line = [&](const Vec2& r) {
+        return std::fabs(cross(e.b - e.a, r - e.a)) / lengths_[wall];
+    };
+    return off_line(p) + off_line(q) + distance(wall, p + (q - p) * 0.5);
 }
 
 Index Walls::nearest(const Vec2& p, const Vec2& q) const {

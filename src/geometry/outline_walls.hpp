@@ -32,8 +32,8 @@ class Walls {
     /// The post on the wall that is nearest to a point near the wall; the same for all walls at it.
     const Stand& nearest_stand(Index wall, const Vec2& p) const;
 
-    /// The wall that an edge seen from p to q is nearest to, by its ends and its middle, but for
-    /// rounding; ties: the lowest.
+    /// The wall that an edge seen from p to q is nearest to, by its middle and, as it may reach beyond the
+    /// wall, its ends' distance from the wall's line; but for rounding, and ties: the lowest.
     Index nearest(const Vec2& p, const Vec2& q) const;
     /// Whether the edge is on that wall but for rounding.
     bool is_on(Index wall, const Vec2& p, const Vec2& q) const;

@@ -81,7 +81,7 @@ void WallPanel::add_upright(const PostView& view, Index post) {
             run.count += up ? carried : -carried, run.post = post;
         }
         const auto at = balance_.find(v);
-        if (at != balance_.end()) carried -= at->second;
+        if (at != balance_.end() && view.post_of.at(v) == post) carried -= at->second;
         before = v;
     }
     balanced_ &= carried == 0;

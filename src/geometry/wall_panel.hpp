@@ -23,7 +23,8 @@ struct PostView {
     const Walls& walls;
     std::vector<Vec2> seen;         ///< [vertices]
     std::vector<double> heights;    ///< [vertices] along the axis
-    std::map<Index, Index> post_of; ///< of vertices at posts
+    std::map<Index, Index> post_of; ///< the one post at which a vertex may leave or join walls
+    /// The vertices that upright edges run through: those of the post, and others that lie between them.
     std::map<Index, std::set<Index>> at_post;
 
     /// Puts a vertex at a post, unless it is at a nearer one.
@@ -47,8 +48,7 @@ class WallPanel {
     /// Closes the boundary by upright edges at the posts and fills it. False when a post's vertices do not
     /// balance, or the filling needs new points on an upright edge.
     bool complete(const PostView& view);
-    /// Vertices that lie on upright edges between the vertices of their post, with the post. Known to the
-    /// view, complete would use them; known to it and on another post's edges, nothing helps.
+    /// Vertices that lie on upright edges, with the post: in at_post, complete would use them.
     const std::vector<std::pair<Index, Index>>& missed() const { return missed_; }
     /// The upright edges, as how often each is run from its lower vertex to the other.
     const std::map<std::pair<Index, Index>, int>& upright() const { return upright_; }
