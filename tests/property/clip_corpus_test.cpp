@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <limits>
 
 using namespace facetmill;
 namespace fs = std::filesystem;
@@ -57,7 +58,7 @@ bool adds_up(const Mesh& whole, const ClipResult& r, double area) {
     return std::fabs(static_cast<double>(lost)) <= 4 * 2.2e-16 * reach * area;
 }
 
-/// Around the faces that the plane passes through.
+/// Around the faces that the plane meets: those get points.
 double length_of_cut(const Mesh& mesh, const Plane& plane) {
     double sum = 0;
     for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -65,7 +66,7 @@ double length_of_cut(const Mesh& mesh, const Plane& plane) {
         double around = 0;
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
             const double s = side(plane, mesh.point(c));
-            above |= s > 0, below |= s < 0;
+            above |= s >= 0, below |= s <= 0;
             around +=
                 length(mesh.point(c + 1 == mesh.face_end(f) ? mesh.face_begin(f) : c + 1) - mesh.point(c));
         }
@@ -85,8 +86,8 @@ bool areas_add_up(const Mesh& whole, const ClipResult& r, const Plane& plane) {
     const double reach = length(box.min) + length(box.max);
     const long double all = test::area_where(whole, [](Index) { return true; });
     const auto lost = static_cast<double>(uncapped(r.front) + uncapped(r.back) - all);
-    return std::fabs(lost) <=
-           8 * 2.2e-16 * reach * length_of_cut(whole, plane) + 1e-18 * static_cast<double>(all);
+    return std::fabs(lost) <= 8 * 2.2e-16 * reach * length_of_cut(whole, plane) +
+                                  64 * std::numeric_limits<long double>::epsilon() * all;
 }
 
 /// Whether contours of the section meet: the mesh crosses or touches itself there, and what covers a place
