@@ -281,6 +281,21 @@ TEST_CASE("walls on faces of the part, through its vertices, past straight corne
     CHECK(test::volume(joined.mesh) == 2 * 0.0625 + 0.03125);
 }
 
+TEST_CASE("walls close beside each other, with straight corners, keep apart", "[geometry]") {
+    for (const double thick : {0.01, 1e-6, 1e-12}) {
+        const Rings strip{
+            {{0.1, 0.5}, {0.3, 0.5}, {0.9, 0.5}, {0.9, 0.5 + thick}, {0.7, 0.5 + thick}, {0.1, 0.5 + thick}}};
+        CAPTURE(thick);
+        for (const auto keep : {polygon::Keep::inside, polygon::Keep::outside}) {
+            const Mesh& mesh = walled(shapes::quad_cube(), strip, keep).mesh;
+            CHECK(inspect(mesh).closed);
+            const double volume = Footprint(strip).area();
+            CHECK(test::volume(mesh) ==
+                  Approx(keep == polygon::Keep::inside ? volume : 1 - volume).epsilon(1e-14).margin(1e-15));
+        }
+    }
+}
+
 TEST_CASE("an edge that passes a corner of the outline is cut there once", "[geometry]") {
     const CropResult r = walled(shapes::cube(), {{{0.25, 0.25}, {0.75, 0.25}, {0.75, 0.75}, {0.25, 0.75}}});
     CHECK(r.mesh.vertex_count() == 8);
