@@ -69,10 +69,13 @@ class FaceCutter {
     const Vec3& point(std::size_t node) const { return cut_.point(cut_.vertex_of(ring_[node].wedge)); }
 
     /// An edge in the plane at the end of a chain belongs to it only when it runs the way that this side's
-    /// boundary runs in the plane; else it is the other side's.
+    /// boundary runs in the plane; else it is the other side's. One that runs neither way, having no length,
+    /// is the front's.
     void trim(Chain& c) const {
         const auto against = [&](std::size_t a, std::size_t b) {
-            return ring_[a].sign == 0 && ring_[b].sign == 0 && dot(point(b) - point(a), along_) < 0;
+            if (ring_[a].sign != 0 || ring_[b].sign != 0) return false;
+            const double runs = dot(point(b) - point(a), along_);
+            return runs < 0 || (runs == 0 && side_ < 0);
         };
         while (c.end - c.begin > 2 && against(c.end - 2, c.end - 1)) --c.end;
         while (c.end - c.begin > 2 && against(c.begin, c.begin + 1)) ++c.begin;
