@@ -23,7 +23,6 @@ Tally operator+(const Tally& a, const Tally& b) {
 bool is_float32(double x) {
     return std::fabs(x) <= std::numeric_limits<float>::max() && x == static_cast<float>(x);
 }
-bool is_float32(const Vec3& p) { return is_float32(p.x) && is_float32(p.y) && is_float32(p.z); }
 
 /// The length of the plane's normal, which may be tiny or huge.
 double normal_length(const Plane& plane) {
@@ -214,6 +213,8 @@ void place_vertices(PlaneCut& cut) {
 }
 
 } // namespace
+
+bool is_float32(const Vec3& p) { return is_float32(p.x) && is_float32(p.y) && is_float32(p.z); }
 
 /// At every edge the directions of the faces cancel.
 bool is_closed(const Mesh& mesh) {

@@ -71,6 +71,8 @@ struct OnPlane {
     const CutMemory* memory = nullptr;
 };
 
+/// Whether all three coordinates are 32-bit floats.
+bool is_float32(const Vec3& p);
 /// One float32 ulp of the largest coordinate of the bounds; 0 for an empty box.
 double float32_ulp(const Box& bounds);
 

@@ -39,6 +39,7 @@ class Cropper {
         parallel_for(
             places_.size(), [&](std::size_t v) { places_[v] = view_.place(view_.seen(mesh_.positions[v])); },
             1024);
+        if (settings_.snap) snap();
         meets_.resize(mesh_.face_count());
         parallel_chunks(
             mesh_.face_count(),
@@ -47,6 +48,31 @@ class Cropper {
                 for (std::size_t f = begin; f < end; ++f) meets_[f] = meeting_of(static_cast<Index>(f), face);
             },
             1024);
+    }
+    /// Such vertices are on the outline, and known to be on the planes of its segments there.
+    void snap() {
+        double scale = 0;
+        for (const auto& row : settings_.to_world.m)
+            scale += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+        view_.snap = float32_ulp(mesh_.bounds()) * std::sqrt(scale / 3);
+        for (const auto& e : footprint_.tree().edges())
+            if (length(e.b - e.a) <= 4 * view_.snap) return view_.snap = 0, void(); // finer than floats are
+        std::map<Index, std::vector<Vec3>> found;                                   // by segment
+        for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+            if (!is_float32(mesh_.positions[v])) continue;
+            footprint_.near(view_.seen(mesh_.positions[v]), view_.snap, [&](Index segment) {
+                found[segment].push_back(mesh_.positions[v]);
+                result_.snapped += places_[v] <= Place::inside;
+                if (places_[v] <= Place::inside) places_[v] = Place::on_edge;
+                return true;
+            });
+        }
+        for (auto& [segment, points] : found) remember(segment, std::move(points));
+    }
+    void remember(Index segment, std::vector<Vec3> points) {
+        const auto& e = footprint_.tree().edges()[segment];
+        result_.memory.add(pulled_back(upright_plane(settings_.axis, e.a, e.b), settings_.to_world),
+                           std::move(points));
     }
     OutlineMeeting meeting_of(Index f, std::vector<Vec2>& face) const {
         view_.gather(mesh_, f, face);
@@ -168,11 +194,7 @@ class Cropper {
         merge_fates(result_.fates, closed.fates);
         std::map<Index, std::vector<Vec3>> made; // by segment
         for (const auto& [wall, point] : closed.made) made[wall].push_back(point);
-        for (auto& [wall, points] : made) {
-            const auto& e = footprint_.tree().edges()[wall];
-            result_.memory.add(pulled_back(upright_plane(settings_.axis, e.a, e.b), settings_.to_world),
-                               std::move(points));
-        }
+        for (auto& [wall, points] : made) remember(wall, std::move(points));
     }
 
     const Mesh& mesh_;

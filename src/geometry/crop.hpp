@@ -31,6 +31,9 @@ struct CropSettings {
     /// As for clip; cut_id numbers the outline's segments, group its rings.
     std::optional<Primitive> cap_primitive;
     bool cap_numbers = false;
+    /// Take float32 positions within one float32 ulp of the mesh's bounds as on the outline, unless a segment
+    /// is hardly longer than that.
+    bool snap = false;
     CutMemory memory; ///< points known to be on planes
 };
 
@@ -40,6 +43,7 @@ struct CropResult {
     std::size_t cut_faces = 0;  ///< faces that the outline passed through (CropBy::cut)
     std::size_t kept_faces = 0; ///< whole
     std::size_t cap_faces = 0;  ///< of the walls
+    std::size_t snapped = 0;    ///< vertices taken as on the outline by snap
     bool changed = false;
     std::vector<OpenContour> open; ///< contours of open meshes that got no wall; plane is the segment
     CutMemory memory;

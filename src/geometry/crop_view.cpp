@@ -50,7 +50,18 @@ Place CropView::middle(const Mesh& mesh, Index f) const {
     }
     sum = {};
     for (const Vec2& p : face) sum = sum + (p - face[0]);
-    return settle(inside_(face[0] + sum * (1 / static_cast<double>(face.size()))), mesh, f);
+    const Vec2 mean = face[0] + sum * (1 / static_cast<double>(face.size()));
+    return settle(is_on_outline(mean, face) ? Place::on_edge : inside_(mean), mesh, f);
+}
+
+/// But for the rounding of floats; a face that only reaches from segment to segment is not.
+bool CropView::is_on_outline(const Vec2& mean, const std::vector<Vec2>& face) const {
+    const auto on = [&](const Vec2& p) {
+        bool found = false;
+        footprint_.near(p, snap, [&](Index) { return found = true, false; });
+        return found;
+    };
+    return snap > 0 && on(mean) && std::all_of(face.begin(), face.end(), on);
 }
 
 Place CropView::settle(Place place, const Mesh& mesh, Index f) const {

@@ -24,6 +24,9 @@ class CropView {
     CropView(const Footprint& footprint, const CropSettings& settings)
         : footprint_(footprint), settings_(settings), inside_(footprint, settings.inside_by) {}
 
+    /// Points so far from the outline that snap takes them as on it.
+    double snap = 0;
+
     const Footprint& footprint() const { return footprint_; }
     const CropSettings& settings() const { return settings_; }
     Vec2 seen(const Vec3& p) const { return seen_along(settings_.axis, settings_.to_world.point(p)); }
@@ -49,6 +52,7 @@ class CropView {
     }
 
   private:
+    bool is_on_outline(const Vec2& mean, const std::vector<Vec2>& face) const;
     polygon::Place settle(polygon::Place place, const Mesh& mesh, Index f) const;
 
     const Footprint& footprint_;

@@ -29,6 +29,16 @@ class Footprint {
 
     /// As polygon::locate, in logarithmic time.
     polygon::Place locate(const Vec2& p) const;
+    /// Calls visit(segment) for the segments at most so far from a point, until it returns false.
+    template <class Visit>
+    void near(const Vec2& p, double distance, Visit&& visit) const {
+        tree_.query({p.x - distance, p.y - distance, p.x + distance, p.y + distance}, [&](Index i) {
+            const auto& e = tree_.edges()[i];
+            const Vec2 d = e.b - e.a;
+            const double along = dot(p - e.a, d) / dot(d, d), t = along > 0 ? along < 1 ? along : 1 : 0;
+            return length(e.a + d * t - p) > distance || visit(i);
+        });
+    }
     double area() const;
 
   private:

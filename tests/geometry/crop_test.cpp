@@ -281,6 +281,22 @@ TEST_CASE("walls on faces of the part, through its vertices, past straight corne
     CHECK(test::volume(joined.mesh) == 2 * 0.0625 + 0.03125);
 }
 
+TEST_CASE("float32 vertices beside the outline by their rounding are on it", "[geometry]") {
+    Mesh cube = shapes::cube(); // reaches to 0.1f, which is more than 0.1
+    for (Vec3& p : cube.positions) p = p * static_cast<double>(0.1F);
+    const Rings square{{{0, 0}, {0.1, 0}, {0.1, 0.1}, {0, 0.1}}};
+    CropSettings settings;
+    settings.cap = settings.snap = true;
+    const CropResult in = crop(cube, Footprint(square), settings);
+    CHECK(in.mesh.face_count() == 12);
+    CHECK(in.cap_faces == 0);
+    CHECK(in.snapped == 6);
+    settings.keep = polygon::Keep::outside;
+    CHECK(crop(cube, Footprint(square), settings).mesh.face_count() == 0);
+    settings.snap = false;
+    CHECK(crop(cube, Footprint(square), settings).mesh.face_count() > 0);
+}
+
 TEST_CASE("walls close beside each other, with straight corners, keep apart", "[geometry]") {
     for (const double thick : {0.01, 1e-6, 1e-12}) {
         const Rings strip{

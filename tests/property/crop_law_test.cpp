@@ -56,9 +56,11 @@ struct Counts {
     std::size_t files = 0, meshes = 0, crops = 0, caps = 0, refused = 0, skipped = 0, matched = 0;
 };
 
-CropResult cropped(const Mesh& mesh, const Footprint& footprint, std::size_t axis, polygon::Keep keep) {
+CropResult cropped(const Mesh& mesh, const Footprint& footprint, std::size_t axis, polygon::Keep keep,
+                   bool snap) {
     CropSettings settings;
     settings.axis = axis, settings.keep = keep, settings.cap = true;
+    settings.snap = snap;
     return crop(mesh, footprint, settings);
 }
 
@@ -95,8 +97,8 @@ void check_crop(const Mesh& mesh, const Properties& whole, std::uint64_t key, Co
         ++counts.skipped;
         return;
     }
-    const CropResult in = cropped(mesh, *footprint, axis, polygon::Keep::inside),
-                     out = cropped(mesh, *footprint, axis, polygon::Keep::outside);
+    const CropResult in = cropped(mesh, *footprint, axis, polygon::Keep::inside, key % 2 == 1),
+                     out = cropped(mesh, *footprint, axis, polygon::Keep::outside, key % 2 == 1);
     ++counts.crops, counts.caps += in.cap_faces > 0;
     const Properties front = inspect(in.mesh), back = inspect(out.mesh);
     CHECK(in.open.empty());
