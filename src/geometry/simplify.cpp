@@ -1,7 +1,5 @@
 #include "geometry/simplify.hpp"
 
-#include "base/error.hpp"
-#include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "geometry/self_intersections.hpp"
 #include "geometry/simplify_work.hpp"
@@ -12,34 +10,7 @@ namespace {
 
 using namespace simplification;
 using Stop = SimplifyResult::Stop;
-
-[[noreturn]] void refuse(const std::string& what) {
-    throw Error(ErrorKind::usage, "E-RANGE", "simplify: " + what);
-}
-
-void check_ratio(double ratio) {
-    if (!(ratio > 0 && ratio <= 1)) refuse("ratio is 0 < x <= 1, not " + spelled(ratio));
-}
-
-void check(const SimplifySettings& s) {
-    if (!s.levels.empty()) refuse("levels are for simplify_levels");
-    if (!s.ratio && !s.faces && !s.vertices && !s.max_error)
-        refuse("a target is needed: ratio, faces, vertices or max_error");
-    if (s.ratio) check_ratio(*s.ratio);
-    if (s.max_error && s.method == SimplifySettings::Method::constrained)
-        refuse("constrained has a bound of its own: hausdorff");
-    if (s.max_error && !(*s.max_error > 0)) refuse("max_error is above 0, not " + spelled(*s.max_error));
-}
-
-void check_levels(const SimplifySettings& s) {
-    if (s.method == SimplifySettings::Method::constrained) refuse("levels are not for constrained");
-    if (s.self_intersections == SimplifySettings::Intersections::avoid)
-        refuse("levels cannot avoid self-intersections");
-    if (s.levels.empty()) refuse("levels need ratios");
-    if (s.ratio || s.faces || s.vertices || s.max_error) refuse("levels are targets of their own");
-    for (const double ratio : s.levels) check_ratio(ratio);
-    if (!std::is_sorted(s.levels.rbegin(), s.levels.rend())) refuse("levels go from fine to coarse");
-}
+using Method = SimplifySettings::Method;
 
 /// The face count that the ratio asks for: rounded up, so that 10% of 15 faces is 2.
 std::size_t share_of(std::size_t faces, double ratio) {
@@ -129,18 +100,23 @@ class Session {
         so_far_.faces_given = given_.face_count();
         so_far_.faces_before = so_far_.faces_after = work.live_faces;
         so_far_.vertices_before = so_far_.vertices_after = work.live_vertices;
+        if (settings.method != Method::constrained) so_far_.largest_error = 0;
     }
 
     const Mesh& mesh() const { return prepared_.own ? *prepared_.own : given_; }
 
     /// What the collapses need besides the lists. way_back: all of them are logged. held: vertices that stay.
     void begin(bool way_back, const std::vector<std::uint8_t>& held = {}) {
-        classify(work, mesh(), settings_.lock, held);
-        using Method = SimplifySettings::Method;
-        if (settings_.method != Method::shortest_edge && settings_.method != Method::constrained)
+        const bool carries = carries_attributes(mesh());
+        if (settings_.method != Method::cluster || carries) classify(work, mesh(), settings_.lock, held);
+        if (settings_.method == Method::quadric || settings_.method == Method::quadric_endpoints) {
             sum_quadrics(work);
-        work.endpoints = settings_.method == SimplifySettings::Method::quadric_endpoints;
-        work.logging = way_back || carries_attributes(mesh());
+            sum_fields(work, mesh(), settings_.weights,
+                       prepared_.seams.shading != NormalSeams::Shading::faceted);
+        }
+        work.endpoints = settings_.method == Method::quadric_endpoints;
+        work.allow = settings_.topology == SimplifySettings::Topology::allow;
+        work.logging = way_back || carries;
         remember_features(work);
     }
     /// Forgets all collapses.
@@ -164,7 +140,7 @@ class Session {
         so_far_.passes = r.passes += done.passes;
         so_far_.collapses = r.collapses += done.collapses;
         largest_ = std::max(largest_, done.largest);
-        r.largest_error = std::sqrt(largest_) / work.scale;
+        if (r.largest_error) r.largest_error = std::sqrt(largest_) / work.scale;
         r.faces_after = work.live_faces, r.vertices_after = work.live_vertices;
         r.mesh = finished(work, mesh(), r.fates);
         settle_normals(r.mesh, prepared_.seams, r.fates);
@@ -195,9 +171,21 @@ SimplifyResult within(Session& session, const Targets& targets, double max_error
     return r;
 }
 
+SimplifyResult clustered(Session& session, const Targets& targets, std::optional<double> max_error) {
+    const Clustered done = run_cluster(session.work, session.mesh(), targets.goal, max_error);
+    SimplifyResult r = session.result(done.by_error        ? Stop::max_error
+                                      : done.outcome.stuck ? Stop::stuck
+                                                           : targets.reason(session.work),
+                                      done.outcome);
+    r.cell = done.cell;
+    if (max_error) r.measured = done.measured, r.measurements = done.measurements;
+    return r;
+}
+
 SimplifyResult towards(Session& session, const Targets& targets, const SimplifySettings& settings) {
+    if (settings.method == Method::cluster) return clustered(session, targets, settings.max_error);
     if (settings.max_error) return within(session, targets, *settings.max_error);
-    const bool constrained = settings.method == SimplifySettings::Method::constrained;
+    const bool constrained = settings.method == Method::constrained;
     const Outcome done = constrained ? run_constrained(session.work, session.mesh().vertex_count(),
                                                        targets.goal, settings.constraints)
                                      : run_passes(session.work, targets.goal);
@@ -234,7 +222,7 @@ SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     const Targets targets(session.work, settings);
     if (targets.met(session.work)) return session.unchanged();
     const bool crossing = settings.self_intersections != SimplifySettings::Intersections::ignore;
-    session.begin(settings.max_error || crossing || settings.method == SimplifySettings::Method::constrained);
+    session.begin(settings.max_error || crossing || settings.method == Method::constrained);
     return crossing ? towards_without_crossing(session, targets, settings)
                     : towards(session, targets, settings);
 }

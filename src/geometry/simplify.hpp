@@ -3,23 +3,18 @@
 
 #include "base/functions.hpp"
 #include "geometry/normal_seams.hpp"
+#include "geometry/plane.hpp"
 
 #include <optional>
 
 namespace facetmill {
 
-/// A box that stands in another space than the mesh.
-struct WorldBox {
-    Box box;
-    Transform to_world{}; ///< from the mesh's space to the box's
-};
-
 /// What stays vertex by vertex.
 struct SimplifyLocks {
-    bool boundary = false;         ///< the vertices of boundary edges
-    bool seams = false;            ///< the vertices of seams and of borders of primitives
-    bool groups = false;           ///< the vertices of borders between values of the face attribute "group"
-    std::optional<WorldBox> box{}; ///< the vertices within
+    bool boundary = false;     ///< the vertices of boundary edges
+    bool seams = false;        ///< the vertices of seams and of borders of primitives
+    bool groups = false;       ///< the vertices of borders between values of the face attribute "group"
+    std::vector<Plane> body{}; ///< the vertices in front of all of these, in the mesh's space; empty: none
 };
 
 /// What no collapse of the method constrained may bring about; 0 leaves a constraint out.
@@ -30,12 +25,27 @@ struct SimplifyConstraints {
     double hausdorff = 0; ///< no vertex that went is farther from the faces near by, in the mesh's units
 };
 
+/// What attributes weigh in the error of the quadric methods; 0 leaves one out.
+struct AttributeWeights {
+    /// UV sets: a texture that slides by a length counts as much as `uv` times a surface off by that length.
+    double uv = 0.5;
+    // A difference of 1 counts as much as a surface that is off by the weight times 1 % of the diagonal.
+    double normal = 0.1; ///< of unit vectors
+    double colour = 1;   ///< of full intensity
+    double skin = 1;     ///< of skin weights: all of a joint's pull
+};
+
 struct SimplifySettings {
     enum class Method {
         quadric, ///< Garland and Heckbert: least sum of squared distances to the planes of the faces
         quadric_endpoints, ///< the same, but the new vertex is one of the two: vertices are a subset
         constrained,       ///< OpenMesh's decimater: quadric, endpoints only, under SimplifyConstraints
         shortest_edge,     ///< the note's: the shortest edge goes, and the rest meets at its midpoint
+        cluster, ///< the vertices in each cell of a grid become one: for previews, topology is not kept
+    };
+    enum class Topology {
+        keep,  ///< genus, components and boundary loops stay
+        allow, ///< components may vanish, holes close, and handles be pinched off
     };
     enum class Intersections {
         ignore, ///< not looked for
@@ -43,7 +53,9 @@ struct SimplifySettings {
         avoid,  ///< no more pairs of faces that run into each other than there were
     };
     Method method = Method::quadric;
+    Topology topology = Topology::keep;
     Intersections self_intersections = Intersections::ignore;
+    AttributeWeights weights{}; ///< for quadric and quadric-endpoints
     SimplifyLocks lock{};
     SimplifyConstraints constraints{}; ///< for the method constrained
     double crease = 30 * pi / 180;     ///< radians, see merge_normal_seams; 0: every normal seam stays
@@ -92,9 +104,11 @@ struct SimplifyResult {
     std::optional<std::size_t> intersections_before = {}, intersections_after = {}; ///< when counted
     std::size_t held = 0; ///< vertices that were held to avoid self-intersections
     std::size_t passes = 0;
-    /// quadric: the largest distance (root mean square over the planes gathered in a new vertex) at any
-    /// collapse; shortest-edge: half the longest edge that was collapsed. In the mesh's units.
-    double largest_error = 0;
+    /// quadric and cluster: the largest distance (root mean square over the planes gathered in a new vertex)
+    /// at any collapse; shortest-edge: half the longest edge that was collapsed; constrained: none. In the
+    /// mesh's units.
+    std::optional<double> largest_error;
+    std::optional<double> cell; ///< cluster: the edge of the grid's cells, in the mesh's units
 };
 
 /// Simplifies a mesh.
@@ -122,6 +136,20 @@ struct SimplifyResult {
 ///
 /// The method constrained keeps boundaries, seams and borders vertex by vertex, and gives no largest_error;
 /// max_error and levels are refused.
+///
+/// topology: allow leaves the link condition out: the last faces of a component may go (not with max_error,
+/// which must find every point near by), holes of three edges close, and edges and vertices where handles
+/// were may end up with more than two faces or fans. Closedness, flips and features are kept as always.
+///
+/// The method cluster (Rossignac and Borrel 1993, placed after Lindstrom 2000) makes one vertex of all in a
+/// cell, where their planes meet best; faces that keep three vertices stay. It keeps neither topology nor
+/// borders, and refuses locks, levels and self_intersections: avoid. Its targets are met by the size of the
+/// cells: the finest grid that was found to be at or below; sheets thinner than a cell become double faces.
+///
+/// Weights: the attributes are linear over the faces that came in, and every new vertex pays the squared
+/// difference to what they would be at its place, by area (Hoppe 1999; the best value at the vertex is
+/// eliminated, so that the sum is again a quadric). Skin weights go through a fixed random projection to four
+/// numbers.
 ///
 /// Attributes: a vertex or wedge that moved has those of the surface that came in, at the nearest point of
 /// the faces around all the vertices that went into it (on a feature line: of that line, so that both sides

@@ -15,6 +15,11 @@ constexpr double least_cosine = 0.5; // no face turns by more than 60 degrees
 constexpr double least_height = 1e-5;
 // A face as near to a point as this share of the bound (squared) is not compared with others.
 constexpr double near_enough = 0.01;
+// Where on a face that stays, by the weights of its other two vertices, it is asked how far the surface is.
+constexpr std::pair<double, double> places_on_face[]{
+    {1.0 / 3, 1.0 / 3}, {0.5, 0}, {0.5, 0.5}, {1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
+constexpr int most_sides =
+    4; // faces on an edge that goes; more than two only where topology was allowed to go
 
 /// The live corners at a vertex; false when there are too many.
 bool gather(const Work& s, Index v, std::array<Index, Rings::most>& ring, int& size) {
@@ -43,16 +48,19 @@ class Collapse {
                          std::uint32_t stamp) {
         if (!gather(s_, a_, r_.a, r_.a_size) || !gather(s_, b_, r_.b, r_.b_size)) return blocked_topology;
         find_sides();
-        if (sides_ != (boundary ? 1 : 2)) return blocked_topology;
+        if (!(s_.allow ? sides_ >= 1 && sides_ <= most_sides : sides_ == (boundary ? 1 : 2)))
+            return blocked_topology;
         if (!link_condition(along, stamp)) return blocked_topology;
         if (!s_.wedge.empty() && !pair_wedges(a_stays)) return blocked_border;
+        if (changes_topology_ && (!find_cancelled() || loses_corner())) return blocked_topology;
+        if (changes_topology_ && vanishes()) return 0;
         if (!a_stays && !keeps_facing(a_, r_.a, r_.a_size, b_, to)) return blocked_flip;
         if (!keeps_facing(b_, r_.b, r_.b_size, a_, to)) return blocked_flip;
-        return s_.points.empty() || (is_near(to, most) && keeps_points(to, most)) ? 0 : blocked_error;
+        return s_.points.empty() || (keeps_points(to, most) && is_near(to, most)) ? 0 : blocked_error;
     }
 
-    /// Makes it.
-    void make(const Vec3& to, double error, Log& log) {
+    /// Makes it. Returns the faces and vertices that went.
+    std::pair<std::size_t, std::size_t> make(const Vec3& to, double error, Log& log) {
         if (!s_.points.empty()) hand_over_points();
         if (!s_.wedge.empty()) hand_over_wedges(log);
         if (s_.logging)
@@ -64,9 +72,9 @@ class Collapse {
             if (s_.has_features) pass_on_features(side_[i]);
             s_.tri[3 * f] = none;
         }
+        const auto faces = static_cast<std::size_t>(sides_);
+        return changes_topology_ ? settle_topology(faces) : std::pair{faces, std::size_t{1}};
     }
-
-    int sides() const { return sides_; }
 
   private:
     std::span<const Index> ring_a() const { return {r_.a.data(), static_cast<std::size_t>(r_.a_size)}; }
@@ -78,7 +86,7 @@ class Collapse {
             const Index n = after(c), p = before(c);
             const bool leads = s_.tri[n] == b_;
             if (!leads && s_.tri[p] != b_) continue;
-            if (sides_ < 2) side_[sides_] = leads ? Side{c, n, s_.tri[p]} : Side{c, p, s_.tri[n]};
+            if (sides_ < most_sides) side_[sides_] = leads ? Side{c, n, s_.tri[p]} : Side{c, p, s_.tri[n]};
             ++sides_;
         }
     }
@@ -91,14 +99,97 @@ class Collapse {
         for (const Index c : ring_b())
             for (const Index v : {s_.tri[after(c)], s_.tri[before(c)]})
                 if (v != a_ && s_.mark[v] == stamp) s_.mark[v] = stamp + 1, ++common;
-        if (common != sides_) return false;
-        if (sides_ == 2 && joined(ring_a()) && joined(ring_b())) return false; // the last tetrahedron
-        if (!along) return true;
-        for (int i = 0; i < sides_; ++i) // a loop of three feature edges would close on itself
-            if (edge_flags(side_[i].at_a, side_[i].opposite) & edge_flags(side_[i].at_b, side_[i].opposite) &
-                feature_edge)
-                return false;
+        changes_topology_ = common != sides_ || sides_ > 2 ||
+                            (sides_ == 2 && joined(ring_a()) && joined(ring_b())); // the last tetrahedron
+        if (along)
+            for (int i = 0; i < sides_; ++i) { // a loop of three feature edges would close on itself
+                const auto both = edge_flags(side_[i].at_a, side_[i].opposite) &
+                                  edge_flags(side_[i].at_b, side_[i].opposite);
+                if (!(both & feature_edge)) continue;
+                changes_topology_ = true;
+                if (!(both & boundary_edge)) return false; // of a seam or border, not a lone triangle
+            }
+        return s_.allow || !changes_topology_;
+    }
+
+    /// Finds the faces that would lie back to back, which go both; false when some would be doubled, or when
+    /// the points on them would have nowhere to go.
+    bool find_cancelled() {
+        cancelled_ = 0;
+        for (const Index c : ring_b()) {
+            const Index n = s_.tri[after(c)], p = s_.tri[before(c)];
+            if (n == a_ || p == a_) continue;
+            for (const Index d : ring_a()) {
+                if (s_.tri[after(d)] == n && s_.tri[before(d)] == p) return false;
+                if (s_.tri[after(d)] != p || s_.tri[before(d)] != n) continue;
+                if (cancelled_ == most_sides || !s_.points.empty()) return false;
+                cancel_[cancelled_][0] = c, cancel_[cancelled_][1] = d;
+                cancel_ends_[cancelled_][0] = n, cancel_ends_[cancelled_][1] = p, ++cancelled_;
+            }
+        }
         return true;
+    }
+
+    /// Whether a vertex that stays might lose its last face.
+    bool loses_corner() const {
+        const auto stays = [&](Index v) { return s_.kind[v] >= Kind::corner; };
+        for (int i = 0; i < sides_; ++i)
+            if (stays(side_[i].opposite)) return true;
+        for (int i = 0; i < cancelled_; ++i)
+            if (stays(cancel_ends_[i][0]) || stays(cancel_ends_[i][1])) return true;
+        return false;
+    }
+
+    /// Whether no face at either end would be left.
+    bool vanishes() const {
+        return s_.points.empty() && r_.a_size == sides_ + cancelled_ && r_.b_size == sides_ + cancelled_;
+    }
+
+    /// After the edit: takes away the faces that lie back to back, tells closed holes and vertices that have
+    /// no face any more. Returns all faces and vertices that went.
+    std::pair<std::size_t, std::size_t> settle_topology(std::size_t faces) {
+        for (int i = 0; i < cancelled_; ++i)
+            for (const Index c : cancel_[i]) s_.tri[3 * (c / 3)] = none;
+        faces += 2 * static_cast<std::size_t>(cancelled_);
+        std::size_t vertices = 1 + drop_bare(a_);
+        for (int i = 0; i < sides_; ++i) vertices += drop_bare(side_[i].opposite);
+        for (int i = 0; i < cancelled_; ++i)
+            for (const Index v : cancel_ends_[i]) vertices += drop_bare(v);
+        for (Index c = s_.first[a_]; c != none; c = s_.next[c])
+            if (s_.live(c / 3)) unflag_closed(s_.tri[after(c)]), unflag_closed(s_.tri[before(c)]);
+        return {faces, vertices};
+    }
+
+    /// A vertex without faces loses its list. Returns how many there were: 1, or 0.
+    std::size_t drop_bare(Index v) {
+        if (s_.first[v] == none) return v == a_ && !std::exchange(a_counted_, true);
+        for (Index c = s_.first[v]; c != none; c = s_.next[c])
+            if (s_.live(c / 3)) return 0;
+        s_.first[v] = none;
+        if (v == a_) a_counted_ = true;
+        return 1;
+    }
+
+    /// The edge from a to x is no boundary when two faces run along it either way.
+    void unflag_closed(Index x) {
+        Index out = none, in = none;
+        for (Index c = s_.first[a_]; c != none; c = s_.next[c]) {
+            if (!s_.live(c / 3)) continue;
+            if (s_.tri[after(c)] == x) out = c;
+            if (s_.tri[before(c)] == x) in = before(c);
+        }
+        if (out == none || in == none || !(s_.flags[out] & s_.flags[in] & boundary_edge)) return;
+        for (const Index c : {out, in})
+            s_.flags[c] &= static_cast<std::uint8_t>(~(boundary_edge | feature_edge));
+        for (const Index v : {a_, x}) freed_if_bare(v);
+    }
+
+    /// A vertex of a feature line that is gone moves freely.
+    void freed_if_bare(Index v) {
+        if (s_.kind[v] != Kind::curve) return;
+        for (Index c = s_.first[v]; c != none; c = s_.next[c])
+            if (s_.live(c / 3) && (s_.flags[c] | s_.flags[before(c)]) & feature_edge) return;
+        s_.kind[v] = Kind::smooth;
     }
 
     /// Whether a face of the ring has both opposite vertices.
@@ -121,12 +212,15 @@ class Collapse {
         pairs_ = 0;
         for (int i = 0; i < sides_; ++i) {
             const Index to = s_.wedge[side_[i].at_a], from = s_.wedge[side_[i].at_b];
-            if (pairs_ == 1 && from == pair_[0][1]) {
-                if (to != pair_[0][0]) return false;
+            const Index known = taker(from);
+            if (known != none) {
+                if (to != known) return false;
                 continue;
             }
             // Two wedges may end in one only when that one keeps its own attributes.
-            if (pairs_ == 1 && to == pair_[0][0] && !a_stays) return false;
+            if (!a_stays)
+                for (int k = 0; k < pairs_; ++k)
+                    if (pair_[k][0] == to) return false;
             pair_[pairs_][0] = to, pair_[pairs_][1] = from;
             ++pairs_;
         }
@@ -171,39 +265,54 @@ class Collapse {
             if (!has(c, a_)) body(c);
     }
 
-    /// Whether the new vertex and the centres of the faces at it are near the surface that came in.
-    bool is_near(const Vec3& to, double most) const {
-        const double bound = std::sqrt(most) / s_.scale;
-        Index hint = none;
-        const auto near_given = [&](const Vec3& p) {
-            const Closest found = closest_point(*s_.given, p / s_.scale + s_.centre, hint, bound);
-            hint = found.triangle;
-            return found.distance <= bound;
-        };
-        bool all = near_given(to);
-        for_faces(true, [&](Index c) {
-            all = all && near_given((to + s_.at[s_.tri[after(c)]] + s_.at[s_.tri[before(c)]]) * (1.0 / 3));
-        });
-        return all;
-    }
-
     /// Finds the face that takes each point of the faces around; false when one would be too far from all.
     bool keeps_points(const Vec3& to, double most) {
-        r_.points.clear(), r_.taken_by.clear();
+        r_.points.clear(), r_.taken_by.clear(), r_.staying.clear();
+        for_faces(true, [&](Index c) { r_.staying.push_back(c); });
         for_faces(false, [&](Index c) {
             for (Index p = s_.first_point[c / 3]; p != none; p = s_.next_point[p]) r_.points.push_back(p);
         });
         for (const Index p : r_.points) {
             double least = HUGE_VAL;
             Index taker = none;
-            for_faces(true, [&](Index c) {
-                if (least <= near_enough * most) return;
+            for (Index i = 0; i < r_.staying.size() && least > near_enough * most; ++i) {
+                const Index c = r_.staying[i];
                 const Vec3 off = s_.points[p] - closest_on_triangle(s_.points[p], to, s_.at[s_.tri[after(c)]],
                                                                     s_.at[s_.tri[before(c)]]);
-                if (dot(off, off) < least) least = dot(off, off), taker = c;
-            });
+                if (dot(off, off) < least) least = dot(off, off), taker = i;
+            }
             if (!(least <= most)) return false;
             r_.taken_by.push_back(taker);
+        }
+        return true;
+    }
+
+    /// Whether the new vertex and places on the faces at it are near the surface that came in: near a point
+    /// of it that the face took, or else near any place.
+    bool is_near(const Vec3& to, double most) {
+        r_.places.assign(1, to);
+        for (const Index c : r_.staying) {
+            const Vec3 &x = s_.at[s_.tri[after(c)]], &y = s_.at[s_.tri[before(c)]];
+            for (const auto& [a, b] : places_on_face) r_.places.push_back(to * (1 - a - b) + x * a + y * b);
+        }
+        r_.near.assign(r_.places.size(), 0);
+        const auto look = [&](std::size_t place, const Vec3& p) {
+            const Vec3 off = r_.places[place] - p;
+            if (dot(off, off) <= most) r_.near[place] = 1;
+        };
+        for (std::size_t i = 0; i < r_.points.size(); ++i) {
+            const Vec3& p = s_.points[r_.points[i]];
+            look(0, p);
+            for (std::size_t k = 0; k < std::size(places_on_face); ++k)
+                look(1 + std::size(places_on_face) * r_.taken_by[i] + k, p);
+        }
+        const double bound = std::sqrt(most) / s_.scale;
+        Index hint = none;
+        for (std::size_t i = 0; i < r_.places.size(); ++i) {
+            if (r_.near[i]) continue;
+            const Closest found = closest_point(*s_.given, r_.places[i] / s_.scale + s_.centre, hint, bound);
+            if (!(found.distance <= bound)) return false;
+            hint = found.triangle;
         }
         return true;
     }
@@ -211,12 +320,16 @@ class Collapse {
     void hand_over_points() {
         for_faces(false, [&](Index c) { s_.first_point[c / 3] = none; });
         for (std::size_t i = 0; i < r_.points.size(); ++i)
-            s_.next_point[r_.points[i]] = std::exchange(s_.first_point[r_.taken_by[i] / 3], r_.points[i]);
+            s_.next_point[r_.points[i]] =
+                std::exchange(s_.first_point[r_.staying[r_.taken_by[i]] / 3], r_.points[i]);
     }
 
     void hand_over_wedges(Log& log) {
         for (int i = 0; i < pairs_; ++i)
-            if (s_.logging && pair_[i][0] != pair_[i][1]) log.wedges.push_back({pair_[i][0], pair_[i][1]});
+            if (pair_[i][0] != pair_[i][1]) {
+                if (s_.logging) log.wedges.push_back({pair_[i][0], pair_[i][1]});
+                join_fields(s_.fields, pair_[i][0], pair_[i][1]);
+            }
         for (const Index c : ring_b()) s_.wedge[c] = taker(s_.wedge[c]);
     }
 
@@ -251,10 +364,14 @@ class Collapse {
     Work& s_;
     Index a_, b_;
     Rings& r_;
-    Side side_[2] = {};
+    Side side_[most_sides] = {};
     int sides_ = 0;
-    Index pair_[2][2] = {}; // wedge at a, wedge at b
+    Index pair_[most_sides][2] = {}; // wedge at a, wedge at b
     int pairs_ = 0;
+    // Only where topology may change.
+    bool changes_topology_ = false, a_counted_ = false;
+    Index cancel_[most_sides][2] = {}, cancel_ends_[most_sides][2] = {}; // faces back to back, by a corner
+    int cancelled_ = 0;
 };
 
 } // namespace
@@ -262,7 +379,7 @@ class Collapse {
 bool collapse(Work& s, Index c, double most, std::uint32_t stamp, Rings& rings, Tally& tally) {
     const Index u = s.tri[c], v = s.tri[after(c)];
     const std::uint8_t flags = s.flags[c];
-    const Placement p = place(s, u, v, flags);
+    const Placement p = place(s, c, flags);
     const Index a = p.keep_second ? v : u, b = p.keep_second ? u : v;
     const bool stays = p.keep_first || p.keep_second;
     Collapse edit(s, a, b, rings);
@@ -273,15 +390,16 @@ bool collapse(Work& s, Index c, double most, std::uint32_t stamp, Rings& rings, 
         ++tally.refused;
         return false;
     }
-    edit.make(p.at, p.error, tally.log);
+    s.kind[a] = std::max(s.kind[a], s.kind[b]);
+    const auto [faces, vertices] = edit.make(p.at, p.error, tally.log);
     s.at[a] = p.at;
     s.moved[a] |= !stays;
-    s.kind[a] = std::max(s.kind[a], s.kind[b]);
     s.touched[a] = s.touched[b] = s.pass;
     if (!s.quadrics.empty()) s.quadrics[a] += s.quadrics[b];
+    if (s.wedge.empty()) join_fields(s.fields, a, b);
     tally.largest = std::max(tally.largest, p.error);
     ++tally.collapses;
-    tally.faces += static_cast<std::size_t>(edit.sides());
+    tally.faces += faces, tally.vertices += vertices;
     return true;
 }
 

@@ -15,6 +15,9 @@ constexpr double boundary_weight = 10, feature_weight = 1;
 constexpr double pull = 1e-8;
 // Short edges go first where errors are equal: as if each vertex were displaced by a thousandth of the edge.
 constexpr double shortness = 1e-6;
+// The order is that of the sum of squared distances over the area^(3/4): between the sum, which lets small
+// parts go far off, and the mean, which spends faces on them. Over scans the maximum is a third below the
+// sum's, and the root mean square a few percent above.
 
 /// Adds the plane through the edge of corner c, upright on its face.
 void add_upright(Quadric& q, const Work& s, Index c, const Vec3& normal) {
@@ -58,6 +61,33 @@ void choose_place(Placement& p, const Quadric& q, const Vec3& a, const Vec3& b, 
         p.at = b, p.keep_second = true;
 }
 
+/// Adds a quadric that is no sum of planes: the weight stays.
+void add_keeping_weight(Quadric& q, const Quadric& other) {
+    const double weight = q.weight;
+    q += other;
+    q.weight = weight;
+}
+
+/// The corner that runs the other way along the edge, or none.
+Index opposite(const Work& s, Index corner) {
+    const Index from = s.tri[after(corner)], to = s.tri[corner];
+    for (Index c = s.first[from]; c != none; c = s.next[c])
+        if (s.live(c / 3) && s.tri[after(c)] == to) return c;
+    return none;
+}
+
+/// What the attributes at both ends pay; on a seam, those of both sides.
+void add_fields(Quadric& q, const Work& s, Index corner, bool along) {
+    if (s.wedge.empty())
+        return add_keeping_weight(q, residual(s.fields, s.tri[corner], s.tri[after(corner)]));
+    const Index a = s.wedge[corner], b = s.wedge[after(corner)];
+    add_keeping_weight(q, residual(s.fields, a, b));
+    const Index other = along ? opposite(s, corner) : none;
+    if (other == none) return;
+    const Index x = s.wedge[after(other)], y = s.wedge[other];
+    if (x != a || y != b) add_keeping_weight(q, residual(s.fields, x, y));
+}
+
 } // namespace
 
 void sum_quadrics(Work& s) {
@@ -66,8 +96,9 @@ void sum_quadrics(Work& s) {
                  [&](std::size_t v) { s.quadrics[v] = quadric_at(s, static_cast<Index>(v)); });
 }
 
-Placement place(const Work& s, Index u, Index v, std::uint8_t flags) {
+Placement place(const Work& s, Index corner, std::uint8_t flags) {
     Placement p;
+    const Index u = s.tri[corner], v = s.tri[after(corner)];
     const Kind ku = s.kind[u], kv = s.kind[v];
     if (ku == Kind::pinned || kv == Kind::pinned) return p;
     const bool along = flags & feature_edge;
@@ -84,11 +115,14 @@ Placement place(const Work& s, Index u, Index v, std::uint8_t flags) {
         p.cost = squared, p.error = squared / 4;
         return p;
     }
-    const Quadric q = s.quadrics[u] + s.quadrics[v];
+    const Quadric shape = s.quadrics[u] + s.quadrics[v];
+    Quadric q = shape;
+    if (s.fields.channels > 0) add_fields(q, s, corner, along);
     if (!held) choose_place(p, q, s.at[u], s.at[v], s.endpoints);
-    const double sum = q(p.at);
-    p.cost = sum + shortness * q.weight * squared;
-    p.error = q.weight > 0 ? sum / q.weight : 0;
+    const double root = std::sqrt(shape.weight), share = root * std::sqrt(root);
+    p.cost = q(p.at) + shortness * shape.weight * squared;
+    if (share > 0) p.cost /= share;
+    p.error = shape.weight > 0 ? shape(p.at) / shape.weight : 0;
     return p;
 }
 

@@ -135,11 +135,9 @@ class Classifier {
 
 void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock, const std::vector<std::uint8_t>& held) {
     const Borders borders{labels_of(s, mesh, primitive_attribute), labels_of(s, mesh, "group")};
-    const auto in_box = [&](const Vec3& local) {
-        const Box& b = lock.box->box;
-        const Vec3 p = lock.box->to_world.point(local);
-        return p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z &&
-               p.z <= b.max.z;
+    const auto in_body = [&](const Vec3& p) {
+        return !lock.body.empty() && std::all_of(lock.body.begin(), lock.body.end(),
+                                                 [&](const Plane& plane) { return side(plane, p) >= 0; });
     };
     s.kind.resize(s.vertex_slots());
     parallel_chunks(s.vertex_slots(), [&](std::size_t begin, std::size_t end) {
@@ -147,7 +145,7 @@ void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock, const std::v
         for (std::size_t v = begin; v < end; ++v) {
             s.kind[v] = kind_of(static_cast<Index>(v));
             const Index source = s.source[v];
-            if ((lock.box && in_box(mesh.positions[source])) || (!held.empty() && held[source]))
+            if (in_body(mesh.positions[source]) || (!held.empty() && held[source]))
                 s.kind[v] = std::max(s.kind[v], Kind::corner);
         }
     });

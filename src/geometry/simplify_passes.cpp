@@ -103,7 +103,7 @@ class Passes {
         s_.cost[corner] = never;
         // The other face of the edge has the corner that runs the other way; a boundary edge has none.
         if (u < v || (flags & boundary_edge)) {
-            const float cost = static_cast<float>(place(s_, u, v, flags).cost);
+            const float cost = static_cast<float>(place(s_, corner, flags).cost);
             if (cost < never)
                 s_.cost[corner] = cost; // false for what is no number too
             else
@@ -192,7 +192,7 @@ class Passes {
 
     void join(Tally& tally) {
         s_.live_faces -= tally.faces;
-        s_.live_vertices -= tally.collapses;
+        s_.live_vertices -= tally.vertices;
         out_.collapses += tally.collapses, since_retry_ += tally.collapses;
         out_.largest = std::max(out_.largest, tally.largest);
         join_logs(tally.log);

@@ -1,8 +1,7 @@
 // The way back through the log of collapses, and the search along it for a bound on the measured deviation.
 
 #include "base/parallel.hpp"
-#include "geometry/closest_point.hpp"
-#include "geometry/deviation.hpp"
+#include "geometry/simplify_judge.hpp"
 #include "geometry/simplify_work.hpp"
 
 #include <utility>
@@ -49,55 +48,6 @@ bool stands(const Origin& o, const Moves& m, std::size_t f) {
     const Index x = m.root[a], y = m.root[b], z = m.root[c];
     return (x != y && y != z && z != x) || a == b || b == c || c == a;
 }
-
-/// Whether a point of one surface (of those that the deviation samples) is farther than `bound` from another.
-bool any_beyond(const facetmill::Surface& surface, const FaceTree& tree, double bound) {
-    const DeviationSettings settings;
-    const auto samples = sample_area(surface, settings.samples, settings.seed);
-    const std::size_t all = samples.size() + surface.positions.size();
-    return parallel_reduce(
-               all, 0,
-               [&](std::size_t begin, std::size_t end) {
-                   Index hint = none;
-                   for (std::size_t i = begin; i < end; ++i) {
-                       const Vec3& p =
-                           i < samples.size() ? samples[i].point : surface.positions[i - samples.size()];
-                       const Closest found = closest_point(tree, p, hint, bound);
-                       if (!(found.distance <= bound)) return 1;
-                       hint = found.triangle;
-                   }
-                   return 0;
-               },
-               [](int a, int b) { return a | b; }, 2048) != 0;
-}
-
-/// Judges shapes by their deviation from the mesh that came in, whose tree is built once.
-class Judge {
-  public:
-    Judge(const Mesh& from, double bound)
-        : surface_(surface_of(used(from))), tree_(surface_), bound_(bound) {}
-
-    const FaceTree& tree() const { return tree_; }
-    bool within(const Mesh& mesh) const {
-        const facetmill::Surface now = surface_of(mesh);
-        return !any_beyond(now, tree_, bound_) && !any_beyond(surface_, FaceTree(now), bound_);
-    }
-    double deviation(const Mesh& mesh) const {
-        const facetmill::Surface now = surface_of(mesh);
-        return std::max(deviation_to(surface_, FaceTree(now)).maximum, deviation_to(now, tree_).maximum);
-    }
-
-  private:
-    static Mesh used(const Mesh& from) {
-        Mesh bare;
-        bare.positions = from.positions, bare.corners = from.corners, bare.wedge_vertex = from.wedge_vertex;
-        drop_unused(bare);
-        return bare;
-    }
-    facetmill::Surface surface_;
-    FaceTree tree_;
-    double bound_;
-};
 
 } // namespace
 

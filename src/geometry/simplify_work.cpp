@@ -125,14 +125,15 @@ void compact(Work& s) {
     faces.reserve(s.live_faces), vertices.reserve(s.live_vertices);
     for (Index f = 0; f < s.face_slots(); ++f)
         if (s.live(f)) faces.push_back(f);
-    // A vertex that was collapsed has no list; every other one has a live face, or the last pass took them
-    // all.
+    // A vertex that was collapsed, or lost its last face, has no list.
     for (Index v = 0; v < s.vertex_slots(); ++v)
         if (s.first[v] != none) rank[v] = static_cast<Index>(vertices.size()), vertices.push_back(v);
     keep(s.tri, faces, 3), keep(s.wedge, faces, 3), keep(s.flags, faces, 3), keep(s.cost, faces, 3);
     keep(s.face_source, faces), keep(s.first_point, faces);
     parallel_for(s.tri.size(), [&](std::size_t c) { s.tri[c] = rank[s.tri[c]]; });
     keep(s.at, vertices), keep(s.quadrics, vertices), keep(s.kind, vertices), keep(s.moved, vertices);
+    if (s.wedge.empty())
+        keep(s.fields.squares, vertices), keep(s.fields.sums, vertices, 4 * s.fields.channels);
     keep(s.source, vertices), keep(s.touched, vertices), keep(s.mark, vertices);
     build_lists(s);
 }

@@ -49,6 +49,14 @@ struct Log {
     std::vector<Merge> wedges;
 };
 
+/// Attributes in the error: how far those of the faces around a vertex are from one value at its place.
+/// Per wedge of the input when there are seams, else per vertex of the work.
+struct Fields {
+    std::size_t channels = 0;     ///< numbers that the attributes come down to; 0: nothing is weighed
+    std::vector<Quadric> squares; ///< [elements] sum over channels and faces of area times (g.p + d)^2
+    std::vector<double> sums;     ///< [elements][channels][4] sum over faces of area times g and d
+};
+
 struct Work {
     // Faces.
     std::vector<Index> tri;          ///< [3 faces] vertices
@@ -60,6 +68,7 @@ struct Work {
     // Vertices.
     std::vector<Vec3> at;          ///< centred and scaled, see below
     std::vector<Quadric> quadrics; ///< empty for shortest-edge
+    Fields fields;
     std::vector<Kind> kind;
     std::vector<std::uint8_t> moved;    ///< at differs from the input's position
     std::vector<Index> first;           ///< first corner at the vertex, or none
@@ -77,6 +86,7 @@ struct Work {
     std::size_t live_faces = 0, live_vertices = 0;
     bool has_features = false;
     bool endpoints = false;            ///< a new vertex is one of the two that it replaces
+    bool allow = false;                ///< topology may change
     std::uint32_t pass = 1, stamp = 0; ///< the last ones used, in touched and in mark
     bool logging = false;              ///< attributes, or the way back, need to know who went into whom
     Log log;
@@ -93,6 +103,10 @@ struct Work {
 
 inline Index after(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }
 inline Index before(Index c) { return c % 3 == 0 ? c + 2 : c - 1; }
+
+/// Refuse (E-RANGE) settings that no mesh could serve.
+void check(const SimplifySettings& settings);
+void check_levels(const SimplifySettings& settings);
 
 /// Orders a triangle mesh along a Morton curve and builds the lists. mesh: all triangles.
 Work build_work(const Mesh& mesh);
@@ -115,21 +129,32 @@ struct Placement {
     Vec3 at;
     bool keep_first = false, keep_second = false; ///< the new vertex is this end as it is
 };
-/// Where the ends u and v of an edge with these flags should meet, and at what cost.
-Placement place(const Work& s, Index u, Index v, std::uint8_t flags);
+/// Where the ends of the edge of a corner should meet, and at what cost. flags: the corner's, or those it
+/// will have.
+Placement place(const Work& s, Index corner, std::uint8_t flags);
+
+/// Sets fields from the attributes of the mesh. normals: whether its normals mean anything.
+void sum_fields(Work& s, const Mesh& mesh, const AttributeWeights& weights, bool normals);
+/// What elements a and b would pay together at p, as a quadric of p. Its weight is not the planes'.
+Quadric residual(const Fields& fields, Index a, Index b);
+/// a takes over what b has.
+void join_fields(Fields& fields, Index a, Index b);
 
 /// What a worker finds around an edge; reused, so that nothing is allocated per edge.
 struct Rings {
     static constexpr int most = 256; ///< vertices with more faces wait until others have thinned them out
     std::array<Index, most> a, b;    ///< live corners at the two ends
     int a_size = 0, b_size = 0;
-    std::vector<Index> points;   ///< of the faces around the edge
-    std::vector<Index> taken_by; ///< the corner, at a or b, of the face that would take each
+    std::vector<Index> staying;     ///< a corner, at a or b, of each face around that stays
+    std::vector<Index> points;      ///< of the faces around the edge
+    std::vector<Index> taken_by;    ///< [points] which of staying takes it
+    std::vector<Vec3> places;       ///< the new vertex, and some on the faces that stay
+    std::vector<std::uint8_t> near; ///< [places] known to be near the surface that came in
 };
 
 /// Collapses that one worker makes; joined into the surface's totals afterwards.
 struct Tally {
-    std::size_t collapses = 0, faces = 0, refused = 0;
+    std::size_t collapses = 0, faces = 0, vertices = 0, refused = 0; ///< faces and vertices that went
     double largest = 0; ///< largest error squared, in scaled units
     Log log;
 };
@@ -184,6 +209,17 @@ Bounded run_within(Work& s, const Mesh& from, const Goal& goal, double max_error
 /// nothing else.
 Outcome run_constrained(Work& s, std::size_t vertices, const Goal& goal,
                         const SimplifyConstraints& constraints);
+
+/// The method cluster: as coarse as the goal needs, or as max_error (in the mesh's units) allows. The work
+/// can be finished afterwards, and nothing else. Needs the lists, and the kinds when there are features.
+struct Clustered {
+    Outcome outcome;
+    double cell = 0;       ///< in the mesh's units
+    bool by_error = false; ///< the bound stopped it
+    double measured = 0;   ///< the deviation, with max_error
+    std::size_t measurements = 0;
+};
+Clustered run_cluster(Work& s, const Mesh& from, const Goal& goal, std::optional<double> max_error);
 
 /// Counts the self-intersections of the work as finished (`now`); when there are more than allowed, sets held
 /// for all vertices of the mesh that came in that went into the vertices of the faces concerned.

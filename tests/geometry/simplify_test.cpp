@@ -19,6 +19,12 @@ using test::sound;
 
 namespace {
 
+SimplifySettings at_levels(std::vector<double> ratios) {
+    SimplifySettings s;
+    s.levels = std::move(ratios);
+    return s;
+}
+
 Mesh rough(Mesh m, double amplitude) { return crumple(std::move(m), {.amplitude = amplitude}).mesh; }
 
 /// The two halves of a grid as UV islands: wedges are doubled along the middle column.
@@ -113,7 +119,7 @@ TEST_CASE("a flat part of a cube goes, its edges and corners stay", "[geometry]"
     CHECK(r.faces_after == 12);
     CHECK(sound(r.mesh, 2));
     CHECK(test::volume(r.mesh) == Approx(512).epsilon(1e-6));
-    CHECK(r.largest_error < 0.01);
+    CHECK(*r.largest_error < 0.01);
 }
 
 TEST_CASE("the boundary of an open sheet keeps its shape", "[geometry]") {
@@ -276,7 +282,7 @@ TEST_CASE("units and place do not matter", "[geometry]") {
     for (auto& p : far.positions) p = p * 0x1p-40;
     const auto tiny = simplify(far, {.ratio = 0.2});
     CHECK(tiny.mesh.corners == plain.mesh.corners);
-    CHECK(tiny.largest_error == plain.largest_error * 0x1p-40);
+    CHECK(*tiny.largest_error == *plain.largest_error * 0x1p-40);
     for (auto& p : far.positions) p = p * 0x1p1000;
     CHECK(sound(simplify(far, {.ratio = 0.2}).mesh, 2));
 }
@@ -360,9 +366,12 @@ TEST_CASE("locked seams, groups and boxes stay vertex by vertex", "[geometry]") 
     const auto free = simplify(m, {.faces = 60});
     CHECK(along(free.mesh, seam) < 17);
     CHECK(test::area(free.mesh) == Approx(256).epsilon(1e-6));
-    const Box box{{2.5, 2.5, -1}, {7.5, 9.5, 1}};
+    const std::vector<Plane> body{{{1, 0, 0}, {2.5, 0, 0}},
+                                  {{-1, 0, 0}, {7.5, 0, 0}},
+                                  {{0, 1, 0}, {0, 2.5, 0}},
+                                  {{0, -1, 0}, {0, 9.5, 0}}};
     const auto inside = [&](const Vec3& p) { return p.x > 2.5 && p.x < 7.5 && p.y > 2.5 && p.y < 9.5; };
-    const auto boxed = simplify(m, {.lock = {.box = WorldBox{box}}, .faces = 1});
+    const auto boxed = simplify(m, {.lock = {.body = body}, .faces = 1});
     CHECK(along(boxed.mesh, inside) == 5 * 7);
     CHECK(boxed.blocked.borders > 0);
 }
@@ -370,7 +379,7 @@ TEST_CASE("locked seams, groups and boxes stay vertex by vertex", "[geometry]") 
 TEST_CASE("levels of detail are one chain", "[geometry]") {
     Mesh m = rough(shapes::icosphere(4), 0.005);
     test::add_coordinates(m);
-    const auto levels = simplify_levels(m, {.levels = {1, 0.5, 0.2, 0.05}});
+    const auto levels = simplify_levels(m, at_levels({1, 0.5, 0.2, 0.05}));
     REQUIRE(levels.size() == 4);
     CHECK(levels[0].stop == Stop::nothing);
     CHECK(test::same(levels[0].mesh, m));
@@ -383,9 +392,9 @@ TEST_CASE("levels of detail are one chain", "[geometry]") {
     }
     // The first level is what a run of its own gives.
     CHECK(test::same(levels[1].mesh, simplify(m, {.ratio = 0.5}).mesh));
-    CHECK(simplify_levels(shapes::cube(), {.levels = {0.5, 0.25}})[1].stop == Stop::stuck);
+    CHECK(simplify_levels(shapes::cube(), at_levels({0.5, 0.25}))[1].stop == Stop::stuck);
     CHECK(test::failure([] {
-              simplify_levels(shapes::cube(), {.levels = {0.25, 0.5}});
+              simplify_levels(shapes::cube(), at_levels({0.25, 0.5}));
           }) == "usage [E-RANGE] simplify: levels go from fine to coarse");
 }
 
@@ -419,6 +428,7 @@ TEST_CASE("the constrained method keeps its constraints, seams and guarantees", 
     const Mesh m = rough(shapes::icosphere(3), 0.005);
     const auto r = simplify(m, {.method = Method::constrained, .ratio = 0.2});
     CHECK(r.stop == Stop::ratio);
+    CHECK_FALSE(r.largest_error); // OpenMesh does not tell it
     CHECK(sound(r.mesh, 2));
     CHECK(broken_invariants(r.mesh).empty());
     const auto near =

@@ -18,7 +18,7 @@ TEST_CASE("simplify measures what it did, in the world", "[stages]") {
     CHECK(d["maximum"].get<double>() < 1);
     CHECK(d["rms"].get<double>() < d["maximum"].get<double>());
     CHECK(d["bound"].get<double>() >= d["maximum"].get<double>());
-    CHECK(d["from_given"]["samples"].get<int>() > 100000);
+    CHECK(d["forward"]["samples"].get<int>() == 100000);
     CHECK_FALSE(run_stage("simplify", "{ratio: 10%, measure: false}", scene)
                     .record.result["parts"][0]
                     .contains("deviation"));
@@ -77,4 +77,68 @@ TEST_CASE("simplify: locks are a list of words or a map", "[stages]") {
     CHECK(std::count_if(boxed.scene.parts[0].mesh.positions.begin(),
                         boxed.scene.parts[0].mesh.positions.end(),
                         [](const Vec3& p) { return p.y == 0; }) == 9);
+}
+
+TEST_CASE("simplify: options that do not go together are told at once", "[stages]") {
+    const auto problems = [](const char* text) {
+        Problems found;
+        const auto source = std::make_shared<const SourceText>(SourceText{"test.yaml", text});
+        return test::problems_of("simplify", pipeline::parse_yaml(source, found));
+    };
+    CHECK(problems("{ratio: 10%, method: cluster, lock: boundary, self_intersections: avoid}")
+              .find("cluster cannot hold vertices") != std::string::npos);
+    CHECK(problems("{ratio: 10%, method: cluster, lock: boundary, self_intersections: avoid}")
+              .find("cluster cannot avoid self-intersections") != std::string::npos);
+    CHECK(problems("{ratio: 10%, method: shortest-edge, weights: {uv: 2}}").find("weights go with") !=
+          std::string::npos);
+    CHECK(problems("{ratio: 10%, constraints: {roundness: 0.2}}").find("constraints go with") !=
+          std::string::npos);
+    CHECK(problems("{ratio: 10%, method: constrained, topology: allow}").find("keeps the topology") !=
+          std::string::npos);
+    CHECK(problems("{ratio: 10%, weights: {colour: -1}}").find("E-RANGE") != std::string::npos);
+    CHECK(problems("{ratio: 10%, weights: 0}") == "");
+    CHECK(problems("{ratio: 10%, lock: {box: {min: [0, 0, 0], max: [0, 1, 1]}}}").find("E-BOX") !=
+          std::string::npos);
+    // A ratio that may be a count asks which.
+    for (const char* text : {"1", "5000"}) {
+        CHECK(problems(text).find("faces") != std::string::npos);
+        CHECK(problems(text).find("%") != std::string::npos);
+    }
+    CHECK(problems("1.5").find("E-RANGE") != std::string::npos);
+}
+
+TEST_CASE("simplify reports what became of the topology when it may change", "[stages]") {
+    Mesh m = shapes::icosphere(3), crumb = shapes::icosphere(1);
+    for (auto& p : crumb.positions) p = p * 0.001 + Vec3{2, 0, 0};
+    append(m, crumb);
+    const auto r = run_stage("simplify", "{ratio: 20%, topology: allow, measure: false}", scene_of(m));
+    const Json& topology = r.record.result["parts"][0]["topology"];
+    CHECK(topology["before"]["components"] == 2);
+    CHECK(topology["after"]["components"] == 1);
+    CHECK_FALSE(run_stage("simplify", "{ratio: 20%, measure: false}", scene_of(m))
+                    .record.result["parts"][0]
+                    .contains("topology"));
+    const auto fast = run_stage("simplify", "{ratio: 20%, method: cluster, measure: false}", scene_of(m));
+    CHECK(fast.record.result["parts"][0]["cell"].get<double>() > 0);
+    CHECK(run_stage("simplify", "{ratio: 20%, method: constrained}", scene_of(m))
+              .record.result["parts"][0]["largest_error"]
+              .is_null());
+}
+
+TEST_CASE("simplify takes faces without area, and targets above and below what there is", "[stages]") {
+    Mesh flat;
+    flat.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+    flat.corners = {0, 1, 2, 1, 2, 3, 0, 1, 3};
+    for (const char* method : {"quadric", "quadric-endpoints", "shortest-edge", "constrained", "cluster"}) {
+        const auto r =
+            run_stage("simplify", std::string("{faces: 1, method: ") + method + "}", scene_of(flat));
+        CHECK(r.mesh().face_count() > 0);
+        const auto above =
+            run_stage("simplify", std::string("{faces: 5000, method: ") + method + "}", scene_of(flat));
+        CHECK(above.warnings() == std::vector<std::string>{"W-SIMPLIFY-NOTHING"});
+        CHECK(above.mesh().corners == flat.corners);
+    }
+    const auto stuck = run_stage("simplify", "{faces: 1}", scene_of(shapes::icosphere(2)));
+    CHECK(stuck.warnings() == std::vector<std::string>{"W-SIMPLIFY-STOPPED"});
+    CHECK(stuck.mesh().face_count() == 4);
 }
