@@ -2,8 +2,9 @@
 """simplify.py [SCAN]: the simplifiers side by side, as a table.
 
 Each case runs in a process of its own, in turn, on the same machine: the scan (examples/data by default), refined
-by midpoint splits and roughened to about 1.1M and 4.5M faces, to 50, 10 and 1 %. The time is that of the call;
-reading, writing and judging are outside it. All results are judged by the same samples and seed.
+by midpoint splits and roughened to about 1.1M and 4.5M faces, to 50, 10 and 1 %. The times are those of the call,
+on the clock and of all processors; reading, writing and judging are outside. The memory is the process's peak, for the
+faces of the input. All results are judged by the same samples and seed.
 
 Peers: meshoptimizer (Debian's, or the newest by cmake -DMESHOPTIMIZER_SOURCE=its checkout), CGAL, and with
 --python INTERPRETER what that one can import of pymeshlab and fast_simplification. Missing ones are named.
@@ -68,8 +69,8 @@ def main():
             peers[name] = [args.python, "-c", code]
         except (RuntimeError, OSError):
             print(f"missing: {name}", file=sys.stderr)
-    print("| faces | to | simplifier | seconds | faces out | RMS % | max % | closed | manifold | self-inters. |")
-    print("|---|---|---|---|---|---|---|---|---|---|")
+    print("| faces | to | simplifier | seconds | CPU s | bytes/face | faces out | RMS % | max % | closed | manifold | self-inters. |")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for passes in args.passes.split(","):
             scan = pathlib.Path(folder) / "in.ply"
@@ -87,7 +88,8 @@ def row(program, name, command, scan, result, ratio, repeat):
         print(f"| | {float(ratio):.0%} | {name} | {problem} |")
         return
     faces = next(int(line.split()[2]) for line in open(scan, "rb") if line.startswith(b"element face"))
-    print(f"| {faces:,} | {float(ratio):.0%} | {name} | {min(r['seconds'] for r in runs):.3f} | {runs[0]['faces']:,} | "
+    print(f"| {faces:,} | {float(ratio):.0%} | {name} | {min(r['seconds'] for r in runs):.3f} | "
+          f"{min(r.get('cpu', 0) for r in runs):.3f} | {runs[0].get('peak_bytes', 0) / faces:.0f} | {runs[0]['faces']:,} | "
           f"{judged['rms_percent']:.5f} | {judged['max_percent']:.4f} | {judged['closed']} | {judged['manifold']} | "
           f"{judged['self_intersections']} |", flush=True)
 

@@ -65,8 +65,9 @@ Mesh ours(Mesh mesh, double ratio, SimplifySettings::Method method, Clock& clock
     return result;
 }
 
-/// update: positions are optimised too.
-Mesh meshopt(Mesh mesh, double ratio, bool update, Clock& clock) {
+enum class Meshopt { plain, update, sloppy }; // update: positions are optimised too
+
+Mesh meshopt(Mesh mesh, double ratio, Meshopt how, Clock& clock) {
     std::vector<float> points;
     for (const Vec3& p : mesh.positions)
         for (std::size_t i = 0; i < 3; ++i) points.push_back(static_cast<float>(p[i]));
@@ -75,11 +76,16 @@ Mesh meshopt(Mesh mesh, double ratio, bool update, Clock& clock) {
     const std::size_t target = static_cast<std::size_t>(static_cast<double>(indices.size() / 3) * ratio) * 3;
     clock.start();
     std::size_t count = 0;
-    if (update) {
+    if (how == Meshopt::update) {
 #if MESHOPTIMIZER_VERSION >= 1000
         result = indices;
         count = meshopt_simplifyWithUpdate(result.data(), result.size(), points.data(), n, 12, nullptr, 0,
                                            nullptr, 0, nullptr, target, 1e9f, 0, nullptr);
+#endif
+    } else if (how == Meshopt::sloppy) {
+#if MESHOPTIMIZER_VERSION >= 1000
+        count = meshopt_simplifySloppy(result.data(), indices.data(), indices.size(), points.data(), n, 12,
+                                       nullptr, target, 1e9f, nullptr);
 #endif
     } else {
         count = meshopt_simplify(result.data(), indices.data(), indices.size(), points.data(), n, 12, target,
@@ -103,13 +109,17 @@ std::map<std::string, Peer> peers() {
     own("facetmill quadric", Method::quadric);
     own("facetmill quadric-endpoints", Method::quadric_endpoints);
     own("facetmill shortest-edge", Method::shortest_edge);
+    own("facetmill cluster", Method::cluster);
     all[fmt::format("meshoptimizer {}.{} simplify", MESHOPTIMIZER_VERSION / 1000,
                     MESHOPTIMIZER_VERSION / 10 % 100)] = [](Mesh m, double ratio, Clock& c) {
-        return meshopt(std::move(m), ratio, false, c);
+        return meshopt(std::move(m), ratio, Meshopt::plain, c);
     };
 #if MESHOPTIMIZER_VERSION >= 1000
     all["meshoptimizer simplifyWithUpdate"] = [](Mesh m, double ratio, Clock& c) {
-        return meshopt(std::move(m), ratio, true, c);
+        return meshopt(std::move(m), ratio, Meshopt::update, c);
+    };
+    all["meshoptimizer simplifySloppy"] = [](Mesh m, double ratio, Clock& c) {
+        return meshopt(std::move(m), ratio, Meshopt::sloppy, c);
     };
 #endif
 #ifdef FACETMILL_COMPARE_CGAL
