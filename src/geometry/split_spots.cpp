@@ -46,6 +46,24 @@ void visit_shared(const Mesh& mesh, const EdgeTable& edges, const std::vector<In
 
 Index other_end(const EdgeTable::Edge& edge, Index end) { return edge.low == end ? edge.high : edge.low; }
 
+/// Whether triangles may share two edges, told from a third of the edges where all have two faces: such
+/// triangles share all three, and one of these is the first of the lower triangle.
+bool may_share(const Mesh& mesh, const EdgeTable& edges) {
+    const auto apex = [&](Index c) { return mesh.vertex(c - c % 3 + (c % 3 + 2) % 3); };
+    return parallel_reduce(
+               edges.size(), std::size_t{0},
+               [&](std::size_t begin, std::size_t end) {
+                   std::size_t found = 0;
+                   for (auto e = static_cast<Index>(begin); e < end; ++e) {
+                       const auto at = edges.corners_of(e);
+                       found +=
+                           at.size() > 2 || (at.size() == 2 && at[0] % 3 == 0 && apex(at[0]) == apex(at[1]));
+                   }
+                   return found;
+               },
+               [](std::size_t a, std::size_t b) { return a + b; }) > 0;
+}
+
 std::vector<Index> faces_of_corners(const Mesh& mesh) {
     return mesh.all_triangles() ? std::vector<Index>{} : corner_faces(mesh);
 }
@@ -108,6 +126,7 @@ std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edge
 }
 
 std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks) {
+    if (mesh.all_triangles() && !may_share(mesh, edges)) return 0;
     const std::vector<Index> faces = faces_of_corners(mesh);
     const auto is_triangle = [&](const Turn& t) {
         return faces.empty() || mesh.face_size(faces[t.corner]) == 3;

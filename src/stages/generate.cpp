@@ -177,9 +177,25 @@ void verify(const GenerateOptions& o, const Value& given, Problems& problems) {
                      "give either faces, or around and across");
 }
 
+/// What is being made, in its own unit.
+struct Made {
+    Scene scene;
+    double of_entering = 1; ///< that unit's share of the entering scene's, which percentages are of
+};
+
+Made made_for(const Scene& entering, Unit unit) {
+    Made made;
+    made.scene.unit = unit == Unit::unknown ? entering.unit : unit;
+    made.scene.up = UpAxis::z;
+    const double from = metres(entering.unit), to = metres(made.scene.unit);
+    if (from > 0 && to > 0) made.of_entering = from / to;
+    return made;
+}
+
 /// The length in the unit of the shape. Refuses a percentage of nothing.
-double resolved_length(const Length& length, const Scene& made, const char* name, Context& context) {
-    const double x = context.resolve(length, made, name);
+double resolved_length(const Length& length, const Made& made, const char* name, Context& context) {
+    const double x = context.resolve(length, made.scene, name) *
+                     (length.kind == Length::Kind::percent ? made.of_entering : 1);
     if (length.kind == Length::Kind::percent && length.amount > 0 && x == 0)
         throw Error(ErrorKind::usage, "E-RANGE",
                     fmt::format("generate: '{}' is {}, but {}", name, length.text,
@@ -190,12 +206,12 @@ double resolved_length(const Length& length, const Scene& made, const char* name
 }
 
 /// The options as numbers; lengths in the unit of the scene that they are read for.
-GenerateSettings resolved(const GenerateOptions& o, const Scene& scene, Context& context) {
+GenerateSettings resolved(const GenerateOptions& o, const Made& made, Context& context) {
     GenerateSettings s;
     s.shape = o.shape;
     const auto set = [&](double& out, const std::optional<Length>& length, const char* name,
                          double otherwise) {
-        out = length ? resolved_length(*length, scene, name, context) : otherwise;
+        out = length ? resolved_length(*length, made, name, context) : otherwise;
     };
     set(s.radius, o.radius, "radius", 1);
     set(s.size, o.size, "size", 2);
@@ -216,19 +232,17 @@ GenerateSettings resolved(const GenerateOptions& o, const Scene& scene, Context&
 }
 
 /// A percentage of noise is of the shape itself: the scene that enters may be empty.
-double noise_of(const GenerateOptions& o, const Scene& made, const Part& part, Context& context) {
+double noise_of(const GenerateOptions& o, const Made& made, const Part& part, Context& context) {
     if (o.noise.kind != Length::Kind::percent || o.noise.of == Length::Of::load)
         return resolved_length(o.noise, made, "noise", context);
     Length of_shape = o.noise;
     of_shape.of = Length::Of::part;
-    return context.resolve(of_shape, made, "noise", &part);
+    return context.resolve(of_shape, made.scene, "noise", &part);
 }
 
 Scene run(Scene scene, const GenerateOptions& o, Context& context) {
-    Scene made;
-    made.unit = o.unit == Unit::unknown ? scene.unit : o.unit;
-    made.up = UpAxis::z;
-    Part& part = made.parts.emplace_back();
+    Made made = made_for(scene, o.unit);
+    Part& part = made.scene.parts.emplace_back();
     part.name = o.name.empty() ? row_of(o.shape).name : o.name;
     part.changed = true;
     part.mesh = generate(resolved(o, made, context));
@@ -237,7 +251,7 @@ Scene run(Scene scene, const GenerateOptions& o, Context& context) {
     const Json result = {{"shape", row_of(o.shape).name},
                          {"vertices", part.mesh.vertex_count()},
                          {"faces", part.mesh.face_count()}};
-    io::add_scene(scene, std::move(made));
+    io::add_scene(scene, std::move(made.scene));
     context.result() = result;
     context.result()["part"] = scene.parts.back().name;
     context.run().load_diagonal = scene.bounds().diagonal();

@@ -65,6 +65,14 @@ TEST_CASE("generate: what cannot be a shape is refused before it is made", "[sta
           "E-RANGE 'across' of sphere must be 2 <= x <= 1000000, not 1");
 }
 
+TEST_CASE("generate: a percentage of the scene is the same whatever the shape's unit", "[stages]") {
+    const auto scene = run_stage("generate", options({{"shape", "cube"}, {"unit", "m"}}), {}).scene;
+    const auto r =
+        run_stage("generate", options({{"shape", "cube"}, {"unit", "cm"}, {"size", "50%"}}), scene);
+    const Part& made = r.scene.parts.at(1);
+    CHECK(made.mesh.bounds().extent().x * made.transform.m[0][0] == Approx(std::sqrt(3.0)));
+}
+
 TEST_CASE("generate: a percentage of nothing is refused", "[stages]") {
     CHECK(test::failure([] {
               run_stage("generate", options({{"shape", "sphere"}, {"radius", "10%"}}), {});
