@@ -1,5 +1,6 @@
 #include "geometry/crop.hpp"
 
+#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "geometry/cap_paint.hpp"
 #include "geometry/clip_cut.hpp"
@@ -211,7 +212,14 @@ class Cropper {
 Vec2 seen_along(std::size_t axis, const Vec3& p) { return {axis == 0 ? p.y : p.x, axis == 2 ? p.y : p.z}; }
 
 CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings) {
-    return Cropper(mesh, footprint, settings).run();
+    try {
+        return Cropper(mesh, footprint, settings).run();
+    } catch (const Error& error) { // needles of an outline may be finer than snap; pure, they can be closed
+        if (!settings.snap || error.diagnostics().front().id != "E-CROP-CAP") throw;
+    }
+    CropSettings pure = settings;
+    pure.snap = false;
+    return Cropper(mesh, footprint, pure).run();
 }
 
 } // namespace facetmill

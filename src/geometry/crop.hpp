@@ -32,7 +32,7 @@ struct CropSettings {
     std::optional<Primitive> cap_primitive;
     bool cap_numbers = false;
     /// Take float32 positions within one float32 ulp of the mesh's bounds as on the outline, unless a segment
-    /// is hardly longer than that.
+    /// is hardly longer than that or walls could not be closed so.
     bool snap = false;
     CutMemory memory; ///< points known to be on planes
 };

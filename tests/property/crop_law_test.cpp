@@ -2,6 +2,7 @@
 // and hard ones when FACETMILL_CORPUS names a folder of them.
 #include "base/functions.hpp"
 #include "base/random.hpp"
+#include "geometry/clip_cut.hpp"
 #include "geometry/crop.hpp"
 #include "geometry/inspect.hpp"
 #include "mesh/invariants.hpp"
@@ -112,8 +113,10 @@ void check_crop(const Mesh& mesh, const Properties& whole, std::uint64_t key, Co
     const double reach = length(whole.bounds.min) + length(whole.bounds.max);
     const auto lost =
         test::volume_about(in.mesh, o) + test::volume_about(out.mesh, o) - test::volume_about(mesh, o);
+    // Vertices that snap takes as on the walls are a float's rounding off, and faces that get them bend so.
+    const double bent = in.snapped > 0 ? float32_ulp(whole.bounds) : 0;
     CHECK(std::fabs(static_cast<double>(lost)) <=
-          8 * 2.2e-16 * reach * (whole.area + front.area + back.area));
+          (8 * 2.2e-16 * reach + bent) * (whole.area + front.area + back.area));
 }
 
 void check_laws(const Mesh& mesh, std::uint64_t outlines, Counts& counts) {
