@@ -40,6 +40,7 @@ struct WriteSettings {
         false;                  ///< PLY, OBJ, OFF: positions with all their digits, else rounded to float32
     DracoSettings draco{};      ///< glTF
     bool mesh_manifold = false; ///< glTF: EXT_mesh_manifold
+    bool lods = false;          ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
     std::string title{};        ///< the output's stem, for names inside the file
 };
 

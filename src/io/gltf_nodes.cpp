@@ -63,6 +63,18 @@ void link_children(const Place& node, std::size_t index, std::vector<NodeFrame>&
     }
 }
 
+/// A level of detail (MSFT_lod) stands in for the node that names it, so under the same parent.
+void link_levels(const Place& node, std::size_t index, std::vector<NodeFrame>& frames) {
+    const auto extensions = node.find("extensions");
+    const auto levels = extensions ? extensions->find("MSFT_lod") : std::nullopt;
+    if (!levels) return;
+    const Place ids = levels->at("ids");
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const std::size_t level = ids.at(i).index(frames.size(), "node");
+        if (frames[level].parent < 0 && level != index) frames[level].parent = frames[index].parent;
+    }
+}
+
 } // namespace
 
 std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn) {
@@ -78,6 +90,7 @@ std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn) {
         }
         link_children(node, i, frames, warn);
     }
+    for (std::size_t i = 0; i < frames.size(); ++i) link_levels(item(document, "nodes", i), i, frames);
     for (const std::size_t i : parents_first(frames)) {
         const int parent = frames[i].parent;
         frames[i].world =

@@ -35,8 +35,11 @@ void claim_placements(Patch& patch);
 /// Writes the meshes of all parts. Returns each part's mesh index, -1 for parts without faces. Instances that
 /// still agree share a mesh; when they do not, each variant gets its own.
 std::vector<int> patch_meshes(Patch& patch);
-/// Points nodes at their meshes, adds nodes for new parts, renames, and moves what has moved.
-void patch_nodes(Patch& patch, const std::vector<int>& mesh_of_part);
+/// Points nodes at their meshes, adds nodes for new parts, renames, and moves what has moved. Returns each
+/// part's node, -1 for those of a document without nodes.
+std::vector<int> patch_nodes(Patch& patch, const std::vector<int>& mesh_of_part);
+/// Makes the nodes of parts X.lod1, X.lod2, ... levels of X's (MSFT_lod): out of the scene, under X's parent.
+void patch_levels(Patch& patch, const std::vector<int>& node_of_part);
 /// Drops meshes that the document placed and that no part uses any more.
 void drop_dead_meshes(Patch& patch, const std::vector<int>& mesh_of_part);
 

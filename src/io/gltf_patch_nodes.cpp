@@ -88,7 +88,7 @@ Json& root_nodes(Json& document) {
     return nodes;
 }
 
-void add_node(Patch& patch, const Part& part, int mesh) {
+std::size_t add_node(Patch& patch, const Part& part, int mesh) {
     Json node = {{"name", part.name}};
     if (mesh >= 0) node["mesh"] = mesh;
     Json& document = patch.builder.json();
@@ -101,6 +101,7 @@ void add_node(Patch& patch, const Part& part, int mesh) {
     }
     const std::size_t index = patch.builder.add("nodes", std::move(node));
     root_nodes(document).push_back(index);
+    return index;
 }
 
 } // namespace
@@ -122,18 +123,21 @@ void claim_placements(Patch& patch) {
     }
 }
 
-void patch_nodes(Patch& patch, const std::vector<int>& mesh_of_part) {
+std::vector<int> patch_nodes(Patch& patch, const std::vector<int>& mesh_of_part) {
     std::vector<char> placed(patch.scene.parts.size());
+    std::vector<int> nodes(placed.size(), -1);
     for (std::size_t p = 0; p < patch.placements.size(); ++p) {
         const int part = patch.claimed[p], node = patch.placements[p].node;
-        if (part >= 0) placed[static_cast<std::size_t>(part)] = true;
+        if (part >= 0)
+            placed[static_cast<std::size_t>(part)] = true, nodes[static_cast<std::size_t>(part)] = node;
         if (node >= 0)
             set_mesh(patch, static_cast<std::size_t>(node), patch.placements[p], part,
                      part < 0 ? -1 : mesh_of_part[static_cast<std::size_t>(part)]);
     }
     if (patch.base >= 0) move_nodes(patch);
-    for (std::size_t i = 0; i < patch.scene.parts.size(); ++i)
-        if (!placed[i]) add_node(patch, patch.scene.parts[i], mesh_of_part[i]);
+    for (std::size_t i = 0; i < placed.size(); ++i)
+        if (!placed[i]) nodes[i] = static_cast<int>(add_node(patch, patch.scene.parts[i], mesh_of_part[i]));
+    return nodes;
 }
 
 } // namespace facetmill::io::gltf

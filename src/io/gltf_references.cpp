@@ -44,6 +44,7 @@ bool known(const std::string& name) {
                                                 "KHR_lights_punctual",
                                                 "KHR_xmp_json_ld",
                                                 "KHR_node_visibility",
+                                                "MSFT_lod",
                                                 "MSFT_texture_dds",
                                                 "EXT_lights_image_based"};
     const auto starts = [&](const char* prefix) { return name.rfind(prefix, 0) == 0; };

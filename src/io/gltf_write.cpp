@@ -110,7 +110,7 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
                    "EXT_mesh_manifold is not written under Draco, which renumbers what it names");
     claim_placements(patch);
     const auto mesh_of_part = patch_meshes(patch);
-    patch_nodes(patch, mesh_of_part);
+    patch_levels(patch, patch_nodes(patch, mesh_of_part));
     drop_dead_meshes(patch, mesh_of_part);
     drop_unused_draco(builder);
     warn_of_losses(patch);

@@ -24,6 +24,7 @@ const std::vector<KnownWarning>& known_warnings() {
         {"W-INDEX", "Corners name texture points or normals that the OBJ does not have."},
         {"W-INSIDE-OUT", "The faces of a solid look inward, so its volume is negative."},
         {"W-INSTANCES", "Instances of a glTF mesh differ now, so they get meshes of their own."},
+        {"W-LODS", "write was to link levels of detail, and the scene has none."},
         {"W-MANIFOLD", "EXT_mesh_manifold cannot be read or written for a part."},
         {"W-MASK", "A mask selects no vertex: nothing moves."},
         {"W-MERGED", "Of several glTF documents only meshes and materials go into one file."},

@@ -206,7 +206,7 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
     d.group(
         "lods", &SimplifyOptions::lods,
         "Levels of detail in place of one target: each is made from the one before, and all are parts of the "
-        "scene: NAME, NAME.lod1, NAME.lod2, ...",
+        "scene: NAME, NAME.lod1, NAME.lod2, ... (write: {lods: true} puts them into one glTF as MSFT_lod).",
         declare_levels);
     d.option("measure", &SimplifyOptions::measure,
              "Measure the deviation from what came in, both ways, and report it.");

@@ -26,7 +26,7 @@ struct WriteOptions {
     std::string format;
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
-    bool ascii = false, big_endian = false, mesh_manifold = false;
+    bool ascii = false, big_endian = false, mesh_manifold = false, lods = false;
     Precision precision = Precision::single;
     std::optional<DracoOptions> draco;
 };
@@ -69,6 +69,8 @@ void declare(Declare<WriteOptions>& d) {
             declare_draco);
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
              "glTF with EXT_mesh_manifold, so that readers need not weld.");
+    d.option("lods", &WriteOptions::lods,
+             "glTF with MSFT_lod: the parts X.lod1, X.lod2, ... are shown in place of X, not beside it.");
 }
 
 /// The formats that know an option.
@@ -81,7 +83,8 @@ const std::vector<FormatsOf>& format_options() {
                                               {"big_endian", {"ply"}},
                                               {"precision", {"ply", "obj", "off"}},
                                               {"draco", {"gltf", "glb", "drc"}},
-                                              {"mesh_manifold", {"gltf", "glb"}}};
+                                              {"mesh_manifold", {"gltf", "glb"}},
+                                              {"lods", {"gltf", "glb"}}};
     return table;
 }
 
@@ -92,7 +95,8 @@ void verify_options(const WriteOptions& o, const std::string& format, const Valu
                                                 {"big_endian", o.big_endian},
                                                 {"precision", o.precision == Precision::full},
                                                 {"draco", o.draco && o.draco->on},
-                                                {"mesh_manifold", o.mesh_manifold}};
+                                                {"mesh_manifold", o.mesh_manifold},
+                                                {"lods", o.lods}};
     for (const auto& [option, formats] : format_options())
         if (says.at(option) && std::find(formats.begin(), formats.end(), format) == formats.end())
             problems.add(given.find_entry(option)->key_mark, "E-EXCLUSIVE",
@@ -142,6 +146,7 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
     s.ascii = o.ascii;
     s.big_endian = o.big_endian;
     s.mesh_manifold = o.mesh_manifold;
+    s.lods = o.lods;
     s.double_positions = o.precision == Precision::full;
     s.title = title_of(target);
     if (o.draco && o.draco->on)

@@ -48,6 +48,11 @@ std::vector<Scene> scenes() {
         all.push_back(all.back());
         for (auto& part : all.back().parts) part.changed = true;
     }
+    all.push_back(test::scene_of(shapes::icosphere(2)));
+    for (const int level : {1, 2}) {
+        all.back().parts.push_back(test::scene_of(shapes::icosphere(2 - level)).parts[0]);
+        all.back().parts.back().name = all.back().parts[0].name + ".lod" + std::to_string(level);
+    }
     return all;
 }
 
@@ -71,6 +76,7 @@ TEST_CASE("the Khronos validator finds no error in what is written", "[io]") {
                     io::WriteSettings settings;
                     settings.draco.on = draco;
                     settings.mesh_manifold = manifold;
+                    settings.lods = number % 2 == 0; // most scenes have none: told, and no harm
                     settings.title = "f";
                     files += put(folder / std::to_string(number++), test::written(scene, codec, settings));
                 }

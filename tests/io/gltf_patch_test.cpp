@@ -153,3 +153,40 @@ TEST_CASE("the same scene gives the same bytes", "[io]") {
               test::written(scene, "glb", settings).files[0].bytes);
     }
 }
+
+TEST_CASE("levels of detail stand in for their node, wherever it is", "[io]") {
+    // Under a parent that is moved and scaled, so that a level's own place must be told from there.
+    Scene scene = test::read_text(
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+ "nodes":[{"name":"root","translation":[1,2,3],"scale":[2,2,2],"children":[1]},{"name":"bust","mesh":0,"translation":[0,0,5]}],
+ "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+ "bufferViews":[{"buffer":0,"byteLength":36}],
+ "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    Part coarse = scene.parts.at(0);
+    for (const char* name : {"bust.lod2", "bust.lod1", "bust.lod", "other.lod1"}) {
+        coarse.name = name, coarse.changed = true;
+        scene.parts.push_back(coarse);
+    }
+    io::WriteSettings settings;
+    settings.lods = true;
+    const Json json = written_json(scene, settings);
+    CHECK(json["extensionsUsed"] == Json::parse(R"(["MSFT_lod"])"));
+    const Json& ids = json["nodes"][1]["extensions"]["MSFT_lod"]["ids"];
+    REQUIRE(ids.size() == 2);
+    CHECK(json["nodes"][ids[0].get<std::size_t>()]["name"] == "bust.lod1");
+    CHECK(json["nodes"][ids[1].get<std::size_t>()]["name"] == "bust.lod2");
+    CHECK(json["nodes"][ids[0].get<std::size_t>()]["matrix"][14] == 5); // under root, as the bust is
+    const Json roots = json["scenes"][0]["nodes"];
+    CHECK(roots.size() == 3); // root, and the two that are no levels
+    for (const auto& id : ids) CHECK(std::find(roots.begin(), roots.end(), id) == roots.end());
+    const Scene again = test::again(scene, settings);
+    REQUIRE(again.parts.size() == 5);
+    for (const Part& part : again.parts) CHECK(part.transform == scene.parts[0].transform);
+    // Written again as it was read, the levels are still levels; without any, that is told.
+    const Json twice = written_json(again, settings);
+    CHECK(twice["nodes"] == json["nodes"]);
+    Scene alone = scene;
+    alone.parts.resize(1);
+    CHECK(test::written(alone, "glb", settings).warnings.at(0).id == "W-LODS");
+}
