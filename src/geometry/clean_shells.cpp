@@ -1,6 +1,6 @@
 // The step of clean that removes pieces hidden inside others.
-#include "geometry/axis_rays.hpp"
 #include "geometry/clean_steps.hpp"
+#include "geometry/rays.hpp"
 #include "geometry/self_intersections.hpp"
 #include "geometry/surgery.hpp"
 #include "mesh/topology.hpp"
@@ -42,12 +42,12 @@ bool remove_inner_shells(Work& work) {
     std::vector<Index> first(pieces.count, none);
     for (Index f = 0; f < mesh.face_count(); ++f)
         if (first[pieces.of_face[f]] == none) first[pieces.of_face[f]] = f;
-    const AxisRays rays(mesh);
+    const FaceTree rays(surface_of(mesh), FaceTree::Use::rays);
     std::vector<std::uint8_t> inside(pieces.count, 0);
     for (Index p = 0; p < pieces.count; ++p) {
         if (!closed[p]) continue;
         std::map<Index, int> turns;
-        rays.visit(mesh.point(mesh.face_begin(first[p])), 0, true, [&](Index f, int way) {
+        visit_along_axis(rays, mesh.point(mesh.face_begin(first[p])), 0, true, [&](Index f, int way) {
             if (closed[pieces.of_face[f]]) turns[pieces.of_face[f]] += way;
         });
         for (const auto& [q, n] : turns)

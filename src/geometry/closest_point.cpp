@@ -2,10 +2,12 @@
 // that slivers lose nothing.
 #include "geometry/closest_point.hpp"
 
+#include "base/lanes.hpp"
 #include "base/parallel.hpp"
 #include "geometry/space_curve.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace facetmill {
@@ -51,11 +53,6 @@ Vec3 offset_to(const FaceTree& tree, Index triangle, const Vec3& p) {
     return closest_to_origin((t.a - p) * tree.scale, (t.b - p) * tree.scale, (t.c - p) * tree.scale);
 }
 
-using Float4 = float __attribute__((vector_size(16)));
-
-Float4 load(const float (&four)[4]) { return Float4{four[0], four[1], four[2], four[3]}; }
-Float4 greater(const Float4& a, const Float4& b) { return a > b ? a : b; }
-
 /// How far a query is from the middle of the surface, in units of the tree's frame.
 double reach_of(const FaceTree& tree, const Vec3& p) {
     const Vec3 at = tree.local(p);
@@ -80,6 +77,9 @@ class NearQuery {
         // that with an axis: less than 16 roundings of numbers up to its reach + 1.
         error_ = Float4{} + static_cast<float>((reach_of(tree, p) + 2) * 0x1p-20);
     }
+
+    /// Which of the bounds are within the limit: a bit each.
+    static unsigned within(const Float4& bounds, float limit) { return bits_of(bounds <= Float4{} + limit); }
 
     /// Lower bounds of the squared distances to the four things below a node.
     Float4 bounds(const FaceTree& tree, int level, std::uint32_t node) const {
@@ -132,9 +132,15 @@ class FarQuery {
   public:
     static constexpr double largest = 1e8; ///< beyond, distances to all of the surface round to the same
     using Number = double;
-    static constexpr double most = HUGE_VAL;
+    static constexpr double most = std::numeric_limits<double>::max();
 
     FarQuery(const FaceTree& tree, const Vec3& p) : at_(tree.local(p)) {}
+
+    static unsigned within(const std::array<double, 4>& bounds, double limit) {
+        unsigned bits = 0;
+        for (unsigned slot = 0; slot < 4; ++slot) bits |= unsigned{bounds[slot] <= limit} << slot;
+        return bits;
+    }
 
     std::array<double, 4> bounds(const FaceTree& tree, int level, std::uint32_t n) const {
         const auto& node = tree.node(level, n);
@@ -186,12 +192,11 @@ class Search {
             const Entry entry = stack[--size];
             if (entry.bound > limit) continue;
             const auto bounds = query.bounds(tree_, entry.level, entry.node);
-            // Those near enough, nearest last.
+            // Those near enough, nearest last. Empty slots are infinitely far.
             Entry near[4];
             int count = 0;
-            for (std::uint32_t s = 0; s < 4; ++s) {
-                if (!(bounds[s] <= limit) || bounds[s] == HUGE_VALF)
-                    continue; // empty slots are infinitely far
+            for (unsigned bits = Query::within(bounds, limit); bits != 0; bits &= bits - 1) {
+                const auto s = static_cast<std::uint32_t>(std::countr_zero(bits));
                 int at = count++;
                 for (; at > 0 && near[at - 1].bound < bounds[s]; --at) near[at] = near[at - 1];
                 near[at] = {bounds[s], entry.level - 1, 4 * entry.node + s};

@@ -110,6 +110,10 @@ bool surely_not_parallel(const Vec3& u, const Vec3& w) {
 
 } // namespace
 
+bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return !surely_not_parallel(b - a, c - a) && collinear(a, b, c);
+}
+
 bool is_degenerate(const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
     // With the first corner and the first that differs from it, every other corner must be on one line.
@@ -119,7 +123,7 @@ bool is_degenerate(const Mesh& mesh, Index f) {
     if (other + 1 >= end) return true;
     const Vec3& q = mesh.point(other);
     for (Index c = other + 1; c < end; ++c)
-        if (surely_not_parallel(q - p, mesh.point(c) - p) || !collinear(p, q, mesh.point(c))) return false;
+        if (!is_degenerate(p, q, mesh.point(c))) return false;
     return true;
 }
 
@@ -192,10 +196,12 @@ std::vector<Place> places_against(const Mesh& mesh, std::string_view property, s
         return places_of_faces(mesh, faces);
     }
     if (property == "self_intersections") {
-        std::vector<Index> faces;
+        std::vector<Index> faces, others;
         for (const auto& [low, high] : find_self_intersections(mesh, {.limit = limit}).pairs)
-            faces.push_back(low);
-        return places_of_faces(mesh, faces);
+            faces.push_back(low), others.push_back(high);
+        auto places = places_of_faces(mesh, faces);
+        for (std::size_t i = 0; i < places.size(); ++i) places[i].with = others[i];
+        return places;
     }
     return {};
 }

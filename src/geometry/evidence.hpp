@@ -9,18 +9,21 @@ namespace facetmill {
 struct Place {
     Index face = none;
     Vec3 at;
+    Index with = none; ///< the other face of a pair
 };
 
 /// The first places, in order of edge, face or vertex number, that keep the property (a name of
 /// property_table) from holding as a sound mesh has it: for closed, boundary_edges and boundary_loops the
 /// edges whose directions do not cancel; for edge_manifold edges with more than two faces; for oriented edges
 /// that two faces run along the same way; for vertex_manifold vertices of several fans; for degenerate_faces,
-/// duplicate_faces and isolated_vertices these themselves; for self_intersections the lower face of each
-/// pair. Empty for properties that are not about places. O(n log n).
+/// duplicate_faces and isolated_vertices these themselves; for self_intersections the faces of each
+/// pair, in the middle of the lower one. Empty for properties that are not about places. O(n log n).
 std::vector<Place> places_against(const Mesh& mesh, std::string_view property, std::size_t limit = 10);
 
 /// Whether face f has exactly zero area: all its corners on one line, decided exactly.
 bool is_degenerate(const Mesh& mesh, Index f);
+/// Whether three points are on one line, exactly.
+bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// For each vertex, how many fans its faces form: faces at a vertex are in one fan when edges at it link
 /// them. Isolated vertices have none.

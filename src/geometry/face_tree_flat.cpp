@@ -144,7 +144,7 @@ void FaceTree::flatten() {
     std::vector<Moments> moments(plates.size());
     parallel_for(
         plates.size(), [&](std::size_t n) { moments[n] = flatten_leaf(*this, n, plates[n]); }, chunk);
-    patch_levels = std::min(4, height() - 1);
+    patch_levels = std::min(8, height() - 1);
     for (int level = 1; level <= patch_levels; ++level) {
         const std::size_t size = std::size_t{1} << 2 * level; // triangles under a child
         const std::size_t begin = patches.size(), children = moments.size();

@@ -1,7 +1,7 @@
 #include "geometry/orient.hpp"
 
 #include "base/parallel.hpp"
-#include "geometry/axis_rays.hpp"
+#include "geometry/rays.hpp"
 #include "geometry/surface_normal.hpp"
 #include "mesh/topology.hpp"
 
@@ -80,7 +80,8 @@ class Spreader {
 class Outside {
   public:
     Outside(const Mesh& mesh, Spread& spread, Nested nested)
-        : mesh_(mesh), spread_(spread), nested_(nested), rays_(mesh), faces_(spread.pieces.size()) {
+        : mesh_(mesh), spread_(spread), nested_(nested), rays_(surface_of(mesh), FaceTree::Use::rays),
+          faces_(spread.pieces.size()) {
         for (Index f = 0; f < mesh.face_count(); ++f) faces_[spread.piece_of[f]].push_back(f);
     }
 
@@ -131,7 +132,7 @@ class Outside {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index f = faces_[p][k * (faces_[p].size() - 1) / 2];
             std::map<Index, int> turns; // of each piece around the point
-            rays_.visit(mesh_.point(mesh_.face_begin(f)), 0, true, [&](Index g, int way) {
+            visit_along_axis(rays_, mesh_.point(mesh_.face_begin(f)), 0, true, [&](Index g, int way) {
                 const Index q = spread_.piece_of[g];
                 if (q != p && spread_.pieces[q].closed && spread_.pieces[q].orientable) turns[q] += way;
             });
@@ -157,7 +158,7 @@ class Outside {
                 if (!(weight > 0)) continue;
                 const auto free = [&](bool forward) {
                     bool escapes = true;
-                    rays_.visit(from, axis, forward, [&](Index g, int) {
+                    visit_along_axis(rays_, from, axis, forward, [&](Index g, int) {
                         escapes = escapes && (g == f || spread_.piece_of[g] != p);
                     });
                     return escapes;
@@ -172,7 +173,7 @@ class Outside {
     const Mesh& mesh_;
     Spread& spread_;
     Nested nested_;
-    AxisRays rays_;
+    FaceTree rays_;
     std::vector<std::vector<Index>> faces_;
 };
 

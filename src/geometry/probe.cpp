@@ -3,28 +3,60 @@
 #include "base/parallel.hpp"
 #include "geometry/space_curve.hpp"
 
+#include <algorithm>
+
 namespace facetmill {
 
 namespace {
 
-PointAnswer answer(const FaceTree& tree, const Vec3& p, const PointSettings& settings, Index hint) {
-    PointAnswer a;
-    a.closest = closest_point(tree, p, hint);
-    if (a.closest.face == none) { // nothing there, or no such point
-        a.side = settings.closed && is_finite(p) ? Side::outside : Side::unknown;
+/// Asks points that follow each other in space.
+class Walk {
+  public:
+    Walk(const FaceTree& tree, const PointSettings& settings) : tree_(tree), settings_(settings) {}
+
+    PointAnswer next(const Vec3& p) {
+        PointAnswer a;
+        a.closest = closest_point(tree_, p, hint_);
+        if (a.closest.face == none) { // nothing there, or no such point
+            a.side = settings_.closed && is_finite(p) ? Side::outside : Side::unknown;
+            return a;
+        }
+        hint_ = a.closest.triangle;
+        // A point exactly on the surface is closer than the rounding of distances can say.
+        const double near = 1e-12 / tree_.scale;
+        if (a.closest.distance <= settings_.tolerance || (a.closest.distance <= near && lies_on(tree_, p))) {
+            a.side = Side::on;
+            return a;
+        }
+        if (!settings_.closed) return a;
+        a.winding = winding_at(p, a.closest.distance);
+        a.side = a.winding != 0 ? Side::inside : Side::outside;
         return a;
     }
-    // A point exactly on the surface is closer than the rounding of distances can say.
-    const double near = 1e-12 / tree.scale;
-    if (a.closest.distance <= settings.tolerance || (a.closest.distance <= near && lies_on(tree, p))) {
-        a.side = Side::on;
-        return a;
+
+  private:
+    /// A ball around a point that does not reach the surface is on one side of it: the number of the point
+    /// before is that of this one when either's ball holds the other. Else the way between them is looked at.
+    int winding_at(const Vec3& p, double distance) {
+        const double step = length(p - last_.point), sure = 0.999; // far more than distances are rounded by
+        if (!last_.known || !(step * tree_.scale < 4))             // a way far outside tells little
+            last_.winding = winding(tree_, p);
+        else if (!(step < sure * std::max(distance, last_.distance)))
+            last_.winding = winding_beside(tree_, last_.point, last_.winding, p);
+        last_.known = true, last_.point = p, last_.distance = distance;
+        return last_.winding;
     }
-    if (!settings.closed) return a;
-    a.winding = winding(tree, p);
-    a.side = a.winding != 0 ? Side::inside : Side::outside;
-    return a;
-}
+
+    const FaceTree& tree_;
+    const PointSettings& settings_;
+    Index hint_ = none;
+    struct {
+        bool known = false;
+        Vec3 point;
+        int winding = 0;
+        double distance = 0;
+    } last_;
+};
 
 } // namespace
 
@@ -41,11 +73,8 @@ std::vector<PointAnswer> probe_points(const FaceTree& tree, std::span<const Vec3
     parallel_chunks(
         points.size(),
         [&](std::size_t begin, std::size_t end) {
-            Index hint = none;
-            for (std::size_t i = begin; i < end; ++i) {
-                answers[order[i]] = answer(tree, points[order[i]], settings, hint);
-                hint = answers[order[i]].closest.triangle;
-            }
+            Walk walk(tree, settings);
+            for (std::size_t i = begin; i < end; ++i) answers[order[i]] = walk.next(points[order[i]]);
         },
         512);
     return answers;

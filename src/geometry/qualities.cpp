@@ -3,6 +3,7 @@
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
 #include "geometry/around_edge.hpp"
+#include "geometry/boundary.hpp"
 #include "geometry/clean_steps.hpp"
 #include "geometry/orient.hpp"
 #include "geometry/self_intersections.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 
 namespace facetmill {
 
@@ -127,23 +127,6 @@ std::vector<Index> inward_faces(const Mesh& mesh) {
     return list;
 }
 
-/// Open edges as loops: connected by their vertices. Their lengths, by lowest vertex.
-std::vector<double> loop_lengths(const Mesh& mesh) {
-    const auto edges = build_edges(mesh);
-    DisjointSets sets(mesh.vertex_count());
-    std::vector<Index> open;
-    for (Index e = 0; e < edges.size(); ++e)
-        if (edges.corners_of(e).size() == 1)
-            open.push_back(e), sets.join(edges.edges[e].low, edges.edges[e].high);
-    std::map<Index, double> lengths;
-    for (const Index e : open)
-        lengths[sets.find(edges.edges[e].low)] +=
-            length(mesh.positions[edges.edges[e].high] - mesh.positions[edges.edges[e].low]);
-    std::vector<double> list;
-    for (const auto& [root, l] : lengths) list.push_back(l);
-    return list;
-}
-
 /// Elements of the attributes with that role (or name prefix) for which bad(attribute, element) holds.
 template <class Bad>
 std::optional<double> none_bad(const Mesh& mesh, bool (*chosen)(const Attribute&), Bad&& bad) {
@@ -212,17 +195,17 @@ constexpr std::array<QualityInfo, quality_count> table{{
     {"min_angle", Join::least, "The smallest angle of a face, in degrees."},
     {"max_angle", Join::most, "The largest angle of a face, in degrees."},
     {"aspect_ratio", Join::most, "The worst ratio of longest edge to inner radius; 1 for equal sides."},
-    {"shortest_edge", Join::least, "The length of the shortest edge."},
-    {"longest_edge", Join::most, "The length of the longest edge."},
-    {"planarity", Join::most, "How far a corner lies from the mean plane of its polygon, at most."},
+    {"shortest_edge", Join::least, "The length of the shortest edge.", true},
+    {"longest_edge", Join::most, "The length of the longest edge.", true},
+    {"planarity", Join::most, "How far a corner lies from the mean plane of its polygon, at most.", true},
     {"folded_faces", Join::sum, "Pairs of neighbours folded flat onto each other, exactly."},
     {"t_vertices", Join::sum, "Vertices exactly on an open edge of another face."},
-    {"boundary_length", Join::sum, "The length of all open edges."},
-    {"longest_boundary", Join::most, "The length of the longest chain of open edges."},
+    {"boundary_length", Join::sum, "The length of all open edges.", true},
+    {"longest_boundary", Join::most, "The length of the longest chain of open edges.", true},
     {"outward", Join::all, "Every piece has its front outside (cavities: inside), as orient would turn it."},
     {"coplanar_overlaps", Join::sum, "Pairs of faces that overlap in one plane, exactly."},
-    {"wall_thickness", Join::least,
-     "The least way through the solid, from the middles of faces straight in."},
+    {"wall_thickness", Join::least, "The least way through the solid, from the middles of faces straight in.",
+     true},
     {"uvs_in_range", Join::all, "All texture coordinates lie within 0 and 1."},
     {"uv_overlaps", Join::sum,
      "Pairs of faces that overlap in the first set of texture coordinates, exactly."},
@@ -230,7 +213,7 @@ constexpr std::array<QualityInfo, quality_count> table{{
     {"unit_normals", Join::all, "All normals and tangents have length 1, to 1/127."},
     {"weights_sum", Join::all, "The joint weights of every wedge sum to 1, to 1/255."},
     {"joints", Join::most, "Joints that the weights refer to: the highest number and one."},
-    {"extent", Join::most, "The longest side of a part's box."},
+    {"extent", Join::most, "The longest side of a part's box.", true},
 }};
 
 } // namespace
@@ -279,7 +262,7 @@ std::optional<double> measure(const Mesh& mesh, Quality q) {
     }
     default: {
         double sum = 0, most = 0;
-        for (const double l : loop_lengths(mesh)) sum += l, most = std::max(most, l);
+        for (const BoundaryChain& c : boundary_chains(mesh)) sum += c.length, most = std::max(most, c.length);
         return q == Quality::boundary_length ? sum : most;
     }
     }

@@ -40,6 +40,7 @@ struct QualityInfo {
     const char* name; ///< as users write it
     Join join;
     const char* help;
+    bool length = false; ///< in scene units
 };
 
 const QualityInfo& info_of(Quality quality);

@@ -1,23 +1,17 @@
 #include "geometry/rays.hpp"
 
+#include "base/lanes.hpp"
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
-#include "geometry/polygon.hpp"
 #include "geometry/space_curve.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace facetmill {
 
 namespace {
-
-using Float4 = float __attribute__((vector_size(16)));
-using Int4 = std::int32_t __attribute__((vector_size(16)));
-
-Float4 load(const float (&four)[4]) { return Float4{four[0], four[1], four[2], four[3]}; }
-Float4 greater(const Float4& a, const Float4& b) { return a > b ? a : b; }
-Float4 lesser(const Float4& a, const Float4& b) { return a < b ? a : b; }
 
 /// A point off the line through from and to: one step along the axis that the line follows least.
 Vec3 point_beside(const Vec3& from, const Vec3& to) {
@@ -179,8 +173,8 @@ void visit(const FaceTree& tree, const LineQuery& query, Found&& found) {
         const Float4 entries = query.entries(tree.node(entry.level, entry.node), end);
         Entry near[4];
         int count = 0;
-        for (std::uint32_t s = 0; s < 4; ++s) {
-            if (!(entries[s] < HUGE_VALF)) continue;
+        for (unsigned bits = bits_of(entries < HUGE_VALF); bits != 0; bits &= bits - 1) {
+            const auto s = static_cast<std::uint32_t>(std::countr_zero(bits));
             int at = count++;
             for (; at > 0 && near[at - 1].near < entries[s]; --at) near[at] = near[at - 1];
             near[at] = {entries[s], entry.level - 1, 4 * entry.node + s};
@@ -216,6 +210,18 @@ std::optional<Hit> first_hit(const FaceTree& tree, const Line& line) {
         return best ? query.length_to(best->t) : HUGE_VALF;
     });
     return best;
+}
+
+int winding_beside(const FaceTree& tree, const Vec3& from, int winding_there, const Vec3& to) {
+    const Line line{from, to};
+    if (tree.empty() || !is_finite(line) || is_point(line)) return winding_there;
+    const LineTest test(line);
+    int left = 0;
+    visit(tree, LineQuery(tree, line), [&](Index triangle) {
+        if (const auto hit = test.hit(tree, triangle)) left += hit->way;
+        return HUGE_VALF;
+    });
+    return winding_there - left;
 }
 
 std::vector<Hit> all_hits(const FaceTree& tree, const Line& line) {
@@ -268,47 +274,6 @@ HitLists hits_of(const FaceTree& tree, std::span<const Line> lines, bool all) {
         }
     }
     return lists;
-}
-
-const char* spelled(Meeting meeting) {
-    constexpr const char* names[] = {"hit", "parallel", "in plane", "outside segment", "outside facet"};
-    return names[static_cast<std::size_t>(meeting)];
-}
-
-SegmentFacet meet(const Line& line, std::span<const Vec3> facet) {
-    SegmentFacet result;
-    std::size_t second = 1, third = 2;
-    while (third < facet.size() && collinear(facet[0], facet[second], facet[third])) {
-        if (facet[0] == facet[second]) second = third;
-        ++third;
-    }
-    if (third >= facet.size()) return result; // no plane
-    const Vec3 &a = facet[0], &b = facet[second], &c = facet[third];
-    const Vec3 n = cross(b - a, c - a), d = line.to - line.from;
-    const int from = orientation_3d(a, b, c, line.from), to = orientation_3d(a, b, c, line.to);
-    const double along = dot(n, d);
-    if (from == 0 && to == 0) {
-        result.meeting = Meeting::in_plane;
-        return result;
-    }
-    if (along == 0 || line.from == line.to) return result;
-    result.t = from == 0 ? 0 : to == 0 ? 1 : dot(n, a - line.from) / along;
-    result.point = line.from + d * result.t;
-    const bool crosses = line.ray ? from == 0 || (along > 0) == (from < 0) : from * to <= 0;
-    if (!crosses) {
-        result.meeting = Meeting::outside_segment;
-        return result;
-    }
-    // Seen along the axis nearest to the normal, with the point where the line meets the plane.
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i)
-        if (std::abs(n[i]) > std::abs(n[axis])) axis = i;
-    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    std::vector<Vec2> ring;
-    for (const Vec3& p : facet) ring.push_back({p[u], p[v]});
-    const auto place = polygon::locate({result.point[u], result.point[v]}, ring);
-    result.meeting = place == polygon::Place::outside ? Meeting::outside_facet : Meeting::hit;
-    return result;
 }
 
 } // namespace facetmill

@@ -5,6 +5,7 @@
 
 #include "geometry/face_tree.hpp"
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -50,10 +51,20 @@ struct HitLists {
 /// In parallel; the same for any number of threads.
 HitLists hits_of(const FaceTree& tree, std::span<const Line> lines, bool all);
 
+/// The faces that a ray from p along a coordinate axis passes through, forward or back: hit(face, way) for
+/// every triangle, in no order, with way as in Hit. A ray through an edge or a vertex is taken as one beside
+/// it, as in `passes`; p itself is not on the ray. Exact.
+void visit_along_axis(const FaceTree& tree, const Vec3& p, std::size_t axis, bool forward,
+                      const std::function<void(Index face, int way)>& hit);
+
 /// How often the surface winds around p, which must not lie on it: 1 inside a closed surface, 0 outside, 2
 /// where two overlap, -1 inside one that is inside out. By the crossings of a ray along an axis, exact.
 /// Without a meaning for open surfaces.
 int winding(const FaceTree& tree, const Vec3& p);
+
+/// The winding number at `to` from that at `from`, by what the segment between them crosses: the same number
+/// as winding(tree, to), faster when they are near each other. Neither may lie on the surface. Exact.
+int winding_beside(const FaceTree& tree, const Vec3& from, int winding_there, const Vec3& to);
 
 /// Whether p lies exactly on a triangle, borders included.
 bool lies_on(const FaceTree& tree, const Vec3& p);

@@ -135,6 +135,14 @@ int winding(const FaceTree& tree, const Vec3& p) {
     return sum;
 }
 
+void visit_along_axis(const FaceTree& tree, const Vec3& p, std::size_t axis, bool forward,
+                      const std::function<void(Index face, int way)>& hit) {
+    if (tree.empty() || !is_finite(p)) return;
+    visit(tree, AxisQuery(tree, p, axis, forward), [&](Index t) {
+        if (const int way = crossing(tree.triangles[t], p, axis, forward)) hit(tree.faces[t], way);
+    });
+}
+
 bool lies_on(const FaceTree& tree, const Vec3& p) {
     if (tree.empty() || !is_finite(p)) return false;
     bool on = false;

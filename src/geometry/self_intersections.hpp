@@ -26,7 +26,7 @@ struct SelfIntersections {
 /// equal positions of different vertices do meet elsewhere. Neighbours that fold over each other in one plane
 /// count. Faces without area take no part (Properties::degenerate_faces counts them), nor do those with
 /// coordinates that are not finite. Polygons stand for their triangles (mesh/triangulated), which do not
-/// count among themselves. Boxes are searched in a tree along a Morton curve: O(n log n) and the pairs there
+/// count among themselves. A tree of boxes is walked against itself: O(n log n) and the pairs there
 /// are. Parallel; the same for any number of threads.
 SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings = {});
 

@@ -3,9 +3,9 @@
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
 
-#include "geometry/axis_rays.hpp"
 #include "geometry/inspect.hpp"
 #include "geometry/orient.hpp"
+#include "geometry/rays.hpp"
 #include "mesh/invariants.hpp"
 
 using namespace facetmill;
@@ -122,10 +122,10 @@ TEST_CASE("orient names a Moebius strip and leaves it", "[geometry]") {
 
 TEST_CASE("rays along axes count a surface right through its edges and vertices", "[geometry]") {
     const Mesh cube = shapes::cube();
-    const AxisRays rays(cube);
+    const FaceTree rays(surface_of(cube), FaceTree::Use::rays);
     const auto turns = [&](const Vec3& p, std::size_t axis, bool forward) {
         int sum = 0;
-        rays.visit(p, axis, forward, [&](Index, int way) { sum += way; });
+        visit_along_axis(rays, p, axis, forward, [&](Index, int way) { sum += way; });
         return sum;
     };
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -138,11 +138,12 @@ TEST_CASE("rays along axes count a surface right through its edges and vertices"
             CHECK(turns({0.5, -1, 0}, axis, forward) == 0);
         }
     const Mesh sphere = shapes::icosphere(2);
-    const AxisRays to_sphere(sphere);
+    const FaceTree to_sphere(surface_of(sphere), FaceTree::Use::rays);
     for (const Vec3& v : sphere.positions) {
         const Vec3 inside = v * 0.5; // many of these have coordinates of vertices
         int sum = 0;
-        to_sphere.visit({inside.x, v.y * 0.5, v.z * 0.5}, 0, true, [&](Index, int way) { sum += way; });
+        visit_along_axis(to_sphere, {inside.x, v.y * 0.5, v.z * 0.5}, 0, true,
+                         [&](Index, int way) { sum += way; });
         CHECK(sum == 1);
     }
 }

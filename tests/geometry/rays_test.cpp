@@ -6,6 +6,7 @@
 #include "support/meshes.hpp"
 
 #include <limits>
+#include <set>
 
 using namespace facetmill;
 
@@ -137,6 +138,43 @@ TEST_CASE("the winding number is 1 inside, 0 outside, and adds up", "[geometry]"
     for (std::size_t c = 0; c < twice.corners.size(); c += 3)
         std::swap(twice.corners[c], twice.corners[c + 1]);
     CHECK(winding(tree_of(twice), {0, 0, 0}) == -2);
+}
+
+TEST_CASE("many points, each asked from the one before, get what each gets alone", "[geometry]") {
+    Mesh mesh = shapes::cube();
+    Mesh other = shapes::cube(); // overlaps the first, and lies in its planes
+    for (auto& p : other.positions) p = {p.x * 0.5 + 0.5, p.y * 0.5, p.z * 2};
+    append(mesh, other);
+    append(mesh, testing::noisy_icosphere(2, 0.1, 5));
+    const FaceTree tree = tree_of(mesh);
+    std::vector<Vec3> points{{1e300, 0.5, 0.5}, {1e6, 0.5, 0.5}, {0.75, 0.25, -1e9}};
+    for (int x = -2; x <= 10; ++x)
+        for (int y = -2; y <= 10; ++y)
+            for (int z = -2; z <= 18; ++z) points.push_back({x * 0.125, y * 0.125, z * 0.125});
+    for (std::uint64_t k = 0; k < 2000; ++k) points.push_back(random_point(2.5, k));
+    const auto answers = probe_points(tree, points);
+    std::set<int> numbers;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool on = lies_on(tree, points[i]);
+        REQUIRE((answers[i].side == Side::on) == on);
+        if (!on) REQUIRE(answers[i].winding == winding(tree, points[i]));
+        numbers.insert(answers[i].winding);
+    }
+    CHECK(numbers == std::set<int>{0, 1, 2, 3});
+}
+
+TEST_CASE("the winding number follows the way between two points", "[geometry]") {
+    const FaceTree tree = tree_of(shapes::cube());
+    const Vec3 inside{0.5, 0.25, 0.375};
+    CHECK(winding_beside(tree, inside, 1, inside) == 1);
+    CHECK(winding_beside(tree, inside, 1, {0.25, 0.5, 0.5}) == 1);
+    for (const Vec3& out :
+         {Vec3{2, 1, 1.5}, Vec3{0.5, 0.25, 3}, Vec3{-0.5, -0.75, -0.625}, Vec3{1.5, 1.25, 1.375}}) {
+        CHECK(winding_beside(tree, inside, 1, out) == 0);
+        CHECK(winding_beside(tree, out, 0, inside) == 1);
+    }
+    CHECK(winding_beside(tree, {-1, -1, -1}, 0, {2, 2, 2}) == 0); // along the diagonal, through two corners
+    CHECK(winding_beside(tree, {-1, 0, 0}, 0, {2, 0, 0}) == 0);   // along an edge
 }
 
 TEST_CASE("points in line with edges and corners of a cube are told exactly", "[geometry]") {

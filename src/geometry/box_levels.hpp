@@ -1,0 +1,79 @@
+#pragma once
+// Boxes of float32 over items in a row, four to a node, so that the processor tests four at a time. The items
+// lie along a space curve and every node stands over four neighbours of the level below, so the tree needs no
+// pointers and building it is a sort.
+
+#include "base/parallel.hpp"
+#include "base/vec.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace facetmill {
+
+/// Numbers as float32, rounded down and up by more than the rounding of either.
+inline float rounded_down(double x) { return static_cast<float>(x - std::abs(x) * 0x1p-22); }
+inline float rounded_up(double x) { return static_cast<float>(x + std::abs(x) * 0x1p-22); }
+
+struct BoxLevels {
+    /// Four boxes in the tree's own frame (see local), a little larger than what they hold. Empty slots have
+    /// min = infinity, max = -infinity.
+    struct Node {
+        float min[3][4], max[3][4];
+        void clear(std::size_t slot);
+        /// The box of finite points in the tree's frame, rounded outward.
+        void set(std::size_t slot, const Vec3& low, const Vec3& high);
+        void set(std::size_t slot, const Node& child);
+    };
+
+    int height() const { return static_cast<int>(level_begin.size()); }
+    /// Node i of a level; its child s is item 4i + s on level 0, node 4i + s of the level below above.
+    const Node& node(int level, std::size_t i) const {
+        return nodes[level_begin[static_cast<std::size_t>(level)] + i];
+    }
+    /// The tree's frame has the middle of everything as origin and all of it within [-1, 1]. Rounding is
+    /// monotone, so what is between two numbers stays between them.
+    double local(double x, std::size_t axis) const { return (x - middle[axis]) * scale; }
+    Vec3 local(const Vec3& p) const { return (p - middle) * scale; }
+
+    /// The frame of what lies within a box of finite numbers.
+    void set_frame(const Box& all);
+    /// Makes the nodes over `items` items: set(node, slot, i) gives item i its box. In parallel.
+    template <class Set>
+    void build(std::size_t items, Set&& set) {
+        number_nodes(items);
+        fill(0, items, set);
+        for (std::size_t level = 1; level < level_begin.size(); ++level)
+            fill(level, count(level - 1), [&](Node& node, std::size_t slot, std::size_t child) {
+                node.set(slot, nodes[level_begin[level - 1] + child]);
+            });
+    }
+
+    Vec3 middle;
+    double scale = 1;                     ///< a power of two
+    std::vector<std::size_t> level_begin; ///< into nodes; the last level is the root alone
+    std::vector<Node> nodes;
+
+  private:
+    void number_nodes(std::size_t items);
+    /// How many nodes a level has.
+    std::size_t count(std::size_t level) const {
+        return (level + 1 < level_begin.size() ? level_begin[level + 1] : nodes.size()) - level_begin[level];
+    }
+    template <class Set>
+    void fill(std::size_t level, std::size_t children, Set&& set) {
+        Node* const first = nodes.data() + level_begin[level];
+        parallel_for(
+            count(level),
+            [&](std::size_t n) {
+                for (std::size_t slot = 0; slot < 4; ++slot)
+                    if (4 * n + slot < children)
+                        set(first[n], slot, 4 * n + slot);
+                    else
+                        first[n].clear(slot);
+            },
+            2048);
+    }
+};
+
+} // namespace facetmill
