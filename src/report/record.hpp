@@ -38,6 +38,7 @@ struct StageRecord {
     Json result = Json::object(); ///< what the stage itself reports
     Json resolved =
         Json::object(); ///< lengths that depended on the scene: {"amplitude": {"given": "0.2%", "is": 0.03}}
+    std::vector<std::string> said; ///< the main numbers of the result, a line each, for the terminal
     bool skipped = false; ///< its `when` did not hold
     double seconds = 0;
     std::string

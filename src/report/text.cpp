@@ -35,6 +35,7 @@ void add_stage(const StageRecord& stage, std::size_t width, const Paint& paint, 
         return;
     }
     out += fmt::format("  {}  {:<34} {:>9}\n", name, face_change(stage), timed(stage.seconds));
+    for (const auto& line : stage.said) out += fmt::format("  {:<{}}    {}\n", "", width, line);
     for (const auto& warning : stage.warnings)
         out += fmt::format("  {:<{}}  {}: {}\n", "", width,
                            paint("35", fmt::format("warning[{}]", warning.id)), warning.message);

@@ -34,8 +34,9 @@ struct RunState {
     io::Outputs outputs;
     report::RunRecord record;
     double load_diagonal = 0; ///< world diagonal of the scene after the last load, for "% of load"
-    std::shared_ptr<const Surface> loaded; ///< the scene after the last load, when a contract compares with it
-    bool read_back = true;    ///< decode written files again and compare
+    std::shared_ptr<const Surface>
+        loaded;            ///< the scene after the last load, when a contract compares with it
+    bool read_back = true; ///< decode written files again and compare
 };
 
 /// One stage's view of the run. All the stage says goes into its StageRecord.
@@ -58,6 +59,11 @@ class Context {
     /// What the stage wants in the report under "result".
     Json& result() { return record_.result; }
     void check(report::Check check);
+    /// A line for people on the terminal: the main numbers of the result.
+    void say(std::string line) { record_.said.push_back(std::move(line)); }
+    void say(const std::vector<std::string>& lines) {
+        for (const auto& line : lines) say(line);
+    }
 
     const Places& places() const { return run_.places; }
     RunState& run() { return run_; }

@@ -1,6 +1,7 @@
 #include "geometry/clean.hpp"
 
 #include "geometry/stretch.hpp"
+#include "report/summary.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
@@ -161,6 +162,7 @@ Scene run(Scene scene, const CleanOptions& o, Context& context) {
         parts.push_back(std::move(entry));
     });
     context.result()["parts"] = std::move(parts);
+    context.say(report::counts_summary(context.result(), "nothing to mend"));
     return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include "io/csv.hpp"
 #include "report/measure_json.hpp"
+#include "report/summary.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -120,6 +121,7 @@ Scene run(Scene scene, const MeasureOptions& o, Context& context) {
         {"total",
          {{"shell", report::shell_json(all.shell)}, {"solid", report::solid_json(all.solid, o.density)}}},
         {"parts", std::move(all.parts)}};
+    context.say(report::measure_summary(context.result()));
     for (const auto& path : o.to) {
         const std::string text = is_csv(path) ? all.csv : context.result().dump(2) + "\n";
         context.run().outputs.add(context.places().output(path.text), std::as_bytes(std::span(text)));

@@ -1,5 +1,6 @@
 #include "geometry/orient.hpp"
 
+#include "report/summary.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
@@ -70,6 +71,7 @@ Scene run(Scene scene, const OrientSettings& settings, Context& context) {
                          {"undecided_pieces", count([](const auto& p) { return p.undecided; })}});
     });
     context.result()["parts"] = std::move(parts);
+    context.say(report::counts_summary(context.result(), "no faces"));
     return scene;
 }
 

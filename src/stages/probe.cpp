@@ -1,7 +1,8 @@
 #include "geometry/probe.hpp"
 
-#include "geometry/inspect.hpp"
+#include "geometry/links.hpp"
 #include "report/probe_json.hpp"
+#include "report/summary.hpp"
 #include "stage/probe_option.hpp"
 #include "stage/stage.hpp"
 
@@ -110,7 +111,8 @@ Json answer_points(const FaceTree& tree, const Scene& scene, const ProbeOptions&
                    std::string* csv, std::size_t limit, Context& context) {
     PointSettings settings;
     settings.tolerance = context.resolve(o.on, scene, "on");
-    for (const Part* part : q.surface) settings.closed = settings.closed && inspect(part->mesh).closed;
+    for (const Part* part : q.surface)
+        settings.closed = settings.closed && count_links(part->mesh).uncancelled_edges == 0;
     if (!settings.closed)
         context.warn("W-PROBE-OPEN", "the surface is open: nothing is inside or outside it",
                      "close it (clean), or choose closed parts (only)");
@@ -223,6 +225,7 @@ Scene run(Scene scene, const ProbeOptions& o, Context& context) {
     }
     Json& list = result["answers"];
     while (list.size() > static_cast<std::size_t>(o.list)) list.erase(list.size() - 1);
+    context.say(report::probe_summary(result));
     context.result() = std::move(result);
     return scene;
 }

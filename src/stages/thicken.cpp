@@ -59,6 +59,9 @@ Json thicken_surface(Part& part, const ThickenOptions& o, double thickness, Cont
                                  part.name, r.thinnest, thickness),
                      "the surface bends or folds within the thickness there; try the other side or a smaller "
                      "thickness");
+    context.say(fmt::format(
+        "{}: wall thickness {:.6g} at least, {:.6g} in the mean{}", part.name, r.thinnest, r.mean,
+        o.self_intersections ? fmt::format(", {} self-intersections", r.self_intersections) : std::string()));
     if (!o.self_intersections) return entry;
     entry["self_intersections"] = r.self_intersections;
     if (r.self_intersections > 0)
@@ -76,6 +79,7 @@ Json thicken_edges(Part& part, const ThickenOptions& o, double thickness, Contex
         fates.push_back({a.name, a.domain, Fate::Kind::dropped, "cylinders have no attributes"});
     context.ledger(part, fates);
     part.mesh = std::move(r.mesh);
+    context.say(fmt::format("{}: {} cylinders", part.name, r.edges));
     return {{"part", part.name}, {"cylinders", r.edges}, {"without_length", r.skipped}};
 }
 

@@ -87,3 +87,20 @@ TEST_CASE("measure refuses what it cannot use", "[stages]") {
     CHECK(refusal("{density: 0}").find("E-RANGE") != std::string::npos);
     CHECK(refusal("{to: a.xls}").find("measure cannot write 'a.xls'") != std::string::npos);
 }
+
+TEST_CASE("measure says the main numbers on the terminal", "[stages]") {
+    using Lines = std::vector<std::string>;
+    Scene scene = scene_of(shapes::cube());
+    scene.unit = Unit::mm;
+    CHECK(run_stage("measure", "{}", scene).record.said ==
+          Lines{"area 6 mm2, volume 1 mm3, centroid 0.5 0.5 0.5",
+                "edges 1 to 1.41421 (mean 1.13807), angles 45 to 90 (mean 60)",
+                "12 convex, 0 concave, 6 flat and 0 boundary edges, 12 sharp"});
+    scene.parts.push_back(scene_of(shapes::grid(2, 1)).parts[0]);
+    scene.parts[1].name = "sheet";
+    const auto said = run_stage("measure", "{density: 2}", scene).record.said;
+    CHECK(said == Lines{"area 8 mm2, open (no volume), centroid 0.625 0.5 0.375",
+                        "part: area 6 mm2, volume 1 mm3, mass 2, centroid 0.5 0.5 0.5",
+                        "sheet: area 2 mm2, open (no volume), centroid 1 0.5 0"});
+    CHECK(run_stage("measure", "{}", Scene{}).record.said == Lines{"nothing to measure"});
+}

@@ -127,3 +127,17 @@ TEST_CASE("probe refuses what it cannot use", "[stages]") {
     CHECK(refusal("{points: [0, 0, 0], to: a.txt}") == "E-FORMAT probe cannot write 'a.txt'");
     CHECK(refusal("none.csv").starts_with("E-FILE"));
 }
+
+TEST_CASE("probe says the first answers on the terminal", "[stages]") {
+    using Lines = std::vector<std::string>;
+    const Scene scene = scene_of(shapes::cube());
+    const auto said = [&](const char* options) { return run_stage("probe", options, scene).record.said; };
+    CHECK(said("{points: [[0.5, 0.5, 2], [0.5, 0.25, 0.5]]}") ==
+          Lines{"1 inside, 1 outside; distance 0.25 to 1 (mean 0.625)",
+                "0.5 0.5 2: outside, 1 from 0.5 0.5 1 of part face 2",
+                "0.5 0.25 0.5: inside, 0.25 from 0.5 0 0.5 of part face 4"});
+    CHECK(said("{rays: [[0.25, 0.5, 9, 0, 0, -1], [5, 5, 5, 1, 0, 0]]}") ==
+          Lines{"1 hit, 1 missed", "0.25 0.5 9 along 0 0 -1: 2 hits, t 8 at 0.25 0.5 1 on part face 3",
+                "5 5 5 along 1 0 0: no hit"});
+    CHECK(said("{segments: [0, 0, 5, 1, 0, 5], face: 0}") == Lines{"1 parallel", "0 0 5 to 1 0 5: parallel"});
+}
