@@ -153,7 +153,7 @@ class Parser {
         if (known && known->fields) return known->fields->shorthand_schema == OptionType<bool>::schema();
         if (known && known->type != "bound") return known->type == "bool";
         const auto* property = property_named(std::string_view(key).substr(key.rfind('.') + 1));
-        return key == "join" || (property && property->truth);
+        return key == "join" || (property && property->truth());
     }
 
     /// A key without a value: true, where that may be meant.

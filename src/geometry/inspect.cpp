@@ -176,6 +176,9 @@ Properties inspect(const Part& part, const InspectSettings& settings) {
 
 Properties inspect(const Scene& scene, const InspectSettings& settings) {
     Properties sum;
+    sum.parts = static_cast<std::int64_t>(scene.parts.size());
+    sum.materials = static_cast<std::int64_t>(scene.materials.size());
+    sum.unit = scene.unit, sum.up = scene.up;
     sum.genus = 0;
     sum.volume = 0;
     if (settings.self_intersections) sum.self_intersections = 0;

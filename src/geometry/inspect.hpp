@@ -34,6 +34,9 @@ struct Properties {
     double area = 0;
     std::optional<double> volume; ///< signed, when closed
     Box bounds;
+    std::optional<std::int64_t> parts, materials; ///< these four of a scene only
+    std::optional<Unit> unit;
+    std::optional<UpAxis> up;
     std::array<std::optional<double>, quality_count> qualities{}; ///< by Quality; only on request
 };
 
@@ -50,15 +53,23 @@ Properties inspect(const Part& part, const InspectSettings& settings = {});
 /// Of all parts in world space (closedness is per part, see the design's section 2).
 Properties inspect(const Scene& scene, const InspectSettings& settings = {});
 
+/// What a property is, and so what may be asked of it: a number or a range, a length or a range of lengths,
+/// true or false, one of several words, or two corners of a box.
+enum class PropertyKind { count, number, length, truth, word, box };
+
 /// An entry of the table of names that users write in validate, ensure and when.
 struct Property {
     std::string_view name;
-    bool truth = false;  ///< true or false rather than a number
-    bool costly = false; ///< needs InspectSettings::self_intersections
+    PropertyKind kind = PropertyKind::count;
     std::string_view help;
-    /// The value: truths as 0 and 1; none when it does not apply (volume of an open mesh).
+    /// The value: truths as 0 and 1, words by their place in `words`; none for a box and when the property
+    /// does not apply (volume of an open mesh).
     std::function<std::optional<double>(const Properties&)> get;
-    std::optional<Quality> quality = {}; ///< needs its bit in InspectSettings::qualities
+    bool costly = false;                      ///< needs InspectSettings::self_intersections
+    std::optional<Quality> quality = {};      ///< needs its bit in InspectSettings::qualities
+    std::vector<std::string_view> words = {}; ///< of a word
+    bool of_scene = false;                    ///< of a scene only; reports tell more of it than the value
+    bool truth() const { return kind == PropertyKind::truth; }
 };
 
 /// In the order of the design's section 7.

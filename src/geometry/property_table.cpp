@@ -4,25 +4,44 @@ namespace facetmill {
 
 namespace {
 
+using Kind = PropertyKind;
+
 template <class T>
-Property number(std::string_view name, T Properties::*member, std::string_view help) {
-    return {name, false, false, help, [member](const Properties& p) -> std::optional<double> {
+Property number(std::string_view name, T Properties::*member, std::string_view help,
+                Kind kind = Kind::count) {
+    return {name, kind, help, [member](const Properties& p) -> std::optional<double> {
                 return static_cast<double>(p.*member);
             }};
 }
 
 template <class T>
 Property number(std::string_view name, std::optional<T> Properties::*member, std::string_view help,
-                bool costly = false) {
-    return {name, false, costly, help, [member](const Properties& p) -> std::optional<double> {
+                Kind kind = Kind::count) {
+    return {name, kind, help, [member](const Properties& p) -> std::optional<double> {
                 if (!(p.*member)) return {};
                 return static_cast<double>(*(p.*member));
             }};
 }
 
 Property truth(std::string_view name, bool Properties::*member, std::string_view help) {
-    return {name, true, false, help,
-            [member](const Properties& p) -> std::optional<double> { return p.*member ? 1 : 0; }};
+    return number(name, member, help, Kind::truth);
+}
+
+Property costly(Property p) { return p.costly = true, p; }
+Property of_scene(Property p) { return p.of_scene = true, p; }
+
+/// words: one for each value of the enumeration, in its order.
+Property word(Property p, std::vector<std::string_view> words) {
+    p.kind = Kind::word, p.words = std::move(words);
+    return of_scene(std::move(p));
+}
+
+std::vector<std::string_view> units() {
+    std::vector<std::string_view> words;
+    for (const Unit u :
+         {Unit::unknown, Unit::um, Unit::mm, Unit::cm, Unit::m, Unit::km, Unit::inch, Unit::foot})
+        words.push_back(spelled(u));
+    return words;
 }
 
 using P = Properties;
@@ -48,12 +67,22 @@ std::vector<Property> basic() {
         number("degenerate_faces", &P::degenerate_faces, "Faces of exactly zero area."),
         number("duplicate_faces", &P::duplicate_faces, "Faces beyond the first with the same vertices."),
         number("isolated_vertices", &P::isolated_vertices, "Vertices that no face uses."),
-        number("self_intersections", &P::self_intersections,
-               "Pairs of faces that intersect, exactly; this one costs time.", true),
-        number("area", &P::area, "Surface area, in square scene units."),
+        costly(number("self_intersections", &P::self_intersections,
+                      "Pairs of faces that intersect, exactly; this one costs time.")),
+        number("area", &P::area, "Surface area, in square scene units.", Kind::number),
         number("volume", &P::volume,
                "Enclosed volume, in cubic scene units, negative when inside out; does not apply to an open "
-               "surface."),
+               "surface.",
+               Kind::number),
+        {"bounds", Kind::box,
+         "The box around everything: its lowest corner at least {min: [x, y, z]}, its highest at most {max: "
+         "[x, y, z]}.",
+         [](const Properties&) { return std::optional<double>(); }},
+        word(number("unit", &P::unit, "What the numbers of positions mean."), units()),
+        word(number("up", &P::up, "Which axis points up."),
+             {spelled(UpAxis::unknown), spelled(UpAxis::y), spelled(UpAxis::z)}),
+        of_scene(number("materials", &P::materials, "How many materials there are.")),
+        of_scene(number("parts", &P::parts, "How many parts there are.")),
     };
 }
 
@@ -61,8 +90,10 @@ std::vector<Property> with_qualities() {
     auto all = basic();
     for (std::size_t q = 0; q < quality_count; ++q) {
         const QualityInfo& info = info_of(static_cast<Quality>(q));
-        all.push_back({info.name, info.join == Join::all, false, info.help,
-                       [q](const Properties& p) { return p.qualities[q]; }, static_cast<Quality>(q)});
+        const Kind kind = info.join == Join::all ? Kind::truth : info.length ? Kind::length : Kind::number;
+        Property p{info.name, kind, info.help, [q](const Properties& all) { return all.qualities[q]; }};
+        p.quality = static_cast<Quality>(q);
+        all.push_back(std::move(p));
     }
     return all;
 }

@@ -181,8 +181,8 @@ std::vector<std::string> losses(const Properties& before, const Properties& afte
     for (const char* name : sound_properties) {
         const Property& property = *property_named(name);
         const double was = property.get(before).value_or(0), is = property.get(after).value_or(0);
-        if (property.truth && was != 0 && is == 0) lost.push_back(fmt::format("no longer {}", name));
-        if (!property.truth && is > was) lost.push_back(fmt::format("{} {} (before: {})", is, name, was));
+        if (property.truth() && was != 0 && is == 0) lost.push_back(fmt::format("no longer {}", name));
+        if (!property.truth() && is > was) lost.push_back(fmt::format("{} {} (before: {})", is, name, was));
     }
     return lost;
 }
@@ -194,7 +194,7 @@ Json ReadBack::json() const {
     for (const char* name : sound_properties) {
         const Property& property = *property_named(name);
         const double value = property.get(soundness).value_or(0);
-        if (property.truth)
+        if (property.truth())
             all[name] = value != 0;
         else
             all[name] = static_cast<std::int64_t>(value);

@@ -16,8 +16,7 @@ std::string list_of(const std::vector<std::string>& texts) {
 std::string assertions_text(const Assertions& assertions) {
     std::string out;
     for (const auto& a : assertions.all)
-        out +=
-            fmt::format("{}{}: {}", out.empty() ? "" : ", ", a.property, OptionType<Bound>::print(a.bound));
+        out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", a.property, spelled(a));
     return out;
 }
 
@@ -74,7 +73,7 @@ void describe(const Steps& steps, const Headers& headers, std::size_t indent, st
 
 Json assertions_json(const Assertions& assertions) {
     Json out = Json::object();
-    for (const auto& a : assertions.all) out[a.property] = OptionType<Bound>::print(a.bound);
+    for (const auto& a : assertions.all) out[a.property] = spelled(a);
     return out;
 }
 

@@ -39,6 +39,7 @@ void find_physical(const Option& option, const Value& value,
                    std::vector<std::pair<std::string, const Value*>>& found) {
     if (option.fields) return find_physical(*option.fields, value, found);
     for (const auto& item : value.items) find_physical(option, item, found);
+    for (const auto& entry : value.entries) find_physical(option, entry.value, found); // {min: 2mm}
     if (option.dimension != Dimension::length || !value.is_scalar() || value.deferred) return;
     Problems ignored; // a range may reach here as a map or text of its own; its stage has judged it
     Length length;
@@ -64,7 +65,9 @@ class Walk {
             else if (unit)
                 resolve_lengths(step, *unit);
             // A stage that says what the numbers mean ends what is known here.
-            if (!step.stage->outline && step.given.is_map() && step.given.find("unit")) unit.reset();
+            const bool says = !step.stage->outline && !step.stage->checks;
+            if (says && step.given.is_map() && step.given.find("unit")) unit.reset();
+            if (step.ensure && unit == Unit::unknown) contract(*step.ensure);
         }
     }
 
@@ -115,13 +118,29 @@ class Walk {
                       "say what the numbers of the file mean (load: {unit: mm})", wanted->mark));
         std::vector<std::pair<std::string, const Value*>> found;
         find_physical(step.stage->options, step.given, found);
-        for (const auto& [option, value] : found)
-            headers.errors.push_back(
-                Error(ErrorKind::usage, "E-UNIT",
-                      fmt::format("'{}' is {}, but the scene has no unit", option, value->text),
-                      "say what the numbers of the file mean (load: {unit: mm}), or give a bare number or a "
-                      "percentage",
-                      value->mark));
+        for (const auto& [option, value] : found) no_unit(option, value->text, value->mark);
+        if (step.when) assertions(step.when->predicates);
+    }
+
+    void contract(const Contract& contract) {
+        assertions(contract.assertions);
+        if (!contract.deviation) return;
+        for (const auto* length :
+             {&contract.deviation->max, &contract.deviation->rms, &contract.deviation->mean})
+            if (*length && (*length)->kind == Length::Kind::physical)
+                no_unit("deviation", (*length)->text, contract.deviation_at);
+    }
+
+    void assertions(const Assertions& all) {
+        for (const auto& [assertion, length] : all.physical())
+            no_unit(assertion->property, length->text, assertion->where);
+    }
+
+    void no_unit(const std::string& option, const std::string& text, const Mark& where) {
+        headers.errors.push_back(Error(
+            ErrorKind::usage, "E-UNIT", fmt::format("'{}' is {}, but the scene has no unit", option, text),
+            "say what the numbers of the file mean (load: {unit: mm}), or give a bare number or a percentage",
+            where));
     }
 
     const Places& places_;

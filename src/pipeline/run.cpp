@@ -128,28 +128,34 @@ class Runner {
             std::shared_ptr<const Surface> reference;
             if (!failures_.guarded(step.where, step.name, [&] { reference = reference_of(step, scene); }))
                 return false;
+            const Box entered = step.ensure ? scene.bounds() : Box{};
             const bool done = step.kind == Step::Kind::stage ? run_stage(step, scene)
                                                              : run_arms(step, scene, needed || !last);
             if (!done) return false;
             if (step.kind != Step::Kind::stage)
                 checked = record().checks.size(); // those of the arms are judged
-            if (step.ensure && !failures_.guarded(step.where, step.name,
-                                                  [&] { check_contract(step, scene, reference.get()); }))
+            if (step.ensure && !failures_.guarded(step.where, step.name, [&] {
+                    check_contract(step, scene, entered, reference.get());
+                }))
                 return false;
             holds = failures_.judge_checks(checked) && holds;
         }
         return holds;
     }
 
-    static Properties properties_for(const Assertions& assertions, const Scene& scene) {
-        return inspect(scene, assertions.settings());
+    /// Checks of what the scene is at this place. Resolved lengths are recorded in `record`.
+    std::vector<report::Check> judged(const Assertions& assertions, const Step& step, const Scene& scene,
+                                      const Box& entering, report::StageRecord& record) {
+        Context context(state_, record, step.only, entering, step.where);
+        return evaluate(resolved(assertions, scene, context), inspect(scene, assertions.settings()),
+                        step.name);
     }
 
-    static bool is_skipped(const Step& step, const Scene& scene) {
+    bool is_skipped(const Step& step, const Scene& scene) {
         if (!step.when) return false;
         if (step.when->known) return !*step.when->known;
-        const auto& predicates = step.when->predicates;
-        const auto results = evaluate(predicates, properties_for(predicates, scene), step.name);
+        report::StageRecord none; // there is a record of the step only when it runs
+        const auto results = judged(step.when->predicates, step, scene, scene.bounds(), none);
         return !std::all_of(results.begin(), results.end(), [](const auto& check) { return check.passed; });
     }
 
@@ -233,17 +239,18 @@ class Runner {
         return std::make_shared<const Surface>(surface_of(scene));
     }
 
-    void check_contract(const Step& step, const Scene& scene, const Surface* reference) {
-        const auto& assertions = step.ensure->assertions;
-        if (!assertions.all.empty())
-            for (auto& check : evaluate(assertions, properties_for(assertions, scene), step.name))
-                record().checks.push_back(std::move(check));
-        if (!step.ensure->deviation || !reference) return;
+    /// entered: the bounds of the scene that entered the step.
+    void check_contract(const Step& step, const Scene& scene, const Box& entered, const Surface* reference) {
         report::StageRecord none; // a branch has no record of its own
         none.name = step.name;
         const bool recorded = step.kind == Step::Kind::stage && !record().stages.empty();
-        Context context(state_, recorded ? record().stages.back() : none, step.only, reference->bounds(),
-                        step.where);
+        report::StageRecord& stage = recorded ? record().stages.back() : none;
+        const auto& assertions = step.ensure->assertions;
+        if (!assertions.all.empty())
+            for (auto& check : judged(assertions, step, scene, entered, stage))
+                record().checks.push_back(std::move(check));
+        if (!step.ensure->deviation || !reference) return;
+        Context context(state_, stage, step.only, reference->bounds(), step.where);
         check_deviation(*step.ensure->deviation, step.ensure->deviation_at, *reference, scene, context);
     }
 

@@ -36,16 +36,15 @@ class Comparer {
 
     void properties() {
         const Properties a = inspect(a_), b = inspect(b_);
-        static const std::set<std::string_view> counts{"vertices", "wedges", "edges", "faces", "triangles"},
-            sizes{"area", "volume"};
+        static const std::set<std::string_view> counts{"vertices", "wedges", "edges", "faces", "triangles"};
         const auto value = [](const Property& p, const Properties& of) -> Json {
             const auto x = p.get(of);
             if (!x) return nullptr;
-            if (p.truth) return *x != 0;
-            return sizes.contains(p.name) ? Json(*x) : Json(static_cast<std::int64_t>(*x));
+            return p.truth() ? Json(*x != 0) : Json(static_cast<std::int64_t>(*x));
         };
         for (const auto& p : property_table()) {
-            if (p.costly || sizes.contains(p.name)) continue;
+            const bool counted = p.kind == PropertyKind::count || p.truth();
+            if (!counted || p.costly || p.of_scene || p.quality) continue;
             add(counts.contains(p.name) ? "counts" : "topology", std::string(p.name), value(p, a),
                 value(p, b));
         }

@@ -34,15 +34,16 @@ Json properties_json(const Properties& properties) {
     Json json = Json::object();
     for (const auto& p : property_table()) {
         const auto value = p.get(properties);
-        if (p.quality && !value) continue; // only those that were asked for
+        if (p.kind == PropertyKind::box || p.of_scene || (p.quality && !value))
+            continue; // told below, or not asked for
         Json& slot = json[std::string(p.name)];
         if (!value) continue;
-        if (p.truth)
+        if (p.truth())
             slot = *value != 0;
-        else if (p.name == "area" || p.name == "volume" || p.quality)
-            slot = *value;
-        else
+        else if (p.kind == PropertyKind::count)
             slot = static_cast<std::int64_t>(*value);
+        else
+            slot = *value;
     }
     json["bounds"] = bounds_json(properties.bounds);
     return json;

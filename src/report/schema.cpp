@@ -61,10 +61,10 @@ Json file(bool read_back) {
 Json scene_schema() {
     Json properties = Json::object();
     for (const auto& p : property_table()) {
-        if (p.quality) continue;
+        if (p.quality || p.of_scene || p.kind == PropertyKind::box) continue;
         Json& schema = properties[std::string(p.name)];
-        const bool real = p.name == "area" || p.name == "volume";
-        schema = p.truth ? typed("boolean") : nullable(real ? "number" : "integer");
+        schema =
+            p.truth() ? typed("boolean") : nullable(p.kind == PropertyKind::count ? "integer" : "number");
         schema["description"] = p.help;
     }
     properties["bounds"] = bounds();
@@ -85,7 +85,7 @@ Json scene_schema() {
     for (const auto& p : property_table()) // there when they were asked for
         if (p.quality) {
             Json& schema = scene["properties"][std::string(p.name)];
-            schema = p.truth ? typed("boolean") : nullable("number");
+            schema = p.truth() ? typed("boolean") : nullable("number");
             schema["description"] = p.help;
         }
     return scene;

@@ -1,7 +1,7 @@
 #include "stage/assertions.hpp"
 
 #include "base/numbers.hpp"
-#include "base/spelling.hpp"
+#include "stage/context.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,26 +10,66 @@ namespace facetmill {
 
 namespace {
 
-std::vector<std::string> property_names() {
-    std::vector<std::string> names;
-    for (const auto& p : property_table()) names.emplace_back(p.name);
-    return names;
+std::string written(const std::vector<Length>& lengths) {
+    if (lengths.size() == 1) return lengths[0].text;
+    std::string text;
+    for (const Length& l : lengths) text += (text.empty() ? "" : ", ") + l.text;
+    return "[" + text + "]";
 }
 
-/// Whether the bound is of the property's kind: a truth for truths, a number or a range for numbers.
-bool check_kind(const Property& property, const Bound& bound, const Value& value, Problems& problems) {
-    if (value.deferred || property.truth == bound.truth.has_value()) return true;
-    problems.add(value.mark, "E-TYPE",
-                 fmt::format("'{}' is {}, found {}", property.name,
-                             property.truth ? "true or false" : "a number (2) or a range ({min: 1, max: 5})",
-                             value.described()));
-    return false;
+bool same(const std::vector<Length>& a, const std::vector<Length>& b) {
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(),
+                                              [](const auto& x, const auto& y) { return x.text == y.text; });
 }
 
-std::string finding(const Property& property, std::optional<double> value) {
+/// The lengths, and what they are in the scene when that is another spelling: "10mm (0.01)".
+std::string told(const std::vector<Length>& lengths, const std::vector<double>& are) {
+    const bool plain = std::all_of(lengths.begin(), lengths.end(),
+                                   [](const Length& l) { return l.kind == Length::Kind::scene; });
+    if (plain) return written(lengths);
+    std::string text;
+    for (const double x : are) text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", x);
+    return fmt::format("{} ({})", written(lengths), text);
+}
+
+std::vector<double> numbers(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+std::string expectation(const Property& property, const Assertion& a) {
+    if (property.kind == PropertyKind::word)
+        return std::string(property.words[static_cast<std::size_t>(a.bound.min.value_or(0))]);
+    if (property.kind == PropertyKind::box) {
+        std::string text = a.least.empty() ? "" : "at least " + told(a.least, numbers(a.within.min));
+        if (!a.most.empty())
+            text += (text.empty() ? "at most " : ", at most ") + told(a.most, numbers(a.within.max));
+        return text;
+    }
+    if (a.least.empty() && a.most.empty()) return expectation(a.bound);
+    const auto least = [&] { return told(a.least, {a.bound.min.value_or(0)}); };
+    const auto most = [&] { return told(a.most, {a.bound.max.value_or(0)}); };
+    if (same(a.least, a.most)) return least();
+    if (a.least.empty()) return "at most " + most();
+    return a.most.empty() ? "at least " + least() : least() + " to " + most();
+}
+
+std::string finding(const Property& property, const Properties& properties) {
+    if (property.kind == PropertyKind::box) {
+        const Box& b = properties.bounds;
+        return b.empty()
+                   ? "not applicable"
+                   : fmt::format("{} to {}", OptionType<Vec3>::print(b.min), OptionType<Vec3>::print(b.max));
+    }
+    const auto value = property.get(properties);
     if (!value) return property.costly ? "not computed" : "not applicable";
-    if (property.truth) return *value != 0 ? "true" : "false";
+    if (property.truth()) return *value != 0 ? "true" : "false";
+    if (property.kind == PropertyKind::word)
+        return std::string(property.words[static_cast<std::size_t>(*value)]);
     return spelled(*value);
+}
+
+bool lies_within(const Box& inner, const Box& outer) {
+    for (std::size_t i = 0; i < 3; ++i)
+        if (!(inner.min[i] >= outer.min[i] && inner.max[i] <= outer.max[i])) return false;
+    return true;
 }
 
 } // namespace
@@ -47,6 +87,16 @@ bool holds(const Bound& bound, double value) {
     return (!bound.min || value >= *bound.min) && (!bound.max || value <= *bound.max);
 }
 
+std::string spelled(const Assertion& a) {
+    const Property& property = *property_named(a.property);
+    if (property.kind == PropertyKind::word) return a.bound.min ? expectation(property, a) : "";
+    if (a.least.empty() && a.most.empty()) return OptionType<Bound>::print(a.bound);
+    if (same(a.least, a.most)) return written(a.least);
+    std::string text = a.least.empty() ? "" : "min: " + written(a.least);
+    if (!a.most.empty()) text += (text.empty() ? "max: " : ", max: ") + written(a.most);
+    return "{" + text + "}";
+}
+
 InspectSettings Assertions::settings() const {
     InspectSettings settings;
     for (const auto& a : all) {
@@ -57,55 +107,39 @@ InspectSettings Assertions::settings() const {
     return settings;
 }
 
-bool parse_assertions(const Value& value, Assertions& out, std::string_view owner, Problems& problems,
-                      const std::set<std::string>& also_known) {
-    if (value.deferred) return true;
-    if (!value.is_map()) {
-        problems.add(value.mark, "E-TYPE",
-                     fmt::format("{} takes a map of properties ({{closed: true}}), found {}", owner,
-                                 value.described()));
-        return false;
-    }
-    if (value.entries.empty() && also_known.empty()) {
-        problems.add(value.mark, "E-TYPE", fmt::format("{} names no property", owner),
-                     "for example {closed: true}");
-        return false;
-    }
-    bool good = true;
-    for (const auto& entry : value.entries) {
-        if (also_known.contains(entry.key)) continue;
-        const Property* property = property_named(entry.key);
-        if (!property) {
-            auto known = property_names();
-            known.insert(known.end(), also_known.begin(), also_known.end());
-            problems.add(entry.key_mark, "E-KEY", fmt::format("{} knows no property '{}'", owner, entry.key),
-                         suggestion(entry.key, known));
-            good = false;
-            continue;
-        }
-        Assertion assertion{entry.key, {}, entry.key_mark};
-        // A truth is told apart first, so that nobody hears of numbers who wrote `closed: maybe`.
-        const bool no_truth = property->truth && !entry.value.deferred && !entry.value.as_bool();
-        if (no_truth)
-            good = check_kind(*property, {}, entry.value, problems);
-        else if (OptionType<Bound>::parse(entry.value, assertion.bound, problems) &&
-                 check_kind(*property, assertion.bound, entry.value, problems))
-            out.all.push_back(std::move(assertion));
-        else
-            good = false;
-    }
-    return good;
+std::vector<std::pair<const Assertion*, const Length*>> Assertions::physical() const {
+    std::vector<std::pair<const Assertion*, const Length*>> found;
+    for (const auto& a : all)
+        for (const auto* lengths : {&a.least, &a.most})
+            for (const Length& l : *lengths)
+                if (l.kind == Length::Kind::physical) found.emplace_back(&a, &l);
+    return found;
 }
 
-Json assertions_schema() {
-    Json schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
-    const Json bound = OptionType<Bound>::schema();
-    for (const auto& p : property_table()) {
-        Json property = p.truth ? Json{{"type", "boolean"}} : bound;
-        property["description"] = p.help;
-        schema["properties"][std::string(p.name)] = std::move(property);
+Assertions resolved(Assertions assertions, const Scene& scene, Context& context) {
+    for (auto& a : assertions.all) {
+        const auto number = [&](const Length& l) { return context.resolve(l, scene, a.property); };
+        if (property_named(a.property)->kind == PropertyKind::box) {
+            a.within = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+            for (std::size_t i = 0; i < a.least.size(); ++i) a.within.min[i] = number(a.least[i]);
+            for (std::size_t i = 0; i < a.most.size(); ++i) a.within.max[i] = number(a.most[i]);
+            continue;
+        }
+        if (!a.least.empty()) a.bound.min = number(a.least[0]);
+        if (!a.most.empty()) a.bound.max = number(a.most[0]);
     }
-    return schema;
+    return assertions;
+}
+
+std::optional<bool> holds(const Assertion& assertion, const Properties& properties) {
+    const Property& property = *property_named(assertion.property);
+    if (property.kind == PropertyKind::box) {
+        if (properties.bounds.empty()) return {};
+        return lies_within(properties.bounds, assertion.within);
+    }
+    const auto value = property.get(properties);
+    if (!value) return {};
+    return holds(assertion.bound, *value);
 }
 
 std::vector<report::Check> evaluate(const Assertions& assertions, const Properties& properties,
@@ -113,13 +147,12 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
     std::vector<report::Check> checks;
     for (const auto& assertion : assertions.all) {
         const Property& property = *property_named(assertion.property);
-        const auto value = property.get(properties);
         report::Check check;
         check.name = assertion.property;
         check.stage = stage;
-        check.expected = expectation(assertion.bound);
-        check.found = finding(property, value);
-        check.passed = value ? holds(assertion.bound, *value) : assertion.if_applies;
+        check.expected = expectation(property, assertion);
+        check.found = finding(property, properties);
+        check.passed = holds(assertion, properties).value_or(assertion.if_applies);
         check.where = assertion.where;
         checks.push_back(std::move(check));
     }

@@ -7,31 +7,48 @@
 
 namespace facetmill {
 
+class Context;
+
 /// A property and what it must be, with the place where it was written.
 struct Assertion {
     std::string property;
-    Bound bound;
-    Mark where;
+    Bound bound{}; ///< of a word: its place among the property's words; of a length: once resolved
+    Mark where{};
     bool if_applies = false; ///< holds where the property does not apply
+    /// Lengths as written: one for a property that is a length, three for a corner of a box, or none.
+    std::vector<Length> least{}, most{};
+    Box within{}; ///< of a box, once resolved; infinite where nothing was asked
 };
 
 /// "true", "2", "at most 5".
 std::string expectation(const Bound& bound);
 bool holds(const Bound& bound, double value);
+/// As it could be written: "true", "mm", "{max: 5mm}".
+std::string spelled(const Assertion& assertion);
 
 /// A map from property names to bounds, {closed: true, euler: 2, faces: {max: 5000}}; in the order written.
 struct Assertions {
     std::vector<Assertion> all;
     /// What inspect has to be asked for.
     InspectSettings settings() const;
+    /// The lengths that have a physical unit, with the place of their assertion.
+    std::vector<std::pair<const Assertion*, const Length*>> physical() const;
 };
+
+/// With the lengths as numbers of the scene; percentages are of what entered the context's stage. Throws
+/// usage (E-UNIT) for a physical unit when the scene has none.
+Assertions resolved(Assertions assertions, const Scene& scene, Context& context);
 
 /// Reads assertions from a map value; unknown properties, truths where numbers belong and the reverse are
 /// problems.
 bool parse_assertions(const Value& value, Assertions& out, std::string_view owner, Problems& problems,
                       const std::set<std::string>& also_known = {});
+/// Adds E-MISSING unless the map of properties, or something else beside them, says anything.
+void verify_any(bool any, const Value& given, std::string_view owner, Problems& problems);
 /// JSON Schema of such a map.
 Json assertions_schema();
+/// The words of a property with what they mean; none for other kinds.
+std::vector<Choice> word_choices(const Property& property);
 
 /// Declares one option per property of the table; each given one is appended to the struct's assertions.
 template <class S>
@@ -40,7 +57,10 @@ void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner)
     for (const auto& p : property_table()) {
         Option o;
         o.name = p.name;
-        o.type = p.truth ? "bool" : OptionType<Bound>::name;
+        o.type = p.truth() ? "bool" : p.kind == PropertyKind::word ? "choice" : OptionType<Bound>::name;
+        const bool length = p.kind == PropertyKind::length || p.kind == PropertyKind::box;
+        o.dimension = length ? Dimension::length : Dimension::none;
+        o.choices = word_choices(p);
         o.help = p.help;
         o.schema = schema["properties"][o.name];
         o.parse = [member, owner](const Option& self, const Value& v, void* target, Problems& problems) {
@@ -51,9 +71,12 @@ void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner)
     }
 }
 
-/// One check per assertion, in order. A property that does not apply (volume of an open mesh) does not hold.
+/// One check per assertion, in order; lengths have to be resolved. A property that does not apply (volume of
+/// an open mesh) does not hold.
 std::vector<report::Check> evaluate(const Assertions& assertions, const Properties& properties,
                                     const std::string& stage);
+/// Whether one of them holds; none when the property does not apply.
+std::optional<bool> holds(const Assertion& assertion, const Properties& properties);
 
 template <>
 struct OptionType<Assertions> {

@@ -4,33 +4,41 @@
 #include "io/codec.hpp"
 #include "io/outputs.hpp"
 
+#include <array>
 #include <fmt/format.h>
+#include <set>
 
 namespace facetmill {
 
 namespace {
 
 /// Flags the faces of the places; a place without a face flags those with a vertex there.
-std::vector<std::uint32_t> flagged(const Mesh& mesh, const Assertions& assertions) {
+std::vector<std::uint32_t> flagged(const Part& part, const Assertions& assertions) {
     constexpr std::size_t all = SIZE_MAX;
+    const Mesh& mesh = part.mesh;
+    const Properties found = inspect(part, assertions.settings());
     std::vector<std::uint32_t> flags(mesh.face_count(), 0);
+    std::set<std::array<double, 3>> points; // of places without a face
     for (const auto& a : assertions.all) {
         const Property& property = *property_named(a.property);
-        const auto value = property.get(inspect(mesh, assertions.settings()));
-        if (!value || holds(a.bound, *value)) continue;
+        if (holds(a, found).value_or(true)) continue;
         // The worst faces of a measure are not all wrong: a few show where.
         constexpr std::size_t few = 100;
         for (const Place& p : property.quality ? places_against(mesh, *property.quality, few)
                                                : places_against(mesh, property.name, all)) {
             if (p.face != none) {
                 flags[p.face] = 1;
+                if (p.with != none) flags[p.with] = 1;
                 continue;
             }
-            for (Index f = 0; f < flags.size(); ++f)
-                for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
-                    if (mesh.point(c) == p.at) flags[f] = 1;
+            points.insert({p.at.x, p.at.y, p.at.z});
         }
     }
+    for (Index f = 0; f < flags.size() && !points.empty(); ++f)
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+            const Vec3& p = mesh.point(c);
+            if (points.contains({p.x, p.y, p.z})) flags[f] = 1;
+        }
     return flags;
 }
 
@@ -63,7 +71,7 @@ Scene failed_copy(const Scene& scene, const Assertions& assertions) {
     red.double_sided = true;
     copy.materials.push_back(red);
     for (Part& part : copy.parts) {
-        paint(part.mesh, flagged(part.mesh, assertions), static_cast<Index>(copy.materials.size() - 1));
+        paint(part.mesh, flagged(part, assertions), static_cast<Index>(copy.materials.size() - 1));
         part.changed = true;
     }
     return copy;

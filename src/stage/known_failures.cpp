@@ -17,10 +17,13 @@ std::optional<double> number_in(std::string_view text) {
     return x;
 }
 
-/// The last number of "at most 5", "2", "1 to 5"; a failure beyond it is too large, before it too small.
+/// The last number of "at most 5", "2", "1 to 5", "at most 5mm (0.005)"; a failure beyond it is too large,
+/// before it too small.
 std::optional<double> limit_in(const std::string& expected) {
-    const auto space = expected.rfind(' ');
-    return number_in(std::string_view(expected).substr(space == std::string::npos ? 0 : space + 1));
+    std::string_view text(expected);
+    if (const auto space = text.rfind(' '); space != text.npos) text.remove_prefix(space + 1);
+    if (text.starts_with('(') && text.ends_with(')')) text = text.substr(1, text.size() - 2);
+    return number_in(text);
 }
 
 } // namespace

@@ -21,7 +21,8 @@ void declare(Declare<EnsureOptions>& d) {
 
 Scene run(Scene scene, const EnsureOptions& o, Context& context) {
     if (!o.assertions.all.empty())
-        for (auto& check : evaluate(o.assertions, inspect(scene, o.assertions.settings()), context.name()))
+        for (auto& check : evaluate(resolved(o.assertions, scene, context),
+                                    inspect(scene, o.assertions.settings()), context.name()))
             context.check(std::move(check));
     if (o.deviation) {
         const auto loaded = context.run().loaded;
@@ -32,8 +33,7 @@ Scene run(Scene scene, const EnsureOptions& o, Context& context) {
 
 void verify(const EnsureOptions& o, const Value& given, Problems& problems) {
     if (o.deviation) verify_deviation(*o.deviation, given.mark, problems);
-    if (o.assertions.all.empty() && !o.deviation && !given.deferred)
-        problems.add(given.mark, "E-MISSING", "ensure needs at least one property", "ensure: {closed: true}");
+    verify_any(!o.assertions.all.empty() || o.deviation, given, "ensure", problems);
 }
 
 const RegisterStage registered{make_stage<EnsureOptions>(
@@ -44,7 +44,7 @@ const RegisterStage registered{make_stage<EnsureOptions>(
          "the scene at this place. Use validate to judge with evidence, per part, or as a warning only. The "
          "mesh is passed on as it is.",
      .examples = {"ensure: {closed: true}", "ensure: {faces: {max: 5000}, components: 1}",
-                  "ensure: {deviation: 0.5%}"},
+                  "ensure: {deviation: 0.5%}", "ensure: {unit: mm, bounds: {max: [20cm, 20cm, 5cm]}}"},
      .checks = true},
     declare, run, StageHooks<EnsureOptions>{.files = {}, .verify = verify})};
 

@@ -1,4 +1,4 @@
-#include "geometry/evidence.hpp"
+#include "stage/evidence_json.hpp"
 #include "stage/failed_copy.hpp"
 #include "stage/known_failures.hpp"
 #include "stage/profiles.hpp"
@@ -51,27 +51,10 @@ void declare(Declare<ValidateOptions>& d) {
              "`failed`. Written also when the run fails.");
 }
 
-/// The first places that speak against the property, in the world.
-Json evidence_against(const Scene& scene, const Property& property) {
-    constexpr std::size_t most = 10;
-    Json evidence = Json::array();
-    for (const auto& part : scene.parts) {
-        const std::size_t room = most - evidence.size();
-        for (const Place& place : property.quality ? places_against(part.mesh, *property.quality, room)
-                                                   : places_against(part.mesh, property.name, room)) {
-            const Vec3 at = part.transform.point(place.at);
-            Json entry = {{"part", part.name}, {"at", {at.x, at.y, at.z}}};
-            if (place.face != none) entry["face"] = place.face;
-            evidence.push_back(std::move(entry));
-        }
-    }
-    return evidence;
-}
-
 /// Lends the parts at the given places to body as a scene of their own, without a copy.
 template <class Body>
 void with_parts(Scene& scene, std::span<const std::size_t> places, Body&& body) {
-    Scene chosen{{}, {}, scene.unit, scene.up, {}};
+    Scene chosen{{}, scene.materials, scene.unit, scene.up, {}};
     for (const std::size_t i : places) chosen.parts.push_back(std::move(scene.parts[i]));
     body(chosen);
     for (std::size_t k = 0; k < places.size(); ++k) scene.parts[places[k]] = std::move(chosen.parts[k]);
@@ -90,6 +73,7 @@ class Judge {
         std::vector<std::size_t> places;
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
             if (context_.selects(scene.parts[i], scene)) places.push_back(i);
+        assertions_ = resolved(std::move(assertions_), scene, context_);
         for (auto& check : check_limits(o_.limits, scene)) take(std::move(check));
         if (o_.per == Per::scene) with_parts(scene, places, [&](const Scene& all) { judge(all, ""); });
         if (o_.per == Per::part)
@@ -113,7 +97,7 @@ class Judge {
         const Components pieces = face_components(part.mesh, false);
         std::size_t number = 0;
         for (Mesh& mesh : separated(part.mesh, pieces.of_face, pieces.count)) {
-            Scene one{{}, {}, scene.unit, scene.up, {}};
+            Scene one{{}, scene.materials, scene.unit, scene.up, {}};
             one.parts.emplace_back().name = fmt::format("{}.{}", part.name, number++);
             one.parts[0].mesh = std::move(mesh);
             one.parts[0].transform = part.skinned ? Transform{} : part.transform;
@@ -178,7 +162,7 @@ const RegisterStage registered{make_stage<ValidateOptions>(
          "degenerate "
          "faces and not empty. All are judged, and all failures listed with evidence: the first (or worst) "
          "faces and "
-         "points that speak against them. Angles are in degrees, lengths in scene units. The mesh is passed "
+         "points that speak against them. Angles are in degrees. The mesh is passed "
          "on as it "
          "is.\n\n"
          "To introduce a gate on old assets: `baseline: known.json` with update_baseline writes what fails "

@@ -1,6 +1,7 @@
 #include "support/catch.hpp"
 
 #include "stage/assertions.hpp"
+#include "stage/context.hpp"
 
 using namespace facetmill;
 
@@ -16,11 +17,30 @@ std::string complaint(const Value& value) {
     return d.id + " " + d.message + (d.hint.empty() ? "" : " (" + d.hint + ")");
 }
 
+Box unit_box() {
+    Box box;
+    box.add(Vec3{0, 0, 0}), box.add(Vec3{1, 1, 1});
+    return box;
+}
+
+/// In a scene of metres whose diagonal is that of the unit cube.
 report::Check judged(const Value& value, const Properties& properties) {
     Problems problems;
     Assertions out;
     CHECK(parse_assertions(value, out, "ensure", problems));
-    return evaluate(out, properties, "ensure").at(0);
+    RunState run;
+    report::StageRecord record;
+    const PartFilter all;
+    Scene scene;
+    scene.unit = Unit::m;
+    Context context(run, record, all, unit_box(), {});
+    return evaluate(resolved(out, scene, context), properties, "ensure").at(0);
+}
+
+Value numbers(std::initializer_list<const char*> texts) {
+    std::vector<Value> items;
+    for (const char* t : texts) items.push_back(Value::scalar(t));
+    return Value::list(std::move(items));
 }
 
 } // namespace
@@ -54,4 +74,74 @@ TEST_CASE("a property that does not apply never holds", "[stage]") {
     CHECK_FALSE(judged(entry("volume", entry("min", Value::scalar("0"))), {}).passed);
     CHECK(judged(entry("volume", entry("min", Value::scalar("0"))), {}).found == "not applicable");
     CHECK(judged(entry("self_intersections", Value::scalar("0")), {}).found == "not computed");
+}
+
+TEST_CASE("lengths are written with units and percentages, and resolved", "[stage]") {
+    Properties p;
+    p.qualities[static_cast<std::size_t>(Quality::longest_edge)] = 0.25;
+    const auto longest = [&](Value bound) { return judged(entry("longest_edge", std::move(bound)), p); };
+    CHECK(longest(entry("max", Value::scalar("25cm"))).passed);
+    const auto failed = longest(entry("max", Value::scalar("20cm")));
+    CHECK_FALSE(failed.passed);
+    CHECK(failed.expected == "at most 20cm (0.2)");
+    CHECK(failed.found == "0.25");
+    CHECK(longest(entry("max", Value::scalar("0.2"))).expected == "at most 0.2");
+    CHECK(longest(entry("min", Value::scalar("10%"))).expected == "at least 10% (0.173205)");
+    CHECK(longest(Value::scalar("250mm")).passed);
+    CHECK(complaint(entry("longest_edge", Value::scalar("true"))) ==
+          "E-TYPE 'longest_edge' is a length (2mm) or a range ({min: 1mm, max: 5%}), found 'true'");
+    CHECK(complaint(entry("extent", Value::map({{"min", {}, Value::scalar("2mm")},
+                                                {"max", {}, Value::scalar("1mm")}}))) ==
+          "E-RANGE no length is at least min and at most max (exchange min and max)");
+}
+
+TEST_CASE("bounds lie between two corners", "[stage]") {
+    Properties p;
+    p.bounds = unit_box();
+    const auto within = [&](const char* key, Value corner) {
+        return judged(entry("bounds", entry(key, std::move(corner))), p);
+    };
+    CHECK(within("max", numbers({"1", "100cm", "1"})).passed);
+    const auto low = within("max", numbers({"1", "1", "99cm"}));
+    CHECK_FALSE(low.passed);
+    CHECK(low.expected == "at most [1, 1, 99cm] (1, 1, 0.99)");
+    CHECK(low.found == "[0, 0, 0] to [1, 1, 1]");
+    CHECK(within("min", numbers({"0", "0", "0"})).passed);
+    CHECK_FALSE(within("min", numbers({"0", "0.1", "0"})).passed);
+    CHECK(judged(entry("bounds", entry("max", Value::scalar("1,1,1"))), p).passed); // as a one-liner has it
+    CHECK(judged(entry("bounds", entry("max", numbers({"1", "1", "1"}))), {}).found == "not applicable");
+    CHECK(complaint(entry("bounds", Value::scalar("5"))) ==
+          "E-TYPE 'bounds' is a box ({min: [0, 0, 0], max: [20cm, 20cm, 5cm]}), found '5'");
+    CHECK(complaint(entry("bounds", entry("max", numbers({"1", "1"})))).substr(0, 30) ==
+          "E-TYPE expected three lengths ");
+}
+
+TEST_CASE("unit, up, parts and materials are asserted like the rest", "[stage]") {
+    Scene scene;
+    scene.unit = Unit::mm, scene.up = UpAxis::z;
+    scene.parts.resize(2);
+    const Properties p = inspect(scene);
+    CHECK(judged(entry("unit", Value::scalar("mm")), p).passed);
+    const auto inches = judged(entry("unit", Value::scalar("in")), p);
+    CHECK_FALSE(inches.passed);
+    CHECK((inches.expected == "in" && inches.found == "mm"));
+    CHECK(judged(entry("up", Value::scalar("z")), p).passed);
+    CHECK(judged(entry("parts", Value::scalar("2")), p).passed);
+    CHECK(judged(entry("materials", entry("max", Value::scalar("0"))), p).passed);
+    CHECK(complaint(entry("unit", Value::scalar("mn"))) ==
+          "E-CHOICE 'unit' is one of unknown, um, mm, cm, m, km, in, ft, found 'mn' (did you mean 'mm'?)");
+}
+
+TEST_CASE("assertions are spelled as they can be written", "[stage]") {
+    const auto again = [](Value value) {
+        Problems problems;
+        Assertions out;
+        CHECK(parse_assertions(value, out, "ensure", problems));
+        return spelled(out.all.at(0));
+    };
+    CHECK(again(entry("unit", Value::scalar("mm"))) == "mm");
+    CHECK(again(entry("closed", Value::scalar("true"))) == "true");
+    CHECK(again(entry("faces", entry("max", Value::scalar("5")))) == "{max: 5}");
+    CHECK(again(entry("extent", entry("max", Value::scalar("5mm")))) == "{max: 5mm}");
+    CHECK(again(entry("bounds", entry("min", numbers({"0", "0", "1mm"})))) == "{min: [0, 0, 1mm]}");
 }

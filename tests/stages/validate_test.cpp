@@ -23,8 +23,11 @@ std::string failures(const test::StageRun& run) {
     return text;
 }
 
+std::string judged(const std::string& options, Scene scene) {
+    return failures(run_stage("validate", options, std::move(scene)));
+}
 std::string judged(const std::string& options, Mesh mesh) {
-    return failures(run_stage("validate", options, scene_of(std::move(mesh))));
+    return judged(options, scene_of(std::move(mesh)));
 }
 
 /// A block of 3 x 3 x 1 cells with a hole through each of the given number of cells: closed, of that genus.
@@ -68,7 +71,7 @@ TEST_CASE("a bare validate passes a sound solid and lists all that an open one l
     CHECK(judged("", shapes::cube()) == "");
     CHECK(judged("{closed: true, edge_manifold: true}", shapes::fan3()) ==
           "closed: true, found false\nedge_manifold: true, found false");
-    CHECK(judged("", {}) == "faces: at least 1, found 0");
+    CHECK(judged("", Mesh{}) == "faces: at least 1, found 0");
 }
 
 TEST_CASE("closed means Euler number 2 only for genus 0 in one piece", "[stages]") {
@@ -93,9 +96,44 @@ TEST_CASE("validate names the places that speak against a property", "[stages]")
     mesh.corners.resize(33);
     const auto run = run_stage("validate", "{closed: true}", scene_of(mesh));
     const auto& evidence = run.state->record.checks.at(0).evidence;
-    CHECK(evidence.size() == 3);
+    REQUIRE(evidence.size() == 1); // one hole
     CHECK(evidence[0]["part"] == "part");
     CHECK(evidence[0]["at"].size() == 3);
+    CHECK(evidence[0]["edges"] == 3);
+    CHECK(evidence[0]["length"] == Approx(2 + std::sqrt(2.0)));
+    Mesh third = shapes::cube(); // an edge with three faces and no open edge but those of the third face
+    const Index fin[] = {0, 1, 6};
+    add_face(third, fin);
+    const auto crowded = run_stage("validate", "{edge_manifold: true}", scene_of(third));
+    CHECK(crowded.state->record.checks.at(0).evidence[0].contains("face"));
+}
+
+TEST_CASE("validate tells every open loop: which, how long and where, in the world", "[stages]") {
+    Mesh mesh = shapes::grid(2, 1);
+    append(mesh, shapes::grid(3, 3));
+    Scene scene = scene_of(mesh);
+    scene.parts[0].transform.m[0][0] = scene.parts[0].transform.m[1][1] = scene.parts[0].transform.m[2][2] =
+        10;
+    const auto run = run_stage("validate", "{boundary_loops: 0, longest_boundary: {max: 100}}", scene);
+    for (const auto& check : run.state->record.checks) {
+        REQUIRE(check.evidence.size() == 2);
+        CHECK(check.evidence[0]["loop"] == 0);
+        CHECK(check.evidence[0]["edges"] == 6);
+        CHECK(check.evidence[0]["length"] == Approx(60));
+        CHECK(check.evidence[1]["loop"] == 1);
+        CHECK(check.evidence[1]["length"] == Approx(120));
+        CHECK(check.evidence[1]["at"].size() == 3);
+    }
+}
+
+TEST_CASE("validate takes lengths with units, and says what they are in the scene", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.unit = Unit::cm;
+    CHECK(judged("{bounds: {max: [10mm, 1cm, 0.01m]}, extent: {max: 10mm}}", scene) == "");
+    CHECK(judged("{extent: {max: 9mm}}", scene) == "extent: at most 9mm (0.9), found 1");
+    CHECK(judged("{unit: cm, parts: 1, materials: 0}", scene) == "");
+    CHECK(judged("{unit: mm}", scene) == "unit: mm, found cm");
+    CHECK(judged("{parts: 2, per: part}", scene) == "part parts: 2, found 1");
 }
 
 TEST_CASE("validate judges each part or component when asked", "[stages]") {

@@ -1,0 +1,213 @@
+// Assertions from what people write, of stage/assertions.hpp.
+#include "base/numbers.hpp"
+#include "base/spelling.hpp"
+#include "stage/assertions.hpp"
+#include "stage/convention_option.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+std::vector<std::string> property_names() {
+    std::vector<std::string> names;
+    for (const auto& p : property_table()) names.emplace_back(p.name);
+    return names;
+}
+
+const char* wanted(PropertyKind kind) {
+    switch (kind) {
+    case PropertyKind::truth:
+        return "true or false";
+    case PropertyKind::length:
+        return "a length (2mm) or a range ({min: 1mm, max: 5%})";
+    case PropertyKind::box:
+        return "a box ({min: [0, 0, 0], max: [20cm, 20cm, 5cm]})";
+    default:
+        return "a number (2) or a range ({min: 1, max: 5})";
+    }
+}
+
+bool wrong_kind(const Property& property, const Value& value, Problems& problems) {
+    problems.add(
+        value.mark, "E-TYPE",
+        fmt::format("'{}' is {}, found {}", property.name, wanted(property.kind), value.described()));
+    return false;
+}
+
+bool read_truth(const Property& property, const Value& value, Assertion& out, Problems& problems) {
+    out.bound.truth = value.as_bool();
+    return out.bound.truth || wrong_kind(property, value, problems);
+}
+
+bool read_number(const Property& property, const Value& value, Assertion& out, Problems& problems) {
+    if (!OptionType<Bound>::parse(value, out.bound, problems)) return false;
+    return !out.bound.truth || wrong_kind(property, value, problems);
+}
+
+bool read_word(const Property& property, const Value& value, Assertion& out, Problems& problems) {
+    Option option;
+    option.name = property.name;
+    option.choices = word_choices(property);
+    const auto index = choice_index(option, value, problems);
+    if (index) out.bound.min = out.bound.max = static_cast<double>(*index);
+    return index.has_value();
+}
+
+/// One length, or the three of a corner: as a list, or as the one-liner writes it, "0,0,20cm".
+bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& out, Problems& problems) {
+    if (count == 1) return OptionType<Length>::parse(value, out.emplace_back(), problems);
+    Value list = value;
+    if (value.is_scalar()) {
+        list = Value::list({}, value.mark);
+        for (std::size_t at = 0; at <= value.text.size();) {
+            const auto end = std::min(value.text.find(',', at), value.text.size());
+            list.items.push_back(Value::scalar(value.text.substr(at, end - at), value.mark));
+            at = end + 1;
+        }
+    }
+    if (!list.is_list() || list.items.size() != count) {
+        problems.add(value.mark, "E-TYPE",
+                     fmt::format("expected three lengths ([0, 0, 20cm]), found {}", value.described()));
+        return false;
+    }
+    bool good = true;
+    for (const Value& item : list.items) good &= read_lengths(item, 1, out, problems);
+    return good;
+}
+
+/// Whether some number is at least min and at most max, as far as that is known without a scene.
+bool may_hold(const Assertion& a) {
+    for (std::size_t i = 0; i < std::min(a.least.size(), a.most.size()); ++i)
+        if (a.least[i].kind == a.most[i].kind && a.least[i].of == a.most[i].of &&
+            a.least[i].amount > a.most[i].amount)
+            return false;
+    return true;
+}
+
+bool read_length_range(const Property& property, const Value& value, Assertion& out, Problems& problems) {
+    const std::size_t count = property.kind == PropertyKind::box ? 3 : 1;
+    if (value.deferred) return true;
+    if (!value.is_map()) {
+        if (count == 3 || !value.is_scalar() || value.as_bool()) return wrong_kind(property, value, problems);
+        const bool good = read_lengths(value, 1, out.least, problems);
+        return out.most = out.least, good;
+    }
+    bool good = true;
+    for (const auto& e : value.entries) {
+        if (e.key != "min" && e.key != "max") {
+            problems.add(e.key_mark, "E-KEY", fmt::format("a bound has no key '{}'", e.key),
+                         "expected min or max");
+            good = false;
+        } else if (!e.value.deferred)
+            good &= read_lengths(e.value, count, e.key == "min" ? out.least : out.most, problems);
+    }
+    if (good && value.entries.empty()) return wrong_kind(property, value, problems);
+    if (good && !may_hold(out)) {
+        problems.add(value.mark, "E-RANGE", "no length is at least min and at most max",
+                     "exchange min and max");
+        return false;
+    }
+    return good;
+}
+
+bool read(const Property& property, const Value& value, Assertion& out, Problems& problems) {
+    if (value.deferred) return true;
+    switch (property.kind) {
+    case PropertyKind::truth:
+        return read_truth(property, value, out, problems);
+    case PropertyKind::word:
+        return read_word(property, value, out, problems);
+    case PropertyKind::length:
+    case PropertyKind::box:
+        return read_length_range(property, value, out, problems);
+    default:
+        return read_number(property, value, out, problems);
+    }
+}
+
+Json range_schema(const Json& limit) {
+    return {{"type", "object"},
+            {"additionalProperties", false},
+            {"minProperties", 1},
+            {"properties", {{"min", limit}, {"max", limit}}}};
+}
+
+Json schema_of(const Property& property) {
+    const Json length = OptionType<Length>::schema();
+    switch (property.kind) {
+    case PropertyKind::truth:
+        return {{"type", "boolean"}};
+    case PropertyKind::word:
+        return choice_schema(word_choices(property));
+    case PropertyKind::length:
+        return {{"anyOf", Json::array({length, range_schema(length)})}};
+    case PropertyKind::box:
+        return range_schema({{"type", "array"}, {"items", length}, {"minItems", 3}, {"maxItems", 3}});
+    default:
+        return OptionType<Bound>::schema();
+    }
+}
+
+} // namespace
+
+bool parse_assertions(const Value& value, Assertions& out, std::string_view owner, Problems& problems,
+                      const std::set<std::string>& also_known) {
+    if (value.deferred) return true;
+    if (!value.is_map()) {
+        problems.add(value.mark, "E-TYPE",
+                     fmt::format("{} takes a map of properties ({{closed: true}}), found {}", owner,
+                                 value.described()));
+        return false;
+    }
+    verify_any(!value.entries.empty(), value, owner, problems);
+    bool good = !value.entries.empty();
+    for (const auto& entry : value.entries) {
+        if (also_known.contains(entry.key)) continue;
+        const Property* property = property_named(entry.key);
+        if (!property) {
+            auto known = property_names();
+            known.insert(known.end(), also_known.begin(), also_known.end());
+            problems.add(entry.key_mark, "E-KEY", fmt::format("{} knows no property '{}'", owner, entry.key),
+                         suggestion(entry.key, known));
+            good = false;
+            continue;
+        }
+        Assertion assertion{.property = entry.key, .where = entry.key_mark};
+        if (read(*property, entry.value, assertion, problems))
+            out.all.push_back(std::move(assertion));
+        else
+            good = false;
+    }
+    return good;
+}
+
+void verify_any(bool any, const Value& given, std::string_view owner, Problems& problems) {
+    if (any || given.deferred) return;
+    problems.add(given.mark, "E-MISSING", fmt::format("{} needs at least one property", owner),
+                 fmt::format("{}: {{closed: true}}", owner));
+}
+
+std::vector<Choice> word_choices(const Property& property) {
+    std::vector<Choice> choices;
+    const auto add = [&](const auto& named) {
+        for (const auto& c : named) choices.push_back({c.name, c.help});
+    };
+    if (property.name == "unit") add(unit_choices(spelled(Unit::unknown), "nobody said"));
+    if (property.name == "up") add(up_choices(spelled(UpAxis::unknown), "nobody said"));
+    return choices;
+}
+
+Json assertions_schema() {
+    Json schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
+    for (const auto& p : property_table()) {
+        Json property = schema_of(p);
+        property["description"] = p.help;
+        schema["properties"][std::string(p.name)] = std::move(property);
+    }
+    return schema;
+}
+
+} // namespace facetmill
