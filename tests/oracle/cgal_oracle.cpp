@@ -1,6 +1,14 @@
 #include "oracle/cgal_oracle.hpp"
 
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#if __has_include(<CGAL/AABB_triangle_primitive_3.h>)
+#include <CGAL/AABB_triangle_primitive_3.h>
+#else
+#include <CGAL/AABB_triangle_primitive.h>
+#endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -8,16 +16,28 @@
 
 namespace facetmill::oracle {
 
-std::vector<std::pair<Index, Index>> self_intersections(const Mesh& mesh) {
-    using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-    using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+
+Kernel::Point_3 point(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+Surface surface_of(const Mesh& mesh) {
     Surface surface;
-    for (const Vec3& p : mesh.positions) surface.add_vertex({p.x, p.y, p.z});
+    for (const Vec3& p : mesh.positions) surface.add_vertex(point(p));
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const auto v = [&](Index i) { return Surface::Vertex_index(mesh.vertex(3 * f + i)); };
         if (surface.add_face(v(0), v(1), v(2)) == Surface::null_face())
             throw std::runtime_error("not a manifold mesh");
     }
+    return surface;
+}
+
+} // namespace
+
+std::vector<std::pair<Index, Index>> self_intersections(const Mesh& mesh) {
+    const Surface surface = surface_of(mesh);
     std::vector<std::pair<Surface::Face_index, Surface::Face_index>> found;
     CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(found));
     std::vector<std::pair<Index, Index>> pairs;
@@ -25,6 +45,44 @@ std::vector<std::pair<Index, Index>> self_intersections(const Mesh& mesh) {
         if (a != b) pairs.emplace_back(std::min<Index>(a, b), std::max<Index>(a, b));
     std::sort(pairs.begin(), pairs.end());
     return pairs;
+}
+
+double hausdorff_distance(const Mesh& from, const Mesh& to, double error) {
+    return CGAL::Polygon_mesh_processing::bounded_error_Hausdorff_distance<CGAL::Sequential_tag>(
+        surface_of(from), surface_of(to), error);
+}
+
+namespace {
+
+using Triangles = std::vector<Kernel::Triangle_3>;
+#if __has_include(<CGAL/AABB_triangle_primitive_3.h>)
+using Primitive = CGAL::AABB_triangle_primitive_3<Kernel, Triangles::const_iterator>;
+using Traits = CGAL::AABB_traits_3<Kernel, Primitive>;
+#else
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
+using Traits = CGAL::AABB_traits<Kernel, Primitive>;
+#endif
+
+} // namespace
+
+struct Tree::Own {
+    Triangles triangles;
+    CGAL::AABB_tree<Traits> tree;
+};
+
+Tree::Tree(const Mesh& mesh) : own_(std::make_unique<Own>()) {
+    for (Index c = 0; c < mesh.corners.size(); c += 3)
+        own_->triangles.emplace_back(point(mesh.point(c)), point(mesh.point(c + 1)),
+                                     point(mesh.point(c + 2)));
+    own_->tree.insert(own_->triangles.cbegin(), own_->triangles.cend());
+    own_->tree.build();
+}
+Tree::~Tree() = default;
+
+double Tree::distance(const Vec3& p) const { return std::sqrt(own_->tree.squared_distance(point(p))); }
+
+std::size_t Tree::met_by(const Vec3& from, const Vec3& to) const {
+    return own_->tree.number_of_intersected_primitives(Kernel::Segment_3(point(from), point(to)));
 }
 
 } // namespace facetmill::oracle

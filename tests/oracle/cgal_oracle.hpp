@@ -3,6 +3,7 @@
 
 #include "mesh/mesh.hpp"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -11,5 +12,23 @@ namespace facetmill::oracle {
 /// The pairs of faces that CGAL's Polygon_mesh_processing::self_intersections finds on an edge-manifold,
 /// oriented triangle mesh, each (lower, higher), sorted.
 std::vector<std::pair<Index, Index>> self_intersections(const Mesh& mesh);
+
+/// An upper bound of the largest distance from a point of the first mesh to the second, no more than `error`
+/// above it (CGAL's bounded_error_Hausdorff_distance). Edge-manifold triangle meshes.
+double hausdorff_distance(const Mesh& from, const Mesh& to, double error);
+
+/// CGAL's AABB tree over the triangles of a mesh.
+class Tree {
+  public:
+    explicit Tree(const Mesh& mesh);
+    ~Tree();
+    double distance(const Vec3& p) const;
+    /// How many triangles the segment meets, exactly; touching counts.
+    std::size_t met_by(const Vec3& from, const Vec3& to) const;
+
+  private:
+    struct Own;
+    std::unique_ptr<Own> own_;
+};
 
 } // namespace facetmill::oracle
