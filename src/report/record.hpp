@@ -39,7 +39,7 @@ struct StageRecord {
     Json resolved =
         Json::object(); ///< lengths that depended on the scene: {"amplitude": {"given": "0.2%", "is": 0.03}}
     std::vector<std::string> said; ///< the main numbers of the result, a line each, for the terminal
-    bool skipped = false; ///< its `when` did not hold
+    bool skipped = false;          ///< its `when` did not hold
     double seconds = 0;
     std::string
         picture; ///< of the scene after it, for pages: a PNG in base64; empty: as after the stage before
