@@ -33,12 +33,7 @@ int check(const std::vector<std::string>& pipelines, const PipelineOptions& opti
         } catch (const Error& unreadable) { // the others are checked all the same
             of_inputs.push_back(unreadable);
         }
-        for (const auto& d : of_this.all()) {
-            if (d.severity == Severity::error)
-                problems.add(d.where, d.id, d.message, d.hint);
-            else
-                problems.warn(d.where, d.id, d.message, d.hint);
-        }
+        if (of_this.size() > 0) problems.add(Error(ErrorKind::usage, of_this.all()));
     }
     if (problems.any_errors())
         for (const auto& error : of_inputs) problems.add(error);

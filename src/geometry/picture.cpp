@@ -1,6 +1,7 @@
 #include "geometry/picture.hpp"
 
 #include "base/parallel.hpp"
+#include "mesh/placement.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,8 +26,6 @@ struct View {
     }
 };
 
-Transform placed(const Part& part) { return part.skinned ? Transform{} : part.transform; }
-
 View view_of(const Scene& scene, int width, int height) {
     const Vec3 extent = scene.bounds().extent();
     const bool z_up = scene.up == UpAxis::z || (scene.up == UpAxis::unknown && extent.z >= extent.y);
@@ -37,7 +36,7 @@ View view_of(const Scene& scene, int width, int height) {
     view.up = cross(view.towards, view.right);
     Box seen;
     for (const Part& part : scene.parts) {
-        const Transform to_world = placed(part);
+        const Transform to_world = effective(part);
         seen.add(parallel_reduce(
             part.mesh.vertex_count(), Box{},
             [&](std::size_t begin, std::size_t end) {
@@ -222,7 +221,7 @@ Picture picture_of(const Scene& scene, const PictureSettings& settings) {
     const View view = view_of(scene, canvas.width, canvas.height);
     const bool few = scene.face_count() <= settings.edges_up_to;
     for (const Part& part : scene.parts) {
-        const Transform to_world = placed(part);
+        const Transform to_world = effective(part);
         std::vector<Vec3> points(part.mesh.vertex_count());
         parallel_for(points.size(),
                      [&](std::size_t v) { points[v] = view.of(to_world.point(part.mesh.positions[v])); });

@@ -1,6 +1,7 @@
 #include "io/drawing.hpp"
 
 #include "base/error.hpp"
+#include "base/point_json.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,7 @@ namespace facetmill::io {
 namespace {
 
 Json list(const Vec2& p) { return Json::array({p.x, p.y}); }
-Json list(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
+Json list(const Vec3& p) { return point_json(p); }
 
 /// In the plane as the note has them; in the world the integrals of products of coordinates, about the
 /// world's origin for a centroid that is not 0.

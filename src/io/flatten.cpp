@@ -8,8 +8,6 @@
 
 namespace facetmill::io {
 
-Transform effective(const Part& part) { return part.skinned ? Transform{} : part.transform; }
-
 WorldMesh::WorldMesh(const Part& part) {
     if (effective(part).identity()) {
         given_ = &part.mesh;

@@ -2,6 +2,7 @@
 // For formats without nodes: the scene as meshes in world space.
 
 #include "io/codec.hpp"
+#include "mesh/placement.hpp"
 
 namespace facetmill::io {
 
@@ -18,9 +19,6 @@ class WorldMesh {
     const Mesh* given_ = nullptr;
     Mesh own_;
 };
-
-/// The part's transform as it counts: skinned meshes ignore their node's.
-Transform effective(const Part& part);
 
 /// What a format cannot hold, for the ledger.
 void dropped(Written& written, const Attribute& attribute, std::string why);

@@ -1,6 +1,7 @@
 #include "pipeline/run.hpp"
 
 #include "base/parallel.hpp"
+#include "base/point_json.hpp"
 #include "geometry/inspect.hpp"
 #include "io/png.hpp"
 #include "mesh/invariants.hpp"
@@ -19,15 +20,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-Json vector_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
-
 /// What is cheap to tell of a scene before and after every stage.
 Json brief(const Scene& scene) {
     std::size_t vertices = 0;
     for (const auto& part : scene.parts) vertices += part.mesh.vertex_count();
     const Box box = scene.bounds();
     Json bounds;
-    if (!box.empty()) bounds = {{"min", vector_json(box.min)}, {"max", vector_json(box.max)}};
+    if (!box.empty()) bounds = {{"min", point_json(box.min)}, {"max", point_json(box.max)}};
     return {{"parts", scene.parts.size()},
             {"vertices", vertices},
             {"faces", scene.face_count()},

@@ -1,10 +1,9 @@
 #include "report/deviation_json.hpp"
+#include "base/point_json.hpp"
 
 namespace facetmill::report {
 
 namespace {
-
-Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 Json number(const std::optional<double>& x) { return x ? number(*x) : Json(nullptr); }

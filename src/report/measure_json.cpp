@@ -1,14 +1,13 @@
 #include "report/measure_json.hpp"
 
 #include "base/functions.hpp"
+#include "base/point_json.hpp"
 
 namespace facetmill::report {
 
 namespace {
 
 constexpr double degrees = 180 / pi;
-
-Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
 } // namespace
 

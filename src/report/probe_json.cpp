@@ -1,5 +1,6 @@
 #include "report/probe_json.hpp"
 
+#include "base/point_json.hpp"
 #include "geometry/statistics.hpp"
 #include "io/csv.hpp"
 #include "report/measure_json.hpp"
@@ -10,8 +11,6 @@
 namespace facetmill::report {
 
 namespace {
-
-Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
 /// The t that users see: of a ray, the distance from its start.
 double shown(const Line& line, double t) { return line.ray ? t * length(line.to - line.from) : t; }

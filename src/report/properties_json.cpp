@@ -1,3 +1,4 @@
+#include "base/point_json.hpp"
 #include "report/render.hpp"
 
 #include <map>
@@ -5,8 +6,6 @@
 namespace facetmill::report {
 
 namespace {
-
-Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
 Json bounds_json(const Box& box) {
     if (box.empty()) return nullptr;

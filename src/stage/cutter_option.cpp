@@ -1,4 +1,5 @@
 #include "stage/cutter_option.hpp"
+#include "base/point_json.hpp"
 
 namespace facetmill {
 
@@ -17,8 +18,6 @@ std::vector<Plane> resolved(const CutterOption& o, const Scene& scene, Context& 
     for (const PlaneOption& p : o.planes) planes.push_back(resolve_plane(p, scene, context, "planes", local));
     return planes;
 }
-
-Json as_json(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 } // namespace
 
@@ -40,7 +39,7 @@ Cutter::Cutter(const CutterOption& option, const Scene& scene, Context& context)
     world_ = resolved(option, scene, context, nullptr);
     for (const Plane& p : world_)
         context.result()["planes"].push_back(
-            {{"normal", as_json(p.normal)}, {"through", as_json(p.through)}, {"offset", p.offset}});
+            {{"normal", point_json(p.normal)}, {"through", point_json(p.through)}, {"offset", p.offset}});
 }
 
 std::vector<Plane> Cutter::planes_for(const Part& part) const {

@@ -1,5 +1,6 @@
 #include "stage/evidence_json.hpp"
 
+#include "base/point_json.hpp"
 #include "geometry/boundary.hpp"
 #include "geometry/evidence.hpp"
 
@@ -18,8 +19,6 @@ bool is_about_borders(std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-Json point(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
-
 /// The mesh alone, where it stands in the world.
 Mesh in_world(const Part& part) {
     Mesh mesh;
@@ -34,7 +33,7 @@ void add_loops(Json& evidence, const Part& part) {
     const auto chains = boundary_chains(in_world(part));
     for (std::size_t i = 0; i < chains.size() && evidence.size() < most; ++i)
         evidence.push_back({{"part", part.name},
-                            {"at", point(chains[i].at)},
+                            {"at", point_json(chains[i].at)},
                             {"face", chains[i].face},
                             {"loop", i},
                             {"edges", chains[i].edges},
@@ -46,7 +45,7 @@ void add_places(Json& evidence, const Part& part, const Property& property) {
     for (const Place& place : property.quality ? places_against(part.mesh, *property.quality, room)
                                                : places_against(part.mesh, property.name, room)) {
         Json entry = {{"part", part.name},
-                      {"at", point(part.skinned ? place.at : part.transform.point(place.at))}};
+                      {"at", point_json(part.skinned ? place.at : part.transform.point(place.at))}};
         if (place.face != none) entry["face"] = place.face;
         if (place.with != none) entry["with"] = place.with;
         evidence.push_back(std::move(entry));

@@ -1,6 +1,7 @@
 #include "stage/section_report.hpp"
 
 #include "geometry/inspect.hpp"
+#include "mesh/placement.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ void add_volume(Json& result, const Scene& scene, const io::DrawingTotals& total
     for (const Part& part : scene.parts) {
         if (!context.selects(part, scene)) continue;
         const auto own = inspect(part.mesh).volume;
-        volume = volume && own ? std::optional(*volume + *own * std::abs(section_space(part).determinant()))
+        volume = volume && own ? std::optional(*volume + *own * std::abs(effective(part).determinant()))
                                : std::nullopt;
     }
     const double sum = totals.area * spacing;
@@ -45,8 +46,6 @@ void warn(const io::DrawingTotals& totals, Context& context) {
 }
 
 } // namespace
-
-Transform section_space(const Part& part) { return part.skinned ? Transform{} : part.transform; }
 
 void report_sections(const io::Drawing& drawing, const Scene& scene, double spacing, Context& context) {
     const auto totals = io::totals_of(drawing);

@@ -6,9 +6,6 @@
 
 namespace facetmill {
 
-/// From a part's space to where it is cut.
-Transform section_space(const Part& part);
-
 /// Fills the stage's result with the summary of the drawing and, for a stack (spacing above 0, world units),
 /// with areas times spacing beside the volume of the parts selected. Warns of contours that are open
 /// (W-OPEN-SECTION), turned by nesting (W-UNORIENTED) or crossing themselves (W-SECTION-CROSSES).

@@ -1,5 +1,6 @@
 #include "geometry/crop.hpp"
 
+#include "mesh/placement.hpp"
 #include "stage/cap_option.hpp"
 #include "stage/footprint_option.hpp"
 #include "stage/stage.hpp"
@@ -80,7 +81,7 @@ Scene run(Scene scene, const CropOptions& o, Context& context) {
     if (o.cap) set_cap(settings, scene, o.cap_material);
     std::size_t cut = 0, before = 0, after = 0, caps = 0, open = 0;
     context.for_each_part(scene, [&](Part& part) {
-        settings.to_world = part.skinned ? Transform{} : part.transform;
+        settings.to_world = effective(part);
         settings.memory = part.cuts ? *part.cuts : CutMemory{};
         const std::size_t faces = part.mesh.face_count();
         CropResult r = crop(part.mesh, footprint, settings);

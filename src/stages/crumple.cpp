@@ -3,6 +3,7 @@
 #include "base/memory.hpp"
 #include "geometry/moved.hpp"
 #include "geometry/split.hpp"
+#include "mesh/placement.hpp"
 #include "stage/mask_option.hpp"
 #include "stage/stage.hpp"
 
@@ -253,7 +254,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context) {
     MaskOfParts masks(scene, o.mask);
     context.for_each_part(scene, [&](Part& part) {
         settings.amplitude = context.resolve(o.amplitude, scene, "amplitude", &part);
-        settings.to_world = part.skinned ? Transform{} : part.transform;
+        settings.to_world = effective(part);
         SplitResult pieces = split_part(part, o.grid);
         part.mesh = std::move(pieces.mesh);
         settings.mask = masks.of(part);

@@ -1,6 +1,7 @@
 #include "geometry/probe.hpp"
 
 #include "geometry/links.hpp"
+#include "mesh/placement.hpp"
 #include "report/probe_json.hpp"
 #include "report/summary.hpp"
 #include "stage/probe_option.hpp"
@@ -81,13 +82,11 @@ Questions sort_parts(const Scene& scene, const ProbeOptions& o, const Context& c
     return q;
 }
 
-Transform world_of(const Part& part) { return part.skinned ? Transform{} : part.transform; }
-
 std::vector<Vec3> points_of(const ProbeOptions& o, const Questions& q, Context& context) {
     std::vector<Vec3> points;
     if (!o.points) {
         for (const Part* part : q.sources)
-            for (const Vec3& p : part->mesh.positions) points.push_back(world_of(*part).point(p));
+            for (const Vec3& p : part->mesh.positions) points.push_back(effective(*part).point(p));
         return points;
     }
     auto rows = o.points->rows;
@@ -135,7 +134,7 @@ std::vector<Vec3> facet_of(const Questions& q, std::int64_t number) {
         std::vector<Vec3> corners;
         const auto f = static_cast<Index>(left);
         for (Index c = part->mesh.face_begin(f); c < part->mesh.face_end(f); ++c)
-            corners.push_back(world_of(*part).point(part->mesh.point(c)));
+            corners.push_back(effective(*part).point(part->mesh.point(c)));
         return corners;
     }
     throw Error(ErrorKind::usage, "E-FACE",
@@ -174,7 +173,7 @@ report::LineAnswers answer_along(const FaceTree& tree, const ProbeOptions& o, co
         for (std::size_t i = 0; i < a->size(); ++i)
             directions[wedges ? mesh.vertex_of_wedge(static_cast<Index>(i)) : i] +=
                 {a->value(i, 0), a->value(i, 1), a->value(i, 2)};
-        const Transform world = world_of(*part);
+        const Transform world = effective(*part);
         for (std::size_t v = 0; v < directions.size(); ++v) {
             const Vec3 from = world.point(mesh.positions[v]);
             const Vec3 d = normalised(world.vector(directions[v])) * (o.reverse ? -1.0 : 1.0);

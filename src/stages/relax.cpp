@@ -1,6 +1,7 @@
 #include "geometry/relax.hpp"
 
 #include "geometry/moved.hpp"
+#include "mesh/placement.hpp"
 #include "stage/mask_option.hpp"
 #include "stage/stage.hpp"
 
@@ -143,7 +144,7 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context) {
     MaskOfParts masks(scene, o.mask);
     Json parts = Json::array();
     context.for_each_part(scene, [&](Part& part) {
-        settings.to_world = part.skinned ? Transform{} : part.transform;
+        settings.to_world = effective(part);
         if (o.until) // above 0 in a part that is a single point too, which settles at once
             settings.until = std::max(context.resolve(*o.until, scene, "until", &part),
                                       std::numeric_limits<double>::min());

@@ -1,4 +1,5 @@
 #include "geometry/section_stack.hpp"
+#include "mesh/placement.hpp"
 #include "stage/hatch_option.hpp"
 #include "stage/plane_option.hpp"
 #include "stage/section_report.hpp"
@@ -52,7 +53,7 @@ Stack stack_of(const SectionOptions& o, const Scene& scene, const Plane& plane, 
                     "give a length in scene units, or count");
     Extent extent;
     for (const Part& part : scene.parts)
-        if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, section_space(part)));
+        if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, effective(part)));
     return stack_of(extent, every, o.count);
 }
 
@@ -68,7 +69,7 @@ io::Drawing drawing_of(const Scene& scene, const Plane& plane, const Stack& stac
     }
     for (const Part& part : scene.parts) {
         if (!context.selects(part, scene)) continue;
-        auto sections = section(part.mesh, {plane, stack.heights, section_space(part), part.cuts.get()});
+        auto sections = section(part.mesh, {plane, stack.heights, effective(part), part.cuts.get()});
         for (std::size_t k = 0; k < sections.size(); ++k) {
             std::vector<polygon::Segment> lines;
             if (hatching) lines = polygon::hatch(sections[k].filled(), *hatching);

@@ -1,5 +1,6 @@
 #include "geometry/deviation.hpp"
 #include "geometry/stretch.hpp"
+#include "mesh/placement.hpp"
 #include "report/deviation_json.hpp"
 #include "report/simplify_json.hpp"
 #include "stage/simplify_option.hpp"
@@ -54,7 +55,7 @@ class Simplifier {
         context_.for_each_part(scene_, [&](Part& part) {
             if (o_.measure || o_.certify) before_ = surface_of(part);
             if (changes_topology()) topology_ = inspect(part.mesh);
-            const Transform to_world = part.skinned ? Transform{} : part.transform;
+            const Transform to_world = effective(part);
             scale_ = greatest_stretch(to_world);
             const SimplifySettings settings = simplify_settings(o_, to_world, share_of(part.mesh));
             if (!o_.lods) return take(part, simplify(std::move(part.mesh), settings));

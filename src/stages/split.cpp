@@ -1,6 +1,7 @@
 #include "geometry/split.hpp"
 
 #include "base/functions.hpp"
+#include "mesh/placement.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -233,7 +234,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context) {
         if (o.max_edge) settings.max_edge = context.resolve(*o.max_edge, scene, "max_edge", &part);
         if (o.max_edge && settings.max_edge <= 0) settings.passes = 0; // a percentage of a single point
         settings.faces = share(o, part, total);
-        settings.to_world = part.skinned ? Transform{} : part.transform;
+        settings.to_world = effective(part);
         const FacetShape before = facet_shape(part.mesh, settings.to_world);
         SplitResult result = split_part(part, settings);
         part.mesh = std::move(result.mesh);

@@ -1,5 +1,6 @@
 #include "geometry/tile.hpp"
 
+#include "mesh/placement.hpp"
 #include "stage/cap_option.hpp"
 #include "stage/stage.hpp"
 
@@ -104,7 +105,7 @@ class TileRun {
 
   private:
     void cut_part(Part& part, std::vector<Part>& parts, Json& tiles) {
-        settings_.to_world = part.skinned ? Transform{} : part.transform;
+        settings_.to_world = effective(part);
         settings_.clip.memory = part.cuts ? *part.cuts : CutMemory{};
         TileResult r = tile(std::move(part.mesh), settings_);
         part.mesh = {};

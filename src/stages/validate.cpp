@@ -6,6 +6,7 @@
 #include "stage/stage.hpp"
 
 #include "geometry/surgery.hpp"
+#include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
 
 #include <fmt/format.h>
@@ -100,7 +101,7 @@ class Judge {
             Scene one{{}, scene.materials, scene.unit, scene.up, {}};
             one.parts.emplace_back().name = fmt::format("{}.{}", part.name, number++);
             one.parts[0].mesh = std::move(mesh);
-            one.parts[0].transform = part.skinned ? Transform{} : part.transform;
+            one.parts[0].transform = effective(part);
             judge(one, one.parts[0].name);
         }
     }

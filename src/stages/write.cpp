@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
 #include <utility>
 
 namespace facetmill {
@@ -73,36 +72,31 @@ void declare(Declare<WriteOptions>& d) {
              "glTF with MSFT_lod: the parts X.lod1, X.lod2, ... are shown in place of X, not beside it.");
 }
 
-/// The formats that know an option.
-struct FormatsOf {
-    const char* option;
+/// An option that only some formats know, and whether it asks for something.
+struct FormatOption {
+    const char* name;
     std::vector<std::string> formats;
+    bool asked;
 };
-const std::vector<FormatsOf>& format_options() {
-    static const std::vector<FormatsOf> table{{"ascii", {"ply", "stl"}},
-                                              {"big_endian", {"ply"}},
-                                              {"precision", {"ply", "obj", "off"}},
-                                              {"draco", {"gltf", "glb", "drc"}},
-                                              {"mesh_manifold", {"gltf", "glb"}},
-                                              {"lods", {"gltf", "glb"}}};
-    return table;
+
+std::vector<FormatOption> format_options(const WriteOptions& o) {
+    return {{"ascii", {"ply", "stl"}, o.ascii},
+            {"big_endian", {"ply"}, o.big_endian},
+            {"precision", {"ply", "obj", "off"}, o.precision == Precision::full},
+            {"draco", {"gltf", "glb", "drc"}, o.draco && o.draco->on},
+            {"mesh_manifold", {"gltf", "glb"}, o.mesh_manifold},
+            {"lods", {"gltf", "glb"}, o.lods}};
 }
 
 /// Options that say something another format knows.
 void verify_options(const WriteOptions& o, const std::string& format, const Value& given,
                     Problems& problems) {
-    const std::map<std::string_view, bool> says{{"ascii", o.ascii},
-                                                {"big_endian", o.big_endian},
-                                                {"precision", o.precision == Precision::full},
-                                                {"draco", o.draco && o.draco->on},
-                                                {"mesh_manifold", o.mesh_manifold},
-                                                {"lods", o.lods}};
-    for (const auto& [option, formats] : format_options())
-        if (says.at(option) && std::find(formats.begin(), formats.end(), format) == formats.end())
-            problems.add(given.find_entry(option)->key_mark, "E-EXCLUSIVE",
-                         fmt::format("write: '{}' goes with {}, not with {}", option,
-                                     fmt::join(formats, ", "), format),
-                         "leave it out");
+    for (const auto& [name, formats, asked] : format_options(o))
+        if (asked && std::find(formats.begin(), formats.end(), format) == formats.end())
+            problems.add(
+                given.find_entry(name)->key_mark, "E-EXCLUSIVE",
+                fmt::format("write: '{}' goes with {}, not with {}", name, fmt::join(formats, ", "), format),
+                "leave it out");
 }
 
 const io::Codec* codec_of(const WriteOptions& o) {

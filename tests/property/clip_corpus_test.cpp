@@ -185,15 +185,9 @@ void check_laws(const Mesh& mesh, std::uint64_t planes, Counts& counts) {
 TEST_CASE("closed meshes of the corpus stay closed and their sides add up", "[property]") {
     const auto folder = test::corpus();
     if (!folder) return;
-    const char* planes = std::getenv("FACETMILL_CORPUS_PLANES");
     Counts counts;
-    for (const fs::path& file : test::meshes_below(*folder)) {
-        CAPTURE(file.string());
-        const Scene scene = test::read_or_nothing(file);
-        ++counts.files;
-        for (const Part& part : scene.parts)
-            check_laws(part.mesh, planes ? static_cast<std::uint64_t>(std::atoi(planes)) : 6, counts);
-    }
+    counts.files = test::check_corpus(
+        *folder, [&](const Mesh& mesh, std::uint64_t planes) { check_laws(mesh, planes, counts); });
     std::cout << counts.files << " files, " << counts.meshes << " closed meshes, " << counts.cuts << " cuts, "
               << counts.caps << " with caps; edge-manifold meshes: " << counts.manifold
               << " cuts through no vertex stay so, of " << counts.through_vertices

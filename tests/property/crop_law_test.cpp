@@ -145,14 +145,8 @@ TEST_CASE("closed meshes that are cropped with walls stay closed and their sides
 TEST_CASE("closed meshes of the corpus that are cropped with walls stay closed", "[property]") {
     const auto folder = test::corpus();
     if (!folder) return;
-    const char* outlines = std::getenv("FACETMILL_CORPUS_PLANES");
     Counts counts;
-    for (const fs::path& file : test::meshes_below(*folder)) {
-        CAPTURE(file.string());
-        const Scene scene = test::read_or_nothing(file);
-        ++counts.files;
-        for (const Part& part : scene.parts)
-            check_laws(part.mesh, outlines ? static_cast<std::uint64_t>(std::atoi(outlines)) : 6, counts);
-    }
+    counts.files = test::check_corpus(
+        *folder, [&](const Mesh& mesh, std::uint64_t outlines) { check_laws(mesh, outlines, counts); });
     print(counts);
 }

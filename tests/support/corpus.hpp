@@ -2,6 +2,7 @@
 // A folder of real, hard and malformed files, when FACETMILL_CORPUS names one.
 
 #include "io/codec.hpp"
+#include "support/catch.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -35,6 +36,25 @@ inline Scene read_or_nothing(const std::filesystem::path& file) {
     } catch (const Error&) {
         return {};
     }
+}
+
+/// How many cuts of each mesh FACETMILL_CORPUS_PLANES asks for; 6 unless it is set.
+inline std::uint64_t corpus_planes() {
+    const char* planes = std::getenv("FACETMILL_CORPUS_PLANES");
+    return planes ? static_cast<std::uint64_t>(std::atoi(planes)) : 6;
+}
+
+/// Calls check(mesh, corpus_planes()) for all meshes of the files below the folder; returns how many files.
+template <class Check>
+std::size_t check_corpus(const std::filesystem::path& folder, Check&& check) {
+    std::size_t files = 0;
+    for (const auto& file : meshes_below(folder)) {
+        CAPTURE(file.string());
+        const Scene scene = read_or_nothing(file);
+        ++files;
+        for (const Part& part : scene.parts) check(part.mesh, corpus_planes());
+    }
+    return files;
 }
 
 } // namespace facetmill::test
