@@ -1,12 +1,14 @@
 #include "geometry/split_pattern.hpp"
 
+#include "base/storage.hpp"
+
 namespace facetmill::split_detail {
 
 namespace {
 
 void place(std::vector<Vec3>& positions, const Mesh& from, const Lineage& vertices) {
     const std::size_t old = from.vertex_count(), on_edges = vertices.edges.size();
-    positions.resize(old + on_edges + vertices.mixes());
+    resize_large(positions, old + on_edges + vertices.mixes());
     parallel_for(old, [&](std::size_t v) { positions[v] = from.positions[v]; });
     parallel_for(on_edges, [&](std::size_t i) {
         const auto& e = vertices.edges[i];
@@ -41,7 +43,7 @@ Fates finish(Mesh& to, const Mesh& from, Descent& descent, const EdgePoints* poi
         for (std::size_t i = 0; i < vertices.mixes(); ++i)
             to.wedge_vertex.push_back(static_cast<Index>(inside + i));
     } else {
-        wedges.edges = vertices.edges;
+        descent.wedges_as_vertices = true;
     }
     return inherit_attributes(to, from, descent);
 }

@@ -3,6 +3,7 @@
 // all.
 
 #include "base/parallel.hpp"
+#include "base/storage.hpp"
 #include "geometry/split_points.hpp"
 
 #include <array>
@@ -98,10 +99,11 @@ Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pa
     const PatternCounts& total = sums.back();
     Mesh out;
     Descent descent;
-    out.corners.resize(total.corners);
+    resize_large(out.corners, total.corners);
     const bool offsets = !pattern.triangles_only(mesh);
     if (offsets) out.face_offsets.assign(total.faces + 1, 0);
-    descent.faces.resize(total.faces);
+    const bool face_sources = has_attributes(mesh, Domain::face);
+    if (face_sources) resize_large(descent.faces, total.faces);
     Lineage& mixes = descent.wedges;
     mixes.mix_offsets.assign(total.mixes + 1, 0);
     mixes.mix_sources.resize(total.sources);
@@ -122,7 +124,7 @@ Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pa
                 const Index f = static_cast<Index>(i);
                 pattern.emit({mesh, points, f, static_cast<Index>(first_inside + at.mixes)}, to);
                 const PatternCounts made = pattern.counts(mesh, f);
-                std::fill_n(&descent.faces[at.faces], made.faces, f);
+                if (face_sources) std::fill_n(&descent.faces[at.faces], made.faces, f);
                 at += made;
             }
         },

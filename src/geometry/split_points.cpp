@@ -1,6 +1,7 @@
 #include "geometry/split_points.hpp"
 
 #include "base/parallel.hpp"
+#include "base/storage.hpp"
 
 #include <algorithm>
 
@@ -90,14 +91,14 @@ void EdgePoints::describe(Lineage& vertices, Lineage& wedges) const {
         }
     };
     const std::size_t first = vertices.edges.size();
-    vertices.edges.resize(first + vertex_points());
+    resize_large(vertices.edges, first + vertex_points());
     parallel_for(table_->size(), [&](std::size_t e) {
         const Index r = rank(static_cast<Index>(e));
         if (r != none) fill(vertices.edges, first + r * n, e, table_->edges[e].low, table_->edges[e].high);
     });
     if (bundles_.empty()) return;
     const std::size_t first_wedge = wedges.edges.size();
-    wedges.edges.resize(first_wedge + wedge_points());
+    resize_large(wedges.edges, first_wedge + wedge_points());
     parallel_for(bundle_count_, [&](std::size_t b) {
         const Index c = bundle_corner_[b], e = table_->corner_edge[c];
         Index low = mesh_->corners[c], high = mesh_->corners[next_[c]];

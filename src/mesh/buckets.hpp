@@ -3,6 +3,7 @@
 // from.
 
 #include "base/parallel.hpp"
+#include "base/storage.hpp"
 #include "mesh/mesh.hpp"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ Buckets<Item> fill_buckets(const Mesh& mesh, Visit&& visit) {
         for (std::size_t c = 0; c < chunks; ++c) sum += std::exchange(counts[c * buckets + b], sum);
     }
     result.begin[buckets] = sum;
-    result.items.resize(sum);
+    resize_large(result.items, sum);
     for_faces([&](std::size_t& at, const Item& item) { result.items[at++] = item; });
     return result;
 }

@@ -100,10 +100,12 @@ EdgeTable build_edges(const Mesh& mesh) {
         16);
     EdgeTable table;
     const Index edges = exclusive_scan(first_edge);
-    table.edges.resize(edges);
-    table.corner_offsets.resize(std::size_t{edges} + 1);
+    resize_large(table.edges, edges);
+    resize_large(table.corner_offsets, std::size_t{edges} + 1);
     table.corner_offsets[edges] = static_cast<Index>(items.size());
-    table.edge_corners.resize(items.size());
+    resize_large(table.edge_corners, items.size());
+    table.corner_edge.reserve(mesh.corner_count());
+    prefault(table.corner_edge.data(), mesh.corner_count() * sizeof(Index));
     table.corner_edge.resize(mesh.corner_count(), none);
     parallel_for(
         buckets.count(),
