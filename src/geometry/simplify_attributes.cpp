@@ -184,11 +184,6 @@ std::vector<Index> number_wedges(Mesh& to, const Work& s, std::size_t old_wedges
     return survivors;
 }
 
-bool has_attributes(const Mesh& mesh, Domain domain) {
-    return std::any_of(mesh.attributes.begin(), mesh.attributes.end(),
-                       [&](const auto& a) { return a.domain == domain; });
-}
-
 Lineage copies(std::vector<Index> old) {
     Lineage lineage;
     lineage.copies = std::move(old);

@@ -21,9 +21,13 @@ struct Parents {
 /// any.
 struct Ancestry {
     const Lineage& lineage;
+    bool identity;
+    std::span<const Index> copied; ///< old indices; empty with identity
     std::size_t copies;
 
-    Ancestry(const Lineage& l, std::size_t old) : lineage(l), copies(l.identity ? old : l.copies.size()) {}
+    Ancestry(const Lineage& l, std::size_t old) : Ancestry(l, l.identity, l.copies, old) {}
+    Ancestry(const Lineage& mixed, bool same, std::span<const Index> from, std::size_t old)
+        : lineage(mixed), identity(same), copied(from), copies(same ? old : from.size()) {}
     std::size_t mixed() const { return lineage.edges.size() + lineage.mixes(); }
     std::size_t size() const { return copies + mixed(); }
 
@@ -53,14 +57,14 @@ struct Ancestry {
 
 template <class T>
 void copy_elements(std::vector<T>& to, const std::vector<T>& from, const Ancestry& ancestry, std::size_t k) {
-    if (ancestry.lineage.identity) {
+    if (ancestry.identity) {
         parallel_chunks(ancestry.copies * k, [&](std::size_t begin, std::size_t end) {
             std::copy(&from[begin], from.data() + end, &to[begin]);
         });
         return;
     }
-    const auto& copies = ancestry.lineage.copies;
-    parallel_for(copies.size(), [&](std::size_t i) { std::copy_n(&from[copies[i] * k], k, &to[i * k]); });
+    parallel_for(ancestry.copies,
+                 [&](std::size_t i) { std::copy_n(&from[ancestry.copied[i] * k], k, &to[i * k]); });
 }
 
 constexpr std::size_t most_components = 16; // glTF's MAT4; wider attributes are mixed piece by piece
@@ -248,15 +252,19 @@ void expect_size(const Mesh& to, Domain domain, std::size_t found) {
 
 } // namespace
 
+bool has_attributes(const Mesh& mesh, Domain domain) {
+    return std::any_of(mesh.attributes.begin(), mesh.attributes.end(),
+                       [&](const Attribute& a) { return a.domain == domain; });
+}
+
 Fates inherit_attributes(Mesh& to, const Mesh& from, const Descent& descent) {
-    Lineage faces;
-    faces.identity = descent.faces_identity;
-    faces.copies = descent.faces;
+    const Lineage unmixed;
     const Ancestry of_vertices(descent.vertices, from.vertex_count()),
-        of_wedges(descent.wedges, from.wedge_count()), of_faces(faces, from.face_count());
+        of_wedges(descent.wedges_as_vertices ? descent.vertices : descent.wedges, from.wedge_count()),
+        of_faces(unmixed, descent.faces_identity, descent.faces, from.face_count());
     expect_size(to, Domain::vertex, of_vertices.size());
     expect_size(to, Domain::wedge, of_wedges.size());
-    expect_size(to, Domain::face, of_faces.size());
+    if (has_attributes(from, Domain::face)) expect_size(to, Domain::face, of_faces.size());
     const auto ancestry = [&](Domain d) -> const Ancestry& {
         return d == Domain::vertex ? of_vertices : d == Domain::wedge ? of_wedges : of_faces;
     };

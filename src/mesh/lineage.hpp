@@ -26,9 +26,14 @@ struct Lineage {
 /// How the three domains of a new mesh come from an old one. Face lineage is copies only.
 struct Descent {
     Lineage vertices, wedges;
-    std::vector<Index> faces; ///< old face of each new face; empty and faces_identity: the same faces
-    bool faces_identity = false;
+    bool wedges_as_vertices = false; ///< both meshes are without seams: wedges is not filled
+    std::vector<Index>
+        faces; ///< old face of each new face; may stay empty when the old ones have no attributes
+    bool faces_identity = false; ///< the same faces; faces is not filled
 };
+
+/// Whether the mesh has attributes of the domain, whose descent is then needed.
+bool has_attributes(const Mesh& mesh, Domain domain);
 
 /// Fills to.attributes and to.primitives from from's, by the roles of the attributes: normals and tangents
 /// are renormalised; joints are united, the strongest kept and their weights renormalised (ties by joint

@@ -148,10 +148,33 @@ TEST_CASE("face attributes are copied by their parents", "[mesh]") {
 }
 
 TEST_CASE("a lineage of the wrong size is a bug", "[mesh]") {
-    const Mesh from = shapes::cube();
+    Mesh from = shapes::cube();
     Mesh to = from;
     Descent d;
     d.vertices.identity = d.wedges.identity = true;
-    CHECK_THROWS_WITH(inherit_attributes(to, from, d),
-                      "[E-BUG] the lineage of the face domain has 0 elements, the mesh has 12");
+    SECTION("of faces without attributes nothing need be said") {
+        CHECK(inherit_attributes(to, from, d).empty());
+    }
+    SECTION("of faces with attributes it must") {
+        from.attributes.push_back(
+            {"group", Domain::face, Role::index, 1, false, std::vector<std::int32_t>(from.face_count())});
+        CHECK_THROWS_WITH(inherit_attributes(to, from, d),
+                          "[E-BUG] the lineage of the face domain has 0 elements, the mesh has 12");
+    }
+    SECTION("of vertices always") {
+        to.positions.emplace_back();
+        CHECK_THROWS_WITH(inherit_attributes(to, from, d),
+                          "[E-BUG] the lineage of the vertex domain has 8 elements, the mesh has 9");
+    }
+}
+
+TEST_CASE("wedges without seams descend as their vertices do", "[mesh]") {
+    const Mesh from = carrier(2, {"uv", Domain::wedge, Role::uv, 2, false, std::vector<float>{0, 1, 4, 3}});
+    Descent d;
+    d.vertices.identity = d.wedges_as_vertices = d.faces_identity = true;
+    d.vertices.edges = {{0, 1, 0.25}};
+    Mesh to;
+    to.positions.resize(3);
+    inherit_attributes(to, from, d);
+    CHECK(std::get<std::vector<float>>(to.attributes[0].data) == std::vector<float>{0, 1, 4, 3, 1, 1.5});
 }
