@@ -3,14 +3,13 @@
 // Both print one line of JSON; bench/compare/simplify.py makes a table of them. simplify_peers list: the
 // peers.
 
+#include "compare/clock.hpp"
 #include "geometry/deviation.hpp"
 #include "geometry/inspect.hpp"
 #include "geometry/simplify.hpp"
 #include "io/codec.hpp"
 #include "io/outputs.hpp"
 
-#include <chrono>
-#include <ctime>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fstream>
@@ -24,6 +23,7 @@
 #endif
 
 using namespace facetmill;
+using bench::Clock;
 
 namespace {
 
@@ -44,17 +44,6 @@ void write(const Mesh& mesh, const char* path) {
         out.write(reinterpret_cast<const char*>(&mesh.corners[3 * f]), 12);
     }
 }
-
-struct Clock {
-    std::chrono::steady_clock::time_point wall;
-    std::clock_t cpu;
-    double wall_seconds = 0, cpu_seconds = 0;
-    void start() { wall = std::chrono::steady_clock::now(), cpu = std::clock(); }
-    void stop() {
-        cpu_seconds = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-        wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-    }
-};
 
 using Peer = std::function<Mesh(Mesh, double ratio, Clock&)>;
 

@@ -2,6 +2,7 @@
 // that it has built already; and the cost against the number of faces.
 
 #include "geometry/relax.hpp"
+#include "support/meshes.hpp"
 #include "support/openmesh.hpp"
 
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>

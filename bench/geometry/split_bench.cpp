@@ -2,6 +2,7 @@
 // methods; and the cost against the number of faces.
 
 #include "geometry/split.hpp"
+#include "support/meshes.hpp"
 #include "support/openmesh.hpp"
 
 #include <OpenMesh/Tools/Subdivider/Uniform/MidpointT.hh>

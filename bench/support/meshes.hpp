@@ -5,11 +5,13 @@
 #include "io/codec.hpp"
 #include "mesh/shapes.hpp"
 
+#include <benchmark/benchmark.h>
 #include <cstdlib>
 
 namespace facetmill::bench {
 
-/// FACETMILL_SCAN names a mesh file (its first part is taken); without it, a crumpled sphere of 1.3 million faces.
+/// FACETMILL_SCAN names a mesh file (its first part is taken); without it, a crumpled sphere of 1.3 million
+/// faces.
 inline const Mesh& closed_scan() {
     static const Mesh mesh = [] {
         if (const char* path = std::getenv("FACETMILL_SCAN")) {
@@ -21,6 +23,12 @@ inline const Mesh& closed_scan() {
         return crumple(shapes::icosphere(8), settings).mesh;
     }();
     return mesh;
+}
+
+/// How all of these are timed: in milliseconds, by the clock, and the processor time of all threads beside
+/// it.
+inline void as_process(benchmark::internal::Benchmark* benchmark) {
+    benchmark->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 }
 
 } // namespace facetmill::bench

@@ -1,10 +1,9 @@
 #pragma once
-// The scan as OpenMesh holds it, for a comparison side by side.
+// A mesh as OpenMesh holds it, for a comparison side by side.
 
-#include "support/meshes.hpp"
+#include "mesh/mesh.hpp"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
-#include <benchmark/benchmark.h>
 
 namespace facetmill::bench {
 
@@ -21,12 +20,6 @@ inline OpenMeshTriangles to_openmesh(const Mesh& mesh) {
     for (Index c = 0; c < mesh.corner_count(); c += 3)
         theirs.add_face(vertex(c), vertex(c + 1), vertex(c + 2));
     return theirs;
-}
-
-/// How all of these are timed: in milliseconds, by the clock, and the processor time of all threads beside
-/// it.
-inline void as_process(benchmark::internal::Benchmark* benchmark) {
-    benchmark->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 }
 
 } // namespace facetmill::bench
