@@ -1,7 +1,7 @@
 #pragma once
 // Boxes of float32 over items in a row, four to a node, so that the processor tests four at a time. The items
-// lie along a space curve and every node stands over four neighbours of the level below, so the tree needs no
-// pointers and building it is a sort.
+// are sorted so that neighbours in the row are neighbours in space, and every node stands over four of the
+// level below, so the tree needs no pointers and building it is a sort.
 
 #include "base/parallel.hpp"
 #include "base/vec.hpp"

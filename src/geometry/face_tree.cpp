@@ -1,7 +1,7 @@
 #include "geometry/face_tree.hpp"
 
 #include "base/parallel.hpp"
-#include "geometry/space_curve.hpp"
+#include "geometry/halving.hpp"
 
 #include <algorithm>
 
@@ -30,15 +30,17 @@ FaceTree::FaceTree(const Surface& surface, Use use) {
     if (kept.empty()) return;
     const Box all = surface.bounds();
     set_frame(all);
-    const auto centre = [&](std::size_t i) {
-        const std::size_t t = kept[i];
-        return (surface.point(t, 0) + surface.point(t, 1) + surface.point(t, 2)) / 3;
-    };
-    const std::vector<Index> order = order_along_curve(kept.size(), all, centre);
+    std::vector<CentredItem> order(kept.size());
+    parallel_for(order.size(), [&](std::size_t i) {
+        const Index t = kept[i];
+        const Vec3 sum = local(surface.point(t, 0)) + local(surface.point(t, 1)) + local(surface.point(t, 2));
+        order[i] = {{static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)}, t};
+    });
+    sort_by_halving(order);
     triangles.resize(kept.size());
     faces.resize(kept.size());
     parallel_for(kept.size(), [&](std::size_t i) {
-        const std::size_t t = kept[order[i]];
+        const Index t = order[i].item;
         triangles[i] = {surface.point(t, 0), surface.point(t, 1), surface.point(t, 2)};
         faces[i] = surface.face(t);
     });

@@ -37,7 +37,7 @@ struct FaceTree : BoxLevels {
         return patches[patch_begin[static_cast<std::size_t>(level) - 1] + i];
     }
 
-    std::vector<Triangle> triangles;      ///< those with finite corners, along the curve
+    std::vector<Triangle> triangles;      ///< those with finite corners, neighbours by geometry/halving.hpp
     std::vector<Index> faces;             ///< of triangles
     std::vector<Plates> plates;           ///< of triangles 4i to 4i + 3
     int patch_levels = 0;                 ///< at most 8; above, pieces are too curved to gain
