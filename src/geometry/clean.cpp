@@ -20,6 +20,11 @@ bool one_round(Work& work, const CleanSettings& s) {
     if (s.t_vertices != Nearness::off)
         changed |= resolve_t_vertices(work, s.t_vertices == Nearness::near ? s.within : 0);
     if (s.stitch != Nearness::off) changed |= stitch(work, s.stitch == Nearness::near ? s.within : 0);
+    if (s.holes && s.non_manifold) { // holes that touch at a vertex would be one hole once it is split
+        const std::size_t told = work.not_done.size();
+        changed |= fill_holes(work, *s.holes);
+        work.not_done.resize(told); // those that stay are told below
+    }
     if (s.non_manifold) changed |= split_non_manifold(work);
     if (s.self_intersections) changed |= resolve_self_intersections(work);
     if (s.holes) changed |= fill_holes(work, *s.holes);

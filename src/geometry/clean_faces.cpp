@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 
 namespace facetmill::clean_steps {
 
@@ -73,16 +74,25 @@ std::vector<std::vector<Index>> groups_of_duplicates(const Mesh& mesh) {
     return lists;
 }
 
-/// For each face that cancels with another (flagged): whether its patch of such faces stands on others.
-std::vector<std::uint8_t> stands_on_others(const Mesh& mesh, const std::vector<std::uint8_t>& cancels) {
-    const auto edges = build_edges(mesh);
+/// How often each edge is run along from low to high, less how often back.
+std::vector<int> balances(const Mesh& mesh, const EdgeTable& edges) {
+    std::vector<int> balance(edges.size(), 0);
+    for (Index e = 0; e < edges.size(); ++e)
+        for (const Index c : edges.corners_of(e)) balance[e] += mesh.vertex(c) == edges.edges[e].low ? 1 : -1;
+    return balance;
+}
+
+/// For each face that cancels with another (flagged): whether its patch of such faces stands on others; of a
+/// closed surface, if only with a corner: there one side alone would be a border.
+std::vector<std::uint8_t> stands_on_others(const Mesh& mesh, const EdgeTable& edges, bool closed,
+                                           const std::vector<std::uint8_t>& cancels) {
     const auto faces = corner_faces(mesh);
     DisjointSets patches(mesh.face_count());
     std::vector<std::uint8_t> touches(mesh.face_count(), 0);
-    for (Index e = 0; e < edges.size(); ++e) {
+    const auto look_at = [&](std::span<const Index> corners) {
         Index first = none;
         bool others = false;
-        for (const Index c : edges.corners_of(e)) {
+        for (const Index c : corners) {
             if (!cancels[faces[c]])
                 others = true;
             else if (first == none)
@@ -91,12 +101,48 @@ std::vector<std::uint8_t> stands_on_others(const Mesh& mesh, const std::vector<s
                 patches.join(first, faces[c]);
         }
         if (first != none && others) touches[first] = 1;
-    }
+    };
+    for (Index e = 0; e < edges.size(); ++e) look_at(edges.corners_of(e));
+    const auto at_vertices = corners_at_vertices(mesh);
+    for (Index v = 0; closed && v < mesh.vertex_count(); ++v) look_at(at_vertices.of(v));
     std::vector<std::uint8_t> stands(mesh.face_count(), 0);
     for (Index f = 0; f < touches.size(); ++f)
         if (touches[f]) stands[patches.find(f)] = 1;
     for (Index f = 0; f < stands.size(); ++f) stands[f] = cancels[f] && stands[patches.find(f)];
     return stands;
+}
+
+/// Faces with the same vertices, and how many more run the way of the first than the other way.
+struct Doubles {
+    std::vector<Index> faces;
+    int ways = 0;
+};
+
+/// Whether all that is left of each set after cancelling stays, rather than one face: where the faces around
+/// are there as often and one alone would leave open edges. Decided for patches of such sets as a whole.
+std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, const std::vector<int>& balance,
+                                    const std::vector<Doubles>& all) {
+    DisjointSets patches(all.size());
+    std::map<Index, std::pair<std::size_t, int>> excess; // of an edge: a set there, what goes with one alone
+    for (std::size_t g = 0; g < all.size(); ++g) {
+        if (std::abs(all[g].ways) < 2) continue;
+        const int more = all[g].ways > 0 ? all[g].ways - 1 : all[g].ways + 1;
+        const Index f = all[g].faces[0];
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+            const Index e = edges.corner_edge[c];
+            if (e == none) continue;
+            const auto [at, fresh] = excess.try_emplace(e, g, 0);
+            if (!fresh) patches.join(static_cast<Index>(at->second.first), static_cast<Index>(g));
+            at->second.second += mesh.vertex(c) == edges.edges[e].low ? more : -more;
+        }
+    }
+    std::vector<int> better(all.size(), 0); // of patches: open edges with one alone, less those with all
+    for (const auto& [e, x] : excess)
+        better[patches.find(static_cast<Index>(x.first))] += (balance[e] != x.second) - (balance[e] != 0);
+    std::vector<std::uint8_t> many(all.size());
+    for (std::size_t g = 0; g < all.size(); ++g)
+        many[g] = std::abs(all[g].ways) > 1 && better[patches.find(static_cast<Index>(g))] > 0;
+    return many;
 }
 
 double area_of(const Mesh& mesh, Index f) {
@@ -130,27 +176,36 @@ bool remove_degenerate(Work& work) {
 
 bool remove_duplicates(Work& work) {
     const Mesh& mesh = work.mesh;
-    const auto groups = groups_of_duplicates(mesh);
-    if (groups.empty()) return false;
+    std::vector<Doubles> all;
+    for (auto& group : groups_of_duplicates(mesh)) all.push_back({std::move(group)});
+    if (all.empty()) return false;
+    const auto edges = build_edges(mesh);
+    const auto balance = balances(mesh, edges);
+    const bool closed = std::all_of(balance.begin(), balance.end(), [](int b) { return b == 0; });
     std::vector<std::uint8_t> cancels(mesh.face_count(), 0), gone(mesh.face_count(), 0);
-    std::vector<Index> stays; // of each group
-    for (const auto& group : groups) {
-        std::int64_t ways = 0;
-        for (const Index f : group) ways += same_way(mesh, group[0], f) ? 1 : -1;
-        Index keep = group[0];
-        for (const Index f : group)
-            if (ways < 0 && !same_way(mesh, group[0], f)) {
-                keep = f;
-                break;
-            }
-        stays.push_back(keep);
-        for (const Index f : group) cancels[f] = ways == 0;
+    for (Doubles& d : all) {
+        for (const Index f : d.faces) d.ways += same_way(mesh, d.faces[0], f) ? 1 : -1;
+        for (const Index f : d.faces) cancels[f] = d.ways == 0;
     }
-    const auto stands = stands_on_others(mesh, cancels);
+    const auto stands = stands_on_others(mesh, edges, closed, cancels);
+    const auto many = stay_many(mesh, edges, balance, all);
+    const bool beside = closed && std::count(cancels.begin(), cancels.end(), 0) > 0;
     std::size_t count = 0;
-    for (std::size_t g = 0; g < groups.size(); ++g)
-        for (const Index f : groups[g])
-            if (f != stays[g] || (cancels[f] && stands[f])) gone[f] = 1, ++count;
+    for (std::size_t g = 0; g < all.size(); ++g) {
+        const Index first = all[g].faces[0];
+        const bool sheet = cancels[first] && !stands[first];
+        int left[2]; // that stay of those that run the other way than the first, and of those that run its
+                     // way
+        left[all[g].ways >= 0] = sheet || !cancels[first] ? (many[g] ? std::abs(all[g].ways) : 1) : 0;
+        left[all[g].ways < 0] = sheet && beside ? 1 : 0;
+        for (const Index f : all[g].faces) gone[f] = left[same_way(mesh, first, f)]-- <= 0, count += gone[f];
+        if (sheet && beside)
+            work.not_done.push_back({"duplicates",
+                                     "both sides of a sheet of its own beside closed pieces stay: one alone "
+                                     "would be open; components removes small ones",
+                                     mesh.point(mesh.face_begin(first))});
+    }
+    if (count == 0) return false;
     work.counts.duplicate_faces += count;
     work.mesh = keep_faces(mesh, faces_without(gone));
     return true;

@@ -2,6 +2,7 @@
 #include "base/predicates.hpp"
 #include "geometry/cgal/fair_patch.hpp"
 #include "geometry/clean_steps.hpp"
+#include "geometry/hole_outlines.hpp"
 #include "geometry/span_outline.hpp"
 #include "geometry/surgery.hpp"
 #include "geometry/triangulate.hpp"
@@ -16,76 +17,6 @@
 namespace facetmill::clean_steps {
 
 namespace {
-
-/// A hole's outline the way its faces would run: corner i's wedge is at the start of the edge to corner i
-/// + 1.
-struct Outline {
-    std::vector<Index> wedges;
-    std::vector<Index> faces; ///< [i] across the edge from i to i + 1
-};
-
-class Outlines {
-  public:
-    explicit Outlines(const Mesh& mesh)
-        : mesh_(mesh), edges_(build_edges(mesh)), faces_(corner_faces(mesh)), done_(mesh.corner_count(), 0) {}
-
-    /// Calls body(outline) for each loop of open edges, and broken(corner) for those that do not come round.
-    template <class Body, class Broken>
-    void each(Body&& body, Broken&& broken) {
-        for (Index c = 0; c < mesh_.corner_count(); ++c) {
-            if (done_[c] || !is_open(c)) continue;
-            Outline outline;
-            if (walk(c, outline))
-                body(outline);
-            else
-                broken(c);
-        }
-    }
-
-  private:
-    bool is_open(Index c) const {
-        const Index e = edges_.corner_edge[c];
-        return e != none && edges_.corners_of(e).size() == 1;
-    }
-    Index next(Index c) const { return next_corner(mesh_, faces_[c], c); }
-
-    /// The open edge that follows c's around the vertex at c's end, or none.
-    Index follow(Index c) const {
-        Index at = next(c); // leaves the vertex
-        for (std::size_t turns = 0; turns <= mesh_.corner_count(); ++turns) {
-            const Index e = edges_.corner_edge[at];
-            if (e == none) return none;
-            const auto corners = edges_.corners_of(e);
-            if (corners.size() == 1) return at;
-            if (corners.size() > 2) return none;
-            const Index other = corners[0] == at ? corners[1] : corners[0];
-            if (mesh_.vertex(other) == mesh_.vertex(at)) return none; // neighbours disagree
-            at = next(other);
-        }
-        return none;
-    }
-
-    bool walk(Index start, Outline& outline) {
-        Index c = start;
-        do {
-            if (done_[c]) return false;
-            done_[c] = 1;
-            outline.wedges.push_back(mesh_.corners[next(c)]);
-            outline.faces.push_back(faces_[c]);
-            c = follow(c);
-            if (c == none) return false;
-        } while (c != start);
-        // Walked along the faces' edges; a face in the hole runs the other way.
-        std::reverse(outline.wedges.begin(), outline.wedges.end());
-        std::reverse(outline.faces.begin(), outline.faces.end());
-        return true;
-    }
-
-    const Mesh& mesh_;
-    EdgeTable edges_;
-    std::vector<Index> faces_;
-    std::vector<std::uint8_t> done_;
-};
 
 /// The edges and triangles that are there already, by place: vertices at one place count as one, so that a
 /// patch fits even after they are welded.
@@ -133,8 +64,8 @@ class Occupied {
 
 class Filler {
   public:
-    Filler(Work& work, const HoleSettings& settings)
-        : work_(work), mesh_(work.mesh), settings_(settings), occupied_(work.mesh),
+    Filler(Work& work, const HoleSettings& settings, const EdgeList* other_than)
+        : work_(work), mesh_(work.mesh), settings_(settings), other_than_(other_than), occupied_(work.mesh),
           corners_(corners_at_vertices(work.mesh)), face_of_(corner_faces(work.mesh)) {}
 
     bool run() {
@@ -155,7 +86,18 @@ class Filler {
   private:
     void refuse(std::string why, const Vec3& at) { work_.not_done.push_back({"holes", std::move(why), at}); }
 
+    /// Whether an edge of the outline is one that is to stay open.
+    bool is_excepted(const Outline& o) const {
+        const auto n = static_cast<Index>(o.wedges.size());
+        for (Index i = 0; other_than_ && i < n; ++i) {
+            const std::pair<Index, Index> ends = std::minmax({vertex(o, i), vertex(o, (i + 1) % n)});
+            if (std::binary_search(other_than_->begin(), other_than_->end(), ends)) return true;
+        }
+        return false;
+    }
+
     void fill(const Outline& o) {
+        if (is_excepted(o)) return;
         const std::size_t n = o.wedges.size();
         std::vector<Vec3> ring;
         double around = 0;
@@ -327,6 +269,7 @@ class Filler {
     Work& work_;
     const Mesh& mesh_;
     const HoleSettings& settings_;
+    const EdgeList* other_than_;
     Occupied occupied_;
     VertexLists corners_;
     std::vector<Index> face_of_;
@@ -336,6 +279,8 @@ class Filler {
 
 } // namespace
 
-bool fill_holes(Work& work, const HoleSettings& settings) { return Filler(work, settings).run(); }
+bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than) {
+    return Filler(work, settings, other_than).run();
+}
 
 } // namespace facetmill::clean_steps

@@ -27,9 +27,11 @@ bool stitch(Work& work, double within);
 /// Corners that repeat the vertex before them go, then faces without area (exact). Where that opens the
 /// surface, the vertices on the line are put on the edges that face it, so that what was closed stays closed.
 bool remove_degenerate(Work& work);
-/// Of faces with the same vertices one stays, with the orientation that they have more often. Faces that
-/// cancel (as often one way as the other) all go when they are a wall or a fin on other faces, and one of
-/// each stays when they are a sheet of their own.
+/// Of faces with the same vertices one stays, with the orientation that they have more often; as many as are
+/// left after cancelling where the faces around are there as often, so that what was closed stays closed.
+/// Faces that cancel (as often one way as the other) all go when they are a wall or a fin on other faces (of
+/// a closed surface also when they touch it with a corner), and one of each stays when they are a sheet of
+/// their own.
 bool remove_duplicates(Work& work);
 /// A vertex on (near: within the length of) an open edge of another face, with an open edge of its own along
 /// that one, is put on it.
@@ -41,14 +43,19 @@ std::vector<Insertion> find_t_vertices(const Mesh& mesh, double within);
 /// ends of such an edge are held together by other faces, the second pair gets a point in the middle of the
 /// edge.
 bool split_non_manifold(Work& work);
-/// Fills the loops of open edges as the settings say.
-bool fill_holes(Work& work, const HoleSettings& settings);
+/// Edges as (low vertex, high vertex), ascending.
+using EdgeList = std::vector<std::pair<Index, Index>>;
+/// Fills the loops of open edges as the settings say; holes that touch at a vertex each for itself. Loops
+/// with an edge of other_than stay.
+bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than = nullptr);
 bool remove_components(Work& work, const ComponentSettings& settings);
 /// Closed pieces that lie inside other closed pieces and touch none go.
 bool remove_inner_shells(Work& work);
 bool remove_isolated(Work& work);
-/// Removes the faces that intersect others and those around them, fills the holes, and keeps the result if
-/// that leaves fewer intersections and the mesh as closed as it was.
+/// Place by place: removes the faces that intersect others, if need be with up to four rings around them, and
+/// fills what that opens. A place is left as it was when that would leave an intersection or an open edge
+/// that was not there, change the topology, or take half of a piece along. Faces that touch only where
+/// vertices of theirs are at one place do not count.
 bool resolve_self_intersections(Work& work);
 
 /// For each vertex the lowest one at the same place.

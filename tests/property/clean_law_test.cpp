@@ -6,6 +6,8 @@
 
 #include "io/codec.hpp"
 
+#include <cstdio>
+
 using namespace facetmill;
 using namespace facetmill::testing;
 using test::broken_clean_law;
@@ -13,7 +15,7 @@ using test::broken_clean_law;
 namespace {
 
 std::vector<std::pair<std::string, CleanSettings>> all_settings(double diagonal) {
-    CleanSettings plain, off, near, holes, smooth, solid;
+    CleanSettings plain, off, near, holes, smooth, solid, all;
     off.weld = off.t_vertices = Nearness::off;
     off.degenerate = off.duplicates = off.non_manifold = off.isolated = false;
     near.weld = near.stitch = near.t_vertices = Nearness::near, near.within = 1e-3 * diagonal;
@@ -21,8 +23,9 @@ std::vector<std::pair<std::string, CleanSettings>> all_settings(double diagonal)
     smooth.holes = HoleSettings{HoleFill::smooth, 40, 0};
     solid.components = ComponentSettings{2, 0, 0, 0}, solid.holes = HoleSettings{};
     solid.shells = true;
-    return {{"plain", plain}, {"off", off},       {"near", near},
-            {"holes", holes}, {"smooth", smooth}, {"solid", solid}};
+    all = near, all.self_intersections = all.shells = true, all.holes = HoleSettings{};
+    return {{"plain", plain},   {"off", off},     {"near", near}, {"holes", holes},
+            {"smooth", smooth}, {"solid", solid}, {"all", all}};
 }
 
 /// A surface with its vertices on a coarse lattice: equal places, faces without area, doubles, crowded edges.
@@ -88,4 +91,5 @@ TEST_CASE("clean keeps its promises over the corpus", "[property]") {
             }
     }
     CHECK(checked > 200);
+    std::printf("clean kept its promises over %zu pairs of a part and settings\n", checked);
 }
