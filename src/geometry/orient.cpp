@@ -2,11 +2,14 @@
 
 #include "base/parallel.hpp"
 #include "geometry/rays.hpp"
+#include "geometry/self_intersections.hpp"
 #include "geometry/surface_normal.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace facetmill {
 
@@ -86,13 +89,13 @@ class Outside {
     }
 
     std::vector<std::uint8_t> run() {
+        find_depths();
         std::vector<std::uint8_t> turns(spread_.pieces.size(), 0);
         parallel_for(
             turns.size(),
             [&](std::size_t p) {
                 OrientedPiece& piece = spread_.pieces[p];
                 if (!piece.orientable) return;
-                if (piece.closed) piece.depth = depth(p);
                 const bool cavity = nested_ == Nested::cavities && piece.depth % 2 == 1;
                 const double out = piece.closed ? volume(p) : votes(p);
                 piece.undecided = !(out > 0 || out < 0);
@@ -126,21 +129,49 @@ class Outside {
             [](double a, double b) { return a + b; });
     }
 
-    /// In how many other closed pieces one of its points lies; the middle of three samples.
-    std::size_t depth(std::size_t p) const {
-        std::vector<std::size_t> depths;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Index f = faces_[p][k * (faces_[p].size() - 1) / 2];
-            std::map<Index, int> turns; // of each piece around the point
-            visit_along_axis(rays_, mesh_.point(mesh_.face_begin(f)), 0, true, [&](Index g, int way) {
-                const Index q = spread_.piece_of[g];
-                if (q != p && spread_.pieces[q].closed && spread_.pieces[q].orientable) turns[q] += way;
-            });
-            depths.push_back(static_cast<std::size_t>(
-                std::count_if(turns.begin(), turns.end(), [](const auto& t) { return t.second != 0; })));
+    /// In how many other closed pieces each closed piece lies. One that touches or crosses another is not
+    /// nested in it: overlapping solids are no cavities of each other.
+    void find_depths() {
+        std::vector<std::vector<Index>> around(spread_.pieces.size());
+        parallel_for(
+            around.size(),
+            [&](std::size_t p) {
+                if (spread_.pieces[p].orientable && spread_.pieces[p].closed) around[p] = pieces_around(p);
+            },
+            1);
+        if (std::all_of(around.begin(), around.end(), [](const auto& a) { return a.empty(); })) return;
+        const auto meeting = meeting_pieces(around);
+        for (Index p = 0; p < around.size(); ++p)
+            for (const Index q : around[p])
+                spread_.pieces[p].depth += !meeting.contains({std::min(p, q), std::max(p, q)});
+    }
+
+    /// The other closed pieces that have a point of this one inside, ascending.
+    std::vector<Index> pieces_around(std::size_t p) const {
+        std::map<Index, int> turns; // of each piece around the point
+        visit_along_axis(rays_, mesh_.point(mesh_.face_begin(faces_[p][0])), 0, true, [&](Index g, int way) {
+            const Index q = spread_.piece_of[g];
+            if (q != p && spread_.pieces[q].closed && spread_.pieces[q].orientable) turns[q] += way;
+        });
+        std::vector<Index> pieces;
+        for (const auto& [q, n] : turns)
+            if (n != 0) pieces.push_back(q);
+        return pieces;
+    }
+
+    /// The pairs of pieces, of those that may be nested, whose faces meet.
+    std::set<std::pair<Index, Index>> meeting_pieces(const std::vector<std::vector<Index>>& around) const {
+        constexpr std::size_t most_pairs = std::size_t{1} << 24;
+        SelfIntersectionSettings settings{.limit = most_pairs};
+        settings.among.resize(mesh_.face_count());
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            settings.among[f] = !around[spread_.piece_of[f]].empty();
+        std::set<std::pair<Index, Index>> meeting;
+        for (const auto& [f, g] : find_self_intersections(mesh_, settings).pairs) {
+            const Index p = spread_.piece_of[f], q = spread_.piece_of[g];
+            if (p != q) meeting.emplace(std::min(p, q), std::max(p, q));
         }
-        std::sort(depths.begin(), depths.end());
-        return depths[1];
+        return meeting;
     }
 
     /// Rays along the axes from faces spread over the piece: how much of their front sees the outside, less

@@ -14,7 +14,7 @@ enum class OrientMethod {
     flip,       ///< every face is turned round
 };
 enum class Nested {
-    cavities, ///< a closed piece inside another is its cavity: its front looks into the hollow
+    cavities, ///< a closed piece inside another, which it does not meet, is its cavity: it faces the hollow
     solids,   ///< every closed piece is a solid of its own
 };
 
@@ -43,7 +43,7 @@ struct OrientResult {
 
 /// Turns faces round so that neighbours agree (spread over edges of two faces) and, for outward, the front of
 /// each piece is its outside. For closed pieces that is decided by the sign of the volume and by how many
-/// other closed pieces contain them (exact rays along an axis); for open ones by a vote of rays from their
+/// other closed pieces contain them without touching them (exact rays along an axis); for open ones by a vote of rays from their
 /// faces along the axes: the side from which more of them escape is outside. Edges of more than two faces
 /// part pieces. A piece that cannot be oriented (a Moebius strip) is left as it was. Corners are reversed
 /// from the second on; wedge normals that then point against their faces are turned with them, and their

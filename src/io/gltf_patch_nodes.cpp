@@ -1,5 +1,7 @@
 #include "io/gltf_patch.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill::io::gltf {
@@ -27,6 +29,7 @@ void set_mesh(Patch& patch, std::size_t node, const Placement& placement, int pa
     Json& json = patch.builder.json()["nodes"][node];
     if (part < 0 || mesh < 0) return remove_mesh(json);
     json["mesh"] = mesh;
+    if (placement.skinned && !patch.scene.parts[static_cast<std::size_t>(part)].skinned) json.erase("skin");
     const Json& object = patch.builder.json()["meshes"][static_cast<std::size_t>(mesh)];
     const Json& first = object["primitives"][0];
     const std::size_t targets = first.contains("targets") ? first["targets"].size() : 0;
@@ -41,9 +44,9 @@ std::vector<Transform> wanted_worlds(const Patch& patch) {
     for (const auto& frame : patch.frames) worlds.push_back(frame.world);
     for (std::size_t p = 0; p < patch.placements.size(); ++p) {
         const auto& placement = patch.placements[p];
-        if (patch.claimed[p] >= 0 && placement.node >= 0 && !placement.skinned)
-            worlds[static_cast<std::size_t>(placement.node)] =
-                patch.scene.parts[static_cast<std::size_t>(patch.claimed[p])].transform;
+        if (patch.claimed[p] < 0 || placement.node < 0) continue;
+        const Part& part = patch.scene.parts[static_cast<std::size_t>(patch.claimed[p])];
+        if (!part.skinned) worlds[static_cast<std::size_t>(placement.node)] = part.transform;
     }
     return worlds;
 }
@@ -52,6 +55,55 @@ std::vector<Transform> wanted_worlds(const Patch& patch) {
 void set_matrix(Json& node, const Transform& local) {
     for (const char* key : {"translation", "rotation", "scale", "matrix"}) node.erase(key);
     if (!local.identity()) node["matrix"] = matrix(local);
+}
+
+/// The same but for the rounding of a product with an inverse.
+bool nearly_same(const Transform& a, const Transform& b) {
+    double most = 0, apart = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 4; ++j)
+            most = std::max(most, std::abs(b.m[i][j])),
+            apart = std::max(apart, std::abs(a.m[i][j] - b.m[i][j]));
+    return apart <= 1e-12 * most;
+}
+
+/// Replaces a node by another one wherever the document places it: in scenes, as a child, as a level of
+/// detail.
+void place_instead(Json& document, std::size_t node, std::size_t other) {
+    const auto replace = [&](Json& list) {
+        for (Json& index : list)
+            if (index == node) index = other;
+    };
+    for (Json& scene : document["scenes"])
+        if (scene.contains("nodes")) replace(scene["nodes"]);
+    for (Json& parent : document["nodes"]) {
+        if (parent.contains("children")) replace(parent["children"]);
+        const Json::json_pointer levels("/extensions/MSFT_lod/ids");
+        if (parent.contains(levels)) replace(parent[levels]);
+    }
+}
+
+/// An animated node keeps its own transform, which the animation drives: a new node above it moves both.
+void move_from_above(Patch& patch, std::size_t node, const Transform& by) {
+    const std::size_t above = patch.builder.add("nodes", Json::object());
+    Json& document = patch.builder.json();
+    place_instead(document, node, above);
+    document["nodes"][above]["children"] = Json::array({node});
+    set_matrix(document["nodes"][above], by);
+}
+
+/// Warns of a node that moves by itself under one that is animated and stays.
+void warn_of_animated_ancestor(Patch& patch, std::size_t n, const std::set<std::size_t>& animated,
+                               const std::vector<Transform>& wanted) {
+    for (int p = patch.frames[n].parent; p >= 0; p = patch.frames[static_cast<std::size_t>(p)].parent) {
+        const auto parent = static_cast<std::size_t>(p);
+        if (animated.contains(parent) && wanted[parent] == patch.frames[parent].world)
+            return patch.warn(
+                "W-TRANSFORM",
+                fmt::format("nodes[{}] has moved under the animated nodes[{}], which stays: the "
+                            "animation plays about the old place",
+                            n, p));
+    }
 }
 
 /// Nodes whose parents and own place are as they were keep their transform as written.
@@ -64,13 +116,19 @@ void move_nodes(Patch& patch) {
         const bool parent_moved = frame.parent >= 0 && wanted[parent] != patch.frames[parent].world;
         if (!parent_moved && wanted[n] == frame.world) continue;
         const auto up = frame.parent < 0 ? Transform{} : inverse(wanted[parent]);
-        if (animated.count(n) || !up) {
+        const auto down = animated.contains(n) ? inverse(frame.local) : Transform{};
+        if (!up || !down) {
             patch.warn("W-TRANSFORM",
-                       fmt::format("nodes[{}] is {} and keeps its transform, although its part has moved", n,
-                                   up ? "animated" : "under a node without volume"));
+                       fmt::format("nodes[{}] {} and keeps its transform, although its part has moved", n,
+                                   up ? "is animated from no volume" : "is under a node without volume"));
             continue;
         }
-        set_matrix(patch.builder.json()["nodes"][n], *up * wanted[n]);
+        if (parent_moved && nearly_same(*up * wanted[n], frame.local)) continue;
+        if (!parent_moved) warn_of_animated_ancestor(patch, n, animated, wanted);
+        if (animated.contains(n))
+            move_from_above(patch, n, *up * wanted[n] * *down);
+        else
+            set_matrix(patch.builder.json()["nodes"][n], *up * wanted[n]);
     }
 }
 

@@ -53,7 +53,7 @@ const std::vector<KnownWarning>& known_warnings() {
         {"W-THICKEN-THIN", "A thickened wall is thinner somewhere than asked for."},
         {"W-TILE-NOTHING", "A part without faces gives no tile."},
         {"W-TRAILING", "Bytes behind the last triangle of an STL are skipped."},
-        {"W-TRANSFORM", "A glTF node keeps its transform although its part has moved."},
+        {"W-TRANSFORM", "A glTF node cannot move as its part has, or moves apart from what animates it."},
         {"W-UNITS", "A scene without a unit meets one that has a unit: numbers are taken as they are."},
         {"W-UNORIENTED", "Neighbouring faces disagree, so outlines and holes are told by nesting."},
     };

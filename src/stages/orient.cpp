@@ -46,7 +46,7 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
     if (undecided > 0)
         context.warn(
             "W-ORIENT-OPEN",
-            fmt::format("orient: {} of part '{}' look the same from both sides and were only made consistent",
+            fmt::format("orient: {} of part '{}' without a side that is the outside: only made consistent",
                         undecided == 1 ? "a piece" : fmt::format("{} pieces", undecided), part.name),
             "flip turns them round");
 }
@@ -82,7 +82,8 @@ const RegisterStage registered = make_stage<OrientSettings>(
                 "outside of a closed "
                 "piece is told by its volume and by how many closed pieces it lies in: one inside another is "
                 "its cavity and "
-                "looks inward, one inside a cavity outward again. That is decided exactly, by rays along an "
+                "looks inward, one inside a cavity outward again; pieces that touch or cross are no cavities "
+                "of each other. That is decided exactly, by rays along an "
                 "axis that never "
                 "hit an edge. The outside of an open piece is the side from which more rays escape; where "
                 "both sides are alike "

@@ -92,6 +92,24 @@ TEST_CASE("orient makes nested shells solids and cavities in turn", "[geometry]"
     CHECK(test::volume(solids.mesh) == Approx(sphere + sphere / 8 + 0.001 + 1));
 }
 
+TEST_CASE("orient takes no piece that passes through another for its cavity", "[geometry]") {
+    const Mesh ball = shapes::icosphere(2);
+    const double volume = test::volume(ball);
+    for (const double apart : {0.1, 0.6, 1.2}) {
+        Mesh mesh = ball; // most of the second is in the first, its first vertex at least once
+        append(mesh, scaled(ball, 1, {-apart, 0.05, -apart}));
+        append(mesh, scaled(ball, 0.02)); // a cavity of both
+        const auto r = oriented(shaken(mesh, 3));
+        REQUIRE(r.pieces.size() == 3);
+        CHECK(r.pieces[0].depth == 0);
+        CHECK(r.pieces[1].depth == 0);
+        const double small = volume * 8e-6;
+        const bool in_both = r.pieces[2].depth == 2;
+        CHECK(test::volume(r.mesh) == Approx(2 * volume + (in_both ? small : -small)));
+        CHECK(test::same_mesh(oriented(r.mesh).mesh, r.mesh));
+    }
+}
+
 TEST_CASE("orient lets rays vote on the outside of an open surface", "[geometry]") {
     Mesh bowl = shapes::icosphere(3);
     std::vector<Index> corners;

@@ -61,6 +61,44 @@ TEST_CASE("a part that moved gets a matrix, its neighbours keep their words", "[
     CHECK(after["nodes"][1] == Json::parse(rich)["nodes"][1]);
 }
 
+TEST_CASE("an animated node that moved gets a node above it, and plays as before", "[io]") {
+    Json document = Json::parse(rich);
+    document["animations"] =
+        Json::parse(R"([{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],
+        "samplers":[{"input":0,"output":0}]}])");
+    document["nodes"][0]["children"] = {1};
+    document["nodes"][1]["translation"] = {0, 0, 5};
+    document["scenes"][0]["nodes"] = {0};
+    Scene scene = test::read_text(document.dump());
+    Transform turn; // a quarter turn about z, twice as large
+    turn.m[0][0] = turn.m[1][1] = 0, turn.m[0][1] = -2, turn.m[1][0] = 2, turn.m[2][2] = 2;
+    scene.parts[0].transform = turn * scene.parts[0].transform;
+    const io::Written written = test::written(scene, "glb");
+    CHECK(written.warnings.empty());
+    const Json after = Json::parse(test::json_of(written.files.at(0).bytes));
+    CHECK(after["nodes"][0]["translation"] == document["nodes"][0]["translation"]);
+    CHECK(after["animations"] == document["animations"]);
+    CHECK(after["scenes"][0]["nodes"] == Json::array({2}));
+    CHECK(after["nodes"][2]["children"] == Json::array({0}));
+    CHECK(after["nodes"][2]["matrix"] == Json::parse("[0,2,0,0,-2,0,0,0,0,0,2,0,0,0,0,1]"));
+    const Scene again = test::read_bytes(written.files.at(0).bytes, "glb");
+    CHECK(again.parts.at(0).transform == scene.parts[0].transform);
+}
+
+TEST_CASE("a part that lost its skin moves by its node", "[io]") {
+    Json document = Json::parse(rich);
+    document["skins"] = Json::parse(R"([{"joints":[1]}])");
+    document["nodes"][0]["skin"] = 0;
+    Scene scene = test::read_text(document.dump());
+    REQUIRE(scene.parts.at(0).skinned);
+    CHECK(written_json(scene)["nodes"] == document["nodes"]);
+    scene.parts[0].skinned = false;
+    scene.parts[0].transform.m[0][3] = 4;
+    const Json after = written_json(scene);
+    CHECK_FALSE(after["nodes"][0].contains("skin"));
+    CHECK(after["nodes"][0]["matrix"] == Json::parse("[1,0,0,0,0,1,0,0,0,0,1,0,4,0,0,1]"));
+}
+
 TEST_CASE("instances share a mesh until they differ", "[io]") {
     Json document = Json::parse(rich);
     document["nodes"].push_back({{"mesh", 0}, {"name", "twin"}});

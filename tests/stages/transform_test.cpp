@@ -48,6 +48,21 @@ TEST_CASE("transform converts units and the up axis, and sizes stay", "[stages]"
           "W-UNITS");
 }
 
+TEST_CASE("transform says when a skin is lost, by units and axes too", "[stages]") {
+    Scene scene = scene_of(shapes::cube(), Unit::m);
+    scene.up = UpAxis::y;
+    scene.parts[0].skinned = true;
+    for (const char* options : {"{scale: 2}", "{unit: mm}", "{up: z}"}) {
+        const auto run = run_stage("transform", options, scene);
+        CHECK_FALSE(run.scene.parts[0].skinned);
+        REQUIRE(run.record.warnings.size() == 1);
+        CHECK(run.record.warnings[0].id == "W-SKIN");
+    }
+    const auto run = run_stage("transform", "{unit: m, up: y}", scene);
+    CHECK(run.scene.parts[0].skinned);
+    CHECK(run.record.warnings.empty());
+}
+
 TEST_CASE("transform moves nodes, and meshes when it bakes", "[stages]") {
     auto run = run_stage("transform", "{scale: [-1, 1, 1]}", scene_of(shapes::cube()));
     CHECK(run.scene.parts[0].mesh.positions == shapes::cube().positions);
