@@ -46,6 +46,7 @@ Conversion convert(Scene& scene, const Convention& target) {
     if (done.transform.identity()) return done;
     for (auto& part : scene.parts) {
         part.transform = done.transform * effective(part);
+        if (part.skinned) done.lost_skins.push_back(part.name);
         part.skinned = false;
     }
     return done;

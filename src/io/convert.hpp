@@ -16,7 +16,8 @@ struct Conversion {
     bool turned = false;       ///< the up axis changed
     bool unit_guessed = false; ///< the target has a unit, the scene none: numbers are as they were
     bool up_guessed = false;
-    Transform transform; ///< old world -> new world
+    Transform transform;                 ///< old world -> new world
+    std::vector<std::string> lost_skins; ///< the parts that were skinned and are plain now
 };
 
 /// Puts the scene into the convention by the transforms of its parts; meshes stay as they are. Unknown, in

@@ -91,11 +91,8 @@ class Mover {
         : scene_(scene), o_(o), context_(context) {}
 
     void run() {
-        std::vector<std::uint8_t> skinned;
-        for (const Part& part : scene_.parts) skinned.push_back(part.skinned);
         const io::Conversion converted = io::convert(scene_, {o_.unit, o_.up});
-        for (std::size_t i = 0; i < skinned.size(); ++i)
-            if (skinned[i] && !scene_.parts[i].skinned) warn_of_skin(scene_.parts[i]);
+        for (const auto& name : converted.lost_skins) warn_of_skin(name);
         if (converted.unit_guessed)
             context_.warn("W-UNITS",
                           fmt::format("transform: the scene had no unit; its numbers are taken as {}",
@@ -144,14 +141,14 @@ class Mover {
         for (Part& part : scene_.parts) {
             if (!context_.selects(part, scene_)) continue;
             part.transform = part.skinned ? t : t * part.transform;
-            if (part.skinned) warn_of_skin(part);
+            if (part.skinned) warn_of_skin(part.name);
             part.skinned = false;
         }
     }
 
-    void warn_of_skin(const Part& part) {
+    void warn_of_skin(const std::string& name) {
         context_.warn("W-SKIN",
-                      fmt::format("transform: part '{}' moves in bind pose and loses its skin", part.name),
+                      fmt::format("transform: part '{}' moves in bind pose and loses its skin", name),
                       "move the node of its skeleton instead");
     }
 

@@ -172,6 +172,12 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
                      fmt::format("the scene has no unit: '{}' gets its numbers as they are, and {} means {}",
                                  o.path.text, codec.name, spelled(target.unit)),
                      "say what was loaded: load: {path: ..., unit: mm, up: z}");
+    if (codec.name == "glb" || codec.name == "gltf")
+        for (const auto& name : done.lost_skins)
+            context.warn("W-SKIN",
+                         fmt::format("part '{}' is converted to {} and {} up in bind pose and loses its skin",
+                                     name, spelled(target.unit), spelled(target.up)),
+                         "write it in the unit and up axis that it was loaded in");
     if (done.factor != 1) context.result()["factor"] = done.factor;
     if (done.turned) context.result()["up"] = spelled(target.up);
 }
