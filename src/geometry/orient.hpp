@@ -43,11 +43,11 @@ struct OrientResult {
 
 /// Turns faces round so that neighbours agree (spread over edges of two faces) and, for outward, the front of
 /// each piece is its outside. For closed pieces that is decided by the sign of the volume and by how many
-/// other closed pieces contain them without touching them (exact rays along an axis); for open ones by a vote of rays from their
-/// faces along the axes: the side from which more of them escape is outside. Edges of more than two faces
-/// part pieces. A piece that cannot be oriented (a Moebius strip) is left as it was. Corners are reversed
-/// from the second on; wedge normals that then point against their faces are turned with them, and their
-/// tangents' handedness. O(n log n).
+/// other closed pieces contain them without touching them (exact rays along an axis); for open ones by a vote
+/// of rays from their faces along the axes: the side from which more of them escape is outside. Edges of more
+/// than two faces part pieces. A piece that cannot be oriented (a Moebius strip) is left as it was. Corners
+/// are reversed from the second on; wedge normals that then point against their faces are turned with them,
+/// and their tangents' handedness. O(n log n).
 OrientResult orient(Mesh mesh, const OrientSettings& settings);
 
 /// Turns the flagged faces round; see orient for what becomes of attributes.
