@@ -105,10 +105,11 @@ class Session {
 
     const Mesh& mesh() const { return prepared_.own ? *prepared_.own : given_; }
 
-    /// What the collapses need besides the lists. way_back: all of them are logged. held: vertices that stay.
-    void begin(bool way_back, const std::vector<std::uint8_t>& held = {}) {
+    /// What the collapses need besides the lists. way_back: all of them are logged. limits: see Work::limit,
+    /// of the vertices of the mesh.
+    void begin(bool way_back, const std::vector<float>& limits = {}) {
         const bool carries = carries_attributes(mesh());
-        if (settings_.method != Method::cluster || carries) classify(work, mesh(), settings_.lock, held);
+        if (settings_.method != Method::cluster || carries) classify(work, mesh(), settings_.lock);
         if (settings_.method == Method::quadric || settings_.method == Method::quadric_endpoints) {
             sum_quadrics(work);
             sum_fields(work, mesh(), settings_.weights,
@@ -117,6 +118,8 @@ class Session {
         work.endpoints = settings_.method == Method::quadric_endpoints;
         work.allow = settings_.topology == SimplifySettings::Topology::allow;
         work.logging = way_back || carries;
+        if (!limits.empty())
+            for (const Index v : work.source) work.limit.push_back(limits[v]);
         remember_features(work);
     }
     /// Forgets all collapses.
@@ -195,22 +198,25 @@ SimplifyResult towards(Session& session, const Targets& targets, const SimplifyS
     return r;
 }
 
-constexpr int most_rounds = 16; // of holding what runs into itself; three or four are usual
+constexpr int most_rounds = 16;   // of limiting what runs into itself; three or four are usual
+constexpr int gentle_rounds = 10; // before all collapses are held back there
 
 /// As towards, but with the self-intersections counted, and avoided on request.
 SimplifyResult towards_without_crossing(Session& session, const Targets& targets,
                                         const SimplifySettings& settings) {
     const std::size_t before = find_self_intersections(session.mesh(), {.limit = 0}).count;
-    std::vector<std::uint8_t> held(session.mesh().vertex_count());
+    std::vector<float> limits(session.mesh().vertex_count(), never);
     const bool avoid = settings.self_intersections == SimplifySettings::Intersections::avoid;
     for (int round = 1;; ++round) {
         SimplifyResult r = towards(session, targets, settings);
-        const std::size_t after = hold_intersecting(session.work, r.mesh, before, held);
+        const std::size_t after =
+            limit_intersecting(session.work, r.mesh, before, round > gentle_rounds, limits);
         r.intersections_before = before, r.intersections_after = after;
         if (!avoid || after <= before || round == most_rounds) return r;
         session.start_again();
-        session.begin(true, held);
-        session.held = static_cast<std::size_t>(std::count(held.begin(), held.end(), 1));
+        session.begin(true, limits);
+        session.held = static_cast<std::size_t>(
+            std::count_if(limits.begin(), limits.end(), [](float limit) { return limit < never; }));
     }
 }
 

@@ -102,7 +102,7 @@ struct SimplifyResult {
     std::size_t measurements = 0;                                  ///< that max_error took
     std::optional<double> measured; ///< the deviation when max_error was given, in the mesh's units
     std::optional<std::size_t> intersections_before = {}, intersections_after = {}; ///< when counted
-    std::size_t held = 0; ///< vertices that were held to avoid self-intersections
+    std::size_t held = 0; ///< vertices that less error was allowed to, to avoid self-intersections
     std::size_t passes = 0;
     /// quadric and cluster: the largest distance (root mean square over the planes gathered in a new vertex)
     /// at any collapse; shortest-edge: half the longest edge that was collapsed; constrained: none. In the
@@ -131,8 +131,9 @@ struct SimplifyResult {
 /// beginning of it is a mesh with all the guarantees. Nothing is run again.
 ///
 /// self_intersections: avoid: where the result runs into itself more often than the mesh that came in, all
-/// vertices that went into the faces concerned are held as they were, and the rest is done again, until none
-/// is new. It works on one mesh, not on levels.
+/// vertices that went into the faces concerned may take part in collapses of half the error only, and
+/// all is done again, until none is new; after ten rounds they stay as they were. It works on one mesh, not
+/// on levels.
 ///
 /// The method constrained keeps boundaries, seams and borders vertex by vertex, and gives no largest_error;
 /// max_error and levels are refused.

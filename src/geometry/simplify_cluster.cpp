@@ -213,7 +213,8 @@ void settle(Work& s, const Clusters& c) {
     for (std::size_t v = 0; v < s.vertex_slots(); ++v)
         if (s.moved[v]) s.at[v] = c.at[v];
     s.tri.swap(tri), s.wedge.swap(wedge), s.face_source.swap(source);
-    s.flags.clear(), s.cost.clear(), s.quadrics.clear(), s.kind.clear(), s.touched.clear(), s.mark.clear();
+    s.flags.clear(), s.cost.clear(), s.quadrics.clear(), s.kind.clear(), s.touched.clear(), s.stirred.clear(),
+        s.mark.clear(), s.limit.clear();
     s.fields = {};
     build_lists(s);
     s.live_faces = s.face_slots();

@@ -383,7 +383,10 @@ bool collapse(Work& s, Index c, double most, std::uint32_t stamp, Rings& rings, 
     const Index a = p.keep_second ? v : u, b = p.keep_second ? u : v;
     const bool stays = p.keep_first || p.keep_second;
     Collapse edit(s, a, b, rings);
-    const auto why = edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge, most, stamp);
+    const bool beyond = !s.limit.empty() && !(p.error < std::min(s.limit[a], s.limit[b]));
+    const auto why =
+        beyond ? blocked_border
+               : edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge, most, stamp);
     if (why) {
         s.flags[c] |= why;
         s.cost[c] = never;
@@ -391,10 +394,13 @@ bool collapse(Work& s, Index c, double most, std::uint32_t stamp, Rings& rings, 
         return false;
     }
     s.kind[a] = std::max(s.kind[a], s.kind[b]);
+    if (!s.limit.empty()) s.limit[a] = std::min(s.limit[a], s.limit[b]);
     const auto [faces, vertices] = edit.make(p.at, p.error, tally.log);
     s.at[a] = p.at;
     s.moved[a] |= !stays;
     s.touched[a] = s.touched[b] = s.pass;
+    for (Index n = s.first[a]; n != none; n = s.next[n])
+        if (s.live(n / 3)) s.stirred[s.tri[after(n)]] = s.stirred[s.tri[before(n)]] = s.pass;
     if (!s.quadrics.empty()) s.quadrics[a] += s.quadrics[b];
     if (s.wedge.empty()) join_fields(s.fields, a, b);
     tally.largest = std::max(tally.largest, p.error);

@@ -133,7 +133,7 @@ class Classifier {
 
 } // namespace
 
-void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock, const std::vector<std::uint8_t>& held) {
+void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock) {
     const Borders borders{labels_of(s, mesh, primitive_attribute), labels_of(s, mesh, "group")};
     const auto in_body = [&](const Vec3& p) {
         return !lock.body.empty() && std::all_of(lock.body.begin(), lock.body.end(),
@@ -144,9 +144,7 @@ void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock, const std::v
         Classifier kind_of(s, borders, lock);
         for (std::size_t v = begin; v < end; ++v) {
             s.kind[v] = kind_of(static_cast<Index>(v));
-            const Index source = s.source[v];
-            if (in_body(mesh.positions[source]) || (!held.empty() && held[source]))
-                s.kind[v] = std::max(s.kind[v], Kind::corner);
+            if (in_body(mesh.positions[s.source[v]])) s.kind[v] = std::max(s.kind[v], Kind::corner);
         }
     });
     s.has_features = parallel_reduce(

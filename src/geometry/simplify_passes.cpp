@@ -20,6 +20,10 @@ constexpr std::size_t face_chunk = 1 << 15;
 constexpr int stretch_bits = 13;           // vertices of a stretch: 8192
 constexpr double share_per_pass = 1.0 / 8; // of the live edges that are candidates in one pass
 constexpr int bucket_shift = 19;           // of a cost's bits: 16 buckets per power of two
+constexpr std::uint8_t refused =
+    blocked_topology | blocked_flip | blocked_error; // as their surroundings were
+constexpr std::size_t last_span =
+    32; // buckets: near the goal, no edge goes before one of a quarter of its cost
 constexpr std::size_t buckets = std::size_t{0x7f800000u >> bucket_shift} + 1;
 
 /// Edges by cost; equal ones in an order that is spread over the surface.
@@ -92,10 +96,15 @@ class Passes {
             for (const Index v : {a, b, c}) std::atomic_ref(outer_[v]).store(1, std::memory_order_relaxed);
         for (Index corner = 3 * f; corner < 3 * f + 3; ++corner) {
             const Index u = s_.tri[corner], v = s_.tri[after(corner)];
-            if (refresh_all_ || s_.touched[u] == s_.pass - 1 || s_.touched[v] == s_.pass - 1)
+            if (refresh_all_ || changed(s_.touched, u, v) ||
+                ((s_.flags[corner] & refused) && changed(s_.stirred, u, v)))
                 price_edge(corner, u, v);
             if (s_.cost[corner] < never) ++histogram[bits_of(s_.cost[corner]) >> bucket_shift];
         }
+    }
+
+    bool changed(const std::vector<std::uint32_t>& when, Index u, Index v) const {
+        return when[u] == s_.pass - 1 || when[v] == s_.pass - 1;
     }
 
     void price_edge(Index corner, Index u, Index v) {
@@ -122,9 +131,10 @@ class Passes {
         const auto share = static_cast<std::size_t>(static_cast<double>(live) * share_per_pass);
         const std::size_t wanted =
             last_steps() ? 4 * remaining() + 64 : std::clamp<std::size_t>(share, 64, remaining());
-        std::size_t i = 0;
+        std::size_t i = 0, cheapest = buckets;
         for (; i < buckets; ++i) {
-            if (below > 0 && below + all[i] > wanted) break;
+            if (below > 0 && (below + all[i] > wanted || (last_steps() && i > cheapest + last_span))) break;
+            if (below == 0 && all[i] > 0) cheapest = i;
             below += all[i];
         }
         return std::min(static_cast<std::uint32_t>(i) << bucket_shift, bits_of(never));

@@ -95,7 +95,7 @@ Work build_work(const Mesh& mesh) {
         rank[order[i].item] = static_cast<Index>(i);
         s.at[i] = (mesh.positions[order[i].item] - s.centre) * s.scale;
     });
-    s.moved.resize(n), s.touched.resize(n), s.mark.resize(n);
+    s.moved.resize(n), s.touched.resize(n), s.stirred.resize(n), s.mark.resize(n);
     const std::vector<Keyed> faces = ordered_faces(mesh, rank, n);
     s.tri.resize(3 * m), s.flags.resize(3 * m), s.cost.assign(3 * m, never), s.face_source.resize(m);
     if (mesh.has_seams()) s.wedge.resize(3 * m);
@@ -134,7 +134,8 @@ void compact(Work& s) {
     keep(s.at, vertices), keep(s.quadrics, vertices), keep(s.kind, vertices), keep(s.moved, vertices);
     if (s.wedge.empty())
         keep(s.fields.squares, vertices), keep(s.fields.sums, vertices, 4 * s.fields.channels);
-    keep(s.source, vertices), keep(s.touched, vertices), keep(s.mark, vertices);
+    keep(s.source, vertices), keep(s.touched, vertices), keep(s.stirred, vertices);
+    keep(s.mark, vertices), keep(s.limit, vertices);
     build_lists(s);
 }
 

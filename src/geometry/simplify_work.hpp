@@ -74,7 +74,9 @@ struct Work {
     std::vector<Index> first;           ///< first corner at the vertex, or none
     std::vector<Index> source;          ///< vertex of the input
     std::vector<std::uint32_t> touched; ///< pass that changed the vertex last
+    std::vector<std::uint32_t> stirred; ///< pass that changed a neighbour last: what was refused may do now
     std::vector<std::uint32_t> mark;    ///< scratch of the link test
+    std::vector<float> limit; ///< squared error that a collapse at the vertex stays below; empty: none
 
     // Only for max_error: points of the surface as it came, each kept with a face near by, as a list per
     // face.
@@ -116,8 +118,7 @@ void build_lists(Work& s);
 void compact(Work& s);
 
 /// Sets kind of the vertices and flags of the edges. Needs the lists.
-/// held: vertices of the mesh that stay, or empty.
-void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock, const std::vector<std::uint8_t>& held);
+void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock);
 
 /// Sets quadrics from the faces' planes and from the planes that hold feature edges.
 void sum_quadrics(Work& s);
@@ -221,10 +222,11 @@ struct Clustered {
 };
 Clustered run_cluster(Work& s, const Mesh& from, const Goal& goal, std::optional<double> max_error);
 
-/// Counts the self-intersections of the work as finished (`now`); when there are more than allowed, sets held
-/// for all vertices of the mesh that came in that went into the vertices of the faces concerned.
-std::size_t hold_intersecting(const Work& s, const Mesh& now, std::size_t allowed,
-                              std::vector<std::uint8_t>& held);
+/// Counts the self-intersections of the work as finished (`now`); when there are more than allowed, lowers
+/// the limits (see Work::limit) of all vertices of the mesh that came in that went into the vertices of the
+/// faces concerned: to a part of the largest error there, or to 0.
+std::size_t limit_intersecting(const Work& s, const Mesh& now, std::size_t allowed, bool to_zero,
+                               std::vector<float>& limits);
 
 /// The simplified mesh and the fates of its attributes. The work can go on afterwards.
 Mesh finished(Work& s, const Mesh& from, Fates& fates);

@@ -199,7 +199,8 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
         "self_intersections", &SimplifyOptions::self_intersections,
         {{"ignore", Intersections::ignore, "not looked for"},
          {"count", Intersections::count, "pairs of faces that run into each other, counted before and after"},
-         {"avoid", Intersections::avoid, "none is new: what would run into itself stays as it came"}},
+         {"avoid", Intersections::avoid,
+          "none is new: where faces would run into others, less is taken away"}},
         "What is done about faces that come to run into each other.");
     d.group("constraints", &SimplifyOptions::constraints,
             "For the method constrained: what no collapse may bring about.", declare_constraints);

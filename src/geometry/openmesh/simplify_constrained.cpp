@@ -46,7 +46,8 @@ class LogT : public OpenMesh::Decimater::ModBaseT<MeshT> {
     float collapse_priority(const CollapseInfo& ci) override {
         const Work& s = *shared_->work;
         const auto removed = static_cast<Index>(ci.v0.idx()), kept = static_cast<Index>(ci.v1.idx());
-        if (s.kind[removed] != Kind::smooth || shared_->pinned[removed] || shared_->pinned[kept])
+        const bool limited = !s.limit.empty() && std::min(s.limit[removed], s.limit[kept]) < never;
+        if (s.kind[removed] != Kind::smooth || limited || shared_->pinned[removed] || shared_->pinned[kept])
             return float(Base::ILLEGAL_COLLAPSE);
         auto& mesh = Base::mesh();
         for (auto h = mesh.cvoh_iter(ci.v0); h.is_valid(); ++h) {
