@@ -2,7 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/self_intersections.hpp"
-#include "geometry/simplify_work.hpp"
+#include "geometry/simplify_touching.hpp"
 
 namespace facetmill {
 
@@ -90,12 +90,24 @@ void remember_features(Work& s) {
     });
 }
 
+/// The locks of a mesh whose unused vertices go, if single ones are locked: numbers stay right then.
+SimplifyLocks by_used_vertices(SimplifyLocks lock, Mesh& mesh) {
+    if (lock.vertices.empty()) return lock;
+    std::vector<std::uint8_t> used(mesh.vertex_count()), locked;
+    for (Index c = 0; c < mesh.corner_count(); ++c) used[mesh.vertex(c)] = 1;
+    for (std::size_t v = 0; v < used.size(); ++v)
+        if (used[v]) locked.push_back(lock.vertices[v]);
+    drop_unused(mesh);
+    lock.vertices = std::move(locked);
+    return lock;
+}
+
 /// A mesh at work.
 class Session {
   public:
     Session(Mesh given, const SimplifySettings& settings)
-        : given_(std::move(given)), settings_(settings), prepared_(given_, settings),
-          work(build_work(mesh())) {
+        : given_(std::move(given)), settings_(settings), lock_(by_used_vertices(settings.lock, given_)),
+          prepared_(given_, settings), work(build_work(mesh())) {
         so_far_.shading = prepared_.seams.shading, so_far_.merged_wedges = prepared_.seams.merged;
         so_far_.faces_given = given_.face_count();
         so_far_.faces_before = so_far_.faces_after = work.live_faces;
@@ -109,7 +121,11 @@ class Session {
     /// of the vertices of the mesh.
     void begin(bool way_back, const std::vector<float>& limits = {}) {
         const bool carries = carries_attributes(mesh());
-        if (settings_.method != Method::cluster || carries) classify(work, mesh(), settings_.lock);
+        if (settings_.method != Method::cluster || carries) {
+            classify(work, mesh(), lock_);
+            join_touching();
+            work.sides = touching.any() ? &touching.sides() : nullptr;
+        }
         if (settings_.method == Method::quadric || settings_.method == Method::quadric_endpoints) {
             sum_quadrics(work);
             sum_fields(work, mesh(), settings_.weights,
@@ -145,25 +161,64 @@ class Session {
         largest_ = std::max(largest_, done.largest);
         if (r.largest_error) r.largest_error = std::sqrt(largest_) / work.scale;
         r.faces_after = work.live_faces, r.vertices_after = work.live_vertices;
-        r.mesh = finished(work, mesh(), r.fates);
+        std::vector<Index> wedges;
+        r.mesh = finished(work, mesh(), r.fates, wedges);
+        if (touching.any()) {
+            touching.part(r.mesh, wedges, r.fates);
+            r.vertices_after = r.mesh.vertex_count();
+        }
         settle_normals(r.mesh, prepared_.seams, r.fates);
         return r;
     }
 
   private:
+    /// Borders that touch are worked on as seams; locked ones match anyway, and cells keep no borders.
+    void join_touching() {
+        if (lock_.boundary || settings_.method == Method::constrained || settings_.method == Method::cluster)
+            return;
+        const std::vector<Index> target = touching_vertices(work, mesh());
+        if (target.empty()) return;
+        if (!prepared_.own) prepared_.own.emplace(given_);
+        touching.join(*prepared_.own, target);
+        for (Index v = 0; v < lock_.vertices.size(); ++v) lock_.vertices[target[v]] |= lock_.vertices[v];
+        work = build_work(mesh());
+        classify(work, mesh(), lock_);
+    }
+
     Mesh given_;
     const SimplifySettings& settings_;
+    SimplifyLocks lock_;
     Prepared prepared_;
     SimplifyResult so_far_;
     double largest_ = 0;
 
   public:
     Work work;
+    Touching touching;
     std::size_t held = 0; ///< vertices
 };
 
+/// As run_passes, with the vertices counted as they will be once borders that touch are apart again.
+Outcome run_passes_apart(Session& session, Goal goal) {
+    const std::size_t wanted = goal.vertices;
+    Outcome all = run_passes(session.work, goal);
+    while (session.touching.any() && !all.stuck && goal.vertices > 1 &&
+           session.work.live_faces > goal.faces) {
+        const std::size_t more = session.touching.doubled(session.work);
+        if (session.work.live_vertices + more <= wanted) break;
+        goal.vertices = std::min(goal.vertices - 1, more < wanted ? wanted - more : 1);
+        const Outcome next = run_passes(session.work, goal);
+        all.passes += next.passes, all.collapses += next.collapses;
+        all.largest = std::max(all.largest, next.largest), all.stuck = next.stuck;
+    }
+    return all;
+}
+
 SimplifyResult within(Session& session, const Targets& targets, double max_error) {
-    Bounded done = run_within(session.work, session.mesh(), targets.goal, max_error);
+    Goal goal = targets.goal;
+    if (goal.vertices > 0 && session.touching.any()) // as if no border got shorter
+        goal.vertices -= std::min(goal.vertices - 1, session.touching.doubled(session.work));
+    Bounded done = run_within(session.work, session.mesh(), goal, max_error);
     const Stop stop = done.by_error        ? Stop::max_error
                       : done.outcome.stuck ? Stop::stuck
                                            : targets.reason(session.work);
@@ -191,7 +246,7 @@ SimplifyResult towards(Session& session, const Targets& targets, const SimplifyS
     const bool constrained = settings.method == Method::constrained;
     const Outcome done = constrained ? run_constrained(session.work, session.mesh().vertex_count(),
                                                        targets.goal, settings.constraints)
-                                     : run_passes(session.work, targets.goal);
+                                     : run_passes_apart(session, targets.goal);
     const auto blocked = done.stuck ? count_blocked(session.work) : SimplifyResult::Blocked{};
     SimplifyResult r = session.result(done.stuck ? Stop::stuck : targets.reason(session.work), done);
     r.blocked = blocked;
@@ -201,10 +256,9 @@ SimplifyResult towards(Session& session, const Targets& targets, const SimplifyS
 constexpr int most_rounds = 16;   // of limiting what runs into itself; three or four are usual
 constexpr int gentle_rounds = 10; // before all collapses are held back there
 
-/// As towards, but with the self-intersections counted, and avoided on request.
+/// As towards, but with the self-intersections counted, and avoided on request. before: how many there were.
 SimplifyResult towards_without_crossing(Session& session, const Targets& targets,
-                                        const SimplifySettings& settings) {
-    const std::size_t before = find_self_intersections(session.mesh(), {.limit = 0}).count;
+                                        const SimplifySettings& settings, std::size_t before) {
     std::vector<float> limits(session.mesh().vertex_count(), never);
     const bool avoid = settings.self_intersections == SimplifySettings::Intersections::avoid;
     for (int round = 1;; ++round) {
@@ -228,8 +282,9 @@ SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     const Targets targets(session.work, settings);
     if (targets.met(session.work)) return session.unchanged();
     const bool crossing = settings.self_intersections != SimplifySettings::Intersections::ignore;
+    const std::size_t before = crossing ? find_self_intersections(session.mesh(), {.limit = 0}).count : 0;
     session.begin(settings.max_error || crossing || settings.method == Method::constrained);
-    return crossing ? towards_without_crossing(session, targets, settings)
+    return crossing ? towards_without_crossing(session, targets, settings, before)
                     : towards(session, targets, settings);
 }
 

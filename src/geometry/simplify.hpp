@@ -15,6 +15,7 @@ struct SimplifyLocks {
     bool seams = false;        ///< the vertices of seams and of borders of primitives
     bool groups = false;       ///< the vertices of borders between values of the face attribute "group"
     std::vector<Plane> body{}; ///< the vertices in front of all of these, in the mesh's space; empty: none
+    std::vector<std::uint8_t> vertices{}; ///< [vertices] 1 for those that stay; empty: none
 };
 
 /// What no collapse of the method constrained may bring about; 0 leaves a constraint out.
@@ -83,10 +84,12 @@ struct SimplifyResult {
     /// Edges that were left because a collapse would have broken something; counted when the work stopped as
     /// stuck or for max_error.
     struct Blocked {
-        std::size_t borders = 0;  ///< boundary, seam and material borders, locks, non-manifold places
-        std::size_t topology = 0; ///< would change genus, close a hole, or make a component vanish
-        std::size_t flips = 0;    ///< would flip or flatten a face
-        std::size_t error = 0;    ///< would move the surface too far
+        std::size_t borders = 0;      ///< boundaries and locks; and where faces would cross, with avoid
+        std::size_t seams = 0;        ///< at a seam, or a border of primitives or groups
+        std::size_t non_manifold = 0; ///< at a vertex that is not manifold
+        std::size_t topology = 0;     ///< would change genus, close a hole, or make a component vanish
+        std::size_t flips = 0;        ///< would flip or flatten a face
+        std::size_t error = 0;        ///< would move the surface too far
     };
     Mesh mesh;
     Fates fates;
@@ -122,7 +125,9 @@ struct SimplifyResult {
 /// least four faces. No collapse turns a face by more than 60 degrees, makes one degenerate or doubles one.
 /// Boundaries, UV and normal seams, and borders of primitives and groups collapse only along themselves;
 /// where more than two of them meet, or one ends, the vertex stays. Vertices that were not moved keep their
-/// exact position.
+/// exact position. Open borders that run along each other at exactly the same places, as of patches that were
+/// never welded, collapse as the two sides of a seam and stay apart (with quadric, quadric-endpoints and
+/// shortest-edge).
 ///
 /// max_error: every vertex and centre of a face that came in is followed to a face near by, and a collapse is
 /// refused when it leaves one farther than 9/10 of the bound from the faces around, or when the new vertex or

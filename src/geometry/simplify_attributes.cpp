@@ -199,14 +199,14 @@ std::vector<Index> identity(std::size_t n) {
 
 } // namespace
 
-Mesh finished(Work& s, const Mesh& from, Fates& fates) {
+Mesh finished(Work& s, const Mesh& from, Fates& fates, std::vector<Index>& wedges) {
     compact(s);
     Mesh to;
     to.positions.resize(s.vertex_slots());
     parallel_for(to.positions.size(), [&](std::size_t v) {
         to.positions[v] = s.moved[v] ? s.at[v] / s.scale + s.centre : from.positions[s.source[v]];
     });
-    const std::vector<Index> wedges = number_wedges(to, s, from.wedge_count());
+    wedges = number_wedges(to, s, from.wedge_count());
     Descent descent;
     descent.faces = s.face_source;
     const bool seams = !s.wedge.empty(), any_moved = !s.log.steps.empty();

@@ -221,6 +221,9 @@ class Collapse {
             if (!a_stays)
                 for (int k = 0; k < pairs_; ++k)
                     if (pair_[k][0] == to) return false;
+            if (s_.sides)
+                for (int k = 0; k < pairs_; ++k)
+                    if (pair_[k][0] == to && (*s_.sides)[pair_[k][1]] != (*s_.sides)[from]) return false;
             pair_[pairs_][0] = to, pair_[pairs_][1] = from;
             ++pairs_;
         }

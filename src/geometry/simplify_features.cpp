@@ -144,7 +144,9 @@ void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock) {
         Classifier kind_of(s, borders, lock);
         for (std::size_t v = begin; v < end; ++v) {
             s.kind[v] = kind_of(static_cast<Index>(v));
-            if (in_body(mesh.positions[s.source[v]])) s.kind[v] = std::max(s.kind[v], Kind::corner);
+            const Index source = s.source[v];
+            if (in_body(mesh.positions[source]) || (!lock.vertices.empty() && lock.vertices[source]))
+                s.kind[v] = std::max(s.kind[v], Kind::corner);
         }
     });
     s.has_features = parallel_reduce(

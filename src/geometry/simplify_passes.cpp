@@ -237,9 +237,17 @@ class Passes {
 
 SimplifyResult::Blocked count_blocked(const Work& s) {
     SimplifyResult::Blocked all;
-    for (std::size_t c = 0; c < s.flags.size(); ++c) {
-        if (!s.live(static_cast<Index>(c / 3))) continue;
-        all.borders += (s.flags[c] & blocked_border) != 0;
+    std::vector<std::uint8_t> at_seam(s.vertex_slots());
+    for (Index c = 0; c < s.flags.size(); ++c)
+        if (s.live(c / 3) && (s.flags[c] & feature_edge) && !(s.flags[c] & boundary_edge))
+            at_seam[s.tri[c]] = at_seam[s.tri[after(c)]] = 1;
+    for (Index c = 0; c < s.flags.size(); ++c) {
+        if (!s.live(c / 3)) continue;
+        if (s.flags[c] & blocked_border) {
+            const Index u = s.tri[c], v = s.tri[after(c)];
+            const bool pinned = s.kind[u] == Kind::pinned || s.kind[v] == Kind::pinned;
+            ++(pinned ? all.non_manifold : at_seam[u] || at_seam[v] ? all.seams : all.borders);
+        }
         all.topology += (s.flags[c] & blocked_topology) != 0;
         all.flips += (s.flags[c] & blocked_flip) != 0;
         all.error += (s.flags[c] & blocked_error) != 0;

@@ -78,6 +78,10 @@ struct Work {
     std::vector<std::uint32_t> mark;    ///< scratch of the link test
     std::vector<float> limit; ///< squared error that a collapse at the vertex stays below; empty: none
 
+    /// Only where borders touch: the vertex that each wedge of the mesh was at before they were joined. Two
+    /// sides never end in one wedge, else a slit could close.
+    const std::vector<Index>* sides = nullptr;
+
     // Only for max_error: points of the surface as it came, each kept with a face near by, as a list per
     // face.
     std::vector<Vec3> points;        ///< [points] the vertices, then the centres of the faces
@@ -228,7 +232,8 @@ Clustered run_cluster(Work& s, const Mesh& from, const Goal& goal, std::optional
 std::size_t limit_intersecting(const Work& s, const Mesh& now, std::size_t allowed, bool to_zero,
                                std::vector<float>& limits);
 
-/// The simplified mesh and the fates of its attributes. The work can go on afterwards.
-Mesh finished(Work& s, const Mesh& from, Fates& fates);
+/// The simplified mesh and the fates of its attributes; the wedges of `from` that are left, in its order,
+/// when there are seams. The work can go on afterwards.
+Mesh finished(Work& s, const Mesh& from, Fates& fates, std::vector<Index>& wedges);
 
 } // namespace facetmill::simplification

@@ -5,6 +5,9 @@
 #include "geometry/inspect.hpp"
 #include "geometry/simplify.hpp"
 
+#include <string>
+#include <vector>
+
 namespace facetmill::report {
 
 /// Counts before and after, the target that stopped it, errors, what holds the edges that are left, and what
@@ -14,7 +17,12 @@ Json simplify_json(const SimplifyResult& r, double scale);
 /// {before, after} of what topology is, for methods that may change it.
 Json topology_change_json(const Properties& before, const Properties& after);
 
-/// What holds the edges that are left, as a phrase.
+/// What holds the edges that are left, as a phrase; and what can be done about most of them.
 std::string held_by(const SimplifyResult& r);
+std::string way_out(const SimplifyResult& r);
+
+/// Lines for the terminal, of the stage's result: counts, what stopped it, the deviation. A few parts one by
+/// one, more of them together.
+std::vector<std::string> simplify_summary(const Json& result);
 
 } // namespace facetmill::report

@@ -43,6 +43,7 @@ const std::vector<KnownWarning>& known_warnings() {
          "Contours of a section intersect themselves: no centroid and moments for them."},
         {"W-SIMPLIFY-NOTHING", "simplify has nothing to do: the target is not below the mesh."},
         {"W-SIMPLIFY-STOPPED", "simplify stopped before its target, because of borders, topology or flips."},
+        {"W-SIMPLIFY-VANISHED", "simplify left no face of a part."},
         {"W-SKIN", "A skinned part is moved in bind pose and loses its skin."},
         {"W-SKIPPED", "Something in a file that a mesh cannot hold is skipped."},
         {"W-SPLIT-FOLDED", "split laid pieces of concave faces over each other; they are counted."},

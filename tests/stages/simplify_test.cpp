@@ -1,7 +1,10 @@
+#include "geometry/crumple.hpp"
+#include "geometry/surgery.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/run_stage.hpp"
+#include "support/surface.hpp"
 
 using namespace facetmill;
 using test::run_stage;
@@ -45,6 +48,84 @@ TEST_CASE("simplify: levels of detail become parts", "[stages]") {
     const Json& parts = r.record.result["parts"];
     CHECK(parts.size() == 3);
     CHECK(parts[1]["deviation"]["maximum"].get<double>() < parts[2]["deviation"]["maximum"].get<double>());
+}
+
+namespace {
+
+/// The halves of a rough ball, as two parts whose borders touch.
+Scene halves() {
+    const Mesh ball = crumple(shapes::icosphere(4), {.amplitude = 0.01}).mesh;
+    std::vector<Index> labels(ball.face_count());
+    for (Index f = 0; f < labels.size(); ++f)
+        labels[f] = ball.point(3 * f).z + ball.point(3 * f + 1).z + ball.point(3 * f + 2).z > 0;
+    auto pieces = separated(ball, labels, 2);
+    Scene scene = scene_of(std::move(pieces[0]));
+    scene.parts.push_back(Part{"upper", std::move(pieces[1])});
+    return scene;
+}
+
+/// All parts as one, with vertices at the same place joined.
+test::Counts welded(const Scene& scene) {
+    Mesh all;
+    for (const Part& part : scene.parts) append(all, part.mesh);
+    weld_exact(all);
+    return test::count(all);
+}
+
+} // namespace
+
+TEST_CASE("simplify: borders of parts that touch stay matched", "[stages]") {
+    for (const char* options : {"10%", "{ratio: 10%, method: shortest-edge}", "{faces: 500}",
+                                "{ratio: 10%, lock: boundary}", "{ratio: 20%, method: constrained}"}) {
+        INFO(options);
+        const auto r = run_stage("simplify", options, halves());
+        REQUIRE(r.scene.parts.size() == 2);
+        CHECK(r.scene.parts[1].name == "upper");
+        CHECK(r.scene.face_count() <= 1100);
+        CHECK(welded(r.scene).open == 0);
+        CHECK(welded(r.scene).euler == 2);
+        for (const Part& part : r.scene.parts) {
+            CHECK(test::count(part.mesh).euler == 1);
+            CHECK(part.mesh.attributes.empty());
+        }
+    }
+    const Json parts = run_stage("simplify", "10%", halves()).record.result["parts"];
+    CHECK(parts[0]["together_with"] == Json{"upper"});
+    CHECK(parts[0]["triangles_before"].get<int>() + parts[1]["triangles_before"].get<int>() == 5120);
+}
+
+TEST_CASE("simplify: where only one of two parts that touch is simplified, the border stays", "[stages]") {
+    Scene scene = halves();
+    Scene only = scene;
+    only.parts[1].transform.m[0][3] = 0x1p-60; // another node, at the same place as far as doubles tell
+    const auto apart = run_stage("simplify", "10%", only);
+    CHECK(welded(apart.scene).open == 0);
+    CHECK_FALSE(apart.record.result["parts"][0].contains("together_with"));
+    scene.parts[1].mesh.attributes.push_back({"extra", Domain::face, Role::generic, 1, false,
+                                              std::vector<double>(scene.parts[1].mesh.face_count())});
+    const auto other = run_stage("simplify", "10%", scene); // attributes that do not fit together
+    CHECK(welded(other.scene).open == 0);
+    CHECK(other.scene.face_count() < 1500);
+}
+
+TEST_CASE("simplify: levels of parts that touch match level by level", "[stages]") {
+    const auto r = run_stage("simplify", "{lods: [100%, 30%, 5%]}", halves());
+    REQUIRE(r.scene.parts.size() == 6);
+    for (const char* suffix : {"", ".lod1", ".lod2"}) {
+        Scene level;
+        for (const Part& part : r.scene.parts)
+            if (part.name == std::string("part") + suffix || part.name == std::string("upper") + suffix)
+                level.parts.push_back(part);
+        REQUIRE(level.parts.size() == 2);
+        CHECK(welded(level).open == 0);
+    }
+}
+
+TEST_CASE("simplify: a part that is gone is told", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    const auto r = run_stage("simplify", "{faces: 1, topology: allow}", scene);
+    CHECK(r.mesh().face_count() == 0);
+    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-VANISHED"});
 }
 
 TEST_CASE("simplify: what cannot be is refused before anything is opened", "[stages]") {
