@@ -276,7 +276,7 @@ void remember(CutMemory& memory, const PlaneCut& cut, std::span<const Vec3> more
             if (entry.counts_as_on(positions[cut.vertices[i].a]) &&
                 entry.counts_as_on(positions[cut.vertices[i].b]))
                 points.push_back(cut.points[i]);
-        memory.add(entry.plane, points);
+        if (!points.empty()) memory.add(entry.plane, points);
     }
     points = cut.points;
     points.insert(points.end(), more.begin(), more.end());

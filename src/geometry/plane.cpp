@@ -32,7 +32,32 @@ double side(const Plane& plane, const Vec3& p) {
     return exact_side(plane, p);
 }
 
-bool same_plane(const Plane& a, const Plane& b) {
+namespace {
+
+/// Whether the normals' components i and j are not in proportion, as far as doubles tell: each product and
+/// the difference carry one rounding.
+bool surely_turned(const Vec3& a, const Vec3& b, std::size_t i, std::size_t j) {
+    const double x = a[i] * b[j], y = a[j] * b[i];
+    return std::fabs(x - y) > 4.5e-16 * (std::fabs(x) + std::fabs(y)) + 1e-300;
+}
+
+/// The same plane with a normal between 1 and 2, by a power of two: so that products with it do not overflow.
+Plane scaled(Plane plane) {
+    int power = -2000;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (plane.normal[i] != 0) power = std::max(power, std::ilogb(plane.normal[i]));
+    for (std::size_t i = 0; i < 3; ++i) plane.normal[i] = std::ldexp(plane.normal[i], -power);
+    plane.offset = std::ldexp(plane.offset, -power);
+    return plane;
+}
+
+} // namespace
+
+bool same_plane(const Plane& given_a, const Plane& given_b) {
+    if (given_a == given_b) return true;
+    for (std::size_t i = 0; i < 3; ++i)
+        if (surely_turned(given_a.normal, given_b.normal, i, (i + 1) % 3)) return false;
+    const Plane a = scaled(given_a), b = scaled(given_b);
     for (std::size_t i = 0; i < 3; ++i) {
         ExactSum<4> turn; // of the normals against each other
         turn.add_product(a.normal[i], b.normal[(i + 1) % 3]);

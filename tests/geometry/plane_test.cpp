@@ -42,6 +42,23 @@ TEST_CASE("a plane through a scaled part's vertices stays on them", "[geometry]"
     CHECK(side(local, {3, 4, 100}) == 0);
 }
 
+TEST_CASE("planes of any length are told apart exactly", "[geometry]") {
+    for (const double size : {1.0, 0x1p-400, 0x1p400}) {
+        const Plane plane{Vec3{1, 0.7, 0.3} * size, Vec3{0.1, 0.2, 0.05} * size, 0};
+        Plane turned = plane, moved = plane;
+        turned.normal.y = std::nextafter(turned.normal.y, HUGE_VAL);
+        moved.through.z = std::nextafter(moved.through.z, HUGE_VAL);
+        CHECK(same_plane(plane, plane));
+        CHECK(same_plane(plane, {plane.normal * -2, plane.through, 0}));
+        CHECK_FALSE(same_plane(plane, turned));
+        CHECK_FALSE(same_plane(plane, moved));
+    }
+    // In proportion as far as doubles tell: 3 * 0.1 is not 0.3.
+    CHECK_FALSE(same_plane({{0.1, 1, 0}, {}, 0}, {{0.30000000000000004, 3, 0}, {}, 0}));
+    CHECK_FALSE(same_plane({{0.1, 1, 0}, {}, 0}, {{0.3, 3, 0}, {}, 0}));
+    CHECK(same_plane({{0.1, 1, 0}, {}, 0}, {{0.2, 2, 0}, {}, 0}));
+}
+
 TEST_CASE("a plane without a direction is refused", "[geometry]") {
     CHECK(test::failure([] {
               check_plane({{0, 0, 0}, {}, 0});
