@@ -58,15 +58,20 @@ class Cropper {
         view_.snap = float32_ulp(mesh_.bounds()) * std::sqrt(scale / 3);
         for (const auto& e : footprint_.tree().edges())
             if (length(e.b - e.a) <= 4 * view_.snap) return view_.snap = 0, void(); // finer than floats are
-        std::map<Index, std::vector<Vec3>> found;                                   // by segment
+        const double rounding = std::ldexp(view_.snap, -27); // 4 units of the last place
+        std::map<Index, std::vector<Vec3>> found;            // by segment
         for (Index v = 0; v < mesh_.vertex_count(); ++v) {
             if (!is_float32(mesh_.positions[v])) continue;
-            footprint_.near(view_.seen(mesh_.positions[v]), view_.snap, [&](Index segment) {
+            const Vec2 p = view_.seen(mesh_.positions[v]);
+            bool off = false;
+            footprint_.near(p, view_.snap, [&](Index segment) {
+                const auto& e = footprint_.tree().edges()[segment];
+                off |= std::fabs(cross(e.b - e.a, p - e.a)) > rounding * length(e.b - e.a);
                 found[segment].push_back(mesh_.positions[v]);
-                result_.snapped += places_[v] <= Place::inside;
                 if (places_[v] <= Place::inside) places_[v] = Place::on_edge;
                 return true;
             });
+            result_.snapped += off;
         }
         for (auto& [segment, points] : found) remember(segment, std::move(points));
     }

@@ -43,7 +43,9 @@ struct CropResult {
     std::size_t cut_faces = 0;  ///< faces that the outline passed through (CropBy::cut)
     std::size_t kept_faces = 0; ///< whole
     std::size_t cap_faces = 0;  ///< of the walls
-    std::size_t snapped = 0;    ///< vertices taken as on the outline by snap
+    /// Vertices beside a segment's plane, by more than rounding, that snap takes as on it; those that are
+    /// exactly on another segment are among them.
+    std::size_t snapped = 0;
     bool changed = false;
     std::vector<OpenContour> open; ///< contours of open meshes that got no wall; plane is the segment
     CutMemory memory;

@@ -1,6 +1,7 @@
 #include "geometry/crop_view.hpp"
 
 #include "base/error.hpp"
+#include "geometry/clip_cut.hpp"
 #include "geometry/triangulate_rings.hpp"
 
 #include <algorithm>
@@ -51,17 +52,27 @@ Place CropView::middle(const Mesh& mesh, Index f) const {
     sum = {};
     for (const Vec2& p : face) sum = sum + (p - face[0]);
     const Vec2 mean = face[0] + sum * (1 / static_cast<double>(face.size()));
-    return settle(is_on_outline(mean, face) ? Place::on_edge : inside_(mean), mesh, f);
+    return settle(is_on_outline(mesh, f, mean, face) ? Place::on_edge : inside_(mean), mesh, f);
 }
 
-/// But for the rounding of floats; a face that only reaches from segment to segment is not.
-bool CropView::is_on_outline(const Vec2& mean, const std::vector<Vec2>& face) const {
-    const auto on = [&](const Vec2& p) {
+/// But for the rounding of floats, of corners that are floats; a face that only reaches from segment to
+/// segment is not.
+bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
+                             const std::vector<Vec2>& face) const {
+    if (!(snap > 0)) return false;
+    const auto on = [&](const Vec2& p, double distance) {
         bool found = false;
-        footprint_.near(p, snap, [&](Index) { return found = true, false; });
+        footprint_.near(p, distance, [&](Index) { return found = true, false; });
         return found;
     };
-    return snap > 0 && on(mean) && std::all_of(face.begin(), face.end(), on);
+    if (!on(mean, snap)) return false;
+    // Points of the cut, and what stands in doubles: 64 units in their last place.
+    const double rounding = std::ldexp(snap, -23);
+    const auto corners = mesh.face_wedges(f);
+    for (std::size_t i = 0; i < face.size(); ++i)
+        if (!on(face[i], is_float32(mesh.positions[mesh.vertex_of_wedge(corners[i])]) ? snap : rounding))
+            return false;
+    return true;
 }
 
 Place CropView::settle(Place place, const Mesh& mesh, Index f) const {

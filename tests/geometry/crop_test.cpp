@@ -297,6 +297,52 @@ TEST_CASE("float32 vertices beside the outline by their rounding are on it", "[g
     CHECK(crop(cube, Footprint(square), settings).mesh.face_count() > 0);
 }
 
+TEST_CASE("vertices on one segment that snap takes as on another as well are counted", "[geometry]") {
+    Mesh cube = shapes::cube();
+    for (Vec3& p : cube.positions) p = p * static_cast<double>(0.1F);
+    // The vertices at (0.1F, 0) are exactly on the outline, and beside the upright side of its hole.
+    const Rings touched{{{0, 0}, {0.2, 0}, {0.2, 0.2}, {0, 0.2}}, {{0.1, 0}, {0.15, 0.05}, {0.1, 0.05}}};
+    CropSettings settings;
+    settings.cap = settings.snap = true;
+    CHECK(crop(cube, Footprint(touched), settings).snapped == 2);
+    settings.keep = polygon::Keep::outside;
+    CHECK(crop(cube, Footprint(touched), settings).snapped == 2);
+    settings.snap = false;
+    CHECK(crop(cube, Footprint(touched), settings).snapped == 0);
+}
+
+TEST_CASE("positions in doubles are not snapped", "[geometry]") {
+    Mesh cube = shapes::cube(); // reaches to 0.1, which is no float
+    for (Vec3& p : cube.positions) p = p * 0.1;
+    const double side = 0.1 - 2e-9; // closer than a float's rounding
+    CropSettings settings;
+    settings.cap = settings.snap = true;
+    settings.keep = polygon::Keep::outside;
+    const CropResult out = crop(cube, Footprint({{{-1, -1}, {side, -1}, {side, 1}, {-1, 1}}}), settings);
+    CHECK(out.snapped == 0);
+    const Properties slice = inspect(out.mesh);
+    CHECK(slice.closed);
+    CHECK(slice.bounds.max.x == 0.1);
+    CHECK(*slice.volume == Approx(2e-11).epsilon(1e-6));
+}
+
+TEST_CASE("large coordinates are cropped as small ones", "[geometry]") {
+    const Rings triangle{{{-0.25, -0.25}, {0.25, -0.125}, {0.125, 0.375}}};
+    CropSettings settings;
+    settings.cap = true;
+    const std::size_t faces = crop(shapes::icosphere(2), Footprint(triangle), settings).mesh.face_count();
+    for (const int power : {-300, 300, 400}) { // of two, so that nothing rounds differently
+        Mesh sphere = shapes::icosphere(2);
+        for (Vec3& p : sphere.positions) p = p * std::ldexp(1.0, power);
+        Rings rings = triangle;
+        for (Vec2& p : rings[0]) p = p * std::ldexp(1.0, power);
+        const CropResult r = crop(sphere, Footprint(rings), settings);
+        CHECK(inspect(r.mesh).closed);
+        CHECK(r.mesh.face_count() == faces);
+        CHECK(r.memory.entries.size() == 3);
+    }
+}
+
 TEST_CASE("walls close beside each other, with straight corners, keep apart", "[geometry]") {
     for (const double thick : {0.01, 1e-6, 1e-12}) {
         const Rings strip{
