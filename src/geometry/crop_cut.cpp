@@ -4,12 +4,16 @@
 #include "geometry/clip.hpp"
 #include "geometry/outline_walls.hpp"
 #include "geometry/score.hpp"
+#include "geometry/trace.hpp"
 
 #include <algorithm>
 
 namespace facetmill {
 
 namespace {
+
+constexpr Index stretch = 64; ///< segments that are cut along before the pieces go back to the others
+constexpr std::string_view stretch_trace = "#stretch";
 
 class Cutter {
   public:
@@ -18,12 +22,11 @@ class Cutter {
     }
 
     OutlineCut run() {
-        const Mesh& mesh = result_.mesh;
+        Mesh& mesh = result_.mesh;
         for (Index f = 0; f < mesh.face_count(); ++f) origin_.push_back(f);
         was_cut_.resize(origin_.size());
         const auto lists = faces_by_segment();
-        for (Index s = 0; s < lists.size(); ++s)
-            if (!lists[s].empty()) cut_along(s, lists[s]);
+        for (Index s = 0; s < lists.size(); s += stretch) cut_stretch(s, lists);
         result_.cut_faces = static_cast<std::size_t>(std::count(was_cut_.begin(), was_cut_.end(), 1));
         result_.stays.resize(mesh.face_count());
         parallel_for(
@@ -48,15 +51,58 @@ class Cutter {
         return lists;
     }
 
-    /// Cuts the pieces of these faces that the segment still enters.
+    /// Cuts along so many segments from one on. Each cut is a pass over the mesh, so where the outline is
+    /// long it is over the faces about the stretch only: those that are cut, and those that share a vertex
+    /// with them and so all that get points.
+    void cut_stretch(Index first, const std::vector<std::vector<Index>>& lists) {
+        const auto last = std::min(first + stretch, static_cast<Index>(lists.size()));
+        if (lists.size() <= stretch) return cut_segments(first, last, lists);
+        std::vector<Index> about, rest;
+        split_about(first, last, lists, about, rest);
+        if (about.empty()) return;
+        Mesh& mesh = result_.mesh;
+        trace(mesh, stretch_trace);
+        Mesh others = select_faces(mesh, rest);
+        std::vector<Index> origin;
+        for (const Index f : rest) origin.push_back(origin_[f]);
+        mesh = select_faces(mesh, about);
+        for (Index& f : about) f = origin_[f];
+        origin_ = std::move(about);
+        cut_segments(first, last, lists);
+        mesh = join_traced(std::move(others), mesh, stretch_trace);
+        untrace(mesh, stretch_trace);
+        std::erase_if(result_.fates, [](const Fate& f) { return f.attribute == stretch_trace; });
+        origin_.insert(origin_.begin(), origin.begin(), origin.end());
+    }
+    void split_about(Index first, Index last, const std::vector<std::vector<Index>>& lists,
+                     std::vector<Index>& about, std::vector<Index>& rest) const {
+        const Mesh& mesh = result_.mesh;
+        std::vector<std::uint8_t> listed(was_cut_.size()), near(mesh.vertex_count());
+        for (Index s = first; s < last; ++s)
+            for (const Index f : lists[s]) listed[f] = 1;
+        for (Index f = 0; f < mesh.face_count(); ++f)
+            if (listed[origin_[f]])
+                for (const Index w : mesh.face_wedges(f)) near[mesh.vertex_of_wedge(w)] = 1;
+        for (Index f = 0; f < mesh.face_count(); ++f) {
+            const auto corners = mesh.face_wedges(f);
+            const bool any = std::any_of(corners.begin(), corners.end(),
+                                         [&](Index w) { return near[mesh.vertex_of_wedge(w)] != 0; });
+            (any ? about : rest).push_back(f);
+        }
+    }
+    void cut_segments(Index first, Index last, const std::vector<std::vector<Index>>& lists) {
+        for (Index s = first; s < last; ++s)
+            if (!lists[s].empty()) cut_along(s, lists[s]);
+    }
+
+    /// Cuts the pieces of these faces (ascending) that the segment still enters.
     void cut_along(Index segment, const std::vector<Index>& faces) {
         const auto& e = view_.footprint().tree().edges()[segment];
-        std::vector<std::uint8_t> listed(was_cut_.size()), wanted(result_.mesh.face_count());
-        for (const Index f : faces) listed[f] = 1;
+        std::vector<std::uint8_t> wanted(result_.mesh.face_count());
         std::vector<Vec2> face;
         bool any = false;
         for (Index f = 0; f < wanted.size(); ++f) {
-            if (!listed[origin_[f]]) continue;
+            if (!std::binary_search(faces.begin(), faces.end(), origin_[f])) continue;
             view_.gather(result_.mesh, f, face);
             if (meeting(face, e.a, e.b) != OutlineMeeting::crossing) continue;
             wanted[f] = was_cut_[origin_[f]] = 1, any = true;

@@ -6,15 +6,14 @@ namespace facetmill {
 
 namespace {
 
-void number(Mesh& mesh, Domain domain) {
+void number(Mesh& mesh, Domain domain, std::string_view attribute) {
     std::vector<std::uint32_t> numbers(mesh.count(domain));
     for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<Index>(i);
-    mesh.attributes.push_back(
-        {std::string(trace_attribute), domain, Role::index, 1, false, std::move(numbers)});
+    mesh.attributes.push_back({std::string(attribute), domain, Role::index, 1, false, std::move(numbers)});
 }
 
-const std::vector<std::uint32_t>& numbers_of(const Mesh& mesh, Domain domain) {
-    return std::get<std::vector<std::uint32_t>>(mesh.find(trace_attribute, domain)->data);
+const std::vector<std::uint32_t>& numbers_of(const Mesh& mesh, Domain domain, std::string_view attribute) {
+    return std::get<std::vector<std::uint32_t>>(mesh.find(attribute, domain)->data);
 }
 
 /// Numbers back to elements; the last of equal numbers.
@@ -29,11 +28,13 @@ std::vector<Index> inverted(const std::vector<std::uint32_t>& numbers) {
 
 } // namespace
 
-void trace(Mesh& mesh) { number(mesh, Domain::vertex), number(mesh, Domain::wedge); }
+void trace(Mesh& mesh, std::string_view attribute) {
+    number(mesh, Domain::vertex, attribute), number(mesh, Domain::wedge, attribute);
+}
 
-void untrace(Mesh& mesh) {
-    mesh.drop(trace_attribute, Domain::vertex);
-    mesh.drop(trace_attribute, Domain::wedge);
+void untrace(Mesh& mesh, std::string_view attribute) {
+    mesh.drop(attribute, Domain::vertex);
+    mesh.drop(attribute, Domain::wedge);
 }
 
 Mesh select_faces(const Mesh& mesh, std::span<const Index> faces) {
@@ -55,20 +56,20 @@ Mesh select_faces(const Mesh& mesh, std::span<const Index> faces) {
     return out;
 }
 
-Mesh join_traced(Mesh a, const Mesh& b) {
-    const auto vertex_at = inverted(numbers_of(a, Domain::vertex)),
-               wedge_at = inverted(numbers_of(a, Domain::wedge));
+Mesh join_traced(Mesh a, const Mesh& b, std::string_view attribute) {
+    const auto vertex_at = inverted(numbers_of(a, Domain::vertex, attribute)),
+               wedge_at = inverted(numbers_of(a, Domain::wedge, attribute));
     const auto first_wedge = static_cast<Index>(a.wedge_count());
     const std::size_t first_corner = a.corner_count();
     const auto united_vertex = [&](Index v) {
-        const Index n = numbers_of(b, Domain::vertex)[v];
+        const Index n = numbers_of(b, Domain::vertex, attribute)[v];
         const Index at = n < vertex_at.size() ? vertex_at[n] : none;
         return at != none && a.positions[at] == b.positions[v] ? at : none;
     };
     std::vector<Index> vertex(b.vertex_count()), wedge(b.wedge_count(), none);
     for (Index v = 0; v < vertex.size(); ++v) vertex[v] = united_vertex(v);
     for (Index w = 0; w < wedge.size(); ++w) {
-        const Index n = numbers_of(b, Domain::wedge)[w], v = vertex[b.vertex_of_wedge(w)];
+        const Index n = numbers_of(b, Domain::wedge, attribute)[w], v = vertex[b.vertex_of_wedge(w)];
         const Index at = n < wedge_at.size() ? wedge_at[n] : none;
         if (v != none && at != none && a.vertex_of_wedge(at) == v) wedge[w] = at;
     }

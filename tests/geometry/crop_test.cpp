@@ -297,6 +297,31 @@ TEST_CASE("float32 vertices beside the outline by their rounding are on it", "[g
     CHECK(crop(cube, Footprint(square), settings).mesh.face_count() > 0);
 }
 
+TEST_CASE("outlines of many segments", "[geometry]") {
+    Rings wave(1);
+    for (int i = 0; i < 500; ++i) {
+        const double angle = 2 * pi * i / 500, r = 0.55 + 0.05 * sine(9 * angle);
+        wave[0].push_back(Vec2{0.01, 0.02} + Vec2{cosine(angle), sine(angle)} * r);
+    }
+    const Mesh ball = shapes::icosphere(3), box = shapes::uv_cube();
+    for (const Mesh* mesh : {&ball, &box}) {
+        CropSettings settings;
+        settings.cap = true;
+        const CropResult in = crop(*mesh, Footprint(wave), settings);
+        settings.keep = polygon::Keep::outside;
+        const CropResult out = crop(*mesh, Footprint(wave), settings);
+        for (const CropResult* r : {&in, &out}) {
+            CHECK(broken_invariants(r->mesh).empty());
+            CHECK(inspect(r->mesh).closed);
+            CHECK(inspect(r->mesh).edge_manifold);
+            CHECK(std::none_of(r->fates.begin(), r->fates.end(),
+                               [](const Fate& f) { return f.attribute.starts_with('#'); }));
+        }
+        CHECK(*inspect(in.mesh).volume + *inspect(out.mesh).volume == Approx(*inspect(*mesh).volume));
+        CHECK(cracks(cropped(*mesh, wave).mesh, wave, *mesh) == 0);
+    }
+}
+
 TEST_CASE("vertices on one segment that snap takes as on another as well are counted", "[geometry]") {
     Mesh cube = shapes::cube();
     for (Vec3& p : cube.positions) p = p * static_cast<double>(0.1F);
