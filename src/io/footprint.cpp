@@ -104,7 +104,12 @@ class Wkt {
             list([&] {
                 Vec2 p;
                 p.x = number(), p.y = number();
-                while (skip(), at_ < end_ && *at_ != ',' && *at_ != ')') number(); // Z and M
+                int numbers = 2;
+                for (; skip(), at_ < end_ && *at_ != ',' && *at_ != ')'; ++numbers) number(); // Z and M
+                if (numbers_ == 0) numbers_ = numbers;
+                if (numbers != numbers_ || numbers > 4)
+                    fail(fmt::format("expected a position of {} numbers, found {}", std::min(numbers_, 4),
+                                     numbers));
                 ring.push_back(p);
             });
         });
@@ -146,6 +151,7 @@ class Wkt {
 
     const char *at_, *end_, *begin_;
     const std::string& name_;
+    int numbers_ = 0; ///< of a position; 0: none was read
     FootprintRings rings_;
 };
 
@@ -161,7 +167,13 @@ bool is_wkt(std::string_view text) {
     const auto begins = [&](std::string_view word) {
         return text.size() > word.size() && same_word(text.substr(0, word.size()), word);
     };
-    return begins("POLYGON") || begins("MULTIPOLYGON") || begins("SRID=");
+    if (begins("POLYGON") || begins("MULTIPOLYGON") || begins("SRID=")) return true;
+    // What is WKT but no polygon is known by its bracket, so that it is not taken for the name of a file.
+    for (const std::string_view other :
+         {"POINT", "MULTIPOINT", "LINESTRING", "MULTILINESTRING", "GEOMETRYCOLLECTION", "CURVEPOLYGON",
+          "MULTISURFACE", "TRIANGLE", "TIN", "POLYHEDRALSURFACE"})
+        if (begins(other) && without_space(text.substr(other.size())).starts_with('(')) return true;
+    return false;
 }
 
 FootprintRings parse_wkt(std::string_view text, const std::string& name) { return Wkt(text, name).read(); }

@@ -50,7 +50,7 @@ class Dxf {
     }
 
   private:
-    enum class Entity { other, lwpolyline, polyline, vertex, circle };
+    enum class Entity { other, section, lwpolyline, polyline, vertex, circle };
 
     /// The next group: a code and a value, a line each.
     bool next() {
@@ -70,16 +70,21 @@ class Dxf {
             return;
         }
         finish();
-        entity_ = type == "LWPOLYLINE" ? Entity::lwpolyline
-                  : type == "POLYLINE" ? Entity::polyline
-                  : type == "CIRCLE"   ? Entity::circle
-                                       : Entity::other;
-        corners_.clear(), closed_ = false, radius_ = 0;
+        if (type == "ENDSEC") in_entities_ = false;
+        entity_ = type == "SECTION"      ? Entity::section
+                  : type == "LWPOLYLINE" ? Entity::lwpolyline
+                  : type == "POLYLINE"   ? Entity::polyline
+                  : type == "CIRCLE"     ? Entity::circle
+                                         : Entity::other;
+        corners_.clear(), closed_ = false, radius_ = 0, looks_ = {0, 0, 1};
         if (entity_ == Entity::circle) corners_.push_back({});
     }
 
     void field() {
         if (entity_ == Entity::other) return;
+        if (entity_ == Entity::section && code_ == 2) in_entities_ = value_ == "ENTITIES";
+        if (entity_ != Entity::vertex && code_ >= 210 && code_ <= 230 && code_ % 10 == 0)
+            looks_[static_cast<std::size_t>(code_ - 210) / 10] = number();
         if (code_ == 70 && entity_ != Entity::vertex) closed_ = (parse_integer(value_).value_or(0) & 1) != 0;
         if (code_ == 40 && entity_ == Entity::circle) radius_ = number();
         if (entity_ == Entity::polyline) return; // 10 and 20 are its elevation
@@ -102,10 +107,14 @@ class Dxf {
             closed_ = true;
         }
         const bool joined = corners_.size() > 3 && corners_.front().at == corners_.back().at;
-        if (entity_ == Entity::other || (!closed_ && !joined) || corners_.size() < 2) return;
+        if (!in_entities_ || (!closed_ && !joined) || corners_.size() < 2) return;
+        if (looks_.x != 0 || looks_.y != 0 || looks_.z == 0)
+            text_.fail("a closed outline does not lie in the drawing's plane");
         auto& ring = rings_.emplace_back();
         for (std::size_t i = 0; i < corners_.size(); ++i)
             append_arc(corners_[i], corners_[(i + 1) % corners_.size()].at, ring);
+        if (looks_.z < 0) // drawn from behind: x runs the other way
+            for (Vec2& p : ring) p.x = -p.x;
     }
 
     Text text_;
@@ -115,6 +124,8 @@ class Dxf {
     std::vector<Corner> corners_;
     bool closed_ = false;
     double radius_ = 0;
+    Vec3 looks_{0, 0, 1};      ///< the direction that the entity is drawn from
+    bool in_entities_ = false; ///< not in a block, which is drawn only where it is inserted
     FootprintRings rings_;
 };
 

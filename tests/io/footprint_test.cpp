@@ -50,6 +50,16 @@ TEST_CASE("footprints from WKT", "[io]") {
     CHECK(refusal("POLYGON ((0 0, 1 x))") ==
           "malformed [E-WKT] outline:1: expected a number at character 18");
     CHECK(refusal("POLYGON ((0 0, 1 1") == "malformed [E-WKT] outline:1: expected ')' at character 19");
+    // A comma is missing: these four are no position of heights and measures.
+    CHECK(refusal("POLYGON ((0 0 1 0, 1 1, 0 1))") ==
+          "malformed [E-WKT] outline:1: expected a position of 4 numbers, found 2 at character 23");
+    CHECK(refusal("POLYGON ((0 0 1 0 1 1))") ==
+          "malformed [E-WKT] outline:1: expected a position of 4 numbers, found 6 at character 22");
+    CHECK(
+        refusal("LINESTRING (0 0, 1 1)") ==
+        "malformed [E-WKT] outline:1: expected POLYGON or MULTIPOLYGON, found 'LINESTRING' at character 11");
+    CHECK(io::is_wkt("GeometryCollection(POINT(0 0))"));
+    CHECK_FALSE(io::is_wkt("point.dxf"));
 }
 
 TEST_CASE("footprints from DXF", "[io]") {
@@ -71,6 +81,25 @@ TEST_CASE("footprints from DXF", "[io]") {
     CHECK(refusal("hello") ==
           "malformed [E-FOOTPRINT] outline: this is neither GeoJSON nor WKT nor DXF as text | a "
           "footprint is a POLYGON or MULTIPOLYGON, or closed polylines of a DXF");
+}
+
+TEST_CASE("outlines of a DXF drawn from behind, in blocks, and out of the plane", "[io]") {
+    const auto outline = [](const std::string& looks) {
+        return "0\nLWPOLYLINE\n70\n1\n" + looks + "10\n-2\n20\n0\n42\n1\n10\n-4\n20\n0\n";
+    };
+    const std::string entities = "0\nSECTION\n2\nENTITIES\n", end = "0\nENDSEC\n0\nEOF\n",
+                      behind = "210\n0\n220\n0\n230\n-1\n";
+    const auto plain = read(entities + outline("") + end), mirrored = read(entities + outline(behind) + end);
+    REQUIRE(mirrored.size() == 1);
+    REQUIRE(mirrored[0].size() == plain.at(0).size());
+    for (std::size_t i = 0; i < plain[0].size(); ++i)
+        CHECK(mirrored[0][i] == Vec2{-plain[0][i].x, plain[0][i].y});
+    // A block is drawn where it is inserted, and nowhere else.
+    CHECK(
+        read("0\nSECTION\n2\nBLOCKS\n" + outline("") + "0\nENDSEC\n" + entities + outline("") + end).size() ==
+        1);
+    CHECK(refusal(entities + outline("210\n1\n220\n0\n230\n0\n") + end) ==
+          "malformed [E-DXF] outline:27: a closed outline does not lie in the drawing's plane");
 }
 
 TEST_CASE("a section's drawing is a footprint", "[io]") {
