@@ -65,6 +65,8 @@ struct Section {
     bool oriented = true;      ///< neighbours agreed; else contours were turned by nesting (even-odd)
     std::size_t collapsed = 0; ///< contours that shrank to a point or line: the plane only touched there
     polygon::Contact contact = polygon::Contact::none; ///< among all closed contours
+    /// Of outlines and holes together; none when a contour is open, or overlaps itself or another.
+    std::optional<polygon::Moments> moments;
 
     polygon::Ring ring(const Contour& c) const { return {points.data() + c.begin, points.data() + c.end}; }
     /// Outlines and holes: what a drawing fills.

@@ -73,6 +73,14 @@ void measure(Section& s, Contour& c, bool simple) {
     if (c.kind != polygon::Kind::self_intersecting) c.moments = polygon::moments(ring);
 }
 
+/// Whether outlines and holes cover each point at most once.
+bool covers_once(const Section& s) {
+    return s.contact != polygon::Contact::crossing &&
+           std::all_of(s.contours.begin(), s.contours.end(), [](const Contour& c) {
+               return (c.role == ContourRole::outline || c.role == ContourRole::hole) && c.moments;
+           });
+}
+
 } // namespace
 
 void arrange(Section& s) {
@@ -113,6 +121,7 @@ void arrange(Section& s) {
         measure(s, c, s.contact == polygon::Contact::none);
         s.area += c.area;
     }
+    if (covers_once(s)) s.moments = polygon::moments(s.filled());
 }
 
 } // namespace facetmill

@@ -42,6 +42,9 @@ std::string to_dxf(const Drawing& drawing);
 /// All points and measures: {unit, sections: [{height, frame, parts: [{name, contours, hatch}]}]}.
 std::string to_json(const Drawing& drawing);
 
+/// A section as a whole, holes taken off (centroid null where it has none: see Section::moments), and its
+/// contours.
+Json section_json(const Section& section, bool points);
 /// A section's contours with their measures, in the plane's frame and in the world; points on request.
 Json contours_json(const Section& section, bool points);
 Json frame_json(const SectionFrame& frame);

@@ -26,6 +26,20 @@ Json second_moments(const polygon::SecondMoments& plane, const Section& s, const
     return {{"x", plane.x}, {"y", plane.y}, {"xy", plane.xy}, {"world", world}};
 }
 
+/// Centroid, second moments and principal axes, put into j.
+void add_moments(Json& j, const Section& s, const polygon::Moments& m) {
+    const Vec3 centroid = s.frame.point(m.centroid);
+    j["centroid"] = {{"plane", list(m.centroid)}, {"world", list(centroid)}};
+    j["second_moments"] = {{"about_origin", second_moments(m.about_origin, s, m, centroid)},
+                           {"about_centroid", second_moments(m.about_centroid, s, m, {})}};
+    j["principal_axes"] = {{"largest", m.axes.largest},
+                           {"smallest", m.axes.smallest},
+                           {"plane", {{"largest", list(m.axes.major)}, {"smallest", list(m.axes.minor)}}},
+                           {"world",
+                            {{"largest", list(s.frame.direction(m.axes.major))},
+                             {"smallest", list(s.frame.direction(m.axes.minor))}}}};
+}
+
 Json contour_json(const Section& s, const Contour& c) {
     Json j = {{"role", spelled(c.role)}};
     if (c.parent != none) j["parent"] = c.parent;
@@ -40,16 +54,7 @@ Json contour_json(const Section& s, const Contour& c) {
         j["why"] = "the contour intersects itself, so its centroid and moments would mean nothing";
         return j;
     }
-    const auto& m = *c.moments;
-    j["centroid"] = {{"plane", list(m.centroid)}, {"world", list(s.frame.point(m.centroid))}};
-    j["second_moments"] = {{"about_origin", second_moments(m.about_origin, s, m, s.frame.point(m.centroid))},
-                           {"about_centroid", second_moments(m.about_centroid, s, m, {})}};
-    j["principal_axes"] = {{"largest", m.axes.largest},
-                           {"smallest", m.axes.smallest},
-                           {"plane", {{"largest", list(m.axes.major)}, {"smallest", list(m.axes.minor)}}},
-                           {"world",
-                            {{"largest", list(s.frame.direction(m.axes.major))},
-                             {"smallest", list(s.frame.direction(m.axes.minor))}}}};
+    add_moments(j, s, *c.moments);
     return j;
 }
 
@@ -64,6 +69,16 @@ std::string extension_of(const std::string& path) {
 
 Json frame_json(const SectionFrame& f) {
     return {{"origin", list(f.origin)}, {"u", list(f.u)}, {"v", list(f.v)}, {"normal", list(f.normal)}};
+}
+
+Json section_json(const Section& section, bool points) {
+    Json j = {{"area", section.area}};
+    if (section.moments)
+        add_moments(j, section, *section.moments);
+    else
+        j["centroid"] = nullptr;
+    j["contours"] = contours_json(section, points);
+    return j;
 }
 
 Json contours_json(const Section& section, bool points) {
@@ -87,10 +102,9 @@ std::string to_json(const Drawing& drawing) {
         for (const DrawnPart& part : sheet.parts) {
             Json hatch = Json::array();
             for (const auto& s : part.hatch) hatch.push_back(Json::array({s.a.x, s.a.y, s.b.x, s.b.y}));
-            parts.push_back({{"name", part.name},
-                             {"area", part.section.area},
-                             {"contours", contours_json(part.section, true)},
-                             {"hatch", std::move(hatch)}});
+            Json j = section_json(part.section, true);
+            j["name"] = part.name, j["hatch"] = std::move(hatch);
+            parts.push_back(std::move(j));
         }
         sheets.push_back(
             {{"height", sheet.height}, {"frame", frame_json(sheet.frame)}, {"parts", std::move(parts)}});

@@ -27,8 +27,9 @@ Json sheet_json(const Sheet& sheet, std::size_t& listed) {
         area += part.section.area;
         contours += count;
         listed += count;
-        if (listed <= most_listed && count > 0)
-            parts.push_back({{"part", part.name}, {"contours", contours_json(part.section, false)}});
+        if (listed > most_listed || count == 0) continue;
+        parts.push_back(section_json(part.section, false));
+        parts.back()["part"] = part.name;
     }
     const Vec3& origin = sheet.frame.origin;
     Json j = {{"height", sheet.height},

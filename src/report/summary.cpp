@@ -108,6 +108,37 @@ std::vector<std::string> probe_summary(const Json& result) {
     return lines;
 }
 
+std::vector<std::string> section_summary(const Json& result, const std::string& unit) {
+    const auto planes = result["planes"].get<std::uint64_t>(), empty = result["empty"].get<std::uint64_t>(),
+               contours = result["contours"].get<std::uint64_t>(),
+               holes = result["holes"].get<std::uint64_t>(), open = result["open"].get<std::uint64_t>();
+    const auto count = [](std::uint64_t n, const char* one, const char* several) {
+        return n == 0 ? std::string() : fmt::format("{} {}", grouped(n), n == 1 ? one : several);
+    };
+    const std::string in = unit == "unknown" ? "" : " " + unit;
+    std::string what = count(contours, "contour", "contours");
+    const std::string of = joined({count(holes, "hole", "holes"), count(open, "open", "open")});
+    if (!of.empty()) what += " (" + of + ")";
+    if (empty > 0) what = joined({what, fmt::format("{} empty", grouped(empty))});
+    std::vector<std::string> lines{fmt::format("{}: area {}{}{}, {}", count(planes, "section", "sections"),
+                                               number(result["area"]), in, in.empty() ? "" : "2", what)};
+    const Json& first = result["sections"][0];
+    if (planes == 1 && first.contains("parts") && first["parts"].size() == 1 &&
+        !first["parts"][0]["centroid"].is_null()) {
+        const Json& part = first["parts"][0];
+        lines.push_back(fmt::format("centroid {}, second moments about it {} to {}{}{}",
+                                    point(part["centroid"]["world"]),
+                                    number(part["principal_axes"]["smallest"]),
+                                    number(part["principal_axes"]["largest"]), in, in.empty() ? "" : "4"));
+    }
+    if (result.contains("spacing")) {
+        std::string line = fmt::format("areas times distance {}", number(result["area_times_spacing"]));
+        if (!result["volume"].is_null()) line += fmt::format(", volume {}", number(result["volume"]));
+        lines.push_back(line);
+    }
+    return lines;
+}
+
 std::string counts_summary(const Json& result, const std::string& nothing) {
     std::vector<std::string> names;
     std::map<std::string, std::uint64_t> sums;

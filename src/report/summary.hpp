@@ -12,6 +12,9 @@ namespace facetmill::report {
 std::vector<std::string> measure_summary(const Json& result);
 /// Of probe: how many answers of each kind, then the first few.
 std::vector<std::string> probe_summary(const Json& result);
+/// Of section: what was cut, areas and, of a single section of one part, its centroid and moments; of a stack
+/// the areas times the distance beside the volume.
+std::vector<std::string> section_summary(const Json& result, const std::string& unit);
 /// The counts that are not zero, summed over the parts of a result: "welded vertices 12, filled holes 1"; or
 /// `nothing`.
 std::string counts_summary(const Json& result, const std::string& nothing);

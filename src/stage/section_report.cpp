@@ -2,6 +2,7 @@
 
 #include "geometry/inspect.hpp"
 #include "mesh/placement.hpp"
+#include "report/summary.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -51,6 +52,7 @@ void report_sections(const io::Drawing& drawing, const Scene& scene, double spac
     const auto totals = io::totals_of(drawing);
     context.result() = io::summary_json(drawing, totals);
     add_volume(context.result(), scene, totals, spacing, context);
+    context.say(report::section_summary(context.result(), spelled(scene.unit)));
     warn(totals, context);
 }
 

@@ -1,7 +1,6 @@
-#include "geometry/section_stack.hpp"
-#include "mesh/placement.hpp"
 #include "stage/hatch_option.hpp"
 #include "stage/plane_option.hpp"
+#include "stage/section_drawing.hpp"
 #include "stage/section_report.hpp"
 #include "stage/stage.hpp"
 
@@ -44,48 +43,15 @@ void verify(const SectionOptions& o, const Value& given, Problems& problems) {
                          "the formats are .svg, .dxf and .json");
 }
 
-Stack stack_of(const SectionOptions& o, const Scene& scene, const Plane& plane, Context& context) {
-    if (!o.every && !o.count) return {};
-    std::optional<double> every;
-    if (o.every) every = context.resolve(*o.every, scene, "every");
-    if (every && !(*every > 0))
-        throw Error(ErrorKind::usage, "E-SECTION", "'every' must be above zero, and it is 0 in this scene",
-                    "give a length in scene units, or count");
-    Extent extent;
-    for (const Part& part : scene.parts)
-        if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, effective(part)));
-    return stack_of(extent, every, o.count);
-}
-
-io::Drawing drawing_of(const Scene& scene, const Plane& plane, const Stack& stack, const SectionOptions& o,
-                       Context& context) {
-    std::optional<polygon::HatchSettings> hatching;
-    if (o.hatch) hatching = resolve_hatch(*o.hatch, scene, context);
-    io::Drawing drawing{context.name(), scene.unit, {}};
-    const SectionFrame frame = frame_of(plane);
-    for (const double h : stack.heights) {
-        drawing.sheets.push_back({h, frame, {}});
-        drawing.sheets.back().frame.origin += frame.normal * h;
-    }
-    for (const Part& part : scene.parts) {
-        if (!context.selects(part, scene)) continue;
-        auto sections = section(part.mesh, {plane, stack.heights, effective(part), part.cuts.get()});
-        for (std::size_t k = 0; k < sections.size(); ++k) {
-            std::vector<polygon::Segment> lines;
-            if (hatching) lines = polygon::hatch(sections[k].filled(), *hatching);
-            drawing.sheets[k].parts.push_back({part.name, std::move(sections[k]), std::move(lines)});
-        }
-    }
-    return drawing;
-}
-
 Scene run(Scene scene, const SectionOptions& o, Context& context) {
     PlaneOption middle;
     middle.normal = Vec3{0, 0, 1};
     middle.through.kind = PlanePlace::Kind::centre;
     const Plane plane = resolve_plane(o.plane.value_or(middle), scene, context, "plane");
-    const Stack stack = stack_of(o, scene, plane, context);
-    const io::Drawing drawing = drawing_of(scene, plane, stack, o, context);
+    const Stack stack = stack_for(scene, plane, o.every, o.count, context);
+    std::optional<polygon::HatchSettings> hatching;
+    if (o.hatch) hatching = resolve_hatch(*o.hatch, scene, context);
+    const io::Drawing drawing = draw_sections(scene, plane, stack, hatching, context);
     report_sections(drawing, scene, stack.spacing, context);
     for (const auto& path : o.to) {
         const std::string text = io::drawing_for(path.text, drawing);
@@ -98,25 +64,19 @@ const RegisterStage registered{make_stage<SectionOptions>(
     {.name = "section",
      .about = "Cuts plane sections: contours with areas, centroids and moments, and drawings to scale.",
      .details =
-         "A plane, or a stack of parallel ones, gives polygons with their holes, in the frame that "
-         "the report states: its "
-         "origin is the foot of the world's origin on the plane, u is the axis after the normal's "
-         "longest component, v is "
-         "normal x u. Each contour has its orientation, kind (triangle, quad, convex, concave, "
-         "complex, self-intersecting), "
-         "area, centroid, second moments about the origin and the centroid, and principal axes, all in the "
-         "plane and in the world (moments there are the integrals of products of coordinates). "
-         "Over a stack, areas times distance are compared with the volume. A plane that misses the "
-         "mesh gives an empty "
-         "section, which is a result.\n\n"
-         "Vertices are classified once, by exact signs; one on the plane counts as above it, so a "
-         "section is that just "
-         "below the plane: of a cube on the floor z = 0 gives nothing and the top gives a square.\n\n"
-         "Drawings are SVG (sections side by side), DXF (one layer a section) and JSON (all points "
-         "and measures). The "
-         "scene passes on unchanged. Sources: the notes on polygon types, ordering, area, centroid "
-         "and moments of polygons, "
-         "and on clipping a line to a complex polygon (hatch).",
+         "A plane, or a stack of parallel ones, gives polygons with their holes, in the frame that the "
+         "report states: its origin is the foot of the world's origin on the plane, u is the axis after the "
+         "normal's longest component, v is normal x u. Each contour has its orientation, kind (triangle, "
+         "quad, convex, concave, complex, self-intersecting), area, centroid, second moments about the "
+         "origin and the centroid, and principal axes, all in the plane and in the world (moments there are "
+         "the integrals of products of coordinates). Over a stack, areas times distance are compared with "
+         "the volume. A plane that misses the mesh gives an empty section, which is a result.\n\n"
+         "Vertices are classified once, by exact signs; one on the plane counts as above it, so a section is "
+         "that just below the plane: of a cube on the floor z = 0 gives nothing and the top gives a "
+         "square.\n\n"
+         "Drawings are SVG (sections side by side), DXF (one layer a section) and JSON (all points and "
+         "measures). The scene passes on unchanged. Sources: the notes on polygon types, ordering, area, "
+         "centroid and moments of polygons, and on clipping a line to a complex polygon (hatch).",
      .examples = {"section: z=50%",
                   "section: {plane: {normal: [1, 0, 1], through: centre}, to: cut.svg, hatch: 2%}",
                   "section: {plane: z=0, every: 2mm, to: [layers.svg, layers.dxf, layers.json]}",

@@ -23,6 +23,38 @@ TEST_CASE("section reports one plane and passes the scene on", "[stages]") {
     CHECK_FALSE(run.scene.parts[0].changed);
 }
 
+TEST_CASE("a section has moments as a whole, its holes taken off", "[stages]") {
+    Mesh tube = shapes::cube();
+    for (Vec3& p : tube.positions) p = {4 * p.x, 2 * p.y, p.z};
+    Mesh core = shapes::cube();
+    for (Vec3& p : core.positions) p = {p.x + 2, p.y + 0.5, p.z};
+    for (std::size_t c = 0; c < core.corners.size(); c += 3) std::swap(core.corners[c], core.corners[c + 1]);
+    append(tube, core);
+    const auto run = run_stage("section", "z=0.5", scene_of(tube, Unit::mm));
+    const Json& whole = run.record.result["sections"][0]["parts"][0];
+    CHECK(whole["area"] == 7);
+    CHECK(whole["centroid"]["plane"][0].get<double>() == Approx((8 * 2 - 2.5) / 7));
+    CHECK(whole["second_moments"]["about_origin"]["y"].get<double>() ==
+          Approx(2 * 64.0 / 3 - (1.0 / 12 + 6.25)));
+    CHECK(run.record.said ==
+          std::vector<std::string>{"1 section: area 7 mm2, 2 contours (1 hole)",
+                                   "centroid 1.92857 1 0.5, second moments about it 2.58333 to 10.2976 mm4"});
+    append(tube, shapes::cube()); // overlaps the rest: the region would count twice
+    CHECK(
+        run_stage("section", "z=0.5", scene_of(tube)).record.result["sections"][0]["parts"][0]["centroid"] ==
+        nullptr);
+    CHECK(run_stage("section", "{count: 4}", scene_of(shapes::cube())).record.said ==
+          std::vector<std::string>{"4 sections: area 4, 4 contours", "areas times distance 1, volume 1"});
+    CHECK(run_stage("section", "z=9", scene_of(shapes::cube())).record.said ==
+          std::vector<std::string>{"1 section: area 0, 1 empty"});
+}
+
+TEST_CASE("hatching is limited over all sections together", "[stages]") {
+    CHECK(failure([] {
+              run_stage("section", "{count: 90, hatch: 0.00001}", scene_of(shapes::cube()));
+          }).starts_with("limit [E-HATCH] hatching all sections would take about 12727922 lines"));
+}
+
 TEST_CASE("section takes planes in every form", "[stages]") {
     for (const char* plane :
          {"{plane: z=0.5}", "{plane: {normal: [0, 0, 3], through: [9, 9, 0.5]}}",
