@@ -10,6 +10,7 @@
 #include "geometry/trace.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace facetmill {
@@ -216,15 +217,37 @@ class Cropper {
 
 Vec2 seen_along(std::size_t axis, const Vec3& p) { return {axis == 0 ? p.y : p.x, axis == 2 ? p.y : p.z}; }
 
-CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings) {
+namespace {
+
+/// Once for each side, all with snap or all without.
+std::vector<CropResult> crop_sides(const Mesh& mesh, const Footprint& footprint, CropSettings settings,
+                                   std::span<const polygon::Keep> sides) {
+    const auto run = [&] {
+        std::vector<CropResult> results;
+        for (const auto side : sides) {
+            settings.keep = side;
+            results.push_back(Cropper(mesh, footprint, settings).run());
+        }
+        return results;
+    };
     try {
-        return Cropper(mesh, footprint, settings).run();
+        return run();
     } catch (const Error& error) { // needles of an outline may be finer than snap; pure, they can be closed
         if (!settings.snap || error.diagnostics().front().id != "E-CROP-CAP") throw;
     }
-    CropSettings pure = settings;
-    pure.snap = false;
-    return Cropper(mesh, footprint, pure).run();
+    settings.snap = false;
+    return run();
+}
+
+} // namespace
+
+CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings) {
+    return std::move(crop_sides(mesh, footprint, settings, std::array{settings.keep}).front());
+}
+
+std::vector<CropResult> crop_both(const Mesh& mesh, const Footprint& footprint,
+                                  const CropSettings& settings) {
+    return crop_sides(mesh, footprint, settings, std::array{polygon::Keep::inside, polygon::Keep::outside});
 }
 
 } // namespace facetmill

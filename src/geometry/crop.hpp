@@ -67,4 +67,8 @@ Vec2 seen_along(std::size_t axis, const Vec3& p);
 /// closed. Source: "Inside a polygon" (notes, 1987).
 CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings);
 
+/// The inside and the outside, whatever settings.keep is: their walls match also where snap cannot close one
+/// of them.
+std::vector<CropResult> crop_both(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings);
+
 } // namespace facetmill

@@ -1,26 +1,25 @@
-#include "geometry/crop.hpp"
-
-#include "mesh/placement.hpp"
 #include "stage/cap_option.hpp"
+#include "stage/crop_parts.hpp"
 #include "stage/footprint_option.hpp"
+#include "stage/snap_option.hpp"
 #include "stage/stage.hpp"
-
-#include <fmt/format.h>
 
 namespace facetmill {
 
 namespace {
 
 enum class Axis { up, x, y, z };
+enum class CropKeep { inside, outside, both };
 
 struct CropOptions {
     FootprintOption footprint;
     Axis axis = Axis::up;
     CropBy by = CropBy::cut;
-    polygon::Keep keep = polygon::Keep::inside;
+    CropKeep keep = CropKeep::inside;
     InsideBy inside_by = InsideBy::crossings;
     bool cap = false;
     std::string cap_material = "cap";
+    Snap snap = Snap::automatic;
 };
 
 void declare(Declare<CropOptions>& d) {
@@ -42,11 +41,11 @@ void declare(Declare<CropOptions>& d) {
                       {"centre", CropBy::centre, "faces whose corners' mean lies there stay"},
                       {"touching", CropBy::touching, "faces of which any part lies there stay"}},
                      "What happens to faces at the outline.");
-    d.choice<polygon::Keep>(
-        "keep", &CropOptions::keep,
-        {{"inside", polygon::Keep::inside, "what lies in the polygon and not in its holes"},
-         {"outside", polygon::Keep::outside, "the rest"}},
-        "Which side stays.");
+    d.choice<CropKeep>("keep", &CropOptions::keep,
+                       {{"inside", CropKeep::inside, "what lies in the polygon and not in its holes"},
+                        {"outside", CropKeep::outside, "the rest"},
+                        {"both", CropKeep::both, "both, as parts NAME.inside and NAME.outside"}},
+                       "Which side stays.");
     d.choice<InsideBy>(
         "inside_by", &CropOptions::inside_by,
         {{"crossings", InsideBy::crossings, "how many edges lie to one side; exact and fast"},
@@ -55,6 +54,7 @@ void declare(Declare<CropOptions>& d) {
          {"angles_3d", InsideBy::angles_3d, "the sum of unsigned angles; for one convex ring"}},
         "How it is found whether a point is inside; all give the same.");
     declare_cap(d, &CropOptions::cap, &CropOptions::cap_material);
+    declare_snap(d, &CropOptions::snap, "the outline");
 }
 
 std::size_t axis_of(const CropOptions& o, const Scene& scene) {
@@ -62,45 +62,13 @@ std::size_t axis_of(const CropOptions& o, const Scene& scene) {
     return o.axis == Axis::x ? 0 : o.axis == Axis::y ? 1 : 2;
 }
 
-void warn(const Part& part, const CropResult& r, bool had_faces, Context& context) {
-    warn_of_open("crop", part, r.open, context);
-    constexpr const char* hint = "check the footprint's place and axis; info prints the bounds";
-    if (had_faces && r.mesh.face_count() == 0)
-        context.warn("W-CROP-NOTHING", fmt::format("crop: nothing of part '{}' was kept", part.name), hint);
-    else if (had_faces && !r.changed)
-        context.warn("W-CROP-ALL",
-                     fmt::format("crop: the outline does not meet part '{}', all of it was kept", part.name),
-                     hint);
-}
-
 Scene run(Scene scene, const CropOptions& o, Context& context) {
-    const Footprint footprint = resolve_footprint(o.footprint, context);
-    CropSettings settings;
-    settings.axis = axis_of(o, scene), settings.by = o.by, settings.keep = o.keep;
-    settings.inside_by = o.inside_by;
-    if (o.cap) set_cap(settings, scene, o.cap_material);
-    std::size_t cut = 0, before = 0, after = 0, caps = 0, open = 0;
-    context.for_each_part(scene, [&](Part& part) {
-        settings.to_world = effective(part);
-        settings.memory = part.cuts ? *part.cuts : CutMemory{};
-        const std::size_t faces = part.mesh.face_count();
-        CropResult r = crop(part.mesh, footprint, settings);
-        warn(part, r, faces > 0, context);
-        context.ledger(part, r.fates);
-        part.mesh = std::move(r.mesh);
-        if (!r.memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(r.memory));
-        cut += r.cut_faces, before += faces, after += part.mesh.face_count();
-        caps += r.cap_faces, open += r.open.size();
-    });
-    if (caps > 0) add_material(scene, o.cap_material);
-    context.result() = {{"rings", footprint.rings().size()},
-                        {"footprint_area", footprint.area()},
-                        {"axis", std::string(1, "xyz"[settings.axis])},
-                        {"cut_faces", cut},
-                        {"cap_faces", caps},
-                        {"open_contours", open},
-                        {"faces_before", before},
-                        {"faces_after", after}};
+    PartsToCrop how;
+    how.settings.axis = axis_of(o, scene), how.settings.by = o.by, how.settings.inside_by = o.inside_by;
+    how.settings.keep = o.keep == CropKeep::outside ? polygon::Keep::outside : polygon::Keep::inside;
+    how.settings.cap = o.cap, how.settings.snap = o.snap == Snap::automatic;
+    how.both = o.keep == CropKeep::both, how.cap_material = o.cap_material;
+    crop_parts(scene, resolve_footprint(o.footprint, context), how, context);
     return scene;
 }
 
@@ -123,33 +91,27 @@ const RegisterStage registered{make_stage<CropOptions>(
     {.name = "crop",
      .about = "Keeps what lies in a polygon seen along an axis, or outside it.",
      .details =
-         "The footprint is a polygon with holes and islands, in the world's coordinates across the "
-         "axis. What is in an "
-         "odd number of its rings is inside, whichever way round they run; a last point that repeats "
-         "the first may be "
-         "there or not. A footprint that crosses itself is refused with the place.\n\n"
-         "Cut at the outline, faces get points where the outline passes over them, one for each edge, "
-         "shared by the "
-         "faces there, so no crack opens; a face at a corner of the outline falls into a few more "
-         "pieces than it must. "
-         "With cap, a closed part stays closed: upright walls stand on the outline and on its holes, and "
-         "those of the inside "
-         "and the outside fit exactly. cut_id numbers the walls by the outline's segments, group by its "
-         "rings. Without cap, "
-         "closed parts become open. Positions that are 32-bit floats count as on the outline within one "
-         "float's rounding "
-         "of the part's bounds: the 0.1 of an STL is not that of a footprint. New vertices and wedges are "
-         "interpolated, "
-         "pieces copy the "
-         "attributes of their face. By whole faces, nothing is mixed; corners on the outline count to "
-         "either side.\n\n"
+         "The footprint is a polygon with holes and islands, in the world's coordinates across the axis. "
+         "What is in an odd number of its rings is inside, whichever way round they run; a last point that "
+         "repeats the first may be there or not. A footprint that crosses itself is refused with the "
+         "place.\n\n"
+         "Cut at the outline, faces get points where the outline passes over them, one for each edge, shared "
+         "by the faces there, so no crack opens; a face at a corner of the outline falls into a few more "
+         "pieces than it must. With cap, a closed part stays closed: upright walls stand on the outline and "
+         "on its holes, and those of the inside and the outside fit exactly. cut_id numbers the walls by the "
+         "outline's segments, group by its rings. Without cap, closed parts become open. Positions that are "
+         "32-bit floats count as on the outline within one float's rounding of the part's bounds: the 0.1 of "
+         "an STL is not that of a footprint. New vertices and wedges are interpolated, pieces copy the "
+         "attributes of their face. By whole faces, nothing is mixed; corners on the outline count to either "
+         "side.\n\n"
          "Files: GeoJSON (Polygon, MultiPolygon, features and collections of them), WKT (POLYGON, "
-         "MULTIPOLYGON), DXF as "
-         "text (closed polylines and circles; arcs in segments of at most 5 degrees).\n\n"
+         "MULTIPOLYGON), DXF as text (closed polylines and circles; arcs in segments of at most 5 "
+         "degrees).\n\n"
          "Source: the note on points inside a polygon (1987).",
      .examples = {"crop: [[0, 0], [10, 0], [10, 5], [0, 5]]",
                   "crop: {footprint: \"POLYGON ((0 0, 4 0, 4 4, 0 4), (1 1, 2 1, 2 2, 1 2))\", by: whole}",
                   "crop: {footprint: parcel.geojson, keep: outside, axis: z}",
+                  "crop: {footprint: parcel.geojson, keep: both, cap: true}",
                   "crop: {footprint: [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]], cap: true}"}},
     declare, run, StageHooks<CropOptions>{.files = files, .verify = verify})};
 

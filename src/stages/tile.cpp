@@ -1,8 +1,6 @@
-#include "geometry/tile.hpp"
-
-#include "mesh/placement.hpp"
 #include "stage/cap_option.hpp"
 #include "stage/stage.hpp"
+#include "stage/tile_parts.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -67,77 +65,12 @@ std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context&
     return axes;
 }
 
-/// "body.x0.y-1"
-std::string name_of(const Part& part, const Tile& tile, const std::vector<TileAxis>& axes) {
-    std::string name = part.name;
-    for (const TileAxis& a : axes) name += fmt::format(".{}{}", "xyz"[a.axis], tile.cell[a.axis]);
-    return name;
-}
-
-class TileRun {
-  public:
-    TileRun(const Scene& scene, const TileOptions& o, Context& context) : o_(o), context_(context) {
-        settings_.axes = axes_of(o, scene, context);
-        settings_.clip.snap = true;
-        if (o.cap) set_cap(settings_.clip, scene, o.cap_material);
-    }
-
-    Scene run(Scene scene) {
-        std::vector<Part> parts;
-        std::vector<const Part*> cut;
-        context_.for_each_part(scene, [&](Part& part) { cut.push_back(&part); });
-        Json tiles = Json::array();
-        for (Part& part : scene.parts) {
-            if (std::find(cut.begin(), cut.end(), &part) == cut.end())
-                parts.push_back(std::move(part));
-            else
-                cut_part(part, parts, tiles);
-        }
-        scene.parts = std::move(parts);
-        if (cap_faces_ > 0) add_material(scene, o_.cap_material);
-        Json& result = context_.result();
-        result["tiles"] = std::move(tiles);
-        result["cut_faces"] = cut_faces_;
-        result["cap_faces"] = cap_faces_;
-        result["open_contours"] = open_;
-        return scene;
-    }
-
-  private:
-    void cut_part(Part& part, std::vector<Part>& parts, Json& tiles) {
-        settings_.to_world = effective(part);
-        settings_.clip.memory = part.cuts ? *part.cuts : CutMemory{};
-        TileResult r = tile(std::move(part.mesh), settings_);
-        part.mesh = {};
-        warn_of_open("tile", part, r.open, context_);
-        context_.ledger(part, r.fates);
-        cut_faces_ += r.cut_faces, cap_faces_ += r.cap_faces, open_ += r.open.size();
-        if (r.tiles.empty())
-            context_.warn("W-TILE-NOTHING",
-                          fmt::format("tile: part '{}' has no faces and gives no tile", part.name));
-        const auto cuts = std::make_shared<const CutMemory>(std::move(r.memory));
-        for (Tile& t : r.tiles) {
-            Part& piece = parts.emplace_back(part);
-            piece.name = name_of(part, t, settings_.axes);
-            piece.mesh = std::move(t.mesh);
-            piece.cuts = cuts;
-            Json entry = {{"part", piece.name}};
-            for (const TileAxis& a : settings_.axes)
-                entry[std::string("tile_") + "xyz"[a.axis]] = t.cell[a.axis];
-            entry["faces"] = piece.mesh.face_count();
-            tiles.push_back(std::move(entry));
-        }
-    }
-
-    const TileOptions& o_;
-    Context& context_;
-    TileSettings settings_;
-    std::size_t cut_faces_ = 0, cap_faces_ = 0, open_ = 0;
-};
-
 Scene run(Scene scene, const TileOptions& o, Context& context) {
-    TileRun tiles(scene, o, context);
-    return tiles.run(std::move(scene));
+    TileSettings settings;
+    settings.axes = axes_of(o, scene, context);
+    settings.clip.snap = true;
+    settings.clip.cap = o.cap;
+    return tile_parts(std::move(scene), settings, o.cap_material, context);
 }
 
 const RegisterStage registered{make_stage<TileOptions>(
@@ -145,14 +78,12 @@ const RegisterStage registered{make_stage<TileOptions>(
      .about = "Cuts parts into the tiles of a grid, each a part of its own.",
      .details =
          "Tile k along an axis reaches from origin + k size to origin + (k + 1) size, in the world. Tiles "
-         "are named "
-         "after their part and cell, NAME.x0.y1, and have the face attributes tile_x, tile_y, tile_z of the "
-         "axes that "
-         "are cut; cells without faces give no part. foreach: {part: \"*\"} then works on each.\n\n"
+         "are named after their part and cell, NAME.x0.y1, and have the face attributes tile_x, tile_y, "
+         "tile_z of the axes that are cut; cells without faces give no part. foreach: {part: \"*\"} then "
+         "works on each.\n\n"
          "Borders match exactly: neighbours come out of one cut, as of clip with keep: both, whose rules for "
          "attributes, caps and faces in a plane hold here too. With cap: true a closed part gives closed "
-         "tiles, whose "
-         "volumes add up.",
+         "tiles, whose volumes add up.",
      .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",
                   "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"}},
     declare, run, StageHooks<TileOptions>{.files = {}, .verify = verify})};

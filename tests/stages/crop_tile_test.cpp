@@ -96,6 +96,37 @@ TEST_CASE("crop stands walls on the outline on request", "[stages]") {
           "cap, or take by: cut");
 }
 
+TEST_CASE("crop keeps both sides as two parts", "[stages]") {
+    const auto run =
+        run_stage("crop", "{footprint: [[0.5, -1], [2, -1], [2, 2], [0.5, 2]], cap: true, keep: both}",
+                  scene_of(shapes::cube()));
+    REQUIRE(run.scene.parts.size() == 2);
+    CHECK(run.scene.parts[0].name == "part.inside");
+    CHECK(run.scene.parts[1].name == "part.outside");
+    for (const Part& part : run.scene.parts) {
+        CHECK(test::volume(part.mesh) == 0.5);
+        CHECK(part.changed);
+    }
+    CHECK(run.record.result["cap_faces"] == 12);
+    CHECK(run.record.result["faces_after"] == run.scene.parts[0].mesh.face_count() * 2);
+    CHECK(run.record.warnings.empty());
+    const auto all = run_stage("crop", "{footprint: [[-1, -1], [9, -1], [9, 9], [-1, 9]], keep: both}",
+                               scene_of(shapes::cube()));
+    CHECK(all.record.warnings.at(0).id == "W-CROP-ALL");
+}
+
+TEST_CASE("crop snaps unless told not to", "[stages]") {
+    Mesh cube = shapes::cube();
+    for (Vec3& p : cube.positions) p = p * static_cast<double>(0.1F);
+    const std::string outside = "{footprint: [[0, 0], [0.1, 0], [0.1, 0.1], [0, 0.1]], keep: outside";
+    const auto snapped = run_stage("crop", outside + "}", scene_of(cube));
+    CHECK(snapped.scene.parts[0].mesh.face_count() == 0);
+    CHECK(snapped.record.result["snapped"] == 6);
+    const auto pure = run_stage("crop", outside + ", snap: 0}", scene_of(cube));
+    CHECK(pure.scene.parts[0].mesh.face_count() > 0);
+    CHECK(pure.record.result["snapped"] == 0);
+}
+
 TEST_CASE("crop looks along the scene's up axis", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     scene.up = UpAxis::y;

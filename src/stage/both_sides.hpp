@@ -1,0 +1,36 @@
+#pragma once
+// Parts that fall into two.
+
+#include "mesh/scene.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace facetmill {
+
+/// Keeps the other side of parts until all were cut, as a scene's parts must stay where they are so long.
+class BothSides {
+  public:
+    explicit BothSides(Scene& scene) : scene_(scene) {}
+
+    /// The part gets one name and keeps its mesh; a copy of it with the other name and mesh comes behind it.
+    void part_in_two(Part& part, const char* name, const char* other_name, Mesh other) {
+        Part copy = part;
+        copy.name += other_name, part.name += name;
+        copy.mesh = std::move(other), copy.changed = true;
+        others_.emplace_back(static_cast<std::size_t>(&part - scene_.parts.data()), std::move(copy));
+    }
+    /// Puts them into the scene.
+    void insert() {
+        for (std::size_t k = others_.size(); k-- > 0;)
+            scene_.parts.insert(scene_.parts.begin() + static_cast<std::ptrdiff_t>(others_[k].first) + 1,
+                                std::move(others_[k].second));
+        others_.clear();
+    }
+
+  private:
+    Scene& scene_;
+    std::vector<std::pair<std::size_t, Part>> others_; ///< behind which part, and the part
+};
+
+} // namespace facetmill
