@@ -29,11 +29,13 @@ MoveSize move_size(const std::vector<Vec3>& before, const std::vector<Vec3>& aft
                    const Transform& to_world = {});
 
 /// Area and, when closed, signed volume, in world space; n-gons as fans from their first corner. Closed is
-/// decided by a 64-bit sum of hashed directed edges, which is zero when they cancel. O(corners), parallel.
+/// decided by a 64-bit sum of hashed directed edges, which is zero when they cancel, unless it is known.
+/// O(corners), parallel.
 struct SurfaceSize {
     double area = 0;
     std::optional<double> volume;
 };
-SurfaceSize surface_size(const Mesh& mesh, const Transform& to_world = {});
+SurfaceSize surface_size(const Mesh& mesh, const Transform& to_world = {},
+                         std::optional<bool> closed = std::nullopt);
 
 } // namespace facetmill

@@ -20,6 +20,10 @@ void add_face(Sums& sums, const Mesh& mesh, Index f, const Transform& to_world, 
         sums.area += length(normal) / 2;
         sums.volume += dot(first, normal) / 6;
     }
+}
+
+void add_boundary(Sums& sums, const Mesh& mesh, Index f) {
+    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
     for (Index c = begin, last = end - 1; c < end; last = c++) {
         const std::uint64_t from = mesh.vertex(last), to = mesh.vertex(c);
         const std::uint64_t edge = hashed(std::min(from, to), std::max(from, to));
@@ -29,22 +33,24 @@ void add_face(Sums& sums, const Mesh& mesh, Index f, const Transform& to_world, 
 
 } // namespace
 
-SurfaceSize surface_size(const Mesh& mesh, const Transform& to_world) {
+SurfaceSize surface_size(const Mesh& mesh, const Transform& to_world, std::optional<bool> closed) {
     const Vec3 origin = to_world.point(box_of(mesh.positions).centre());
     const bool usable = is_finite(origin);
     const Sums sums = parallel_reduce(
         mesh.face_count(), Sums{},
         [&](std::size_t begin, std::size_t end) {
             Sums s;
-            for (std::size_t f = begin; f < end; ++f)
-                add_face(s, mesh, static_cast<Index>(f), to_world, usable ? origin : Vec3{});
+            for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                add_face(s, mesh, f, to_world, usable ? origin : Vec3{});
+                if (!closed) add_boundary(s, mesh, f);
+            }
             return s;
         },
         [](Sums a, const Sums& b) {
             return Sums{a.area + b.area, a.volume + b.volume, a.boundary + b.boundary};
         });
     SurfaceSize size{sums.area, {}};
-    if (sums.boundary == 0 && mesh.face_count() > 0)
+    if (closed.value_or(sums.boundary == 0) && mesh.face_count() > 0)
         size.volume = to_world.determinant() < 0 ? -sums.volume : sums.volume;
     return size;
 }

@@ -29,13 +29,14 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context) {
         RelaxResult r = relax(std::move(part.mesh), settings);
         part.mesh = std::move(r.mesh);
         context.ledger(part, r.fates);
-        Json entry = {{"part", part.name},
-                      {"iterations", r.iterations},
-                      {"moved_vertices", r.moved},
-                      {"held_vertices", r.held},
-                      {"largest_move", r.largest_move},
-                      {"before", size_json(before)},
-                      {"after", size_json(surface_size(part.mesh, settings.to_world))}};
+        Json entry = {
+            {"part", part.name},
+            {"iterations", r.iterations},
+            {"moved_vertices", r.moved},
+            {"held_vertices", r.held},
+            {"largest_move", r.largest_move},
+            {"before", size_json(before)},
+            {"after", size_json(surface_size(part.mesh, settings.to_world, before.volume.has_value()))}};
         if (o.until) entry["last_move"] = r.last_move, entry["settled"] = r.settled;
         if (o.until && !r.settled && r.iterations > 0)
             context.warn("W-RELAX-STOPPED",
