@@ -104,8 +104,7 @@ struct AvoidResult {
 /// each place.
 ///
 /// Only faces of one sheet are kept apart. Throws limit (E-LIMIT) when more than most_pairs pairs of a sheet
-/// meet before: they could not all be exempt. A round looks at that many new pairs; what is left comes in the
-/// next one.
+/// meet before: they could not all be exempt.
 AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look = false,
                        std::size_t most_pairs = std::size_t{8} << 20);
 

@@ -54,35 +54,44 @@ class TestSheet {
             const double share = share_of(levels[places_[from]]);
             mesh_.positions[v] = share == 0 ? before_[from] : rounded(start + moves[from] * share);
         });
-        // Pairs that were not listed may be of faces that this round leaves alone.
-        if (!unlisted_) touched_.assign(mesh_.face_count(), changed.empty());
+        touched_.assign(mesh_.face_count(), changed.empty());
         parallel_for(changed.empty() ? 0 : touched_.size(), [&](std::size_t f) {
             for (const Index v : mesh_.face_wedges(static_cast<Index>(f)))
                 if (changed[places_[v]]) touched_[f] = 1;
         });
     }
 
-    /// The new pairs among faces that were touched; a face that lost its area is a pair with itself.
-    std::vector<std::pair<Index, Index>> trouble() {
+    /// The new pairs among faces that were touched, as many as are listed; a face that lost its area is a
+    /// pair with itself.
+    std::vector<std::pair<Index, Index>> new_pairs() const {
         // With so many listed, one new pair at least is among them when there is any.
-        auto found = find(touched_, exempt_.size() + most_pairs_);
-        auto& pairs = found.pairs;
-        unlisted_ = found.count > pairs.size();
+        auto pairs = find(touched_, exempt_.size() + most_pairs_).pairs;
         std::erase_if(pairs,
                       [&](const auto& p) { return std::binary_search(exempt_.begin(), exempt_.end(), p); });
         for (Index f = 0; f < touched_.size(); ++f)
             if (touched_[f] && !flat_[f] && is_flat(f)) pairs.emplace_back(f, f);
-        return std::move(pairs);
+        return pairs;
     }
 
-    /// Marks the places of the faces; with around, of all faces that touch these.
-    void mark(const std::vector<std::pair<Index, Index>>& pairs, bool around,
-              std::vector<std::uint8_t>& marked) const {
+    /// [faces] Those of all new pairs among faces that were touched.
+    std::vector<std::uint8_t> in_trouble() const {
+        auto faces = self_intersecting_faces(mesh_, touched_, exempt_);
+        parallel_for(faces.size(), [&](std::size_t f) {
+            if (touched_[f] && !flat_[f] && is_flat(static_cast<Index>(f))) faces[f] = 1;
+        });
+        return faces;
+    }
+
+    /// Marks the places of the faces; with around, of all faces that touch these. Whether there are any.
+    bool mark(const std::vector<std::uint8_t>& faces, bool around, std::vector<std::uint8_t>& marked) const {
         std::vector<std::uint8_t> mine(mesh_.positions.size());
         const auto mark_face = [&](Index f) {
             for (const Index v : mesh_.face_wedges(f)) mine[v] = 1;
         };
-        for (const auto& [a, b] : pairs) mark_face(a), mark_face(b);
+        bool any = false;
+        for (Index f = 0; f < faces.size(); ++f)
+            if (faces[f]) mark_face(f), any = true;
+        if (!any) return false;
         if (around) {
             const std::vector<std::uint8_t> inner = mine;
             for (Index f = 0; f < mesh_.face_count(); ++f)
@@ -94,6 +103,7 @@ class TestSheet {
         }
         for (std::size_t v = 0; v < mine.size(); ++v)
             if (mine[v]) marked[places_[v]] = 1;
+        return true;
     }
 
     const Vec3& position(std::size_t vertex) const { return mesh_.positions[first_[vertex]]; }
@@ -142,7 +152,6 @@ class TestSheet {
     const CrumpleSheet& sheet_;
     const std::vector<Index>& places_;
     std::size_t most_pairs_;
-    bool unlisted_ = false;                       ///< the last search found more pairs than it listed
     std::vector<Vec3> before_;                    ///< [vertices] rounded
     std::vector<Index> first_;                    ///< [vertices]
     Mesh mesh_;                                   ///< corners go to the first of equal vertices
@@ -156,6 +165,15 @@ bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& l
     for (std::size_t p = 0; p < marked.size(); ++p)
         if (marked[p] && levels[p] < last_level) ++levels[p], any = true;
     return any;
+}
+
+/// What the full moves would make.
+void look(const std::vector<TestSheet>& tests, AvoidResult& result) {
+    for (std::size_t s = 0; s < tests.size(); ++s) {
+        const auto pairs = tests[s].new_pairs();
+        if (result.found == 0 && !pairs.empty()) result.first = pairs.front(), result.first_sheet = s;
+        result.found += pairs.size();
+    }
 }
 
 } // namespace
@@ -173,26 +191,19 @@ AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look, std::size
         result.exempt += tests.back().exempt();
         tests.back().place(levels, {});
     }
-    while (true) {
+    look(tests, result);
+    result.left = only_look ? result.found : 0;
+    while (!only_look && result.found > 0) {
         std::vector<std::uint8_t> marked(levels.size());
         bool more = false;
-        for (std::size_t s = 0; s < tests.size(); ++s) {
-            const auto pairs = tests[s].trouble();
-            if (pairs.empty()) continue;
-            if (result.rounds == 0) {
-                if (result.found == 0) result.first = pairs.front(), result.first_sheet = s;
-                result.found += pairs.size();
-            }
-            more = true;
-            tests[s].mark(pairs, result.rounds >= patient_rounds, marked);
-        }
-        if (!more || only_look) break;
+        for (const TestSheet& test : tests)
+            more |= test.mark(test.in_trouble(), result.rounds >= patient_rounds, marked);
+        if (!more) break;
         ++result.rounds;
         if (!lower(marked, levels)) // where nothing moves, all pairs were there before
             throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that stay where they are came to meet");
         for (auto& test : tests) test.place(levels, marked);
     }
-    result.left = only_look ? result.found : 0;
     for (std::size_t s = 0; s < sheets.size(); ++s) {
         auto& positions = sheets[s].mesh->positions;
         for (std::size_t v = 0; v < positions.size(); ++v) ++result.shares[levels[places.of_vertex[s][v]]];

@@ -84,6 +84,39 @@ TEST_CASE("the limit bounds the list and not the count", "[geometry]") {
     CHECK(few.pairs == Pairs(all.pairs.begin(), all.pairs.begin() + 7));
 }
 
+TEST_CASE("the faces of all pairs but the exempt ones are flagged", "[geometry]") {
+    const Mesh mesh = snapped(shapes::torus(24, 16), 0.37);
+    const Pairs all = find_self_intersections(mesh, everything).pairs;
+    REQUIRE(all.size() > 20);
+    std::vector<std::uint8_t> among(mesh.face_count());
+    for (Index f = 0; f < mesh.face_count(); f += 3) among[f] = 1;
+    for (const std::size_t spared : {std::size_t{0}, std::size_t{1}, all.size() / 2, all.size()}) {
+        const std::span<const std::pair<Index, Index>> exempt(all.data(), spared);
+        std::vector<std::uint8_t> wanted(mesh.face_count()), wanted_among(mesh.face_count());
+        for (std::size_t i = spared; i < all.size(); ++i) {
+            const auto [f, g] = all[i];
+            wanted[f] = wanted[g] = 1;
+            if (among[f] || among[g]) wanted_among[f] = wanted_among[g] = 1;
+        }
+        for (int i = 0; i < 5; ++i) {
+            CHECK(self_intersecting_faces(mesh, {}, exempt) == wanted);
+            CHECK(self_intersecting_faces(mesh, among, exempt) == wanted_among);
+        }
+    }
+}
+
+TEST_CASE("the first of very many pairs are listed", "[geometry]") {
+    Mesh heap; // of triangles around one point, each through all others
+    for (int i = 0; i < 120; ++i)
+        for (const Vec3& p : {Vec3{1, 0, 0.001 * i}, Vec3{-1, 1, -0.002 * i}, Vec3{-1, -1, 0.0005 * i * i}})
+            heap.corners.push_back(static_cast<Index>(heap.positions.size())), heap.positions.push_back(p);
+    const auto all = find_self_intersections(heap, everything);
+    REQUIRE(all.pairs.size() > 5000);
+    const auto some = find_self_intersections(heap, {.limit = 100});
+    CHECK(some.count == all.count);
+    CHECK(some.pairs == Pairs(all.pairs.begin(), all.pairs.begin() + 100));
+}
+
 TEST_CASE("self-intersections agree with CGAL's", "[geometry]") {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         for (const Mesh& mesh :

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 namespace facetmill {
 
@@ -66,6 +67,15 @@ struct First {
         ++count;
         if (limit == 0) return;
         pairs.push_back(pair);
+        trim(limit);
+    }
+    void add(const First& others, std::size_t limit) {
+        count += others.count;
+        pairs.insert(pairs.end(), others.pairs.begin(), others.pairs.end());
+        trim(limit);
+    }
+    /// keep(limit) once there are twice as many, so that it costs little for each.
+    void trim(std::size_t limit) {
         if (pairs.size() / 2 >= limit && pairs.size() >= 4096) keep(limit);
     }
     /// Drops all but the first `limit`, in no order.
@@ -80,8 +90,8 @@ struct First {
 /// The triangles to test, those of a polygon one by one.
 class Search {
   public:
-    Search(const Mesh& mesh, const SelfIntersectionSettings& settings)
-        : surface_(surface_of(mesh)), pairs_(boxes(), among(settings)) {
+    Search(const Mesh& mesh, const std::vector<std::uint8_t>& among)
+        : surface_(surface_of(mesh)), pairs_(boxes(), of_triangles(among)) {
         facets_.resize(pairs_.items().size());
         parallel_for(facets_.size(), [&](std::size_t i) {
             const Index t = pairs_.items()[i];
@@ -101,9 +111,7 @@ class Search {
                     found.add(std::minmax(facets_[i].face, facets_[j].face), kept);
             },
             [&](First a, const First& b) {
-                a.count += b.count;
-                a.pairs.insert(a.pairs.end(), b.pairs.begin(), b.pairs.end());
-                a.keep(kept);
+                a.add(b, kept);
                 return a;
             });
         std::sort(all.pairs.begin(), all.pairs.end());
@@ -113,6 +121,25 @@ class Search {
         }
         all.pairs.resize(std::min(limit, all.pairs.size()));
         return {all.count, std::move(all.pairs)};
+    }
+
+    std::vector<std::uint8_t> faces(std::size_t count,
+                                    std::span<const std::pair<Index, Index>> exempt) const {
+        std::vector<std::uint8_t> known(count);
+        const auto flag = [&](Index f) { return std::atomic_ref(known[f]); };
+        constexpr auto relaxed = std::memory_order_relaxed;
+        struct Nothing {};
+        pairs_.reduce(
+            Nothing{},
+            [&](Nothing&, std::size_t i, std::size_t j) {
+                const auto [f, g] = std::minmax(facets_[i].face, facets_[j].face);
+                if (flag(f).load(relaxed) && flag(g).load(relaxed)) return;
+                if (!facets_meet(facets_[i], facets_[j])) return;
+                if (std::binary_search(exempt.begin(), exempt.end(), std::pair{f, g})) return;
+                flag(f).store(1, relaxed), flag(g).store(1, relaxed);
+            },
+            [](Nothing, Nothing) { return Nothing{}; });
+        return known;
     }
 
   private:
@@ -127,10 +154,10 @@ class Search {
     }
 
     /// Of triangles, from that of faces.
-    std::vector<std::uint8_t> among(const SelfIntersectionSettings& settings) const {
-        if (settings.among.empty() || surface_.faces.empty()) return settings.among;
+    std::vector<std::uint8_t> of_triangles(const std::vector<std::uint8_t>& among) const {
+        if (among.empty() || surface_.faces.empty()) return among;
         std::vector<std::uint8_t> flags(surface_.size());
-        for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = settings.among[surface_.face(t)];
+        for (std::size_t t = 0; t < flags.size(); ++t) flags[t] = among[surface_.face(t)];
         return flags;
     }
 
@@ -155,7 +182,12 @@ class Search {
 } // namespace
 
 SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings) {
-    return Search(mesh, settings).run(settings.limit);
+    return Search(mesh, settings.among).run(settings.limit);
+}
+
+std::vector<std::uint8_t> self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
+                                                  std::span<const std::pair<Index, Index>> exempt) {
+    return Search(mesh, among).faces(mesh.face_count(), exempt);
 }
 
 } // namespace facetmill
