@@ -6,6 +6,8 @@
 #include "support/failure.hpp"
 #include "support/measure.hpp"
 
+#include <set>
+
 using namespace facetmill;
 
 namespace {
@@ -265,4 +267,39 @@ TEST_CASE("both sides of several planes are refused", "[geometry]") {
           "usage [E-PLANE] keeping both sides takes exactly one plane | clip once for every plane, or keep "
           "the front "
           "or the back");
+}
+
+TEST_CASE("skin weights sum to one after a cut, of no more joints than before", "[geometry]") {
+    Mesh skinned = shapes::icosphere(3);
+    std::vector<std::uint8_t> joints;
+    std::vector<double> weights;
+    for (Index w = 0; w < skinned.wedge_count(); ++w) // ends of an edge share some joints and not others
+        for (int k = 0; k < 4; ++k) {
+            joints.push_back(static_cast<std::uint8_t>((w % 7 + 3 * k) % 20));
+            weights.push_back((k + 1) / 10.0);
+        }
+    skinned.attributes.push_back({"JOINTS_0", Domain::wedge, Role::joints, 4, false, joints});
+    skinned.attributes.push_back({"WEIGHTS_0", Domain::wedge, Role::weights, 4, false, weights});
+    ClipSettings settings = at_plane({{1, 0.7, 0.3}, {0.1, 0.2, 0.05}, 0}, true);
+    settings.keep = Keep::both;
+    const ClipResult r = clip(skinned, settings);
+    std::size_t mixed = 0;
+    for (const Mesh* mesh : {&r.front, &r.back}) {
+        const Attribute &joint = *mesh->find("JOINTS_0", Domain::wedge),
+                        &weight = *mesh->find("WEIGHTS_0", Domain::wedge);
+        REQUIRE(joint.components == 4);
+        for (Index w = 0; w < mesh->wedge_count(); ++w) {
+            double sum = 0;
+            std::set<double> given;
+            for (int k = 0; k < 4; ++k) {
+                CHECK(weight.value(w, k) >= 0);
+                sum += weight.value(w, k);
+                if (weight.value(w, k) > 0) given.insert(joint.value(w, k));
+            }
+            CHECK(sum == Approx(1).epsilon(1e-12));
+            CHECK(given.size() == 4); // no joint twice
+            mixed += weight.value(w, 0) != 0.1;
+        }
+    }
+    CHECK(mixed > 100);
 }
