@@ -1,5 +1,6 @@
 #include "base/spelling.hpp"
 #include "io/convert.hpp"
+#include "io/draco/draco.hpp"
 #include "io/read_back.hpp"
 #include "stage/convention_option.hpp"
 #include "stage/stage.hpp"
@@ -12,10 +13,12 @@ namespace facetmill {
 
 namespace {
 
+constexpr int usual_bits = 14; // of Draco positions
+
 struct DracoOptions {
     bool on = true;
-    std::int64_t position_bits = 14, normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12,
-                 speed = 3;
+    std::optional<std::int64_t> position_bits;
+    std::int64_t normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12, speed = 3;
 };
 
 enum class Precision { single, full };
@@ -32,7 +35,8 @@ struct WriteOptions {
 
 void declare_draco(Declare<DracoOptions>& d) {
     d.option("position_bits", &DracoOptions::position_bits,
-             "Bits of each coordinate: the largest side is cut into 2^bits - 1 steps (a count).")
+             "Bits of each coordinate: the largest side is cut into 2^bits - 1 steps (a count); unset, the "
+             "fewest from 14 to 24 at which no two vertices fall together, or 14 where 24 are too few.")
         .between(1, 30);
     d.option("normal_bits", &DracoOptions::normal_bits, "Bits of normals (a count).").between(1, 30);
     d.option("uv_bits", &DracoOptions::uv_bits, "Bits of texture coordinates (a count).").between(1, 30);
@@ -145,7 +149,7 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
     s.title = title_of(target);
     if (o.draco && o.draco->on)
         s.draco = {.on = true,
-                   .position_bits = static_cast<int>(o.draco->position_bits),
+                   .position_bits = static_cast<int>(o.draco->position_bits.value_or(usual_bits)),
                    .normal_bits = static_cast<int>(o.draco->normal_bits),
                    .uv_bits = static_cast<int>(o.draco->uv_bits),
                    .colour_bits = static_cast<int>(o.draco->colour_bits),
@@ -153,6 +157,34 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
                    .speed = static_cast<int>(o.draco->speed)};
     s.draco.on |= codec.name == "drc";
     return s;
+}
+
+/// The positions of all parts in the world, as a plain Draco file has them.
+Mesh in_one(const Scene& scene) {
+    Mesh all;
+    for (const Part& part : scene.parts)
+        for (const Vec3& p : part.mesh.positions) all.positions.push_back(part.transform.point(p));
+    return all;
+}
+
+/// Bits of position for a file that is compressed by Draco: those given, or as many as keep vertices apart.
+void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
+                 Context& context) {
+    if (!s.draco.on) return;
+    const char* why = "as given";
+    if (!o.draco || !o.draco->position_bits) {
+        std::optional<int> most = usual_bits;
+        const auto look = [&](const Mesh& mesh) {
+            if (most) most = io::bits_that_keep_apart(mesh, *most);
+        };
+        if (codec.name == "drc")
+            look(in_one(scene));
+        else
+            for (const Part& part : scene.parts) look(part.mesh);
+        s.draco.position_bits = most.value_or(usual_bits);
+        why = most ? "the fewest from 14 that keep vertices apart" : "24 would not keep all vertices apart";
+    }
+    context.result()["draco"] = {{"position_bits", s.draco.position_bits}, {"why", why}};
 }
 
 /// Converts to the file's convention, which the option or else the format says.
@@ -237,7 +269,8 @@ Scene run(Scene scene, const WriteOptions& o, Context& context) {
                     context.where());
     to_convention(out, o, *codec, context);
     const std::filesystem::path target = context.places().output(o.path.text);
-    const io::WriteSettings settings = settings_of(o, *codec, target);
+    io::WriteSettings settings = settings_of(o, *codec, target);
+    choose_bits(settings, o, *codec, out, context);
     const io::Written written = codec->write(out, settings);
     for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.ledger(out.parts.front(), written.fates);

@@ -123,6 +123,32 @@ TEST_CASE("write stages a file, reads it back, and passes the scene on as it was
     CHECK(again.scene.bounds().max == Vec3{3000, 1000, 0});
 }
 
+TEST_CASE("write takes as many Draco bits as keep vertices apart", "[stages]") {
+    Bench b;
+    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    b.scene.parts.emplace_back().mesh = shapes::icosphere(2);
+    Mesh crumb = shapes::icosphere(2); // finer than a step of 14 bits
+    for (Vec3& p : crumb.positions) p = p * 1e-4 + Vec3{0.9, 0.9, 0.9};
+    append(b.scene.parts[0].mesh, crumb);
+    for (const char* path : {"a.glb", "a.drc"}) {
+        b.run("write", options({{"path", path}, {"draco", "true"}}));
+        CHECK(b.record.warnings.empty());
+        CHECK(b.record.result["draco"]["position_bits"].get<int>() > 14);
+        CHECK(b.state.record.outputs.back().read_back.dump().find(R"("closed":true,"edge_manifold":true)") !=
+              std::string::npos);
+    }
+    std::vector<Value::Entry> given{{"path", {}, Value::scalar("b.glb")},
+                                    {"draco", {}, options({{"position_bits", "14"}})}};
+    b.run("write", Value::map(std::move(given)));
+    REQUIRE(b.record.warnings.size() == 1);
+    CHECK(b.record.warnings[0].id == "W-ROUNDED");
+    CHECK(b.record.result["draco"]["why"] == "as given");
+
+    b.scene.parts[0].mesh = shapes::icosphere(2); // 14 are enough for most
+    b.run("write", options({{"path", "c.glb"}, {"draco", "true"}}));
+    CHECK(b.record.result["draco"]["position_bits"] == 14);
+}
+
 TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
     Bench b;
     Mesh& mesh = b.scene.parts.emplace_back().mesh;
