@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <span>
-#include <unordered_map>
 
 namespace facetmill {
 
@@ -66,22 +65,6 @@ bool may_share(const Mesh& mesh, const EdgeTable& edges) {
 
 std::vector<Index> faces_of_corners(const Mesh& mesh) {
     return mesh.all_triangles() ? std::vector<Index>{} : corner_faces(mesh);
-}
-
-std::uint64_t key_of(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
-
-std::uint64_t diagonal_of(const Mesh& mesh, Index f, bool second) {
-    const Index c = mesh.face_begin(f) + second;
-    return key_of(mesh.vertex(c), mesh.vertex(c + 2));
-}
-
-/// How often each of the keys that come more than once does.
-std::unordered_map<std::uint64_t, int> repeated_keys(std::vector<std::uint64_t> keys) {
-    radix_sort(keys, [](std::uint64_t k) { return k; });
-    std::unordered_map<std::uint64_t, int> found;
-    for (std::size_t i = 1; i < keys.size(); ++i)
-        if (keys[i] == keys[i - 1]) ++found.emplace(keys[i], 1).first->second;
-    return found;
 }
 
 /// Whether the triangle of three points looks the other way than the normal.
@@ -150,43 +133,6 @@ std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vec
             return found;
         },
         [](std::size_t a, std::size_t b) { return a + b; });
-}
-
-QuadCuts quad_cuts(const Mesh& mesh) {
-    QuadCuts cuts;
-    cuts.at_second.resize(mesh.face_count());
-    parallel_for(mesh.face_count(), [&](std::size_t f) {
-        if (mesh.face_size(static_cast<Index>(f)) == 4)
-            cuts.at_second[f] = quad_diagonals(mesh, static_cast<Index>(f)).cut_at_second;
-    });
-    std::vector<std::uint64_t> keys;
-    for (const auto& [low, high] : build_edges(mesh).edges) keys.push_back(key_of(low, high));
-    const std::size_t old = keys.size();
-    for (Index f = 0; f < mesh.face_count(); ++f)
-        if (mesh.face_size(f) == 4) keys.push_back(diagonal_of(mesh, f, cuts.at_second[f]));
-    auto taken = repeated_keys(keys);
-    if (taken.empty()) return cuts;
-    std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(old));
-    std::sort(keys.begin() + static_cast<std::ptrdiff_t>(old), keys.end());
-    const auto is_free = [&](std::uint64_t key) {
-        const auto half = keys.begin() + static_cast<std::ptrdiff_t>(old);
-        return !taken.contains(key) && !std::binary_search(keys.begin(), half, key) &&
-               !std::binary_search(half, keys.end(), key);
-    };
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        if (mesh.face_size(f) != 4) continue;
-        const auto mine = taken.find(diagonal_of(mesh, f, cuts.at_second[f]));
-        if (mine == taken.end() || mine->second < 2) continue;
-        const QuadDiagonals quad = quad_diagonals(mesh, f);
-        const std::uint64_t other = diagonal_of(mesh, f, !cuts.at_second[f]);
-        if (!quad.first || !quad.second || !is_free(other)) {
-            ++cuts.coinciding;
-            continue;
-        }
-        --mine->second, taken.emplace(other, 1);
-        cuts.at_second[f] = !cuts.at_second[f];
-    }
-    return cuts;
 }
 
 std::size_t folding_faces(const Mesh& mesh, SplitMethod method) {

@@ -3,6 +3,7 @@
 // that their pieces do not fit into. For the methods of split.
 
 #include "geometry/split.hpp"
+#include "mesh/quad_diagonal.hpp"
 #include "mesh/topology.hpp"
 
 namespace facetmill {
@@ -14,15 +15,6 @@ std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edge
 /// How many vertices have such corners of two triangles at least, one of whose edges is marked (no marks: all
 /// are): there the new edges of the triangles coincide.
 std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks);
-
-/// The diagonal of every quad, 1: from its second corner. Each is the one that triangulated takes, unless
-/// that joins two vertices that an edge or an earlier quad's diagonal joins already while the other one is
-/// sound and free. coinciding: quads where neither was free.
-struct QuadCuts {
-    std::vector<std::uint8_t> at_second; ///< [faces]
-    std::size_t coinciding = 0;
-};
-QuadCuts quad_cuts(const Mesh& mesh);
 
 /// How many faces have a piece that looks the other way than the face: not convex ones where grid, halve or
 /// varignon cut between edges; those that the centre of their corners does not see all of where a method cuts

@@ -4,6 +4,7 @@
 #include "base/predicates.hpp"
 #include "geometry/triangulate_rings.hpp"
 #include "mesh/lineage.hpp"
+#include "mesh/quad_diagonal.hpp"
 
 namespace facetmill {
 
@@ -36,7 +37,7 @@ bool in_sector(const Vec2& p, const Vec2& out, const Vec2& x, const Vec2& in) {
 /// Cuts one face after the other, with room that is used again.
 class FaceCutter {
   public:
-    explicit FaceCutter(const Mesh& mesh) : mesh_(mesh) {}
+    FaceCutter(const Mesh& mesh, const QuadCuts& quads) : mesh_(mesh), quads_(quads) {}
 
     enum class How { whole, cut, fan };
     std::vector<Triangle> triangles;
@@ -47,7 +48,7 @@ class FaceCutter {
         if (n == 3) return triangles.push_back({0, 1, 2}), How::whole;
         gather(mesh_, f, corners_);
         flat_ = polygon::flattened(corners_);
-        if (n == 4 && polygon::is_convex(flat_)) return quad(), How::cut;
+        if (n == 4 && polygon::is_convex(flat_)) return quad(f), How::cut;
         if (delaunay()) return How::cut;
         triangles.clear();
         for (Index i = 1; i + 1 < n; ++i) triangles.push_back({0, i, i + 1});
@@ -55,9 +56,8 @@ class FaceCutter {
     }
 
   private:
-    void quad() {
-        const Vec3 d0 = corners_[2] - corners_[0], d1 = corners_[3] - corners_[1];
-        if (dot(d1, d1) < dot(d0, d0))
+    void quad(Index f) {
+        if (quads_.at_second[f])
             triangles = {{1, 2, 3}, {1, 3, 0}};
         else
             triangles = {{0, 1, 2}, {0, 2, 3}};
@@ -84,6 +84,7 @@ class FaceCutter {
     }
 
     const Mesh& mesh_;
+    const QuadCuts& quads_;
     std::vector<Vec3> corners_;
     std::vector<Vec2> flat_;
 };
@@ -151,6 +152,7 @@ TriangulateResult triangulate(const Mesh& mesh) {
     std::vector<Index> first(mesh.face_count());
     for (Index f = 0; f < first.size(); ++f) first[f] = mesh.face_size(f) - 2;
     const Index count = exclusive_scan(first);
+    const QuadCuts quads = mesh.all_triangles() ? QuadCuts{} : quad_cuts(mesh);
     Mesh& out = result.mesh;
     out.positions = mesh.positions;
     out.wedge_vertex = mesh.wedge_vertex;
@@ -165,7 +167,7 @@ TriangulateResult triangulate(const Mesh& mesh) {
         mesh.face_count(), Counts{},
         [&](std::size_t begin, std::size_t end) {
             Counts here;
-            FaceCutter cutter(mesh);
+            FaceCutter cutter(mesh, quads);
             for (std::size_t i = begin; i < end; ++i) {
                 const auto f = static_cast<Index>(i);
                 const auto how = cutter.cut(f);

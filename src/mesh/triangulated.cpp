@@ -101,15 +101,15 @@ class EarClipper {
     std::vector<Index> next_, previous_, reflex_;
 };
 
-/// Calls out(Triangle) for the triangles of face f: always its size less two.
+/// Calls out(Triangle) for the triangles of face f: always its size less two. at_second: of a quad.
 template <class Out>
-void cut_face(const Mesh& mesh, Index f, Out&& out) {
+void cut_face(const Mesh& mesh, Index f, bool at_second, Out&& out) {
     const Index n = mesh.face_size(f);
     const auto fan = [&](Index from) {
         for (Index i = 1; i + 1 < n; ++i) out(Triangle{from, (from + i) % n, (from + i + 1) % n});
     };
     if (n == 3) return fan(0);
-    if (n == 4) return fan(quad_diagonals(mesh, f).cut_at_second ? 1 : 0);
+    if (n == 4) return fan(at_second ? 1 : 0);
     const auto points = flattened(mesh, f);
     constexpr Index tried = 16; // each trial is linear; ears do what fans cannot
     for (Index from = 0; from < std::min(n, tried); ++from)
@@ -118,18 +118,6 @@ void cut_face(const Mesh& mesh, Index f, Out&& out) {
 }
 
 } // namespace
-
-QuadDiagonals quad_diagonals(const Mesh& mesh, Index f) {
-    const Index c = mesh.face_begin(f);
-    const Vec3 &p0 = mesh.point(c), &p1 = mesh.point(c + 1), &p2 = mesh.point(c + 2), &p3 = mesh.point(c + 3);
-    const auto agree = [](const Vec3& a, const Vec3& b) { return dot(a, b) > 0; };
-    QuadDiagonals quad;
-    quad.first = agree(cross(p1 - p0, p2 - p0), cross(p2 - p0, p3 - p0));
-    quad.second = agree(cross(p2 - p1, p3 - p1), cross(p3 - p1, p0 - p1));
-    const Vec3 d0 = p2 - p0, d1 = p3 - p1;
-    quad.cut_at_second = quad.concave() ? quad.second : dot(d1, d1) < dot(d0, d0);
-    return quad;
-}
 
 Mesh triangulated(const Mesh& mesh) {
     if (mesh.all_triangles()) return mesh;
@@ -140,6 +128,7 @@ Mesh triangulated(const Mesh& mesh) {
         first[f] = n < 3 ? 0 : n - 2;
     });
     const Index triangles = exclusive_scan(first);
+    const QuadCuts cuts = quad_cuts(mesh);
     Mesh result;
     result.positions = mesh.positions;
     result.wedge_vertex = mesh.wedge_vertex;
@@ -153,7 +142,7 @@ Mesh triangulated(const Mesh& mesh) {
             const auto f = static_cast<Index>(i);
             if (mesh.face_size(f) < 3) return;
             Index at = first[f];
-            cut_face(mesh, f, [&](const Triangle& t) {
+            cut_face(mesh, f, cuts.at_second[f], [&](const Triangle& t) {
                 parent[at] = f;
                 for (std::size_t k = 0; k < 3; ++k)
                     result.corners[std::size_t{at} * 3 + k] = mesh.corners[mesh.face_begin(f) + t[k]];

@@ -106,7 +106,7 @@ TEST_CASE("quads that share two edges stay manifold with varignon and diagonal",
     const Mesh mesh = pocket();
     const auto before = test::count(mesh);
     REQUIRE(before.crowded == 0);
-    REQUIRE(test::count(triangulated(mesh)).crowded == 1); // what both shorter diagonals would make
+    CHECK(test::count(triangulated(mesh)).crowded == 0); // one of two diagonals in one place is turned
     for (const auto method : {SplitMethod::varignon, SplitMethod::diagonal}) {
         const SplitResult r = split(mesh, {method, 1});
         const auto after = test::count(r.mesh);

@@ -47,6 +47,21 @@ bool all_forward(const Mesh& mesh) {
 
 } // namespace
 
+TEST_CASE("quads that share two edges are cut so that their halves do not coincide", "[geometry]") {
+    // A cushion: two quads back to back on the same four vertices, the shorter diagonal the same.
+    Mesh cushion;
+    cushion.positions = {{0, 0, 0}, {2, 0, 0.1}, {2.2, 1, 0}, {0, 1, 0.1}};
+    add_face(cushion, std::vector<Index>{0, 1, 2, 3});
+    add_face(cushion, std::vector<Index>{3, 2, 1, 0});
+    for (const Mesh& cut : {triangulated(cushion), triangulate(cushion).mesh}) {
+        CHECK(cut.face_count() == 4);
+        const Properties p = inspect(cut);
+        CHECK(p.closed);
+        CHECK(p.edge_manifold);
+        CHECK(p.duplicate_faces == 0);
+    }
+}
+
 TEST_CASE("every kind of face becomes its corners less two triangles", "[geometry]") {
     for (const auto& ring :
          {samples::square(0, 0, 2), samples::l_shape(), samples::regular(9, 1), samples::keyhole()}) {
