@@ -79,8 +79,13 @@ class Tiler {
         else
             for (const Vec3& p : mesh.positions) add(settings_.to_world.point(p));
         Range r{std::floor((least - a.origin) / a.size), std::ceil((most - a.origin) / a.size) - 1};
-        if (!(r.high - r.low < static_cast<double>(settings_.limit) && std::fabs(r.low) < 1e9 &&
-              std::fabs(r.high) < 1e9))
+        if (!(std::fabs(r.low) < 1e9 && std::fabs(r.high) < 1e9) && r.high - r.low < 1e9)
+            throw Error(ErrorKind::limit, "E-TILE",
+                        fmt::format("a part lies {:.3g} tiles from the grid's origin along one axis, and at "
+                                    "most 1e+09 are counted",
+                                    std::max(std::fabs(r.low), std::fabs(r.high))),
+                        "choose a nearer origin, or a larger size");
+        if (!(r.high - r.low < static_cast<double>(settings_.limit)))
             throw Error(ErrorKind::limit, "E-TILE",
                         fmt::format("a part would be cut into about {:.3g} rows of tiles along one axis",
                                     r.high - r.low + 1),

@@ -15,7 +15,9 @@ void declare_hatch(Declare<HatchOption>& d) {
 
 polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene, Context& context) {
     const double spacing = context.resolve(option.spacing, scene, "hatch.spacing");
-    if (!(spacing > 0)) throw Error(ErrorKind::usage, "E-HATCH", "the spacing of 'hatch' is 0 in this scene");
+    if (!(spacing > 0))
+        throw Error(ErrorKind::stage, "E-HATCH", "the spacing of 'hatch' comes to 0 in this scene",
+                    "its box has no extent: give a length in scene units");
     return {.spacing = spacing,
             .direction = {cosine(option.angle.radians), sine(option.angle.radians)},
             .keep = option.keep};

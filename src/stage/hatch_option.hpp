@@ -16,7 +16,7 @@ struct HatchOption {
 /// Declares spacing (primary), angle and keep.
 void declare_hatch(Declare<HatchOption>& d);
 
-/// The lines for a scene: each section of a stack gets the same ones. Throws usage (E-HATCH) for a spacing
+/// The lines for a scene: each section of a stack gets the same ones. Throws stage (E-HATCH) for a spacing
 /// that comes to 0.
 polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene, Context& context);
 

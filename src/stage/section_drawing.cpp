@@ -34,7 +34,7 @@ Stack stack_for(const Scene& scene, const Plane& plane, const std::optional<Leng
     std::optional<double> every;
     if (distance) every = context.resolve(*distance, scene, "every");
     if (every && !(*every > 0))
-        throw Error(ErrorKind::usage, "E-SECTION", "'every' must be above zero, and it is 0 in this scene",
+        throw Error(ErrorKind::stage, "E-SECTION", "'every' must be above zero, and it is 0 in this scene",
                     "give a length in scene units, or count");
     Extent extent;
     for (const Part& part : scene.parts)

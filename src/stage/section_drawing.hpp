@@ -8,7 +8,7 @@
 namespace facetmill {
 
 /// The planes: one alone without distance and count, else as geometry/section_stack says over the extent of
-/// the parts selected. Throws usage (E-SECTION) for a distance that comes to 0, and what stack_of throws.
+/// the parts selected. Throws stage (E-SECTION) for a distance that comes to 0, and what stack_of throws.
 Stack stack_for(const Scene& scene, const Plane& plane, const std::optional<Length>& distance,
                 const std::optional<std::int64_t>& count, Context& context);
 

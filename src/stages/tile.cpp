@@ -59,7 +59,11 @@ std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context&
     std::vector<TileAxis> axes;
     for (std::size_t i = 0; i < o.axes.size(); ++i) {
         const Length& size = o.size[o.size.size() > 1 ? i : 0];
-        axes.push_back({static_cast<std::size_t>(o.axes[i] - 'x'), context.resolve(size, scene, "size"),
+        const double edge = context.resolve(size, scene, "size");
+        if (!(edge > 0))
+            throw Error(ErrorKind::stage, "E-TILE", "the size of the tiles comes to 0 in this scene",
+                        "its box has no extent: give a length in scene units");
+        axes.push_back({static_cast<std::size_t>(o.axes[i] - 'x'), edge,
                         o.origin.empty() ? 0 : context.resolve(o.origin[i], scene, "origin")});
     }
     return axes;

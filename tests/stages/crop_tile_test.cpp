@@ -55,6 +55,21 @@ TEST_CASE("tile refuses what makes no grid", "[stages]") {
           "usage [E-TILE] tile: 3 sizes for 2 axes | give one size, or one for each axis");
     CHECK(refusal("tile", "{size: 1, origin: [1]}") ==
           "usage [E-TILE] tile: 1 origins for 2 axes | give one for each axis");
+    CHECK(
+        refusal("tile", "{size: 0.1, origin: [1e15, 0]}") ==
+        "limit [E-TILE] a part lies 1e+16 tiles from the grid's origin along one axis, and at most 1e+09 are "
+        "counted | choose a nearer origin, or a larger size");
+    Mesh point = shapes::cube();
+    for (Vec3& p : point.positions) p = {1, 2, 3};
+    CHECK(test::failure([&] {
+              run_stage("tile", "10%", scene_of(point));
+          }).starts_with("stage [E-TILE] the size of the tiles comes to 0 in this scene"));
+    CHECK(test::failure([&] {
+              run_stage("section", "{hatch: 1%}", scene_of(point));
+          }).starts_with("stage [E-HATCH] the spacing of 'hatch' comes to 0 in this scene"));
+    CHECK(test::failure([&] {
+              run_stage("section", "{every: 1%}", scene_of(point));
+          }).starts_with("stage [E-SECTION] 'every' must be above zero"));
 }
 
 TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
