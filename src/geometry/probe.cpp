@@ -80,4 +80,21 @@ std::vector<PointAnswer> probe_points(const FaceTree& tree, std::span<const Vec3
     return answers;
 }
 
+HitLists hits_away(const FaceTree& tree, std::span<const Line> lines) {
+    const HitLists all = hits_of(tree, lines, true);
+    HitLists away;
+    away.offsets.push_back(0);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const auto touches = [&](const Hit& hit) {
+            const auto& t = tree.triangles[hit.triangle];
+            return t.a == lines[i].from || t.b == lines[i].from || t.c == lines[i].from;
+        };
+        const auto hits = all.of(i);
+        const auto first = std::find_if_not(hits.begin(), hits.end(), touches);
+        if (first != hits.end()) away.hits.push_back(*first);
+        away.offsets.push_back(away.hits.size());
+    }
+    return away;
+}
+
 } // namespace facetmill

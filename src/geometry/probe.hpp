@@ -24,4 +24,8 @@ struct PointSettings {
 std::vector<PointAnswer> probe_points(const FaceTree& tree, std::span<const Vec3> points,
                                       const PointSettings& settings = {});
 
+/// Of each line the first hit on a face that does not touch its start: what rays from the vertices of the
+/// surface itself meet. In parallel, the same for any number of threads.
+HitLists hits_away(const FaceTree& tree, std::span<const Line> lines);
+
 } // namespace facetmill

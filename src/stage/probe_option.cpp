@@ -1,77 +1,62 @@
 #include "stage/probe_option.hpp"
 
-#include "base/hash.hpp"
-#include "io/csv.hpp"
-
 #include <fmt/format.h>
 
-namespace facetmill::rows {
+namespace facetmill {
 
-namespace {
-
-bool refuse(const Value& value, std::size_t columns, Problems& problems) {
-    problems.add(
-        value.mark, "E-TYPE",
-        fmt::format("expected rows of {} numbers or a .csv file, found {}", columns, value.described()),
-        columns == 3 ? "[0, 0, 1], [[0, 0, 1], [1, 2, 3]] or points.csv" : "");
-    return false;
+void declare_probe(Declare<ProbeOptions>& d) {
+    d.option("points", &ProbeOptions::points,
+             "Points to ask about: rows of x, y, z in world space, or a CSV file with such rows.")
+        .primary();
+    d.option("points_of", &ProbeOptions::points_of,
+             "Parts, by name or glob, whose vertices are the points; the other parts are the surface.");
+    d.option("segments", &ProbeOptions::segments,
+             "Rows of six numbers, from x, y, z to x, y, z; or a CSV file.");
+    d.option("rays", &ProbeOptions::rays,
+             "Rows of six numbers, a start x, y, z and a direction x, y, z; or a CSV file.");
+    d.option("along", &ProbeOptions::along,
+             "An attribute of three numbers, NORMAL for one: a ray from every vertex along it. The faces at "
+             "the vertex "
+             "do not count.");
+    d.option("reverse", &ProbeOptions::reverse,
+             "Rays of along run the other way; along NORMAL that is inward, and measures the wall.");
+    d.choice<ProbeOptions::Hits>(
+        "hits", &ProbeOptions::hits,
+        {{"all", ProbeOptions::Hits::all, "every face that a segment or ray meets, in order"},
+         {"first", ProbeOptions::Hits::first, "the first one"}},
+        "What is asked of segments and rays; along always takes the first.");
+    d.option("face", &ProbeOptions::face,
+             "Segments and rays are held against this face alone (a number, parts counted through), and each "
+             "is told as "
+             "hit, parallel, in plane, outside segment or outside facet.")
+        .at_least(0);
+    d.option("on", &ProbeOptions::on,
+             "Up to this distance a point lies on the surface (a length). 0: exactly on it.")
+        .at_least(0);
+    d.option("list", &ProbeOptions::list, "How many answers the report lists (a count); files hold all.")
+        .between(0, 1e6);
+    d.option("to", &ProbeOptions::to,
+             "Writes all answers there: .csv or .json; - is JSON on standard output.");
+    d.exactly_one({"points", "points_of", "segments", "rays", "along"});
 }
 
-bool parse_row(const Value& value, std::size_t columns, std::vector<double>& numbers, Problems& problems) {
-    if (!value.is_list() || value.items.size() != columns) return refuse(value, columns, problems);
-    for (const auto& item : value.items) {
-        if (item.deferred) {
-            numbers.push_back(0);
-            continue;
-        }
-        const auto number = item.as_real();
-        if (!number) return refuse(item, columns, problems);
-        numbers.push_back(*number);
-    }
-    return true;
+bool is_csv(const PathText& path) { return path.text.ends_with(".csv"); }
+
+StageFiles probe_files(const ProbeOptions& o) {
+    StageFiles files{{}, o.to};
+    if (o.points && !o.points->file.empty()) files.inputs.push_back({o.points->file});
+    for (const auto* lines : {&o.segments, &o.rays})
+        if (*lines && !(*lines)->file.empty()) files.inputs.push_back({(*lines)->file});
+    return files;
 }
 
-/// "1,2,3", as a one-liner has it.
-bool parse_text(const Value& value, std::size_t columns, std::vector<double>& numbers, Problems& problems) {
-    const std::string& text = value.text;
-    try {
-        const auto bytes = std::as_bytes(std::span(text));
-        numbers = io::read_table(io::Input::of("", {bytes.begin(), bytes.end()}), columns);
-    } catch (const Error&) {
-        return refuse(value, columns, problems);
-    }
-    return numbers.size() == columns || refuse(value, columns, problems);
+void verify_probe(const ProbeOptions& o, const Value& given, Problems& problems) {
+    for (const auto& path : o.to)
+        if (path.text != "-" && !is_csv(path) && !path.text.ends_with(".json"))
+            problems.add(given.mark, "E-FORMAT", fmt::format("probe cannot write '{}'", path.text),
+                         "a name that ends in .csv or .json");
+    if (o.face && !o.segments && !o.rays)
+        problems.add(given.mark, "E-FACE", "'face' goes with segments or rays");
 }
 
-} // namespace
-
-bool parse(const Value& value, std::size_t columns, std::vector<double>& numbers, std::string& file,
-           Problems& problems) {
-    if (value.deferred) return true;
-    if (value.is_scalar() && value.text.find(',') == std::string::npos)
-        return file = value.text, !file.empty();
-    if (value.is_scalar()) return parse_text(value, columns, numbers, problems);
-    if (!value.is_list() || value.items.empty()) return refuse(value, columns, problems);
-    if (!value.items[0].is_list()) return parse_row(value, columns, numbers, problems);
-    bool good = true;
-    for (const auto& item : value.items) good &= parse_row(item, columns, numbers, problems);
-    return good;
-}
-
-Json schema(std::size_t columns) {
-    const Json row = {{"type", "array"},
-                      {"items", {{"type", Json::array({"number", "string"})}}},
-                      {"minItems", columns},
-                      {"maxItems", columns}};
-    return {{"anyOf",
-             Json::array({row, {{"type", "array"}, {"items", row}, {"minItems", 1}}, {{"type", "string"}}})}};
-}
-
-std::vector<double> read(const std::string& file, std::size_t columns, Context& context) {
-    const io::Input input = io::Input::open(context.places().input(file));
-    auto& inputs = context.run().record.inputs;
-    inputs.push_back({file, input.stored().size(), sha256(input.stored()), {}});
-    return io::read_table(input, columns);
-}
-
-} // namespace facetmill::rows
+} // namespace facetmill

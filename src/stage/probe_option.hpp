@@ -1,47 +1,31 @@
 #pragma once
-// Rows of numbers as users give them: written out, or in a CSV file.
+// The options of probe.
 
-#include "options/declaration.hpp"
-#include "stage/context.hpp"
+#include "stage/rows_option.hpp"
+#include "stage/stage.hpp"
 
 namespace facetmill {
 
-/// Rows of N numbers.
-template <std::size_t N>
-struct Rows {
-    std::vector<std::array<double, N>> rows;
-    std::string file; ///< read when the stage runs; empty: rows are all
+struct ProbeOptions {
+    enum class Hits { first, all };
+
+    std::optional<Rows<3>> points;
+    std::optional<Rows<6>> segments, rays;
+    std::vector<std::string> points_of;
+    std::string along;
+    bool reverse = false;
+    Hits hits = Hits::all;
+    std::optional<std::int64_t> face;
+    Length on = Length::scene(0);
+    std::int64_t list = 1000;
+    std::vector<PathText> to;
 };
 
-namespace rows {
-bool parse(const Value& value, std::size_t columns, std::vector<double>& numbers, std::string& file,
-           Problems& problems);
-Json schema(std::size_t columns);
-/// The numbers of the file, row by row; it is an input of the run.
-std::vector<double> read(const std::string& file, std::size_t columns, Context& context);
-} // namespace rows
-
-template <std::size_t N>
-std::vector<std::array<double, N>> rows_of(const std::vector<double>& numbers) {
-    std::vector<std::array<double, N>> rows(numbers.size() / N);
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        for (std::size_t k = 0; k < N; ++k) rows[i][k] = numbers[N * i + k];
-    return rows;
-}
-
-template <std::size_t N>
-struct OptionType<Rows<N>> {
-    static constexpr const char* name = "rows";
-    static constexpr Dimension dimension = Dimension::none;
-    static bool parse(const Value& value, Rows<N>& out, Problems& problems) {
-        std::vector<double> numbers;
-        if (!rows::parse(value, N, numbers, out.file, problems)) return false;
-        out.rows = rows_of<N>(numbers);
-        return true;
-    }
-    static std::string print(const Rows<N>&) { return ""; }
-    static Json schema() { return rows::schema(N); }
-    static std::optional<double> magnitude(const Rows<N>&) { return {}; }
-};
+void declare_probe(Declare<ProbeOptions>& d);
+/// What the declaration cannot say: names of outputs, and options that do not go together.
+void verify_probe(const ProbeOptions& o, const Value& given, Problems& problems);
+/// What is read and written.
+StageFiles probe_files(const ProbeOptions& o);
+bool is_csv(const PathText& path);
 
 } // namespace facetmill

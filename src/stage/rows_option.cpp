@@ -1,0 +1,77 @@
+#include "stage/rows_option.hpp"
+
+#include "base/hash.hpp"
+#include "io/csv.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::rows {
+
+namespace {
+
+bool refuse(const Value& value, std::size_t columns, Problems& problems) {
+    problems.add(
+        value.mark, "E-TYPE",
+        fmt::format("expected rows of {} numbers or a .csv file, found {}", columns, value.described()),
+        columns == 3 ? "[0, 0, 1], [[0, 0, 1], [1, 2, 3]] or points.csv" : "");
+    return false;
+}
+
+bool parse_row(const Value& value, std::size_t columns, std::vector<double>& numbers, Problems& problems) {
+    if (!value.is_list() || value.items.size() != columns) return refuse(value, columns, problems);
+    for (const auto& item : value.items) {
+        if (item.deferred) {
+            numbers.push_back(0);
+            continue;
+        }
+        const auto number = item.as_real();
+        if (!number) return refuse(item, columns, problems);
+        numbers.push_back(*number);
+    }
+    return true;
+}
+
+/// "1,2,3", as a one-liner has it.
+bool parse_text(const Value& value, std::size_t columns, std::vector<double>& numbers, Problems& problems) {
+    const std::string& text = value.text;
+    try {
+        const auto bytes = std::as_bytes(std::span(text));
+        numbers = io::read_table(io::Input::of("", {bytes.begin(), bytes.end()}), columns);
+    } catch (const Error&) {
+        return refuse(value, columns, problems);
+    }
+    return numbers.size() == columns || refuse(value, columns, problems);
+}
+
+} // namespace
+
+bool parse(const Value& value, std::size_t columns, std::vector<double>& numbers, std::string& file,
+           Problems& problems) {
+    if (value.deferred) return true;
+    if (value.is_scalar() && value.text.find(',') == std::string::npos)
+        return file = value.text, !file.empty();
+    if (value.is_scalar()) return parse_text(value, columns, numbers, problems);
+    if (!value.is_list() || value.items.empty()) return refuse(value, columns, problems);
+    if (!value.items[0].is_list()) return parse_row(value, columns, numbers, problems);
+    bool good = true;
+    for (const auto& item : value.items) good &= parse_row(item, columns, numbers, problems);
+    return good;
+}
+
+Json schema(std::size_t columns) {
+    const Json row = {{"type", "array"},
+                      {"items", {{"type", Json::array({"number", "string"})}}},
+                      {"minItems", columns},
+                      {"maxItems", columns}};
+    return {{"anyOf",
+             Json::array({row, {{"type", "array"}, {"items", row}, {"minItems", 1}}, {{"type", "string"}}})}};
+}
+
+std::vector<double> read(const std::string& file, std::size_t columns, Context& context) {
+    const io::Input input = io::Input::open(context.places().input(file));
+    auto& inputs = context.run().record.inputs;
+    inputs.push_back({file, input.stored().size(), sha256(input.stored()), {}});
+    return io::read_table(input, columns);
+}
+
+} // namespace facetmill::rows
