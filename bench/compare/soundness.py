@@ -16,6 +16,7 @@ import time
 import numpy as np
 import pymeshlab
 import trimesh
+from trimesh.ray import ray_pyembree
 
 
 def timed(work, times=1):
@@ -49,10 +50,15 @@ def random_points(mesh, count):
 
 
 def first_hits(mesh, points):
-    """trimesh with Embree: the first triangle on a ray from each point to the next."""
-    rays = trimesh.ray.ray_pyembree.RayMeshIntersector(mesh)
-    rays.intersects_first(points[:1], points[1:2] - points[:1])  # builds its tree
-    return timed(lambda: rays.intersects_first(points[:-1], np.diff(points, axis=0)))
+    """trimesh with Embree, of the ray from each point to the next: the first triangle alone, and with the point.
+
+    Both in one thread, as trimesh has it, and without the parameter along the ray, which facetmill gives too.
+    """
+    rays = ray_pyembree.RayMeshIntersector(mesh)
+    ways = np.diff(points, axis=0)
+    rays.intersects_first(points[:1], ways[:1])  # builds its tree
+    return (timed(lambda: rays.intersects_first(points[:-1], ways)),
+            timed(lambda: rays.intersects_location(points[:-1], ways, multiple_hits=False)))
 
 
 def lab(path):
@@ -81,7 +87,9 @@ def main():
     measures, crossing = lab(path)
     peer("pymeshlab topology", measures, "inspect_scan")
     peer("pymeshlab self-intersections", crossing, "self_intersections_scan")
-    peer("trimesh and Embree, a million rays", first_hits(mesh, random_points(mesh, 1000001)), "segments/first/0")
+    triangles, points = first_hits(mesh, random_points(mesh, 1000001))
+    peer("trimesh, Embree: triangle", triangles, "segments/first/0")
+    peer("trimesh, Embree: and point", points, "segments/first/0")
     for name, against in (("self_intersections_scan_cgal", "self_intersections_scan"),
                           ("closest_points/near/cgal/1", "closest_points/near/1"),
                           ("segments/any/cgal", "segments/first/0")):

@@ -107,6 +107,10 @@ TEST_CASE("lists of hits are those of single lines, whatever the number of threa
     std::vector<Line> lines;
     for (std::uint64_t k = 0; k < 2000; ++k)
         lines.push_back({random_point(2, 2 * k), random_point(2, 2 * k + 1)});
+    // Lines that are none, among the others and all of a piece at the end.
+    const double infinity = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 40; ++i) lines[37 * i].to = i % 2 ? lines[37 * i].from : Vec3{infinity, 0, 0};
+    lines.resize(lines.size() + 600, {{9, 9, 9}, {9, 9, 9}});
     const HitLists all = hits_of(tree, lines, true);
     set_threads(1);
     const HitLists first = hits_of(tree, lines, false);
