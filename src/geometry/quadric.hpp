@@ -14,14 +14,6 @@ struct Quadric {
     double c = 0;
     double weight = 0;
 
-    /// weight times the squared distance to the plane through the point with that unit normal.
-    static Quadric plane(const Vec3& n, const Vec3& through, double weight) {
-        const double d = dot(n, through);
-        const Vec3 wn = n * weight;
-        return {wn.x * n.x, wn.x * n.y, wn.x * n.z,     wn.y * n.y, wn.y * n.z,
-                wn.z * n.z, wn * d,     weight * d * d, weight};
-    }
-
     Quadric& operator+=(const Quadric& q) {
         xx += q.xx, xy += q.xy, xz += q.xz, yy += q.yy, yz += q.yz, zz += q.zz;
         b += q.b, c += q.c, weight += q.weight;

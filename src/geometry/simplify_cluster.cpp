@@ -94,11 +94,16 @@ double place_cell(const Work& s, const Grid& grid, std::span<const Keyed> member
     if (members.size() == 1) return at = s.at[root], 0;
     Quadric q;
     Vec3 mean;
-    for (const Keyed& k : members) q += s.quadrics[k.vertex], mean += s.at[k.vertex];
+    const Vec3 from = s.at[root];
+    for (const Keyed& k : members) {
+        const Vec3 off = s.at[k.vertex] - from;
+        q += seen_from(s.quadrics[k.vertex], -off), mean += off;
+    }
     mean = mean / static_cast<double>(members.size());
-    at = q.weight > 0 ? q.least(mean, pull * q.weight) : mean;
-    if (!grid.together(at, s.at[root])) at = is_finite(mean) ? mean : s.at[root];
-    return q.weight > 0 ? q(at) / q.weight : 0;
+    const Vec3 best = q.weight > 0 ? q.least(mean, pull * q.weight) : mean;
+    at = from + best;
+    if (!grid.together(at, from)) at = is_finite(mean) ? from + mean : from;
+    return q.weight > 0 ? q(at - from) / q.weight : 0;
 }
 
 /// A face by its three roots, from the lowest on; turned: against the order of the other two.
@@ -214,7 +219,7 @@ void settle(Work& s, const Clusters& c) {
         if (s.moved[v]) s.at[v] = c.at[v];
     s.tri.swap(tri), s.wedge.swap(wedge), s.face_source.swap(source);
     s.flags.clear(), s.cost.clear(), s.quadrics.clear(), s.kind.clear(), s.touched.clear(), s.stirred.clear(),
-        s.mark.clear(), s.limit.clear();
+        s.limit.clear();
     s.fields = {};
     build_lists(s);
     s.live_faces = s.face_slots();

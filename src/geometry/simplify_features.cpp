@@ -38,12 +38,36 @@ class Classifier {
         : s_(s), borders_(borders), lock_(lock) {}
 
     Kind operator()(Index v) {
+        if (is_plain(v)) return Kind::smooth;
         const Kind kind = look(v);
         if (kind == Kind::pinned) flag_open_edges(v);
         return kind;
     }
 
   private:
+    static constexpr std::size_t few = 16;
+
+    /// Whether a few faces close around the vertex with no feature between them, as at most vertices: told
+    /// without sorting.
+    bool is_plain(Index v) {
+        std::array<Spoke, few> ring;
+        std::size_t size = 0;
+        for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
+            const Index out = s_.tri[after(c)], in = s_.tri[before(c)];
+            if (size == few || out == v || in == v || out == in) return false;
+            ring[size++] = {out, in, c};
+        }
+        std::array<std::size_t, few> then{};
+        for (std::size_t i = 0; i < size; ++i) {
+            then[i] = few;
+            for (std::size_t j = 0; j < size; ++j) then[i] = ring[j].out == ring[i].in ? j : then[i];
+            if (then[i] == few || differ(ring[i], ring[then[i]])) return false;
+        }
+        std::size_t steps = 1; // of a round that meets all of them: then no neighbour is met twice
+        for (std::size_t i = then[0]; i != 0 && steps <= size; i = then[i]) ++steps;
+        return steps == size;
+    }
+
     Kind look(Index v) {
         spokes_.clear(), ins_.clear();
         for (Index c = s_.first[v]; c != none; c = s_.next[c]) {

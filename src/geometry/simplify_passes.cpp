@@ -1,37 +1,37 @@
-// The order of collapses. One pass: costs of all edges whose ends changed, a global threshold on them, and
-// the edges below it collapsed in order of cost, none twice at a vertex. Costs depend on an edge's two ends
-// only, and an untouched end keeps its quadric, so every cost is exact when its edge collapses.
+// The order of collapses. One pass: a global threshold on the costs of all edges, and the edges below it
+// collapsed in order of cost, none twice at a vertex, each followed by the costs of the edges that changed.
+// Costs depend on an edge's two ends only, and an untouched end keeps its quadric, so every cost is exact
+// when its edge collapses.
 //
 // The vertices are cut into stretches of the Morton curve. Edges whose surroundings lie within one stretch
-// are collapsed by one worker per stretch, the few others by one worker after them: no two workers ever touch
-// the same vertex or face, and the result does not depend on how many there are.
+// are collapsed by one worker per stretch; then those that reach into one other, by one worker per pair of
+// stretches, pairs without a stretch in common at a time; then the few others by one worker. No two workers
+// ever touch the same vertex or face, and the result does not depend on how many there are: a worker asks
+// about the surroundings of vertices of its stretches only, and changes nothing unless all of them are there.
+// Where an edge of the surroundings leads from one stretch to another, only the worker of both ever changes
+// its ends and their faces.
 
 #include "base/parallel.hpp"
-#include "geometry/simplify_work.hpp"
+#include "geometry/simplify_price.hpp"
+#include "geometry/simplify_share.hpp"
 
-#include <atomic>
 #include <bit>
+#include <numeric>
 
 namespace facetmill::simplification {
 
 namespace {
 
-constexpr std::size_t face_chunk = 1 << 15;
-constexpr int stretch_bits = 13;           // vertices of a stretch: 8192
-constexpr double share_per_pass = 1.0 / 8; // of the live edges that are candidates in one pass
-constexpr int bucket_shift = 19;           // of a cost's bits: 16 buckets per power of two
-constexpr std::uint8_t refused =
-    blocked_topology | blocked_flip | blocked_error; // as their surroundings were
-constexpr std::size_t last_span =
-    32; // buckets: near the goal, no edge goes before one of a quarter of its cost
-constexpr std::size_t buckets = std::size_t{0x7f800000u >> bucket_shift} + 1;
-
-/// Edges by cost; equal ones in an order that is spread over the surface.
-struct Candidate {
-    std::uint64_t key;
-    Index corner;
-    bool operator<(const Candidate& other) const { return key < other.key; }
-};
+constexpr std::size_t face_chunk = 1 << 13;
+constexpr int stretches_bits = 4;                    // of a small surface: 8 to 16 stretches
+constexpr int least_stretch = 11, most_stretch = 13; // bits: 2048 to 8192 vertices
+constexpr double share_per_pass = 1.0 / 8;           // of the live edges that are candidates in one pass
+constexpr int bucket_shift = 19;                     // of a cost's bits: 16 buckets per power of two
+// Buckets: near the goal, no edge goes before one of a quarter of its cost.
+constexpr std::size_t last_span = 32;
+// As their surroundings were.
+constexpr std::uint8_t refused = blocked_topology | blocked_flip | blocked_error;
+constexpr std::size_t buckets = 0x7f800000u >> bucket_shift;
 
 std::uint32_t bits_of(float cost) { return std::bit_cast<std::uint32_t>(cost); }
 /// A bijection of 32 bits, so that keys stay distinct.
@@ -40,7 +40,7 @@ std::uint32_t scattered(std::uint32_t x) {
     x = (x ^ (x >> 15)) * 0x846ca68bu;
     return x ^ (x >> 16);
 }
-Candidate candidate(float cost, Index c) { return {(std::uint64_t{bits_of(cost)} << 32) | scattered(c), c}; }
+std::uint64_t key_of(float cost, Index c) { return (std::uint64_t{bits_of(cost)} << 32) | scattered(c); }
 
 class Passes {
   public:
@@ -50,7 +50,10 @@ class Passes {
         refresh_all_ = true;
         while (!met()) {
             ++out_.passes, ++s_.pass;
-            price();
+            if (std::exchange(refresh_all_, false))
+                price_all(s_);
+            else
+                price_stirred();
             const std::uint32_t limit = threshold();
             if (limit == 0) {
                 if (!try_again()) return out_.stuck = true, out_;
@@ -71,133 +74,144 @@ class Passes {
     }
     /// So near the goal that one worker finishes, in strict order.
     bool last_steps() const { return remaining() <= std::max<std::size_t>(256, s_.live_faces / 64); }
-    Index stretch(Index v) const { return v >> stretch_bits; }
+    Index stretch(Index v) const { return v >> stretch_bits_; }
 
-    /// Costs of the edges that changed since the last pass, a histogram of all costs, and the vertices that
-    /// have a neighbour in another stretch.
-    void price() {
-        outer_.assign(s_.vertex_slots(), 0);
-        histograms_.assign((s_.face_slots() + face_chunk - 1) / face_chunk, {});
+    /// Edges that were refused and have a neighbour that changed in the last pass are asked again.
+    void price_stirred() {
         parallel_chunks(
-            s_.face_slots(),
+            s_.flags.size(),
             [&](std::size_t begin, std::size_t end) {
-                auto& histogram = histograms_[begin / face_chunk];
-                histogram.assign(buckets, 0);
-                for (std::size_t f = begin; f < end; ++f)
-                    if (s_.live(static_cast<Index>(f))) price_face(static_cast<Index>(f), histogram);
+                Pricer pricer(s_);
+                for (auto c = static_cast<Index>(begin); c < end; ++c) {
+                    if (!(s_.flags[c] & refused) || !s_.live(c / 3)) continue;
+                    const Index u = s_.tri[c], v = s_.tri[after(c)];
+                    if (s_.stirred[u] == s_.pass - 1 || s_.stirred[v] == s_.pass - 1) pricer(c, u, v);
+                }
+                pricer.finish();
             },
-            face_chunk);
-        refresh_all_ = false;
-    }
-
-    void price_face(Index f, std::vector<Index>& histogram) {
-        const Index a = s_.tri[3 * f], b = s_.tri[3 * f + 1], c = s_.tri[3 * f + 2];
-        if (stretch(a) != stretch(b) || stretch(b) != stretch(c))
-            for (const Index v : {a, b, c}) std::atomic_ref(outer_[v]).store(1, std::memory_order_relaxed);
-        for (Index corner = 3 * f; corner < 3 * f + 3; ++corner) {
-            const Index u = s_.tri[corner], v = s_.tri[after(corner)];
-            if (refresh_all_ || changed(s_.touched, u, v) ||
-                ((s_.flags[corner] & refused) && changed(s_.stirred, u, v)))
-                price_edge(corner, u, v);
-            if (s_.cost[corner] < never) ++histogram[bits_of(s_.cost[corner]) >> bucket_shift];
-        }
-    }
-
-    bool changed(const std::vector<std::uint32_t>& when, Index u, Index v) const {
-        return when[u] == s_.pass - 1 || when[v] == s_.pass - 1;
-    }
-
-    void price_edge(Index corner, Index u, Index v) {
-        std::uint8_t flags = s_.flags[corner] & static_cast<std::uint8_t>(~blocked);
-        s_.cost[corner] = never;
-        // The other face of the edge has the corner that runs the other way; a boundary edge has none.
-        if (u < v || (flags & boundary_edge)) {
-            const float cost = static_cast<float>(place(s_, corner, flags).cost);
-            if (cost < never)
-                s_.cost[corner] = cost; // false for what is no number too
-            else
-                flags |= blocked_border;
-        }
-        s_.flags[corner] = flags;
+            3 * face_chunk);
     }
 
     /// Bits of a cost: edges below are candidates. 0 when no edge is left.
     std::uint32_t threshold() {
-        std::size_t live = 0, below = 0;
-        std::vector<std::size_t> all(buckets);
-        for (const auto& h : histograms_)
-            for (std::size_t i = 0; i < buckets; ++i) all[i] += h[i], live += h[i];
+        const std::vector<Index> all = histogram();
+        const std::size_t live = std::accumulate(all.begin(), all.end(), std::size_t{0});
         if (live == 0) return 0;
         const auto share = static_cast<std::size_t>(static_cast<double>(live) * share_per_pass);
         const std::size_t wanted =
             last_steps() ? 4 * remaining() + 64 : std::clamp<std::size_t>(share, 64, remaining());
-        std::size_t i = 0, cheapest = buckets;
+        std::size_t below = 0, i = 0, cheapest = buckets;
         for (; i < buckets; ++i) {
             if (below > 0 && (below + all[i] > wanted || (last_steps() && i > cheapest + last_span))) break;
             if (below == 0 && all[i] > 0) cheapest = i;
             below += all[i];
         }
-        return std::min(static_cast<std::uint32_t>(i) << bucket_shift, bits_of(never));
+        return static_cast<std::uint32_t>(i) << bucket_shift;
     }
 
-    /// Sorts the edges below the threshold into the stretches and the rest.
-    void gather(std::uint32_t limit) {
-        const std::size_t chunks = histograms_.size();
-        std::vector<std::vector<Candidate>> found(chunks);
-        parallel_chunks(
-            s_.face_slots(),
+    /// How many edges have which cost.
+    std::vector<Index> histogram() const {
+        using Counts = std::vector<Index>;
+        return parallel_reduce(
+            s_.cost.size(), Counts(buckets),
             [&](std::size_t begin, std::size_t end) {
-                auto& mine = found[begin / face_chunk];
-                for (std::size_t c = 3 * begin; c < 3 * end; ++c)
-                    if (bits_of(s_.cost[c]) < limit && s_.live(static_cast<Index>(c / 3)))
-                        mine.push_back(candidate(s_.cost[c], static_cast<Index>(c)));
+                Counts counts(buckets + 1); // the last for what is never
+                for (std::size_t c = begin; c < end; ++c) ++counts[bits_of(s_.cost[c]) >> bucket_shift];
+                counts.pop_back();
+                return counts;
             },
-            face_chunk);
-        for (auto& list : inner_) list.clear();
-        inner_.resize(stretch(static_cast<Index>(s_.vertex_slots() - 1)) + 1);
-        rest_.clear();
+            [](Counts a, const Counts& b) {
+                for (std::size_t i = 0; i < buckets; ++i) a[i] += b[i];
+                return a;
+            },
+            3 * face_chunk);
+    }
+
+    /// Finds the edges below the threshold.
+    std::vector<std::vector<Candidate>> candidates(std::uint32_t limit) const {
+        std::vector<std::vector<Candidate>> found((s_.face_slots() + face_chunk - 1) / face_chunk);
+        parallel_chunks(
+            s_.cost.size(),
+            [&](std::size_t begin, std::size_t end) {
+                auto& mine = found[begin / (3 * face_chunk)];
+                for (auto c = static_cast<Index>(begin); c < end; ++c) {
+                    if (bits_of(s_.cost[c]) >= limit) continue;
+                    const Index home = stretch(s_.tri[c]);
+                    mine.push_back(
+                        {key_of(s_.cost[c], c), c, stretch(s_.tri[after(c)]) == home ? home : none});
+                }
+            },
+            3 * face_chunk);
+        return found;
+    }
+
+    /// Deals the edges below the threshold out to the stretches.
+    void gather(std::uint32_t limit) {
+        const int bits = static_cast<int>(std::bit_width(s_.vertex_slots() - 1));
+        stretch_bits_ = std::clamp(bits - stretches_bits, least_stretch, most_stretch);
+        const auto found = candidates(limit);
         std::size_t count = 0;
         for (const auto& list : found) count += list.size();
         const bool alone = count > remaining() || last_steps();
+        shares_.assign(alone ? 0 : stretch(static_cast<Index>(s_.vertex_slots() - 1)) + 1, {});
+        for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i].territory = territory(i, i);
+        crossing_.clear(), rest_ = {};
         for (const auto& list : found)
-            for (const Candidate& k : list) {
-                const Index u = s_.tri[k.corner], v = s_.tri[after(k.corner)];
-                if (alone || outer_[u] || outer_[v])
-                    rest_.push_back(k);
+            for (const Candidate& k : list)
+                if (alone)
+                    rest_.edges.push_back(k);
+                else if (k.home != none)
+                    shares_[k.home].edges.push_back(k);
                 else
-                    inner_[stretch(u)].push_back(k);
-            }
+                    crossing_.push_back(crossing(k));
     }
 
-    /// Collapses the candidates: each stretch by itself, then the rest.
+    Territory territory(std::size_t x, std::size_t y) const {
+        const auto lowest = [&](std::size_t i) { return static_cast<Index>(i << stretch_bits_); };
+        return {lowest(1), lowest(x), lowest(y)};
+    }
+
+    Crossing crossing(const Candidate& k) const {
+        const Index x = stretch(s_.tri[k.corner]), y = stretch(s_.tri[after(k.corner)]);
+        return {std::min(x, y), std::max(x, y), k};
+    }
+
+    /// Collapses the candidates: each stretch by itself, then pairs of them, then the rest.
     void commit() {
-        std::vector<Tally> tallies(inner_.size());
-        std::vector<std::uint32_t> used(inner_.size());
-        parallel_for(
-            inner_.size(), [&](std::size_t i) { used[i] = work(inner_[i], tallies[i], s_.live_faces); }, 1);
-        for (const auto u : used) s_.stamp = std::max(s_.stamp, u);
-        for (auto& tally : tallies) join(tally);
-        Tally tally;
-        s_.stamp = work(rest_, tally, remaining());
-        join(tally);
-        if (s_.stamp > UINT32_MAX / 2) s_.mark.assign(s_.mark.size(), 0), s_.stamp = 0;
+        work_all(shares_);
+        std::sort(crossing_.begin(), crossing_.end());
+        for (auto& pairs : in_turns()) work_all(pairs);
+        collapse_share(s_, rest_, goal_.error, remaining());
+        join(rest_.tally);
     }
 
-    /// Returns the first stamp that was not used.
-    std::uint32_t work(std::vector<Candidate>& list, Tally& tally, std::size_t most) {
-        std::sort(list.begin(), list.end());
-        auto rings = std::make_unique<Rings>();
-        std::uint32_t stamp = s_.stamp;
-        for (const Candidate& k : list) {
-            if (!s_.live(k.corner / 3)) continue;
-            const Index u = s_.tri[k.corner], v = s_.tri[after(k.corner)];
-            if (s_.touched[u] == s_.pass || s_.touched[v] == s_.pass) continue;
-            collapse(s_, k.corner, goal_.error, stamp += 2, *rings, tally);
-            // Two faces and one vertex a time; at a boundary one face, so the last step may need looking at
-            // again.
-            if (tally.collapses >= most) break;
+    void work_all(std::vector<Share>& shares) {
+        parallel_for(
+            shares.size(), [&](std::size_t i) { collapse_share(s_, shares[i], goal_.error, s_.live_faces); },
+            1);
+        for (Share& share : shares) {
+            join(share.tally);
+            crossing_.insert(crossing_.end(), share.crossing.begin(), share.crossing.end());
+            rest_.edges.insert(rest_.edges.end(), share.rest.begin(), share.rest.end());
         }
-        return stamp + 2;
+    }
+
+    /// Groups the crossing edges by pairs of stretches, and those into turns in which no stretch occurs
+    /// twice.
+    std::vector<std::vector<Share>> in_turns() {
+        std::vector<std::vector<Share>> turns;
+        std::vector<std::uint64_t> busy(shares_.size()); // in which turns
+        for (std::size_t i = 0; i < crossing_.size();) {
+            const auto [low, high, _] = crossing_[i];
+            const auto turn = static_cast<std::size_t>(std::countr_one(busy[low] | busy[high]));
+            std::size_t end = i;
+            while (end < crossing_.size() && crossing_[end].low == low && crossing_[end].high == high) ++end;
+            if (turn < 64 && turn >= turns.size()) turns.emplace_back();
+            auto& to = turn < 64 ? turns[turn].emplace_back(Share{territory(low, high)}) : rest_;
+            for (; i < end; ++i) to.edges.push_back(crossing_[i].edge);
+            if (turn < 64) busy[low] |= std::uint64_t{1} << turn, busy[high] |= std::uint64_t{1} << turn;
+        }
+        return turns;
     }
 
     void join(Tally& tally) {
@@ -227,10 +241,10 @@ class Passes {
     Outcome out_;
     bool refresh_all_ = false;
     std::size_t since_retry_ = 0;
-    std::vector<std::uint8_t> outer_;            // vertices with a neighbour in another stretch
-    std::vector<std::vector<Index>> histograms_; // per chunk of faces
-    std::vector<std::vector<Candidate>> inner_;  // per stretch
-    std::vector<Candidate> rest_;
+    int stretch_bits_ = 0;
+    std::vector<Share> shares_;      // per stretch
+    std::vector<Crossing> crossing_; // between two
+    Share rest_;
 };
 
 } // namespace

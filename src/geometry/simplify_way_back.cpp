@@ -86,7 +86,7 @@ void roll_back(Work& s, const Origin& o, std::size_t steps) {
     }
     s.at = m.at, s.moved = m.moved, s.source = o.source;
     s.flags.clear(), s.cost.clear(), s.quadrics.clear(), s.kind.clear(), s.touched.clear(), s.stirred.clear(),
-        s.mark.clear(), s.limit.clear();
+        s.limit.clear();
     build_lists(s);
     s.live_faces = s.face_slots();
     s.live_vertices = static_cast<std::size_t>(

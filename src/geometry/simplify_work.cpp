@@ -18,7 +18,7 @@ std::uint64_t spread(std::uint64_t x) {
 }
 
 struct Keyed {
-    std::uint64_t key;
+    std::uint32_t key;
     Index item;
 };
 
@@ -38,10 +38,11 @@ std::vector<Keyed> ordered_vertices(const Mesh& mesh, const Work& s) {
         const auto cell = [](double x) {
             return spread(static_cast<std::uint64_t>(std::clamp((x + 1) * 1024, 0.0, 2047.0)));
         };
-        order[i].key = cell(p.x) | (cell(p.y) << 1) | (cell(p.z) << 2);
+        const std::uint64_t code = cell(p.x) | (cell(p.y) << 1) | (cell(p.z) << 2); // 33 bits
+        order[i].key = static_cast<std::uint32_t>(code >> 1);
     });
     radix_sort(
-        order, [](const Keyed& k) { return k.key; }, 33);
+        order, [](const Keyed& k) { return k.key; }, 32);
     return order;
 }
 
@@ -95,7 +96,7 @@ Work build_work(const Mesh& mesh) {
         rank[order[i].item] = static_cast<Index>(i);
         s.at[i] = (mesh.positions[order[i].item] - s.centre) * s.scale;
     });
-    s.moved.resize(n), s.touched.resize(n), s.stirred.resize(n), s.mark.resize(n);
+    s.moved.resize(n), s.touched.resize(n), s.stirred.resize(n);
     const std::vector<Keyed> faces = ordered_faces(mesh, rank, n);
     s.tri.resize(3 * m), s.flags.resize(3 * m), s.cost.assign(3 * m, never), s.face_source.resize(m);
     if (mesh.has_seams()) s.wedge.resize(3 * m);
@@ -135,7 +136,7 @@ void compact(Work& s) {
     if (s.wedge.empty())
         keep(s.fields.squares, vertices), keep(s.fields.sums, vertices, 4 * s.fields.channels);
     keep(s.source, vertices), keep(s.touched, vertices), keep(s.stirred, vertices);
-    keep(s.mark, vertices), keep(s.limit, vertices);
+    keep(s.limit, vertices);
     build_lists(s);
 }
 

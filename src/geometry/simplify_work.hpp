@@ -7,8 +7,8 @@
 // vertex; its corners stay in the lists of their vertices and are skipped.
 
 #include "geometry/face_tree.hpp"
-#include "geometry/quadric.hpp"
 #include "geometry/simplify.hpp"
+#include "geometry/simplify_quadric.hpp"
 
 #include <array>
 #include <limits>
@@ -66,8 +66,8 @@ struct Work {
     std::vector<float> cost;         ///< [3 faces] cost of the edge, once per edge; never elsewhere
     std::vector<Index> face_source;  ///< [faces] face of the input
     // Vertices.
-    std::vector<Vec3> at;          ///< centred and scaled, see below
-    std::vector<Quadric> quadrics; ///< empty for shortest-edge
+    std::vector<Vec3> at;              ///< centred and scaled, see below
+    std::vector<NearQuadric> quadrics; ///< empty for shortest-edge
     Fields fields;
     std::vector<Kind> kind;
     std::vector<std::uint8_t> moved;    ///< at differs from the input's position
@@ -75,7 +75,6 @@ struct Work {
     std::vector<Index> source;          ///< vertex of the input
     std::vector<std::uint32_t> touched; ///< pass that changed the vertex last
     std::vector<std::uint32_t> stirred; ///< pass that changed a neighbour last: what was refused may do now
-    std::vector<std::uint32_t> mark;    ///< scratch of the link test
     std::vector<float> limit; ///< squared error that a collapse at the vertex stays below; empty: none
 
     /// Only where borders touch: the vertex that each wedge of the mesh was at before they were joined. Two
@@ -91,10 +90,10 @@ struct Work {
 
     std::size_t live_faces = 0, live_vertices = 0;
     bool has_features = false;
-    bool endpoints = false;            ///< a new vertex is one of the two that it replaces
-    bool allow = false;                ///< topology may change
-    std::uint32_t pass = 1, stamp = 0; ///< the last ones used, in touched and in mark
-    bool logging = false;              ///< attributes, or the way back, need to know who went into whom
+    bool endpoints = false; ///< a new vertex is one of the two that it replaces
+    bool allow = false;     ///< topology may change
+    std::uint32_t pass = 1; ///< the last one, in touched
+    bool logging = false;   ///< attributes, or the way back, need to know who went into whom
     Log log;
     std::vector<std::uint8_t> features_given; ///< [3 faces of the mesh] whether its corner's edge is a
                                               ///< feature; empty when there is none or nobody asks
@@ -127,16 +126,24 @@ void classify(Work& s, const Mesh& mesh, const SimplifyLocks& lock);
 /// Sets quadrics from the faces' planes and from the planes that hold feature edges.
 void sum_quadrics(Work& s);
 
-/// What to do with an edge.
+/// Whether an edge between vertices of these kinds may be collapsed.
+inline bool may_go(Kind u, Kind v, std::uint8_t flags) {
+    if (u == Kind::pinned || v == Kind::pinned) return false;
+    if (u == Kind::corner && v == Kind::corner) return false;
+    return u == Kind::smooth || v == Kind::smooth || (flags & feature_edge); // not across a feature
+}
+
+/// What to do with an edge that may go.
 struct Placement {
-    double cost = std::numeric_limits<double>::infinity(); ///< not finite: locked
-    double error = 0; ///< squared distance, as far as the quadric or the edge's length tells
     Vec3 at;
+    double error = 0; ///< squared distance, as far as the quadric or the edge's length tells
     bool keep_first = false, keep_second = false; ///< the new vertex is this end as it is
+    NearQuadric joined{};                         ///< of the planes of both ends, about `at`
 };
-/// Where the ends of the edge of a corner should meet, and at what cost. flags: the corner's, or those it
-/// will have.
+/// Where the ends of the edge of a corner should meet. flags: the corner's.
 Placement place(const Work& s, Index corner, std::uint8_t flags);
+/// What it costs to collapse the edge of a corner that may go.
+float cost_of(const Work& s, Index corner, std::uint8_t flags);
 
 /// Sets fields from the attributes of the mesh. normals: whether its normals mean anything.
 void sum_fields(Work& s, const Mesh& mesh, const AttributeWeights& weights, bool normals);
@@ -145,28 +152,23 @@ Quadric residual(const Fields& fields, Index a, Index b);
 /// a takes over what b has.
 void join_fields(Fields& fields, Index a, Index b);
 
-/// What a worker finds around an edge; reused, so that nothing is allocated per edge.
-struct Rings {
-    static constexpr int most = 256; ///< vertices with more faces wait until others have thinned them out
-    std::array<Index, most> a, b;    ///< live corners at the two ends
-    int a_size = 0, b_size = 0;
-    std::vector<Index> staying;     ///< a corner, at a or b, of each face around that stays
-    std::vector<Index> points;      ///< of the faces around the edge
-    std::vector<Index> taken_by;    ///< [points] which of staying takes it
-    std::vector<Vec3> places;       ///< the new vertex, and some on the faces that stay
-    std::vector<std::uint8_t> near; ///< [places] known to be near the surface that came in
-};
-
 /// Collapses that one worker makes; joined into the surface's totals afterwards.
 struct Tally {
-    std::size_t collapses = 0, faces = 0, vertices = 0, refused = 0; ///< faces and vertices that went
-    double largest = 0; ///< largest error squared, in scaled units
+    std::size_t collapses = 0, faces = 0, vertices = 0; ///< faces and vertices that went
+    double largest = 0;                                 ///< largest error squared, in scaled units
     Log log;
 };
 
-/// Collapses the edge of corner c if all guarantees hold, else blocks it and says why in its flags. stamp: a
-/// number not yet in mark for any vertex near by; stamp + 1 is used too. most: Goal::error.
-bool collapse(Work& s, Index c, double most, std::uint32_t stamp, Rings& rings, Tally& tally);
+struct Around;
+class Pricer;
+enum class Attempt {
+    done,
+    refused, ///< it would break a guarantee: the edge is blocked and its flags say why
+    outside, ///< something around the edge is beyond the territory: nothing was done
+};
+/// Collapses the edge of corner c if all guarantees hold, and prices the edges that changed. most:
+/// Goal::error. around: scratch, with the territory.
+Attempt collapse(Work& s, Index c, double most, Around& around, Pricer& pricer, Tally& tally);
 
 /// Collapses edges until at most so many faces or vertices are left, or none can go. Returns passes, fills
 /// errors.

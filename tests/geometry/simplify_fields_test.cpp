@@ -74,7 +74,8 @@ TEST_CASE("what is painted on a flat sheet is seen by the weights", "[geometry]"
     add(m, "COLOR_0", Role::colour, 3, [](const Vec3& p, double* c) { c[0] = c[1] = c[2] = bump(p); });
     const auto on = simplify(m, {.weights = {.colour = 1}, .ratio = 0.1});
     const auto without = simplify(m, {.weights = {.colour = 0}, .ratio = 0.1});
-    CHECK(on.faces_after == without.faces_after);
+    // The last collapse may take one face more than was asked for.
+    for (const auto* r : {&on, &without}) CHECK((r->faces_after == 319 || r->faces_after == 320));
     CHECK(off(m, on.mesh, "COLOR_0") < 0.25 * off(m, without.mesh, "COLOR_0"));
 }
 
