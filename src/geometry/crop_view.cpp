@@ -1,6 +1,7 @@
 #include "geometry/crop_view.hpp"
 
 #include "base/error.hpp"
+#include "base/predicates.hpp"
 #include "geometry/clip_cut.hpp"
 #include "geometry/triangulate_rings.hpp"
 
@@ -55,10 +56,26 @@ Place CropView::middle(const Mesh& mesh, Index f) const {
     return settle(is_on_outline(mesh, f, mean, face) ? Place::on_edge : inside_(mean), mesh, f);
 }
 
+/// Exactly, all of it, and seen edge-on.
+bool CropView::is_on_segment(const std::vector<Vec2>& face) const {
+    bool found = false;
+    footprint_.tree().query({face[0].x, face[0].y, face[0].x, face[0].y}, [&](Index i) {
+        const auto& e = footprint_.tree().edges()[i];
+        const auto bounds = polygon::RingTree::bounds(e);
+        found = std::all_of(face.begin(), face.end(), [&](const Vec2& p) {
+            return bounds.meets({p.x, p.y, p.x, p.y}) &&
+                   orientation_2d(e.a.x, e.a.y, e.b.x, e.b.y, p.x, p.y) == 0;
+        });
+        return !found;
+    });
+    return found;
+}
+
 /// But for the rounding of floats, of corners that are floats; a face that only reaches from segment to
 /// segment is not.
 bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
                              const std::vector<Vec2>& face) const {
+    if (is_on_segment(face)) return true;
     if (!(snap > 0)) return false;
     const auto on = [&](const Vec2& p, double distance) {
         bool found = false;

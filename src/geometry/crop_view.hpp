@@ -52,6 +52,7 @@ class CropView {
     }
 
   private:
+    bool is_on_segment(const std::vector<Vec2>& face) const;
     bool is_on_outline(const Mesh& mesh, Index f, const Vec2& mean, const std::vector<Vec2>& face) const;
     polygon::Place settle(polygon::Place place, const Mesh& mesh, Index f) const;
 

@@ -336,6 +336,36 @@ TEST_CASE("vertices on one segment that snap takes as on another as well are cou
     CHECK(crop(cube, Footprint(touched), settings).snapped == 0);
 }
 
+TEST_CASE("a convex prism cropped by its own outline is all inside", "[geometry]") {
+    std::vector<Vec2> ring;
+    for (int i = 0; i < 40; ++i) {
+        const double angle = 2 * pi * i / 40;
+        ring.push_back(Vec2{cosine(angle), sine(angle)} * 1.1);
+    }
+    Mesh prism;
+    prism.face_offsets.push_back(0);
+    for (const double z : {0.0, 1.0})
+        for (const Vec2& p : ring) prism.positions.push_back({p.x, p.y, z});
+    for (Index i = 0; i < 40; ++i) prism.corners.push_back(39 - i);
+    for (Index i = 0; i < 40; ++i) prism.corners.push_back(40 + i);
+    prism.face_offsets.insert(prism.face_offsets.end(), {40, 80});
+    for (Index i = 0; i < 40; ++i) {
+        const Index next = (i + 1) % 40;
+        for (const Index v : {i, next, next + 40, i + 40}) prism.corners.push_back(v);
+        prism.face_offsets.push_back(static_cast<Index>(prism.corners.size()));
+    }
+    REQUIRE(inspect(prism).closed);
+    CropSettings settings;
+    settings.cap = true;
+    for (const bool snap : {false, true}) {
+        settings.snap = snap;
+        const auto sides = crop_both(prism, Footprint({ring}), settings);
+        CHECK(inspect(sides[0].mesh).closed);
+        CHECK(*inspect(sides[0].mesh).volume == Approx(*inspect(prism).volume));
+        CHECK(sides[1].mesh.face_count() == 0);
+    }
+}
+
 TEST_CASE("positions in doubles are not snapped", "[geometry]") {
     Mesh cube = shapes::cube(); // reaches to 0.1, which is no float
     for (Vec3& p : cube.positions) p = p * 0.1;
