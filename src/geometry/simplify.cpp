@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/self_intersections.hpp"
+#include "geometry/simplify_prepared.hpp"
 #include "geometry/simplify_touching.hpp"
 
 namespace facetmill {
@@ -48,39 +49,6 @@ Fates all_kept(const Mesh& mesh) {
     return fates;
 }
 
-/// What the work is done on: triangles, without the seams that only normals make.
-struct Prepared {
-    std::optional<Mesh> own; ///< none: the mesh as given will do
-    NormalSeams seams;
-
-    Prepared(const Mesh& given, const SimplifySettings& settings) {
-        if (given.has_seams() && given.find("NORMAL", Domain::wedge)) {
-            seams = merge_normal_seams(own.emplace(given), settings.crease);
-            if (seams.merged == 0) own.reset();
-        }
-        if (!given.all_triangles()) own = triangulated(own ? *own : given);
-    }
-};
-
-/// Gives a flat-shaded mesh its normals back, and says what became of normals.
-void settle_normals(Mesh& mesh, const NormalSeams& seams, Fates& fates) {
-    using Shading = NormalSeams::Shading;
-    if (seams.shading == Shading::as_given) return;
-    if (seams.shading == Shading::faceted) set_facet_normals(mesh);
-    for (Fate& fate : fates) {
-        if (fate.domain != Domain::wedge) continue;
-        if (fate.attribute == "NORMAL")
-            fate = {
-                fate.attribute, fate.domain, Fate::Kind::recomputed,
-                seams.shading == Shading::faceted
-                    ? "flat shading: the normals of the new faces"
-                    : "area-weighted where seams below the crease angle were merged, interpolated elsewhere"};
-        else if (fate.attribute == "TANGENT")
-            fate = {fate.attribute, fate.domain, Fate::Kind::interpolated,
-                    "one of each merged normal seam, mixed at new elements"};
-    }
-}
-
 /// The features as they are before the first collapse, by the corners of the mesh.
 void remember_features(Work& s) {
     if (!s.has_features || !s.logging) return;
@@ -88,18 +56,6 @@ void remember_features(Work& s) {
     parallel_for(s.flags.size(), [&](std::size_t c) {
         s.features_given[3 * s.face_source[c / 3] + c % 3] = s.flags[c] & feature_edge;
     });
-}
-
-/// The locks of a mesh whose unused vertices go, if single ones are locked: numbers stay right then.
-SimplifyLocks by_used_vertices(SimplifyLocks lock, Mesh& mesh) {
-    if (lock.vertices.empty()) return lock;
-    std::vector<std::uint8_t> used(mesh.vertex_count()), locked;
-    for (Index c = 0; c < mesh.corner_count(); ++c) used[mesh.vertex(c)] = 1;
-    for (std::size_t v = 0; v < used.size(); ++v)
-        if (used[v]) locked.push_back(lock.vertices[v]);
-    drop_unused(mesh);
-    lock.vertices = std::move(locked);
-    return lock;
 }
 
 /// A mesh at work.

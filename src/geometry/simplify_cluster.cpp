@@ -2,9 +2,9 @@
 // After J. Rossignac and P. Borrel (1993) and P. Lindstrom, 'Out-of-core simplification of large polygonal
 // models' (2000).
 
+#include "geometry/simplify_cluster.hpp"
 #include "base/parallel.hpp"
 #include "geometry/simplify_judge.hpp"
-#include "geometry/simplify_work.hpp"
 
 #include <bit>
 
@@ -24,15 +24,6 @@ struct Keyed {
 /// The vertices of a cell, as a range of the sorted ones.
 struct Cell {
     std::size_t begin, end;
-};
-
-/// A grid's effect.
-struct Clusters {
-    std::vector<Index> root;  ///< of each vertex of the work: the first one in its cell
-    std::vector<Vec3> at;     ///< of roots
-    std::vector<Index> faces; ///< that stay, in order
-    std::size_t vertices = 0; ///< cells
-    double largest = 0;       ///< squared distance to the planes, the mean over a cell
 };
 
 /// The work's frame is [-1, 1] along each axis.
@@ -106,52 +97,6 @@ double place_cell(const Work& s, const Grid& grid, std::span<const Keyed> member
     return q.weight > 0 ? q(at - from) / q.weight : 0;
 }
 
-/// A face by its three roots, from the lowest on; turned: against the order of the other two.
-struct Triple {
-    Index low, middle, high;
-    bool turned;
-    Index face;
-    bool same_place(const Triple& o) const { return low == o.low && middle == o.middle && high == o.high; }
-};
-
-Triple triple_of(const Work& s, const Clusters& c, Index f) {
-    std::array<Index, 3> v{c.root[s.tri[3 * f]], c.root[s.tri[3 * f + 1]], c.root[s.tri[3 * f + 2]]};
-    std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-    const bool turned = v[1] > v[2];
-    return {v[0], std::min(v[1], v[2]), std::max(v[1], v[2]), turned, f};
-}
-
-/// Of faces in one place the first that looks to the side of the majority; one to each side when there is
-/// none.
-void keep_some(std::span<const Triple> same, std::vector<Index>& faces) {
-    const auto turned = std::count_if(same.begin(), same.end(), [](const Triple& t) { return t.turned; });
-    const auto other = static_cast<std::ptrdiff_t>(same.size()) - turned;
-    const auto first = [&](bool side) {
-        faces.push_back(
-            std::find_if(same.begin(), same.end(), [&](const Triple& t) { return t.turned == side; })->face);
-    };
-    if (turned >= other) first(true);
-    if (other >= turned) first(false);
-}
-
-void find_faces(const Work& s, Clusters& c) {
-    std::vector<Triple> triples;
-    for (Index f = 0; f < s.face_slots(); ++f) {
-        const Index x = c.root[s.tri[3 * f]], y = c.root[s.tri[3 * f + 1]], z = c.root[s.tri[3 * f + 2]];
-        if (x != y && y != z && z != x) triples.push_back(triple_of(s, c, f));
-    }
-    const int bits = std::bit_width(s.vertex_slots());
-    radix_sort( // stable: faces stay in order where all three agree
-        triples, [](const Triple& t) { return t.high; }, bits);
-    radix_sort(
-        triples, [](const Triple& t) { return (std::uint64_t{t.low} << 32) | t.middle; }, 32 + bits);
-    for (std::size_t begin = 0, end = 0; begin < triples.size(); begin = end) {
-        while (end < triples.size() && triples[end].same_place(triples[begin])) ++end;
-        keep_some({&triples[begin], end - begin}, c.faces);
-    }
-    std::sort(c.faces.begin(), c.faces.end());
-}
-
 Clusters cluster(const Work& s, const Grid& grid) {
     Clusters c;
     std::vector<Keyed> order;
@@ -171,7 +116,7 @@ Clusters cluster(const Work& s, const Grid& grid) {
             return largest;
         },
         [](double a, double b) { return std::max(a, b); });
-    find_faces(s, c);
+    keep_faces(s, c);
     return c;
 }
 
