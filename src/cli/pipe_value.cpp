@@ -31,7 +31,12 @@ Value scalar(const std::string& text, const Mark& mark) {
     return Value::scalar(percent(text), mark, text.empty());
 }
 
-Value split(const std::string& text, const Mark& mark) {
+/// "1,2,3", or "[1, 2, 3]" as help shows it.
+Value split(std::string text, const Mark& mark) {
+    if (text.starts_with('[') && text.ends_with(']') && text.find('[', 1) == text.npos) {
+        text = text.substr(1, text.size() - 2);
+        std::erase(text, ' ');
+    }
     Value list = Value::list({}, mark);
     for (std::size_t at = 0; at <= text.size();) {
         const auto end = std::min(text.find(',', at), text.size());

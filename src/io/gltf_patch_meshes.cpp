@@ -89,6 +89,14 @@ Json encoded_object(Patch& patch, Json mesh, const Part& part) {
     return mesh;
 }
 
+/// Whether the variant is a level of detail of an earlier one: it stands for the same node.
+bool is_level(const Scene& scene, const std::vector<Variant>& variants, const Variant& variant) {
+    const int node = scene.parts[variant.example].node;
+    return node >= 0 && std::any_of(variants.data(), &variant, [&](const Variant& earlier) {
+               return scene.parts[earlier.example].node == node;
+           });
+}
+
 /// All parts of one mesh of the patched document.
 void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& variants) {
     Json& meshes = patch.builder.json()["meshes"];
@@ -113,7 +121,7 @@ void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& varian
             slot_free = false;
         } else {
             variant.mesh = static_cast<int>(patch.builder.add("meshes", std::move(object)));
-            ++copies;
+            copies += !is_level(patch.scene, variants, variant);
         }
     }
     if (copies > 0)

@@ -140,6 +140,11 @@ std::string deviation_text(const Json& d) {
     return text + ") of the diagonal";
 }
 
+std::string stop_text(const std::string& stop) {
+    if (stop == spelled(Stop::nothing)) return ", nothing to do";
+    return stop == spelled(Stop::stuck) ? ", stopped above the target" : ", stopped by " + stop;
+}
+
 bool is_measured(const Json& part) {
     return part.contains("deviation") && part["deviation"]["percent"]["maximum"].is_number();
 }
@@ -161,7 +166,7 @@ std::vector<std::string> simplify_summary(const Json& result) {
         std::string line = part["part"].get<std::string>() + ": " +
                            counts_text(part["triangles_before"].get<std::uint64_t>(),
                                        part["triangles_after"].get<std::uint64_t>());
-        line += ", stopped by " + part["stopped_by"].get<std::string>();
+        line += stop_text(part["stopped_by"].get<std::string>());
         if (is_measured(part)) line += "; " + deviation_text(part["deviation"]);
         lines.push_back(std::move(line));
     }

@@ -4,9 +4,6 @@
 
 namespace facetmill {
 
-namespace {
-
-/// "1, 2, 3" or "[1, 2, 3]", as one-liners have it.
 Value split_at_commas(const Value& value) {
     std::string text = value.text;
     std::erase(text, ' ');
@@ -19,8 +16,6 @@ Value split_at_commas(const Value& value) {
     }
     return list;
 }
-
-} // namespace
 
 bool parse_numbers(const Value& value, std::span<double> out, std::string_view expected, Problems& problems) {
     if (value.deferred) return true;

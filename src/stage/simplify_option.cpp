@@ -2,6 +2,7 @@
 
 #include "base/functions.hpp"
 #include "base/spelling.hpp"
+#include "stage/numbers_option.hpp"
 
 #include <fmt/format.h>
 
@@ -26,14 +27,7 @@ bool parse_lock(const Value& v, LockOptions& out, Problems& problems) {
 bool parse_locks(const Value& value, LockOptions& out, Problems& problems) {
     if (value.deferred) return true;
     Value words = value;
-    if (value.is_scalar()) { // "boundary,seams", as the one-liner writes it
-        words = Value::list({}, value.mark);
-        for (std::size_t at = 0; at <= value.text.size();) {
-            const auto end = std::min(value.text.find(',', at), value.text.size());
-            words.items.push_back(Value::scalar(value.text.substr(at, end - at), value.mark));
-            at = end + 1;
-        }
-    }
+    if (value.is_scalar()) words = split_at_commas(value);
     bool good = words.is_list();
     if (!good) parse_lock(value, out, problems);
     for (const Value& word : words.items) good &= parse_lock(word, out, problems);
@@ -97,7 +91,8 @@ void declare_levels(Declare<LevelOptions>& d) {
         .required();
     d.shorthand("a list of ratios", {{"type", "array"}},
                 [](const Value& v, LevelOptions& out, Problems& problems) {
-                    return OptionType<std::vector<Ratio>>::parse(v, out.ratios, problems);
+                    const Value list = v.is_scalar() && !v.deferred ? split_at_commas(v) : v;
+                    return OptionType<std::vector<Ratio>>::parse(list, out.ratios, problems);
                 });
 }
 
@@ -180,6 +175,8 @@ void verify_levels(const SimplifyOptions& o, Together& together, const Mark& mar
     together.refuse(o.method == Method::cluster, "lods",
                     "lods is one chain of collapses, and cluster makes none",
                     "use another method, or one simplify stage for each level");
+    if (o.lods->ratios.empty())
+        problems.add(mark, "E-RANGE", "simplify: lods: at least one ratio", "for example [100%, 50%, 10%]");
     for (std::size_t i = 0; i < o.lods->ratios.size(); ++i) {
         const double ratio = o.lods->ratios[i].value;
         if (!(ratio > 0 && ratio <= 1))

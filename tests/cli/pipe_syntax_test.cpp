@@ -56,6 +56,8 @@ TEST_CASE("values may begin with a dash", "[cli]") {
 }
 
 TEST_CASE("dotted keys nest, vectors and lists are split at commas", "[cli]") {
+    CHECK(same("simplify --lods [50%,10%]", "[{simplify: {lods: [50%, 10%]}}]"));
+    CHECK(same("simplify --lods 50%,10%", "[{simplify: {lods: [50%, 10%]}}]"));
     CHECK(same("clip --plane.normal=0,0,1 --plane.offset 2",
                "[{clip: {plane: {normal: [0, 0, 1], offset: 2}}}]"));
     CHECK(same("relax --only head,arm* --only !hand", "[{relax: null, only: [head, arm*, '!hand']}]"));

@@ -224,6 +224,10 @@ TEST_CASE("levels of detail stand in for their node, wherever it is", "[io]") {
     // Written again as it was read, the levels are still levels; without any, that is told.
     const Json twice = written_json(again, settings);
     CHECK(twice["nodes"] == json["nodes"]);
+    Scene coarser = scene; // levels are no instances that differ
+    for (std::size_t i = 1; i < coarser.parts.size(); ++i) coarser.parts[i].mesh.positions[0].x = 0.1;
+    coarser.parts.resize(3);
+    CHECK(test::written(coarser, "glb", settings).warnings.empty());
     Scene alone = scene;
     alone.parts.resize(1);
     CHECK(test::written(alone, "glb", settings).warnings.at(0).id == "W-LODS");

@@ -6,6 +6,8 @@
 #include "support/run_stage.hpp"
 #include "support/surface.hpp"
 
+#include <fmt/format.h>
+
 using namespace facetmill;
 using test::run_stage;
 using test::scene_of;
@@ -27,6 +29,17 @@ TEST_CASE("simplify measures what it did, in the world", "[stages]") {
                     .contains("deviation"));
 }
 
+TEST_CASE("simplify says on the terminal what it did", "[stages]") {
+    const auto said = [](const char* options) {
+        return run_stage("simplify", options, scene_of(shapes::icosphere(3))).record.said.at(0);
+    };
+    CHECK(said("10%").starts_with("part: 1,280 -> 128 triangles (10 %), stopped by ratio; deviation "));
+    CHECK(said("{ratio: 10%, measure: false}") == "part: 1,280 -> 128 triangles (10 %), stopped by ratio");
+    CHECK(said("{faces: 1, measure: false}") ==
+          "part: 1,280 -> 4 triangles (0.312 %), stopped above the target");
+    CHECK(said("{faces: 5000, measure: false}") == "part: 1,280 -> 1,280 triangles (100 %), nothing to do");
+}
+
 TEST_CASE("simplify: max_error is a length in the world", "[stages]") {
     Scene scene = scene_of(shapes::icosphere(4));
     for (int i = 0; i < 3; ++i) scene.parts[0].transform.m[i][i] = 10;
@@ -39,6 +52,9 @@ TEST_CASE("simplify: max_error is a length in the world", "[stages]") {
 
 TEST_CASE("simplify: levels of detail become parts", "[stages]") {
     const auto r = run_stage("simplify", "{lods: [100%, 50%, 10%]}", scene_of(shapes::icosphere(3)));
+    for (const char* text : {"'100%,50%,10%'", "'[100%, 50%, 10%]'"}) // as one-liners have it
+        CHECK(run_stage("simplify", fmt::format("{{lods: {}}}", text), scene_of(shapes::icosphere(3)))
+                  .scene.parts.size() == 3);
     REQUIRE(r.scene.parts.size() == 3);
     CHECK(r.scene.parts[0].name == "part");
     CHECK(r.scene.parts[2].name == "part.lod2");
@@ -181,10 +197,10 @@ TEST_CASE("simplify: options that do not go together are told at once", "[stages
     CHECK(problems("{ratio: 10%, lock: {box: {min: [0, 0, 0], max: [0, 1, 1]}}}").find("E-BOX") !=
           std::string::npos);
     // A ratio that may be a count asks which.
-    for (const char* text : {"1", "5000"}) {
-        CHECK(problems(text).find("faces") != std::string::npos);
-        CHECK(problems(text).find("%") != std::string::npos);
-    }
+    CHECK(problems("1").find("write 100%, or name the option that counts (faces: 1)") != std::string::npos);
+    CHECK(problems("5000").find("a ratio has a point or a % (50%); for a count write faces: 5000") !=
+          std::string::npos);
+    CHECK(problems("{lods: []}").find("simplify: lods: at least one ratio") != std::string::npos);
     CHECK(problems("1.5").find("E-RANGE") != std::string::npos);
 }
 
