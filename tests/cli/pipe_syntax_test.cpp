@@ -128,5 +128,6 @@ TEST_CASE("no line of brackets, separators and options crashes the parser", "[cl
 TEST_CASE("a group that true switches on is a flag", "[cli]") {
     CHECK(same("write --draco a.glb", "[{write: {draco: true, path: a.glb}}]"));
     CHECK(same("write a.glb --draco --ascii false", "[{write: {draco: true, ascii: false, path: a.glb}}]"));
-    CHECK(same("write a.glb --draco.position_bits 12", "[{write: {draco: {position_bits: 12}, path: a.glb}}]"));
+    CHECK(
+        same("write a.glb --draco.position_bits 12", "[{write: {draco: {position_bits: 12}, path: a.glb}}]"));
 }
