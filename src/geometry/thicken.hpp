@@ -11,19 +11,22 @@ namespace facetmill {
 enum class ThickenSide { outward, inward, centred };
 
 struct ThickenSettings {
-    double thickness = 1; ///< mesh units, above zero
+    double thickness = 1; ///< above zero; in the space that to_world leads to
     ThickenSide side = ThickenSide::inward;
     double corner_limit = 3;        ///< a vertex moves at most so many times the distance, at least 1
     bool self_intersections = true; ///< count them in the result
+    Transform to_world{};           ///< where thickness is meant and measured; not singular
 };
 
 struct ThickenResult {
     Mesh mesh;
     Fates fates;
-    std::size_t wall_faces = 0;         ///< along open edges
-    std::size_t limited = 0;            ///< vertices that corner_limit held back
-    std::size_t still = 0;              ///< vertices without a normal (or of no face): they did not move
-    double thinnest = 0, mean = 0;      ///< measured from vertices and middles of faces of the front to the back
+    std::size_t wall_faces = 0;    ///< along open edges
+    std::size_t limited = 0;       ///< vertices that corner_limit held back
+    std::size_t still = 0;         ///< vertices without a normal (or of no face): they did not move
+    double thinnest = 0, mean = 0; ///< from vertices and middles of faces of the front to the back, in world
+    std::size_t unbalanced =
+        0; ///< edges of the result that are not closed: the surface was not oriented there
     std::size_t self_intersections = 0; ///< pairs of faces
 };
 
@@ -36,9 +39,10 @@ struct ThickenResult {
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
 
 struct WiresSettings {
-    double thickness = 1;   ///< diameter, mesh units, above zero
+    double thickness = 1;   ///< diameter, in the space that to_world leads to, above zero
     int sides = 8;          ///< of each cylinder, 3 or more
     bool open_only = false; ///< only the edges with one face
+    Transform to_world{};   ///< where they are round; not singular
 };
 
 struct WiresResult {
@@ -55,10 +59,11 @@ struct TwoSidedResult {
     Fates fates;
 };
 
-/// The faces once more, in reversed order, after the others. The back has its own vertices, but for those on open edges,
-/// which both sides share: an open surface becomes a closed one of no volume (an inner edge between two vertices on open
-/// edges then has four faces). Wedges of the back have their own attributes, with normals turned; face attributes are
-/// copied.
+/// The faces once more, in reversed order, after the others, but for those that have a back at the same
+/// places already: so the second time changes nothing. The back has its own vertices, but for those on open
+/// edges, which both sides share: an open surface becomes a closed one of no volume (an inner edge between
+/// two vertices on open edges then has four faces). Wedges of the back have their own attributes, with
+/// normals turned; face attributes are copied.
 TwoSidedResult two_sided(const Mesh& mesh);
 
 } // namespace facetmill

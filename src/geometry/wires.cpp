@@ -1,6 +1,7 @@
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
 #include "geometry/thicken.hpp"
+#include "mesh/inverse.hpp"
 #include "mesh/topology.hpp"
 
 #include <array>
@@ -42,16 +43,20 @@ WiresResult wires(const Mesh& mesh, const WiresSettings& s) {
     };
     std::vector<Direction> ring(n);
     for (Index i = 0; i < n; ++i) ring[i] = {cosine(2 * pi * i / n), sine(2 * pi * i / n)};
+    const Transform back = inverse(s.to_world).value_or(Transform{});
+    const double front = s.to_world.determinant() < 0 ? -1 : 1; // a mirrored part keeps its front
     parallel_for(lines.size(), [&](std::size_t l) {
-        const Vec3 &a = mesh.positions[lines[l].low], &b = mesh.positions[lines[l].high];
+        const Vec3 a = s.to_world.point(mesh.positions[lines[l].low]),
+                   b = s.to_world.point(mesh.positions[lines[l].high]);
         const auto [u, v] = across(normalised(b - a));
         const auto first = static_cast<Index>(l * points);
         Index* corner = r.mesh.corners.data() + l * corners;
         Index offset = static_cast<Index>(l * corners);
         Index* offsets = r.mesh.face_offsets.data() + l * (n + 2);
         for (Index i = 0; i < n; ++i) {
-            const Vec3 aside = (u * ring[i].x + v * ring[i].y) * (s.thickness / 2);
-            r.mesh.positions[first + i] = a + aside, r.mesh.positions[first + n + i] = b + aside;
+            const Vec3 aside = (u * (ring[i].x * front) + v * ring[i].y) * (s.thickness / 2);
+            r.mesh.positions[first + i] = back.point(a + aside);
+            r.mesh.positions[first + n + i] = back.point(b + aside);
             const Index j = (i + 1) % n;
             *offsets++ = offset, offset += 4;
             for (const Index k : {i, j, n + j, n + i}) *corner++ = first + k;

@@ -2,6 +2,7 @@
 // The node hierarchy of a glTF document: where each mesh stands in the world.
 
 #include "io/gltf_json.hpp"
+#include "mesh/inverse.hpp"
 #include "mesh/scene.hpp"
 
 #include <functional>
@@ -40,8 +41,6 @@ std::vector<Placement> placements(const Json& document, const std::vector<NodeFr
 bool makes_triangles(const Place& primitive);
 bool has_triangles(const Place& mesh);
 
-/// The inverse of an affine map; none when it is singular.
-std::optional<Transform> inverse(const Transform& t);
 /// glTF's 16 numbers, column by column.
 Json matrix(const Transform& t);
 

@@ -51,6 +51,7 @@ const std::vector<KnownWarning>& known_warnings() {
         {"W-SPLIT-SHARED", "Faces that share two edges got new edges with more than two faces."},
         {"W-SPLIT-STOPPED", "split stopped before max_edge was reached, because of passes or faces."},
         {"W-THICKEN", "The faces of a thickened part intersect."},
+        {"W-THICKEN-OPEN", "The solid is not closed: the surface was not oriented, or not manifold."},
         {"W-THICKEN-THIN", "A thickened wall is thinner somewhere than asked for."},
         {"W-TILE-NOTHING", "A part without faces gives no tile."},
         {"W-TRAILING", "Bytes behind the last triangle of an STL are skipped."},

@@ -1,6 +1,7 @@
 #include "geometry/thicken.hpp"
 
-#include "geometry/stretch.hpp"
+#include "mesh/inverse.hpp"
+#include "mesh/placement.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -45,15 +46,24 @@ void declare(Declare<ThickenOptions>& d) {
 }
 
 Json thicken_surface(Part& part, const ThickenOptions& o, double thickness, Context& context) {
-    ThickenResult r = thicken(part.mesh, {thickness, o.side, o.corner_limit, o.self_intersections});
+    ThickenResult r =
+        thicken(part.mesh, {thickness, o.side, o.corner_limit, o.self_intersections, effective(part)});
     part.mesh = std::move(r.mesh);
     context.ledger(part, r.fates);
     Json entry = {{"part", part.name},
                   {"wall_faces", r.wall_faces},
                   {"limited_vertices", r.limited},
                   {"unmoved_vertices", r.still},
+                  {"unbalanced_edges", r.unbalanced},
                   {"wall_thickness", {{"min", r.thinnest}, {"mean", r.mean}}}};
-    if (r.thinnest < 0.5 * thickness && part.mesh.face_count() > 0)
+    if (part.mesh.face_count() == 0) return entry;
+    if (r.unbalanced > 0)
+        context.warn("W-THICKEN-OPEN",
+                     fmt::format("thicken: part '{}' is not closed at {} edges: its surface is not oriented "
+                                 "there, or has edges of more than two faces",
+                                 part.name, r.unbalanced),
+                     "orient and clean before it; a Moebius strip has no inside");
+    if (r.thinnest < 0.5 * thickness)
         context.warn("W-THICKEN-THIN",
                      fmt::format("thicken: the wall of part '{}' is {:.6g} thin where it should be {:.6g}",
                                  part.name, r.thinnest, thickness),
@@ -73,7 +83,8 @@ Json thicken_surface(Part& part, const ThickenOptions& o, double thickness, Cont
 }
 
 Json thicken_edges(Part& part, const ThickenOptions& o, double thickness, Context& context) {
-    WiresResult r = wires(part.mesh, {thickness, static_cast<int>(o.sides), o.what == What::open_edges});
+    WiresResult r =
+        wires(part.mesh, {thickness, static_cast<int>(o.sides), o.what == What::open_edges, effective(part)});
     Fates fates;
     for (const auto& a : part.mesh.attributes)
         fates.push_back({a.name, a.domain, Fate::Kind::dropped, "cylinders have no attributes"});
@@ -86,8 +97,11 @@ Json thicken_edges(Part& part, const ThickenOptions& o, double thickness, Contex
 Scene run(Scene scene, const ThickenOptions& o, Context& context) {
     Json parts = Json::array();
     context.for_each_part(scene, [&](Part& part) {
-        const double stretch = part.skinned ? 1 : mean_stretch(part.transform);
-        const double thickness = context.resolve(o.thickness, scene, "thickness", &part) / stretch;
+        const double thickness = context.resolve(o.thickness, scene, "thickness", &part);
+        if (!inverse(effective(part)))
+            throw Error(ErrorKind::stage, "E-THICKEN",
+                        fmt::format("thicken: part '{}' is flattened by its node", part.name),
+                        "transform: {bake: true} makes it a flat mesh");
         if (!(thickness > 0))
             throw Error(ErrorKind::stage, "E-THICKEN", "thicken: the thickness is 0 in this scene",
                         "give a length in scene units");
@@ -108,7 +122,7 @@ const RegisterStage registered = make_stage<ThickenOptions>(
                 "thickness, as nearly as one point allows: flat walls keep their thickness up to their "
                 "corners. Sharp corners "
                 "are held back by corner_limit. The surface has to be oriented (orient) for the solid to be "
-                "closed.\n\n"
+                "closed (W-THICKEN-OPEN).\n\n"
                 "The result is looked through for self-intersections (W-THICKEN), and the wall is measured, "
                 "from the vertices "
                 "of the front to the faces of the back; the report has both. Attributes are kept on both "

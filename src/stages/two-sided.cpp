@@ -63,7 +63,7 @@ const RegisterStage registered = make_stage<TwoSidedOptions>(
     {.name = "two-sided",
      .about = "Makes a surface visible from behind: by doubled faces, or by its material.",
      .details = "By faces, every face is there once more in reversed order, after all others, with normals "
-                "turned. The back "
+                "turned; those that have a back at the same place already stay as they are. The back "
                 "has its own vertices, except along open edges, which both sides share: an open surface "
                 "becomes a closed one "
                 "without volume. Files that are welded by position (STL, glTF) will have both sides share "

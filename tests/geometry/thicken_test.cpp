@@ -5,6 +5,7 @@
 #include "geometry/inspect.hpp"
 #include "geometry/thicken.hpp"
 #include "mesh/invariants.hpp"
+#include "mesh/topology.hpp"
 
 using namespace facetmill;
 using namespace facetmill::testing;
@@ -53,6 +54,47 @@ TEST_CASE("thicken keeps the thickness of walls at corners", "[geometry]") {
     CHECK(inspect(r.mesh).components == 1);
     CHECK(r.thinnest == Approx(0.1));
     CHECK(r.self_intersections == 0);
+}
+
+TEST_CASE("thicken means the world's lengths where a node stretches", "[geometry]") {
+    for (const double way : {1.0, -1.0}) {
+        Transform t;
+        t.m[0][0] = 3 * way, t.m[1][1] = 2, t.m[2][3] = 5;
+        const auto r = thicken(shapes::cube(), {.thickness = 0.25, .to_world = t});
+        const double local = 6 - 2.5 * 1.5 * 0.5; // in the world
+        CHECK(test::volume(r.mesh) * 6 == Approx(local));
+        CHECK(r.thinnest == Approx(0.25));
+        const auto round = wires(shapes::cube(), {.thickness = 0.1, .sides = 6, .to_world = t});
+        double length = 0;
+        const Mesh cube = shapes::cube();
+        const auto edges = build_edges(cube);
+        for (const auto& e : edges.edges)
+            length += facetmill::length(t.vector(cube.positions[e.high] - cube.positions[e.low]));
+        const double hexagon = 1.5 * std::sqrt(3.0) * 0.05 * 0.05;
+        CHECK(test::volume(round.mesh) * 6 == Approx(length * hexagon));
+    }
+}
+
+TEST_CASE("thicken tells where the solid is open", "[geometry]") {
+    CHECK(thicken(shapes::grid(2, 2), {.thickness = 0.1}).unbalanced == 0);
+    CHECK(thicken(shapes::moebius(9), {.thickness = 0.1}).unbalanced ==
+          4); // where it was twisted: front, back and both borders
+    CHECK(thicken(shapes::fan3(), {.thickness = 0.1}).unbalanced > 0);
+}
+
+TEST_CASE("two-sided the second time changes nothing", "[geometry]") {
+    for (const Mesh& mesh : {shapes::grid(3, 3), shapes::quad_cube(), with_uv_seams(shapes::cube())}) {
+        const Mesh once = two_sided(mesh).mesh;
+        const Mesh twice = two_sided(once).mesh;
+        CHECK(twice.corners == once.corners);
+        CHECK(twice.positions == once.positions);
+        Mesh more = once; // another face: it alone gets a back
+        more.positions.insert(more.positions.end(), {{9, 0, 0}, {9, 1, 0}, {9, 0, 1}});
+        const auto first = static_cast<Index>(once.vertex_count());
+        if (more.has_seams() || more.wedge_count() != more.vertex_count()) continue;
+        add_face(more, std::array{first, first + 1, first + 2});
+        CHECK(two_sided(more).mesh.face_count() == once.face_count() + 2);
+    }
 }
 
 TEST_CASE("thicken counts the intersections of a wall that is too thick", "[geometry]") {

@@ -162,7 +162,7 @@ TEST_CASE("thicken takes its thickness in the world, and reports it as measured"
     for (int i = 0; i < 3; ++i) scene.parts[0].transform.m[i][i] = 10;
     const auto run = run_stage("thicken", "1", scene);
     CHECK(inspect(run.scene).volume.value() == Approx(400));
-    CHECK(run.record.result["parts"][0]["wall_thickness"]["min"].get<double>() == Approx(0.1));
+    CHECK(run.record.result["parts"][0]["wall_thickness"]["min"].get<double>() == Approx(1));
     CHECK(run.record.result["parts"][0]["self_intersections"] == 0);
     const auto thick = run_stage("thicken", "0.5", scene_of(testing::noisy_icosphere(2, 0.3, 1)));
     REQUIRE(thick.record.warnings.size() > 0);
