@@ -152,8 +152,9 @@ MassResult measure_mass(const Mesh& mesh) {
     if (sums.area > 0) result.shell.centroid = from + sums.shell / (3 * sums.area);
     if (mesh.face_count() == 0 || !inspect(mesh).closed) return result;
     SolidMass& solid = result.solid.emplace();
+    const double area = result.shell.area, ball = area * std::sqrt(area / (36 * pi));
+    if (!(std::abs(sums.volume / 6) > 1e-12 * ball)) return result;
     solid.volume = sums.volume / 6;
-    if (sums.volume == 0) return result;
     const Vec3 centroid = sums.solid / (4 * sums.volume);
     solid.centroid = from + centroid;
     solid.spread = sums.spread * (1.0 / 120);

@@ -51,7 +51,9 @@ SolidMass joined(const SolidMass& a, const SolidMass& b);
 
 struct MassResult {
     ShellMass shell;
-    std::optional<SolidMass> solid; ///< when every edge's faces cancel (closed)
+    /// When every edge's faces cancel (closed); all zero when the volume is rounding only, as of a surface
+    /// that is doubled on itself: no more than 1e-12 of a ball's of that area.
+    std::optional<SolidMass> solid;
 };
 /// Sums over faces in parallel. The area of a face is the length of polygon::area_vector, its centroid and
 /// its volume those of the fan from its first corner, exact for planar faces, concave ones too.

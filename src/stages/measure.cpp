@@ -1,6 +1,6 @@
 #include "geometry/measure.hpp"
 
-#include "io/csv.hpp"
+#include "report/measure_csv.hpp"
 #include "report/measure_json.hpp"
 #include "report/summary.hpp"
 #include "stage/stage.hpp"
@@ -52,34 +52,13 @@ void set_attribute(Mesh& mesh, const char* name, Domain domain, std::vector<doub
     mesh.attributes.push_back({name, domain, Role::generic, 1, false, std::move(values)});
 }
 
-void add_faces(std::string& csv, const std::string& part, const Mesh& mesh) {
-    std::vector<Vec3> corners;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        corners.clear();
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners.push_back(mesh.point(c));
-        const Vec3 area = polygon::area_vector(corners), normal = normalised(area);
-        // The fan's signed parts, about the first corner: right for concave faces too.
-        Vec3 moment;
-        for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-            const Vec3 a = corners[i] - corners[0], b = corners[i + 1] - corners[0];
-            moment += (a + b) * (dot(cross(a, b), normal) / 6);
-        }
-        const double size = length(area);
-        const Vec3 centroid = corners[0] + (size > 0 ? moment / size : Vec3{});
-        csv += fmt::format("{},{},{},{}", io::csv_text(part), f, corners.size(), io::csv_number(size));
-        for (const Vec3& v : {centroid, normal})
-            for (std::size_t i = 0; i < 3; ++i) csv += "," + io::csv_number(v[i]);
-        csv += "," + io::csv_number(polygon::plane_deviation(corners)) + "\n";
-    }
-}
-
 bool is_csv(const PathText& path) { return path.text.ends_with(".csv"); }
 
 struct Measures {
     Json parts = Json::array();
     ShellMass shell;
     std::optional<SolidMass> solid = SolidMass{};
-    std::string csv = "part,face,corners,area,x,y,z,nx,ny,nz,off_plane\n";
+    std::string csv = report::face_rows_head;
 };
 
 void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures& all, Context& context) {
@@ -95,7 +74,7 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
                          {"curvature", report::curvature_json(curvature)}});
     all.shell = joined(all.shell, mass.shell);
     all.solid = all.solid && mass.solid ? std::optional(joined(*all.solid, *mass.solid)) : std::nullopt;
-    if (list_faces) add_faces(all.csv, part.name, mesh);
+    if (list_faces) all.csv += report::face_rows(part.name, mesh);
     if (mass.solid && mass.solid->volume < 0)
         context.warn("W-INSIDE-OUT",
                      fmt::format("part '{}' is inside out: its volume and inertia are negative", part.name),

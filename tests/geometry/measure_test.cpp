@@ -1,9 +1,11 @@
 #include "support/catch.hpp"
+#include "support/measure.hpp"
 
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
 #include "geometry/inspect.hpp"
 #include "geometry/measure.hpp"
+#include "geometry/thicken.hpp"
 #include "mesh/shapes.hpp"
 #include "support/meshes.hpp"
 
@@ -90,6 +92,18 @@ TEST_CASE("an open surface has a shell and no solid; one inside out has a negati
     CHECK(measure_mass(turned).solid->volume == Approx(-1));
     check_close(measure_mass(turned).solid->centroid, {0.5, 0.5, 0.5});
     CHECK(measure_mass(Mesh{}).shell.area == 0);
+}
+
+TEST_CASE("a surface doubled on itself has no volume, whatever the rounding", "[geometry]") {
+    Mesh ball = shapes::icosphere(3);
+    for (Vec3& p : ball.positions) p = p * 0.1 + Vec3{1.3, 2.7, 0.9};
+    const auto mass = measure_mass(two_sided(ball).mesh);
+    REQUIRE(mass.solid);
+    CHECK(mass.solid->volume == 0);
+    CHECK(mass.shell.area == Approx(2 * test::area(ball)));
+    Mesh plate = shapes::cube(); // thin, but a solid
+    for (Vec3& p : plate.positions) p.z *= 1e-9;
+    CHECK(measure_mass(plate).solid->volume == Approx(1e-9));
 }
 
 TEST_CASE("the volume is that of the inspection", "[geometry]") {
