@@ -7,6 +7,7 @@
 #include "options/types.hpp"
 #include "report/comparison.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace facetmill::cli {
@@ -61,12 +62,18 @@ Scene read(const std::string& name, const Console& console) {
     return scene;
 }
 
+/// Whether the scene is one part that is called like its file: a format without names.
+bool is_named_by_file(const Scene& scene, const std::string& file) {
+    return scene.parts.size() == 1 && scene.parts[0].name == std::filesystem::path(file).stem().string();
+}
+
 int diff(DiffOptions& options, const CommandLine& line, const Console& console) {
     set_threads(options.threads);
     const Scene a = read(options.a, console);
     Scene b = read(options.b, console);
     io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : a.unit,
                     b.up == UpAxis::unknown ? UpAxis::unknown : a.up});
+    if (is_named_by_file(a, options.a) && is_named_by_file(b, options.b)) b.parts[0].name = a.parts[0].name;
     auto& settings = options.settings;
     settings.maximum = limit_of(options.maximum, "--max", a.unit, line);
     settings.rms = limit_of(options.rms, "--rms", a.unit, line);

@@ -1,6 +1,10 @@
 #include "report/comparison.hpp"
 
+#include "geometry/surface_normal.hpp"
+#include "mesh/placement.hpp"
+
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -50,7 +54,34 @@ class Comparer {
         }
     }
 
+    /// Whether the second is inside out against the first: by the signs of the volumes, or, open, by which
+    /// way the faces look in all.
+    void sides() {
+        const auto looks = [](const Scene& scene) {
+            Vec3 sum;
+            for (const Part& part : scene.parts) {
+                const Transform t = effective(part);
+                for (Index f = 0; f < part.mesh.face_count(); ++f)
+                    sum += area_vector(part.mesh, f, t) * (t.determinant() < 0 ? -0.5 : 0.5);
+            }
+            return sum;
+        };
+        const Properties a = inspect(a_), b = inspect(b_);
+        bool turned = false;
+        if (a.volume && b.volume) {
+            const auto solid = [](const Properties& p) { // more than rounding
+                return std::abs(*p.volume) > 1e-12 * p.area * std::sqrt(p.area);
+            };
+            turned = solid(a) && solid(b) && (*a.volume < 0) != (*b.volume < 0);
+        } else if (!a.volume && !b.volume) {
+            const Vec3 u = looks(a_), v = looks(b_);
+            turned = dot(u, v) < 0 && length(u) > 1e-6 * a.area && length(v) > 1e-6 * b.area;
+        }
+        add("geometry", "turned round", false, turned);
+    }
+
     void geometry() {
+        sides();
         const auto d = result_.deviation = deviation(surface_of(a_), surface_of(b_), settings_.deviation);
         const bool any = settings_.maximum || settings_.rms || settings_.mean;
         const auto line = [&](const char* name, double forward, double backward,

@@ -118,6 +118,8 @@ class Process(Case):
         self.mill("pipe", "load", "t.off", "!", "write", "a.xyz123", expect=2)
         self.mill("info", "none.ply", expect=3)
         self.mill("info", "cut.ply", expect=6)
+        self.mill("pipe", "load", "t.off", "!", "write", "named-otherwise.off")
+        self.mill("diff", "t.off", "named-otherwise.off")  # formats without names: the file's name is none
         self.mill("diff", "none.ply", "t.off", expect=3)
         self.mill("diff", "t.off", "cut.ply", expect=6)
         self.mill("diff", "t.off", "t.off", "--max", "2mm", expect=2)

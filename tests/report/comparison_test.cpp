@@ -82,6 +82,15 @@ TEST_CASE("attributes, materials and parts are told by name, attributes by value
         if (d.name == "TEXCOORD_0 (wedge)") CHECK(d.note == "largest difference 0.25, at element 3");
 }
 
+TEST_CASE("a surface turned inside out differs, closed or open", "[report]") {
+    for (const Mesh& mesh : {shapes::cube(), shapes::grid(3, 2)}) {
+        Scene a = scene_of(mesh), b = a;
+        for (std::size_t c = 0; c < b.parts[0].mesh.corners.size(); c += 3)
+            std::swap(b.parts[0].mesh.corners[c], b.parts[0].mesh.corners[c + 1]);
+        CHECK(different(report::compare(a, b)) == "geometry: turned round");
+    }
+}
+
 TEST_CASE("topology is compared property by property", "[report]") {
     Mesh open = shapes::cube();
     open.corners.resize(30);
