@@ -65,7 +65,11 @@ int pipe(const PipelineOptions& options, const std::string& save_to, const Invoc
     settings.name = "pipe";
     if (!save_to.empty()) settings.others.push_back({save_to, invocation.line.find("--save"), true});
     const Value document = parse_pipe(invocation.line, invocation.rest, problems);
-    const auto plan = pipeline::make_plan(problems.any_errors() ? Value{} : document, settings, problems);
+    if (problems.any_errors()) { // a report is due; what is wrong with no pipeline at all is not
+        Problems others;
+        refuse({pipeline::make_plan({}, settings, others)}, problems);
+    }
+    const auto plan = pipeline::make_plan(document, settings, problems);
     refuse({plan}, problems);
     if (!save_to.empty()) save(document, options.reports, save_to);
     return run_with_messages(plan, options, console, "");

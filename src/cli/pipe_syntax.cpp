@@ -129,6 +129,7 @@ class Parser {
             const Mark where = item.entries[0].value.mark;
             item.entries[0].value = Value::map({}, where);
         }
+        if (!common && stage) key = spelled_out(item.entries[0].value, key, stage->options);
         add(common ? item : item.entries[0].value, key, std::move(value), key_mark, known);
     }
 
@@ -161,6 +162,21 @@ class Parser {
         if (known && known->type != "group" && known->type != "assertions" && !is_truth(key, known))
             problems_.add(where, "E-PIPE", fmt::format("'--{}' needs a value", key), known->help);
         return Value::scalar("true", where);
+    }
+
+    /// A group takes a bare value and options beside it, in either order: --holes planar --holes.edges 9.
+    /// Gives the bare value that is there its name, or returns the key by its.
+    static std::string spelled_out(Value& map, const std::string& key, const Declaration& declaration) {
+        const auto dot = key.find('.');
+        const std::string head = key.substr(0, dot);
+        const Option* group = declaration.find(head);
+        const Option* primary = group && group->fields ? group->fields->primary() : nullptr;
+        Value* slot = map.find(head);
+        if (!primary || !slot) return key;
+        if (dot == key.npos) return slot->is_map() ? head + "." + primary->name : key;
+        if (slot->is_scalar() && !group->fields->shorthand)
+            *slot = Value::map({{primary->name, slot->mark, *slot}}, slot->mark);
+        return key;
     }
 
     /// Puts a value at a dotted key; a repeatable option gathers its values.

@@ -94,6 +94,17 @@ TEST_CASE("foreach and branch nest in brackets", "[cli]") {
                "{relax: null}]"));
 }
 
+TEST_CASE("a group takes a bare value and its options beside it, in either order", "[cli]") {
+    for (const char* line :
+         {"clean --holes planar --holes.edges 9", "clean --holes.edges 9 --holes planar"}) {
+        const std::string text = yaml(line);
+        CHECK(text.find("method: planar") != std::string::npos);
+        CHECK(text.find("edges: 9") != std::string::npos);
+    }
+    CHECK(yaml("clean --holes planar --holes.method minimal").find("'--method' is given twice") !=
+          std::string::npos);
+}
+
 TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
     CHECK(yaml("load a ! ! write b") == "command line:1:25: error[E-PIPE]: a stage is missing here\n"
                                         "  facetmill pipe load a ! ! write b\n"
