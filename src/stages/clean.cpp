@@ -1,6 +1,8 @@
 #include "geometry/clean.hpp"
 
 #include "geometry/stretch.hpp"
+#include "mesh/placement.hpp"
+#include "report/clean_json.hpp"
 #include "report/summary.hpp"
 #include "stage/stage.hpp"
 
@@ -111,36 +113,6 @@ CleanSettings settings_for(const CleanOptions& o, const Scene& scene, const Part
     return s;
 }
 
-Json as_json(const CleanCounts& n) {
-    return {{"welded_vertices", n.welded_vertices},
-            {"degenerate_faces", n.degenerate_faces},
-            {"repeated_corners", n.repeated_corners},
-            {"duplicate_faces", n.duplicate_faces},
-            {"t_vertices", n.t_vertices},
-            {"stitched_edges", n.stitched_edges},
-            {"split_vertices", n.split_vertices},
-            {"split_edges", n.split_edges},
-            {"filled_holes", n.filled_holes},
-            {"hole_faces", n.hole_faces},
-            {"removed_components", n.components},
-            {"component_faces", n.component_faces},
-            {"removed_shells", n.shells},
-            {"shell_faces", n.shell_faces},
-            {"isolated_vertices", n.isolated_vertices},
-            {"intersecting_faces", n.intersecting_faces}};
-}
-
-/// The repairs not done, as evidence: the first few, in the world.
-Json as_json(const std::vector<NotDone>& all, const Part& part) {
-    constexpr std::size_t most = 10;
-    Json list = Json::array();
-    for (std::size_t i = 0; i < std::min(most, all.size()); ++i) {
-        const Vec3 at = part.skinned ? all[i].at : part.transform.point(all[i].at);
-        list.push_back({{"step", all[i].step}, {"why", all[i].why}, {"at", {at.x, at.y, at.z}}});
-    }
-    return list;
-}
-
 void warn(const Part& part, const std::vector<NotDone>& all, Context& context) {
     if (all.empty()) return;
     context.warn("W-CLEAN",
@@ -157,8 +129,8 @@ Scene run(Scene scene, const CleanOptions& o, Context& context) {
         context.ledger(part, r.fates);
         warn(part, r.not_done, context);
         Json entry = {{"part", part.name}, {"changed", r.counts.total() > 0}};
-        entry.update(as_json(r.counts));
-        entry["not_done"] = as_json(r.not_done, part);
+        entry.update(report::counts_json(r.counts));
+        entry["not_done"] = report::not_done_json(r.not_done, effective(part));
         parts.push_back(std::move(entry));
     });
     context.result()["parts"] = std::move(parts);
@@ -183,27 +155,24 @@ void verify(const CleanOptions& o, const Value& given, Problems& problems) {
 const RegisterStage registered = make_stage<CleanOptions>(
     {.name = "clean",
      .about = "Repairs a mesh step by step, and leaves alone what is sound.",
-     .details = "The steps, each on or off: weld, degenerate, duplicates, t_vertices, stitch, non_manifold, "
-                "self_intersections, holes, components, shells, isolated; in this order, and again until "
-                "nothing changes, so "
-                "that cleaning twice changes nothing the second time. Those that need no judgement are on by "
-                "default. What "
-                "decides is exact: places, lines and planes are compared without a tolerance, unless a step "
-                "is near.\n\n"
+     .details = "The steps, each on or off: weld, degenerate, duplicates, t_vertices, stitch, "
+                "non_manifold, self_intersections, holes, components, shells, isolated; in this order, "
+                "and again until nothing changes, so that cleaning twice changes nothing the second time. "
+                "Those that need no judgement are on by default. What decides is exact: places, lines and "
+                "planes are compared without a tolerance, unless a step is near.\n\n"
                 "Faces that no step concerns keep their corners, attributes and order. Removing faces "
-                "without area puts the "
-                "vertices on their line onto the edges around, so that what was closed stays closed. "
-                "Duplicate faces that "
-                "look both ways go when they are a wall inside or a fin on other faces, and one of each "
-                "stays when they are "
-                "a sheet of their own. Where more than two faces meet at an edge, those stay together that "
-                "have the inside "
-                "between them. A hole whose patch would not fit, or whose neighbours disagree about the "
-                "outside (orient "
-                "first), is left and named in the report (W-CLEAN).\n\n"
-                "Attributes of what stays are kept; at new vertices they are interpolated, and patches copy "
-                "the face "
-                "attributes from across their edge. The report counts what each step did.",
+                "without area puts the vertices on their line onto the edges around, so that what was "
+                "closed stays closed. Duplicate faces that look both ways go when they are a wall inside "
+                "or a fin on other faces, and one of each stays when they are a sheet of their own (both, "
+                "beside other pieces of a closed surface: it stays closed). Where more than two faces "
+                "meet at an edge, those stay together that have the inside between them. Faces that "
+                "intersect are replaced place by place, if need be with up to four rings around them: "
+                "where that would open the surface, change its topology, take half of a piece or leave an "
+                "intersection, the place is left as it was. Holes that touch at a vertex are filled each "
+                "for itself. A hole whose patch would not fit, or whose neighbours disagree about the "
+                "outside (orient first), is left. What is left is named in the report (W-CLEAN).\n\n"
+                "Attributes of what stays are kept; at new vertices they are interpolated, and patches "
+                "copy the face attributes from across their edge. The report counts what each step did.",
      .examples = {"clean", "clean: {holes: minimal, components: {faces: 10}}",
                   "clean: {weld: near, stitch: near, within: 0.01%}",
                   "clean: {holes: {method: smooth, edges: 50}, shells: true}"}},
