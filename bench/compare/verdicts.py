@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""What facetmill, trimesh and pymeshlab say of the same meshes, and where they disagree.
+"""What facetmill, trimesh, pymeshlab and CGAL say of the same meshes, and where they disagree.
 
-verdicts.py FACETMILL FILE_OR_FOLDER...
+verdicts.py FACETMILL [--cgal CGAL_VERDICTS] FILE_OR_FOLDER...
+
+CGAL_VERDICTS is the program built from cgal_verdicts.cpp; without it CGAL is not asked.
 
 Every file is brought to triangles in one part by facetmill and written as OFF, so that all judge the same vertices
 and faces; what is compared is told by `compare`. Needs numpy, trimesh, pymeshlab. Prints a line for each file, with the
@@ -55,6 +57,38 @@ def by_pymeshlab(path):
             "isolated_vertices": m["unreferenced_vertices"], "edges": m["edges_number"],
             "genus": m["genus"] if m["genus"] >= 0 else None,
             "crossing": crossing}
+
+
+def by_cgal(program, path):
+    """What CGAL says of a mesh that it takes for one: every edge of at most two faces that agree, every vertex of one
+    fan, no face that repeats a vertex."""
+    return json.loads(run([program, path]).stdout)
+
+
+def is_outward(facetmill, path):
+    return run([facetmill, "pipe", "--quiet", "load", path, "!", "validate", "--outward"]).returncode == 0
+
+
+def compare_cgal(ours, cgal, facetmill, off):
+    """Triples (name, ours, CGAL's) that differ."""
+    mesh = ours["edge_manifold"] and ours["vertex_manifold"] and ours["oriented"]
+    found = [("CGAL: mesh", mesh, cgal["mesh"])]
+    if cgal["mesh"]:
+        found += [("CGAL: " + name, ours[name], cgal[name]) for name in ("closed", "euler", "self_intersections")]
+        found.append(("CGAL: components", ours["components"], cgal["pieces"]))
+        for name in ("area", "volume"):
+            a, b = ours[name], cgal.get(name)
+            near = a is not None and b is not None and abs(a - b) <= 1e-9 * (abs(b) + ours["area"])
+            found.append(("CGAL: " + name, a, a if near else b))
+        if "outward" in cgal:
+            found.append(("CGAL: outward", is_outward(facetmill, off), cgal["outward"]))
+    return [(n, a, b) for n, a, b in found if a != b]
+
+
+def explained_cgal(name, ours, cgal):
+    if name == "CGAL: self_intersections" and ours["degenerate_faces"] > 0:
+        return "faces without area take no part here; CGAL counts what they meet"
+    return None
 
 
 def compare(ours, tri, lab):
@@ -195,7 +229,7 @@ def explained(name, ours, tri, lab, find_crossings):
     return None
 
 
-def judge(facetmill, path, scratch):
+def judge(facetmill, cgal, path, scratch):
     off = str(scratch / "mesh.off")
     done = run([facetmill, "pipe", "--quiet", "load", str(path), "!", "merge", "!", "triangulate", "!", "write", off])
     if done.returncode != 0:
@@ -211,16 +245,22 @@ def judge(facetmill, path, scratch):
         return f"a peer gave up: {str(error)[:80]}", []
     reason = lambda: crossing_reason(facetmill, off, scratch)
     found = [(n, a, b, explained(n, ours, tri, lab, reason)) for n, a, b in compare(ours, tri, lab)]
+    if cgal:
+        answer = by_cgal(cgal, off)
+        found += [(n, a, b, explained_cgal(n, ours, answer)) for n, a, b in compare_cgal(ours, answer, facetmill, off)]
     return "agree" if not found else "differ", found
 
 
 def main():
-    facetmill, roots = sys.argv[1], [pathlib.Path(p) for p in sys.argv[2:]]
+    facetmill, rest, cgal = sys.argv[1], sys.argv[2:], None
+    if rest[:1] == ["--cgal"]:
+        cgal, rest = rest[1], rest[2:]
+    roots = [pathlib.Path(p) for p in rest]
     files = sorted(f for r in roots for f in ([r] if r.is_file() else r.rglob("*")) if f.is_file() and f.suffix != ".tsv")
     reasons, left = collections.Counter(), 0
     with tempfile.TemporaryDirectory() as folder:
         for path in files:
-            verdict, found = judge(facetmill, path, pathlib.Path(folder))
+            verdict, found = judge(facetmill, cgal, path, pathlib.Path(folder))
             reasons[verdict.split(":")[0]] += 1
             print(f"{path}: {verdict}", flush=True)
             for name, ours, theirs, why in found:

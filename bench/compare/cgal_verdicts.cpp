@@ -1,0 +1,86 @@
+// cgal_verdicts FILE.off...: what CGAL says of triangle meshes, a line of JSON for each; for verdicts.py.
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <array>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
+
+struct Soup {
+    std::vector<Kernel::Point_3> points;
+    std::vector<std::array<std::size_t, 3>> triangles;
+};
+
+/// Plain OFF, triangles only.
+Soup read(const char* path) {
+    std::ifstream file(path);
+    std::string word;
+    std::size_t vertices = 0, faces = 0, edges = 0;
+    file >> word >> vertices >> faces >> edges;
+    Soup soup;
+    for (std::size_t i = 0; i < vertices; ++i) {
+        double x = 0, y = 0, z = 0;
+        file >> x >> y >> z;
+        soup.points.emplace_back(x, y, z);
+    }
+    for (std::size_t i = 0; i < faces; ++i) {
+        std::size_t size = 0, a = 0, b = 0, c = 0;
+        file >> size >> a >> b >> c;
+        std::getline(file, word); // colours
+        soup.triangles.push_back({a, b, c});
+    }
+    return soup;
+}
+
+/// Of what CGAL takes for a mesh: every edge with at most two faces that agree, every vertex with one fan.
+void describe(const Surface& mesh) {
+    const bool closed = CGAL::is_closed(mesh);
+    auto labels = std::vector<std::size_t>(num_faces(mesh));
+    const auto pieces =
+        pmp::connected_components(mesh, CGAL::make_property_map(labels), CGAL::parameters::all_default());
+    std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
+    pmp::self_intersections(mesh, std::back_inserter(pairs));
+    std::size_t used = 0;
+    for (const auto v : vertices(mesh)) used += !mesh.is_isolated(v);
+    std::cout << ", \"closed\": " << closed << ", \"pieces\": " << pieces
+              << ", \"self_intersections\": " << pairs.size() << ", \"euler\": "
+              << static_cast<long long>(used) - static_cast<long long>(num_edges(mesh)) +
+                     static_cast<long long>(num_faces(mesh))
+              << ", \"area\": " << pmp::area(mesh);
+    if (!closed) return;
+    std::cout << ", \"volume\": " << pmp::volume(mesh);
+    if (pairs.empty()) std::cout << ", \"outward\": " << pmp::does_bound_a_volume(mesh);
+}
+
+} // namespace
+
+int main(int count, char** paths) {
+    std::cout.precision(17);
+    std::cout << std::boolalpha;
+    for (int i = 1; i < count; ++i) {
+        const Soup soup = read(paths[i]);
+        const bool mesh = pmp::is_polygon_soup_a_polygon_mesh(soup.triangles);
+        std::cout << "{\"mesh\": " << mesh;
+        if (mesh) {
+            Surface surface;
+            pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
+            describe(surface);
+        }
+        std::cout << "}\n";
+    }
+}
