@@ -63,6 +63,15 @@ std::vector<Index> degenerate_faces(const Mesh& mesh, std::size_t limit) {
     return found;
 }
 
+/// The first face of each piece.
+std::vector<Index> first_faces(const Mesh& mesh, std::size_t limit) {
+    const Components pieces = face_components(mesh);
+    std::vector<Index> found;
+    for (Index f = 0; f < mesh.face_count() && found.size() < limit; ++f)
+        if (pieces.of_face[f] == found.size()) found.push_back(f); // pieces are numbered by first face
+    return found;
+}
+
 /// The set of vertices of a face, sorted.
 void vertex_set(const Mesh& mesh, Index f, std::vector<Index>& set) {
     set.clear();
@@ -187,6 +196,13 @@ std::vector<Place> places_against(const Mesh& mesh, std::string_view property, s
         return places_of_edges(mesh, limit, [](const Ways& w) { return w[0] + w[1] > 2; });
     if (property == "oriented")
         return places_of_edges(mesh, limit, [](const Ways& w) { return std::abs(w[0] - w[1]) > 1; });
+    if (property == "euler") { // what is not open, and no handle
+        auto places = places_against(mesh, "edge_manifold", limit);
+        const auto more = places_against(mesh, "vertex_manifold", limit - places.size());
+        places.insert(places.end(), more.begin(), more.end());
+        return places;
+    }
+    if (property == "components") return places_of_faces(mesh, first_faces(mesh, limit));
     if (property == "vertex_manifold") return places_of_vertices(mesh, limit, false);
     if (property == "isolated_vertices") return places_of_vertices(mesh, limit, true);
     if (property == "degenerate_faces") return places_of_faces(mesh, degenerate_faces(mesh, limit));

@@ -17,7 +17,8 @@ struct Place {
 /// edges whose directions do not cancel; for edge_manifold edges with more than two faces; for oriented edges
 /// that two faces run along the same way; for vertex_manifold vertices of several fans; for degenerate_faces,
 /// duplicate_faces and isolated_vertices these themselves; for self_intersections the faces of each
-/// pair, in the middle of the lower one. Empty for properties that are not about places. O(n log n).
+/// pair, in the middle of the lower one; for euler as for edge_manifold and vertex_manifold; for
+/// components the first face of each. Empty for properties that are not about places. O(n log n).
 std::vector<Place> places_against(const Mesh& mesh, std::string_view property, std::size_t limit = 10);
 
 /// Whether face f has exactly zero area: all its corners on one line, decided exactly.

@@ -78,8 +78,6 @@ std::vector<double> face_values(const Mesh& mesh, Quality q) {
     return values;
 }
 
-bool by_face(Quality q) { return q <= Quality::planarity || q == Quality::wall_thickness; }
-
 /// The lower face of each pair of neighbours that lie on each other.
 std::vector<Index> folded_faces(const Mesh& mesh) {
     const auto edges = build_edges(mesh);
@@ -218,10 +216,12 @@ constexpr std::array<QualityInfo, quality_count> table{{
 
 } // namespace
 
+bool is_by_face(Quality q) { return q <= Quality::planarity || q == Quality::wall_thickness; }
+
 const QualityInfo& info_of(Quality quality) { return table[static_cast<std::size_t>(quality)]; }
 
 std::optional<double> measure(const Mesh& mesh, Quality q) {
-    if (by_face(q)) {
+    if (is_by_face(q)) {
         std::optional<double> best;
         const bool least = info_of(q).join == Join::least;
         for (const double x : face_values(mesh, q))
@@ -277,10 +277,12 @@ Place place_of(const Mesh& mesh, Index f) {
 }
 
 /// The faces with the worst values, the worst first.
-std::vector<Index> worst_faces(const Mesh& mesh, Quality q, std::size_t limit) {
+std::vector<Index> worst_faces(const Mesh& mesh, Quality q, std::size_t limit,
+                               const std::function<bool(double)>& fails) {
     const auto values = face_values(mesh, q);
-    std::vector<Index> order(values.size());
-    for (Index f = 0; f < order.size(); ++f) order[f] = f;
+    std::vector<Index> order;
+    for (Index f = 0; f < values.size(); ++f)
+        if (!fails || fails(values[f])) order.push_back(f);
     const bool least = info_of(q).join == Join::least;
     const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(limit, order.size()));
     std::partial_sort(order.begin(), end, order.end(), [&](Index a, Index b) {
@@ -292,9 +294,10 @@ std::vector<Index> worst_faces(const Mesh& mesh, Quality q, std::size_t limit) {
 
 } // namespace
 
-std::vector<Place> places_against(const Mesh& mesh, Quality q, std::size_t limit) {
+std::vector<Place> places_against(const Mesh& mesh, Quality q, std::size_t limit,
+                                  const std::function<bool(double)>& fails) {
     std::vector<Index> faces;
-    if (by_face(q)) faces = worst_faces(mesh, q, limit);
+    if (is_by_face(q)) faces = worst_faces(mesh, q, limit, fails);
     if (q == Quality::folded_faces) faces = folded_faces(mesh);
     if (q == Quality::coplanar_overlaps) faces = coplanar_overlaps(mesh);
     if (q == Quality::outward) faces = inward_faces(mesh);

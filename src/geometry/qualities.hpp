@@ -4,6 +4,7 @@
 
 #include "geometry/evidence.hpp"
 
+#include <functional>
 #include <optional>
 #include <span>
 
@@ -52,7 +53,12 @@ const QualityInfo& info_of(Quality quality);
 /// coplanar_overlaps, uv_overlaps. Parallel.
 std::optional<double> measure(const Mesh& mesh, Quality quality);
 
-/// The worst places first; for those that are decided one by one, the first by face.
-std::vector<Place> places_against(const Mesh& mesh, Quality quality, std::size_t limit);
+/// Whether it is the least or the most of a value that every face has (min_angle, wall_thickness ...).
+bool is_by_face(Quality quality);
+
+/// The worst places first, of those that are by face only faces whose own value fails; for those that are
+/// decided one by one, the first by face.
+std::vector<Place> places_against(const Mesh& mesh, Quality quality, std::size_t limit,
+                                  const std::function<bool(double)>& fails = {});
 
 } // namespace facetmill

@@ -1,3 +1,4 @@
+#include "report/check_text.hpp"
 #include "report/markup.hpp"
 #include "report/numbers.hpp"
 #include "report/render.hpp"
@@ -91,12 +92,14 @@ std::string pictures(const RunRecord& record) {
 std::string check_rows(const RunRecord& record) {
     std::string rows;
     for (const auto& c : record.checks) {
-        const char* kind = c.passed ? "good" : c.severity == Severity::error ? "bad" : "warn";
-        rows += fmt::format(
-            "<tr>{}{}{}{}{}{}</tr>\n",
-            cell(fmt::format("<span class=\"{}\">{}</span>", kind, c.passed ? "passed" : "failed")),
-            cell(code(c.name)), cell(escaped(c.expected)), cell(escaped(c.found)), cell(escaped(c.part)),
-            cell(escaped(c.stage)));
+        const char* kind = c.waived                        ? "warn"
+                           : c.passed                      ? "good"
+                           : c.severity == Severity::error ? "bad"
+                                                           : "warn";
+        rows += fmt::format("<tr>{}{}{}{}{}{}{}</tr>\n",
+                            cell(fmt::format("<span class=\"{}\">{}</span>", kind, outcome(c))),
+                            cell(code(c.name)), cell(escaped(c.expected)), cell(escaped(c.found)),
+                            cell(escaped(c.part)), cell(escaped(places_text(c))), cell(escaped(c.stage)));
     }
     return rows;
 }
@@ -166,7 +169,8 @@ std::string to_html(const RunRecord& record) {
         table("Stages", heads({"name", "stage", "#faces before", "#faces after", "#vertices after", "notes"}),
               stage_rows(record));
     out += pictures(record);
-    out += table("Checks", heads({"", "property", "expected", "found", "part", "stage"}), check_rows(record));
+    out += table("Checks", heads({"", "property", "expected", "found", "part", "places", "stage"}),
+                 check_rows(record));
     out += table("Outputs", heads({"file", "#size", "SHA-256"}), file_rows(record.outputs));
     out += table("Inputs", heads({"file", "#size", "SHA-256"}), file_rows(record.inputs));
     out += table("Parameters", heads({"name", "value"}), property_rows(record.params));

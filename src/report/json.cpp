@@ -59,6 +59,8 @@ Json check_json(const Check& check) {
             {"found", check.found},
             {"part", text_or_null(check.part)},
             {"where", text_or_null(facetmill::spelled(check.where))},
+            {"waived", check.waived},
+            {"places", check.places ? Json(*check.places) : Json()},
             {"evidence", check.evidence}};
 }
 

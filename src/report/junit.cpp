@@ -1,3 +1,4 @@
+#include "report/check_text.hpp"
 #include "report/markup.hpp"
 #include "report/render.hpp"
 
@@ -32,8 +33,12 @@ std::string check_case(const Check& check) {
     const std::string head =
         fmt::format("    <testcase classname=\"{}\" name=\"{}{}\"", escaped(check.stage), escaped(check.name),
                     check.part.empty() ? "" : escaped(fmt::format(" [{}]", check.part)));
-    if (check.passed) return head + "/>\n";
-    const std::string said = escaped(fmt::format("expected {}, found {}", check.expected, check.found));
+    if (check.passed && !check.waived) return head + "/>\n";
+    const std::string places = places_text(check);
+    const std::string said = escaped(fmt::format("expected {}, found {}{}", check.expected, check.found,
+                                                 places.empty() ? "" : "; " + places));
+    if (check.waived)
+        return fmt::format("{}>\n      <system-out>known: {}</system-out>\n    </testcase>\n", head, said);
     if (check.severity != Severity::error)
         return fmt::format("{}>\n      <system-out>warning: {}</system-out>\n    </testcase>\n", head, said);
     return fmt::format("{}>\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n", head, said,

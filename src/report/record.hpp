@@ -5,6 +5,7 @@
 #include "base/json.hpp"
 #include "mesh/attribute.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,10 @@ struct Check {
     Severity severity = Severity::error;
     std::string expected; ///< "true", "2", "at most 5"
     std::string found;
-    std::string part; ///< the part it is about; empty: the scene
-    Json evidence;    ///< places: [{face, at}], or null
+    std::string part;                    ///< the part it is about; empty: the scene
+    Json evidence;                       ///< the first places: [{part, at, face}], or null
+    std::optional<std::size_t> places{}; ///< how many speak against it, where that is not what was found
+    bool waived = false;                 ///< it did not hold, but that is known; passed is true
     Mark where;
 };
 

@@ -129,7 +129,9 @@ Json definitions() {
                                      {"found", typed("string")},
                                      {"part", nullable("string", "The part it is about; null: the scene")},
                                      {"where", nullable("string", "Its place in the pipeline")},
-                                     {"evidence", nullable("array", "Places that show it")}})},
+                                     {"waived", typed("boolean", "It failed, and that is known")},
+                                     {"places", nullable("integer", "How many speak against it")},
+                                     {"evidence", nullable("array", "The first places")}})},
             {"scene", scene_schema()}};
 }
 

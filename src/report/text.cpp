@@ -1,3 +1,4 @@
+#include "report/check_text.hpp"
 #include "report/numbers.hpp"
 #include "report/render.hpp"
 
@@ -44,15 +45,21 @@ void add_stage(const StageRecord& stage, std::size_t width, const Paint& paint, 
 void add_checks(const std::vector<Check>& checks, const Paint& paint, std::string& out) {
     if (checks.empty()) return;
     const auto failed = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return !c.passed; });
-    out += fmt::format("checks: {} passed, {} failed\n", static_cast<std::ptrdiff_t>(checks.size()) - failed,
-                       failed);
-    for (const auto& c : checks)
-        if (!c.passed)
-            out +=
-                fmt::format("  {} {} ({}{}): expected {}, found {}\n",
-                            paint(c.severity == Severity::error ? "31" : "35",
-                                  c.severity == Severity::error ? "failed" : "warned"),
-                            c.name, c.stage, c.part.empty() ? "" : ", part " + c.part, c.expected, c.found);
+    const auto known = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return c.waived; });
+    out += fmt::format("checks: {} passed, {}{} failed\n",
+                       static_cast<std::ptrdiff_t>(checks.size()) - failed - known,
+                       known > 0 ? fmt::format("{} known, ", known) : "", failed);
+    for (const auto& c : checks) {
+        if (c.passed && !c.waived) continue;
+        const std::string where = places_text(c);
+        out += fmt::format("  {} {} ({}{}): expected {}, found {}{}\n",
+                           paint(c.waived                        ? "2"
+                                 : c.severity == Severity::error ? "31"
+                                                                 : "35",
+                                 outcome(c)),
+                           c.name, c.stage, c.part.empty() ? "" : ", part " + c.part, c.expected, c.found,
+                           where.empty() ? "" : "; " + where);
+    }
 }
 
 } // namespace

@@ -14,8 +14,9 @@ namespace {
 constexpr std::size_t most = 10;
 
 bool is_about_borders(std::string_view name) {
-    constexpr std::array names{"closed",         "volume",          "genus",           "boundary_edges",
-                               "boundary_loops", "boundary_length", "longest_boundary"};
+    constexpr std::array names{"closed",           "volume",         "genus",
+                               "boundary_edges",   "boundary_loops", "boundary_length",
+                               "longest_boundary", "euler",          "euler"};
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -40,10 +41,8 @@ void add_loops(Json& evidence, const Part& part) {
                             {"length", chains[i].length}});
 }
 
-void add_places(Json& evidence, const Part& part, const Property& property) {
-    const std::size_t room = most - evidence.size();
-    for (const Place& place : property.quality ? places_against(part.mesh, *property.quality, room)
-                                               : places_against(part.mesh, property.name, room)) {
+void add_places(Json& evidence, const Part& part, const Assertion& assertion) {
+    for (const Place& place : places_against(part, assertion, most - evidence.size())) {
         Json entry = {{"part", part.name},
                       {"at", point_json(part.skinned ? place.at : part.transform.point(place.at))}};
         if (place.face != none) entry["face"] = place.face;
@@ -52,15 +51,41 @@ void add_places(Json& evidence, const Part& part, const Property& property) {
     }
 }
 
+Vec3 middle(const Mesh& mesh, Index f) {
+    Vec3 sum;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
+    return sum / mesh.face_size(f);
+}
+
 } // namespace
 
-Json evidence_against(const Scene& scene, const Property& property) {
+std::vector<Place> places_against(const Part& part, const Assertion& assertion, std::size_t limit) {
+    const Property& property = *property_named(assertion.property);
+    if (!property.quality) return places_against(part.mesh, property.name, limit);
+    if (!is_by_face(*property.quality)) return places_against(part.mesh, *property.quality, limit);
+    const auto fails = [&](double value) { return !holds(assertion.bound, value); };
+    auto places = places_against(in_world(part), *property.quality, limit, fails);
+    for (Place& place : places)
+        if (place.face != none) place.at = middle(part.mesh, place.face);
+    return places;
+}
+
+Json evidence_against(const Scene& scene, const Assertion& assertion) {
     Json evidence = Json::array();
-    if (is_about_borders(property.name))
+    if (is_about_borders(assertion.property))
         for (const Part& part : scene.parts) add_loops(evidence, part);
     if (evidence.empty()) // closed surfaces may be none for edges of three faces
-        for (const Part& part : scene.parts) add_places(evidence, part, property);
+        for (const Part& part : scene.parts) add_places(evidence, part, assertion);
     return evidence;
+}
+
+std::optional<std::size_t> count_places(const Scene& scene, const Assertion& assertion) {
+    const Property& property = *property_named(assertion.property);
+    if (!property.truth() && !(property.quality && is_by_face(*property.quality))) return {};
+    std::size_t count = 0;
+    for (const Part& part : scene.parts) count += places_against(part, assertion, SIZE_MAX).size();
+    if (count == 0) return {};
+    return count;
 }
 
 } // namespace facetmill

@@ -1,8 +1,8 @@
 #include "stage/failed_copy.hpp"
 
-#include "geometry/evidence.hpp"
 #include "io/codec.hpp"
 #include "io/outputs.hpp"
+#include "stage/evidence_json.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -11,36 +11,6 @@
 namespace facetmill {
 
 namespace {
-
-/// Flags the faces of the places; a place without a face flags those with a vertex there.
-std::vector<std::uint32_t> flagged(const Part& part, const Assertions& assertions) {
-    constexpr std::size_t all = SIZE_MAX;
-    const Mesh& mesh = part.mesh;
-    const Properties found = inspect(part, assertions.settings());
-    std::vector<std::uint32_t> flags(mesh.face_count(), 0);
-    std::set<std::array<double, 3>> points; // of places without a face
-    for (const auto& a : assertions.all) {
-        const Property& property = *property_named(a.property);
-        if (holds(a, found).value_or(true)) continue;
-        // The worst faces of a measure are not all wrong: a few show where.
-        constexpr std::size_t few = 100;
-        for (const Place& p : property.quality ? places_against(mesh, *property.quality, few)
-                                               : places_against(mesh, property.name, all)) {
-            if (p.face != none) {
-                flags[p.face] = 1;
-                if (p.with != none) flags[p.with] = 1;
-                continue;
-            }
-            points.insert({p.at.x, p.at.y, p.at.z});
-        }
-    }
-    for (Index f = 0; f < flags.size() && !points.empty(); ++f)
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
-            const Vec3& p = mesh.point(c);
-            if (points.contains({p.x, p.y, p.z})) flags[f] = 1;
-        }
-    return flags;
-}
 
 /// Gives the flagged faces a copy of their primitive with the material.
 void paint(Mesh& mesh, const std::vector<std::uint32_t>& flags, Index material) {
@@ -63,16 +33,31 @@ void paint(Mesh& mesh, const std::vector<std::uint32_t>& flags, Index material) 
 
 } // namespace
 
-Scene failed_copy(const Scene& scene, const Assertions& assertions) {
+void flag_faces_against(const Part& part, const Assertion& assertion, std::vector<std::uint32_t>& flags) {
+    const Mesh& mesh = part.mesh;
+    std::set<std::array<double, 3>> points; // of places without a face
+    for (const Place& p : places_against(part, assertion, SIZE_MAX)) {
+        if (p.face == none) points.insert({p.at.x, p.at.y, p.at.z});
+        if (p.face != none) flags[p.face] = 1;
+        if (p.with != none) flags[p.with] = 1;
+    }
+    for (Index f = 0; f < flags.size() && !points.empty(); ++f)
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+            const Vec3& p = mesh.point(c);
+            if (points.contains({p.x, p.y, p.z})) flags[f] = 1;
+        }
+}
+
+Scene failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags) {
     Scene copy = scene;
     Material red;
     red.name = "failed";
     red.base_colour[1] = red.base_colour[2] = 0;
     red.double_sided = true;
     copy.materials.push_back(red);
-    for (Part& part : copy.parts) {
-        paint(part.mesh, flagged(part, assertions), static_cast<Index>(copy.materials.size() - 1));
-        part.changed = true;
+    for (std::size_t p = 0; p < copy.parts.size(); ++p) {
+        paint(copy.parts[p].mesh, flags[p], static_cast<Index>(copy.materials.size() - 1));
+        copy.parts[p].changed = true;
     }
     return copy;
 }
@@ -85,10 +70,11 @@ void verify_failed_copy(const std::string& path, const Value& given, Problems& p
                  "facetmill formats lists them; .glb shows the colours");
 }
 
-void write_failed_copy(const Scene& scene, const Assertions& assertions, const std::filesystem::path& path) {
+void write_failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags,
+                       const std::filesystem::path& path) {
     io::WriteSettings settings;
     settings.title = path.stem().string();
-    const io::Written written = io::codec_for(path)->write(failed_copy(scene, assertions), settings);
+    const io::Written written = io::codec_for(path)->write(failed_copy(scene, flags), settings);
     for (const auto& file : written.files) io::write_now(path.parent_path() / file.name, file.bytes);
 }
 

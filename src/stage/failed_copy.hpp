@@ -10,11 +10,16 @@ namespace facetmill {
 /// Adds E-FORMAT when no codec writes such a file.
 void verify_failed_copy(const std::string& path, const Value& given, Problems& problems);
 
-/// Writes the scene at once, with the faces that speak against the assertions (against edges and vertices:
-/// the faces there) in a red material `failed` and 1 in the face attribute `failed`. Throws output.
-void write_failed_copy(const Scene& scene, const Assertions& assertions, const std::filesystem::path& path);
+/// Sets the flags of the part's faces that speak against the assertion; against edges and vertices: of the
+/// faces there.
+void flag_faces_against(const Part& part, const Assertion& assertion, std::vector<std::uint32_t>& flags);
 
-/// The same as a scene.
-Scene failed_copy(const Scene& scene, const Assertions& assertions);
+/// The scene with the flagged faces of each part in a red material `failed` and 1 in the face attribute
+/// `failed`.
+Scene failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags);
+
+/// Writes that at once. Throws output.
+void write_failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags,
+                       const std::filesystem::path& path);
 
 } // namespace facetmill

@@ -2,6 +2,7 @@
 
 #include "base/json.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 #include <optional>
@@ -49,6 +50,7 @@ KnownFailures KnownFailures::read(const std::filesystem::path& path) {
             if (!f.is_object() || !f.contains(name) || !f[name].is_string()) throw refuse();
             *slot = f[name].get<std::string>();
         }
+        if (f.contains("places") && f["places"].is_number_unsigned()) failure.places = f["places"];
         known.failures_.push_back(std::move(failure));
     }
     return known;
@@ -57,18 +59,23 @@ KnownFailures KnownFailures::read(const std::filesystem::path& path) {
 void KnownFailures::write(io::Outputs& outputs, const std::filesystem::path& path) const {
     Json list = Json::array();
     for (const auto& f : failures_)
-        list.push_back({{"check", f.check}, {"part", f.part}, {"expected", f.expected}, {"found", f.found}});
+        list.push_back({{"check", f.check},
+                        {"part", f.part},
+                        {"expected", f.expected},
+                        {"found", f.found},
+                        {"places", f.places ? Json(*f.places) : Json()}});
     const std::string text = Json{{"failures", std::move(list)}}.dump(2) + "\n";
     outputs.add(path, {reinterpret_cast<const std::byte*>(text.data()), text.size()});
 }
 
 void KnownFailures::add(const report::Check& check) {
-    failures_.push_back({check.name, check.part, check.expected, check.found});
+    failures_.push_back({check.name, check.part, check.expected, check.found, check.places});
 }
 
 bool KnownFailures::waives(const report::Check& check) const {
     for (const auto& f : failures_) {
         if (f.check != check.name || f.part != check.part) continue;
+        if (f.places && check.places && *check.places > *f.places) continue;
         if (f.found == check.found) return true;
         const auto before = number_in(f.found), now = number_in(check.found),
                    limit = limit_in(check.expected);
@@ -76,6 +83,13 @@ bool KnownFailures::waives(const report::Check& check) const {
         if (*now > *limit ? *now <= *before : *now >= *before) return true;
     }
     return false;
+}
+
+std::size_t KnownFailures::mended(const KnownFailures& now) const {
+    return static_cast<std::size_t>(std::count_if(failures_.begin(), failures_.end(), [&](const Failure& f) {
+        return std::none_of(now.failures_.begin(), now.failures_.end(),
+                            [&](const Failure& g) { return f.check == g.check && f.part == g.part; });
+    }));
 }
 
 } // namespace facetmill

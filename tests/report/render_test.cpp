@@ -51,10 +51,30 @@ RunRecord full_record() {
     skipped.path = "stages[1]";
     skipped.skipped = true;
     record.stages = {cut, skipped};
-    record.checks = {{"closed", "validate", true, Severity::error, "true", "true", "", {}, {}},
-                     {"euler", "validate", false, Severity::error, "2", "0", "cube",
-                      Json::array({{{"face", 3}}}), file_mark("p.yaml")},
-                     {"area", "validate", false, Severity::warning, "at most 5", "6", "", {}, {}}};
+    record.checks = {{"closed", "validate", true, Severity::error, "true", "true", "", {}, {}, false, {}},
+                     {"euler",
+                      "validate",
+                      false,
+                      Severity::error,
+                      "2",
+                      "0",
+                      "cube",
+                      Json::array({{{"part", "cube"}, {"face", 3}, {"at", {1, 2.5, 3}}}}),
+                      {},
+                      false,
+                      file_mark("p.yaml")},
+                     {"area", "validate", false, Severity::warning, "at most 5", "6", "", {}, {}, false, {}},
+                     {"oriented",
+                      "validate",
+                      true,
+                      Severity::error,
+                      "true",
+                      "false",
+                      "cube",
+                      Json::array({{{"part", "cube"}, {"face", 4}, {"at", {0, 0, 1}}}}),
+                      12,
+                      true,
+                      {}}};
     record.errors = {{Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), ""},
                      {Severity::error, "E-WRITE", "the disk is full", {}, "make room"}};
     record.exit_code = 4;
@@ -129,16 +149,19 @@ TEST_CASE("what varies is under one key", "[report]") {
 }
 
 TEST_CASE("the text for the terminal", "[report]") {
-    CHECK(to_text(full_record(), false) ==
-          "p.yaml: Mills <cubes> & more\n"
-          "  cut       1,200 -> 12 faces                     0.25 s\n"
-          "            warning[W-CAP]: one loop stays open\n"
-          "  relax     skipped\n"
-          "checks: 1 passed, 2 failed\n"
-          "  failed euler (validate, part cube): expected 2, found 0\n"
-          "  warned area (validate): expected at most 5, found 6\n"
-          "wrote b.glb (56.8 kB)\n"
-          "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); exit code 4\n");
+    CHECK(
+        to_text(full_record(), false) ==
+        "p.yaml: Mills <cubes> & more\n"
+        "  cut       1,200 -> 12 faces                     0.25 s\n"
+        "            warning[W-CAP]: one loop stays open\n"
+        "  relax     skipped\n"
+        "checks: 1 passed, 1 known, 2 failed\n"
+        "  failed euler (validate, part cube): expected 2, found 0; first face 3 of 'cube' at 1 2.5 3\n"
+        "  warned area (validate): expected at most 5, found 6\n"
+        "  known oriented (validate, part cube): expected true, found false; 12 places, the first face 4 of "
+        "'cube' at 0 0 1\n"
+        "wrote b.glb (56.8 kB)\n"
+        "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); exit code 4\n");
     RunRecord good;
     good.pipeline = "p.yaml";
     good.seconds = 0.5;
@@ -149,13 +172,18 @@ TEST_CASE("the text for the terminal", "[report]") {
 TEST_CASE("JUnit: checks and errors are cases", "[report]") {
     CHECK(to_junit(full_record()) == "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                                      "<testsuites>\n"
-                                     "  <testsuite name=\"p.yaml\" tests=\"4\" failures=\"1\" errors=\"1\">\n"
+                                     "  <testsuite name=\"p.yaml\" tests=\"5\" failures=\"1\" errors=\"1\">\n"
                                      "    <testcase classname=\"validate\" name=\"closed\"/>\n"
                                      "    <testcase classname=\"validate\" name=\"euler [cube]\">\n"
-                                     "      <failure message=\"expected 2, found 0\">p.yaml</failure>\n"
+                                     "      <failure message=\"expected 2, found 0; first face 3 of "
+                                     "&#39;cube&#39; at 1 2.5 3\">p.yaml</failure>\n"
                                      "    </testcase>\n"
                                      "    <testcase classname=\"validate\" name=\"area\">\n"
                                      "      <system-out>warning: expected at most 5, found 6</system-out>\n"
+                                     "    </testcase>\n"
+                                     "    <testcase classname=\"validate\" name=\"oriented [cube]\">\n"
+                                     "      <system-out>known: expected true, found false; 12 places, the "
+                                     "first face 4 of &#39;cube&#39; at 0 0 1</system-out>\n"
                                      "    </testcase>\n"
                                      "    <testcase classname=\"run\" name=\"E-WRITE\">\n"
                                      "      <error message=\"the disk is full\"></error>\n"

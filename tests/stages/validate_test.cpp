@@ -1,3 +1,4 @@
+#include "geometry/qualities.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
@@ -230,13 +231,68 @@ TEST_CASE("validate waives known failures, and fails new and worse ones", "[stag
     run = run_stage("validate", again, scene_of(mesh));
     CHECK(failures(run) == "");
     CHECK(run.record.result["waived"] == 2);
-    CHECK(run.state->record.checks.at(0).found == "false (known)");
+    CHECK(run.record.result["mended"] == 0);
+    CHECK(run.state->record.checks.at(0).found == "false");
+    CHECK(run.state->record.checks.at(0).waived);
+    CHECK(run.state->record.checks.at(0).places == 8);
+    CHECK_FALSE(run.state->record.checks.at(2).waived);
     CHECK(judged(again, shapes::grid(1, 1)) == ""); // better than it was
-    CHECK(judged(again, shapes::grid(3, 3)) ==
-          "boundary_edges: at most 2, found 12\nfaces: at most 9, found 18");
+    CHECK(judged(again, shapes::grid(3, 3)) ==      // open at more places than known
+          "closed: true, found false\nboundary_edges: at most 2, found 12\nfaces: at most 9, found 18");
+    const auto mended = run_stage("validate", again, scene_of(shapes::tetrahedron()));
+    CHECK(mended.record.result["mended"] == 2);
+    CHECK(mended.record.said ==
+          std::vector<std::string>{"2 of 2 known failures hold now: update_baseline tightens the gate"});
     CHECK(failure([] { run_stage("validate", "{update_baseline: true}", scene_of({})); }) ==
           "usage [E-MISSING] test.yaml:1:1: validate: update_baseline needs a file to write | baseline: "
           "known.json");
+}
+
+TEST_CASE("validate shows only the faces beyond the bound, and how many they are", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto file = folder.path() / "failed.ply";
+    Mesh mesh = shapes::grid(4, 4);
+    mesh.positions[12].x += 0.95; // thin faces around the middle
+    const auto run =
+        run_stage("validate", "{min_angle: {min: 20deg}, mark: '" + file.string() + "'}", scene_of(mesh));
+    const auto& check = run.state->record.checks.at(0);
+    std::size_t thin = 0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        Mesh one;
+        one.positions = mesh.positions;
+        add_face(one, mesh.face_wedges(f));
+        thin += measure(one, Quality::min_angle).value() < 20;
+    }
+    REQUIRE((thin > 0 && thin < 10));
+    CHECK(check.places == thin);
+    CHECK(check.evidence.size() == thin);
+    io::ReadLog log;
+    const Scene copy = io::read_scene(io::Input::open(file), {}, log);
+    const Attribute* failed = copy.parts.at(0).mesh.find("failed", Domain::face);
+    REQUIRE(failed);
+    double sum = 0;
+    for (std::size_t f = 0; f < failed->size(); ++f) sum += failed->value(f, 0);
+    CHECK(sum == static_cast<double>(thin));
+}
+
+TEST_CASE("validate numbers faces as the part has them, also by component", "[stages]") {
+    Mesh mesh = shapes::cube();
+    append(mesh, shapes::grid(1, 1));
+    for (Vec3& p : mesh.positions) p.z += p.x; // the sheet is the second piece
+    const auto run = run_stage("validate", "{closed: true, per: component}", scene_of(mesh));
+    const auto& check = run.state->record.checks.at(1);
+    CHECK(check.part == "part.1");
+    CHECK(check.evidence.at(0)["part"] == "part");
+    CHECK(check.evidence.at(0)["face"] >= 12);
+    CHECK(check.places == 4);
+}
+
+TEST_CASE("validate shows where Euler's number and the pieces come from", "[stages]") {
+    Mesh mesh = shapes::hourglass();
+    append(mesh, shapes::tetrahedron());
+    const auto run = run_stage("validate", "{euler: 2, components: 1}", scene_of(mesh));
+    CHECK(run.state->record.checks.at(0).evidence.size() == 1); // the vertex of two fans
+    CHECK(run.state->record.checks.at(1).evidence.size() == 2); // a face of each piece
 }
 
 TEST_CASE("validate writes a copy that shows where it failed", "[stages]") {

@@ -1,0 +1,146 @@
+#include "stage/judge.hpp"
+
+#include "geometry/surgery.hpp"
+#include "mesh/placement.hpp"
+#include "mesh/topology.hpp"
+#include "stage/context.hpp"
+#include "stage/evidence_json.hpp"
+#include "stage/failed_copy.hpp"
+#include "stage/known_failures.hpp"
+
+#include <fmt/format.h>
+#include <span>
+
+namespace facetmill {
+
+namespace {
+
+/// Lends the parts at the given places to body as a scene of their own, without a copy.
+template <class Body>
+void with_parts(Scene& scene, std::span<const std::size_t> places, Body&& body) {
+    Scene chosen{{}, scene.materials, scene.unit, scene.up, {}};
+    for (const std::size_t i : places) chosen.parts.push_back(std::move(scene.parts[i]));
+    body(chosen);
+    for (std::size_t k = 0; k < places.size(); ++k) scene.parts[places[k]] = std::move(chosen.parts[k]);
+}
+
+class Judge {
+  public:
+    Judge(JudgeSettings settings, Context& context) : s_(std::move(settings)), context_(context) {
+        if (s_.baseline && !s_.update_baseline) known_ = KnownFailures::read(*s_.baseline);
+    }
+
+    void run(Scene& scene) {
+        std::vector<std::size_t> places;
+        for (std::size_t i = 0; i < scene.parts.size(); ++i)
+            if (context_.selects(scene.parts[i], scene)) places.push_back(i);
+        for (const Part& part : scene.parts) flags_.emplace_back(part.mesh.face_count(), 0);
+        s_.assertions = resolved(std::move(s_.assertions), scene, context_);
+        for (auto& check : check_limits(s_.limits, scene)) take(std::move(check));
+        if (s_.per == Per::scene)
+            with_parts(scene, places, [&](const Scene& all) { judge(all, {"", places, nullptr}); });
+        if (s_.per == Per::part)
+            for (const std::size_t i : places)
+                with_parts(scene, {&i, 1}, [&](const Scene& one) {
+                    judge(one, {one.parts[0].name, {&i, 1}, nullptr});
+                });
+        if (s_.per == Per::component)
+            for (const std::size_t i : places) judge_components(scene, i);
+        finish(scene);
+    }
+
+  private:
+    /// What is judged as one, and how its parts and faces are numbered in the scene.
+    struct Subject {
+        std::string name;
+        std::span<const std::size_t> parts;
+        const std::vector<Index>* faces; ///< of a piece of the one part; null: as the part has them
+    };
+
+    void judge(const Scene& scene, const Subject& subject) {
+        auto checks = evaluate(s_.assertions, inspect(scene, s_.assertions.settings()), context_.name());
+        for (std::size_t i = 0; i < checks.size(); ++i) {
+            report::Check& check = checks[i];
+            const Assertion& assertion = s_.assertions.all[i];
+            check.part = subject.name;
+            if (!check.passed) {
+                check.evidence = evidence_against(scene, assertion);
+                check.places = count_places(scene, assertion);
+                if (subject.faces) renumber(check.evidence, *subject.faces);
+            }
+            if (!take(std::move(check)) && s_.mark) flag(scene, subject, assertion);
+        }
+    }
+
+    static void renumber(Json& evidence, const std::vector<Index>& faces) {
+        for (Json& place : evidence)
+            for (const char* key : {"face", "with"})
+                if (place.contains(key)) place[key] = faces[place[key].get<std::size_t>()];
+    }
+
+    void flag(const Scene& scene, const Subject& subject, const Assertion& assertion) {
+        for (std::size_t k = 0; k < scene.parts.size(); ++k) {
+            std::vector<std::uint32_t> flags(scene.parts[k].mesh.face_count(), 0);
+            flag_faces_against(scene.parts[k], assertion, flags);
+            for (std::size_t f = 0; f < flags.size(); ++f)
+                flags_[subject.parts[k]][subject.faces ? (*subject.faces)[f] : f] |= flags[f];
+        }
+    }
+
+    void judge_components(const Scene& scene, std::size_t index) {
+        const Part& part = scene.parts[index];
+        const Components pieces = face_components(part.mesh, false);
+        std::vector<std::vector<Index>> faces(pieces.count);
+        for (Index f = 0; f < part.mesh.face_count(); ++f) faces[pieces.of_face[f]].push_back(f);
+        std::size_t number = 0;
+        for (Mesh& mesh : separated(part.mesh, pieces.of_face, pieces.count)) {
+            Scene one{{}, scene.materials, scene.unit, scene.up, {}};
+            one.parts.emplace_back().name = part.name;
+            one.parts[0].mesh = std::move(mesh);
+            one.parts[0].transform = effective(part);
+            judge(one, {fmt::format("{}.{}", part.name, number), {&index, 1}, &faces[number]});
+            ++number;
+        }
+    }
+
+    /// Whether it holds, or is known not to.
+    bool take(report::Check check) {
+        check.severity = s_.severity;
+        if (!check.passed) {
+            failed_.add(check);
+            check.waived = check.passed = s_.update_baseline || known_.waives(check);
+            waived_ += check.waived;
+            any_ = any_ || !check.passed;
+        }
+        const bool passed = check.passed;
+        context_.check(std::move(check));
+        return passed;
+    }
+
+    void finish(const Scene& scene) {
+        if (s_.update_baseline) failed_.write(context_.run().outputs, *s_.baseline);
+        if (s_.mark && any_) write_failed_copy(scene, flags_, *s_.mark);
+        if (!s_.baseline) return;
+        const std::size_t mended = known_.mended(failed_);
+        context_.result()["waived"] = waived_;
+        context_.result()["mended"] = mended;
+        if (mended > 0)
+            context_.say(fmt::format("{} of {} known failures hold now: update_baseline tightens the gate",
+                                     mended, known_.size()));
+    }
+
+    JudgeSettings s_;
+    Context& context_;
+    KnownFailures known_, failed_;
+    std::size_t waived_ = 0;
+    bool any_ = false;                              ///< failed and not known
+    std::vector<std::vector<std::uint32_t>> flags_; ///< of the parts' faces
+};
+
+} // namespace
+
+void judge(Scene& scene, JudgeSettings settings, Context& context) {
+    Judge(std::move(settings), context).run(scene);
+}
+
+} // namespace facetmill
