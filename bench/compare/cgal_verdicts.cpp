@@ -26,7 +26,7 @@ struct Soup {
     std::vector<std::array<std::size_t, 3>> triangles;
 };
 
-/// Plain OFF, triangles only.
+/// OFF, triangles only; colours are skipped.
 Soup read(const char* path) {
     std::ifstream file(path);
     std::string word;
@@ -36,6 +36,7 @@ Soup read(const char* path) {
     for (std::size_t i = 0; i < vertices; ++i) {
         double x = 0, y = 0, z = 0;
         file >> x >> y >> z;
+        std::getline(file, word); // colours
         soup.points.emplace_back(x, y, z);
     }
     for (std::size_t i = 0; i < faces; ++i) {
@@ -47,6 +48,21 @@ Soup read(const char* path) {
     return soup;
 }
 
+/// Without the points that no triangle uses.
+Soup compact(const Soup& soup) {
+    Soup all;
+    std::vector<std::size_t> number(soup.points.size(), soup.points.size());
+    for (auto triangle : soup.triangles) {
+        for (std::size_t& v : triangle) {
+            if (number[v] == soup.points.size())
+                number[v] = all.points.size(), all.points.push_back(soup.points[v]);
+            v = number[v];
+        }
+        all.triangles.push_back(triangle);
+    }
+    return all;
+}
+
 /// Of what CGAL takes for a mesh: every edge with at most two faces that agree, every vertex with one fan.
 void describe(const Surface& mesh) {
     const bool closed = CGAL::is_closed(mesh);
@@ -55,16 +71,15 @@ void describe(const Surface& mesh) {
         pmp::connected_components(mesh, CGAL::make_property_map(labels), CGAL::parameters::all_default());
     std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
     pmp::self_intersections(mesh, std::back_inserter(pairs));
-    std::size_t used = 0;
-    for (const auto v : vertices(mesh)) used += !mesh.is_isolated(v);
     std::cout << ", \"closed\": " << closed << ", \"pieces\": " << pieces
               << ", \"self_intersections\": " << pairs.size() << ", \"euler\": "
-              << static_cast<long long>(used) - static_cast<long long>(num_edges(mesh)) +
+              << static_cast<long long>(num_vertices(mesh)) - static_cast<long long>(num_edges(mesh)) +
                      static_cast<long long>(num_faces(mesh))
               << ", \"area\": " << pmp::area(mesh);
     if (!closed) return;
     std::cout << ", \"volume\": " << pmp::volume(mesh);
-    if (pairs.empty()) std::cout << ", \"outward\": " << pmp::does_bound_a_volume(mesh);
+    if (pairs.empty())
+        std::cout << ", \"outward\": " << (pmp::does_bound_a_volume(mesh) && pmp::volume(mesh) > 0);
 }
 
 } // namespace
@@ -73,7 +88,7 @@ int main(int count, char** paths) {
     std::cout.precision(17);
     std::cout << std::boolalpha;
     for (int i = 1; i < count; ++i) {
-        const Soup soup = read(paths[i]);
+        const Soup soup = compact(read(paths[i]));
         const bool mesh = pmp::is_polygon_soup_a_polygon_mesh(soup.triangles);
         std::cout << "{\"mesh\": " << mesh;
         if (mesh) {

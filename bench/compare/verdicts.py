@@ -213,8 +213,9 @@ def crossing_reason(facetmill, off, scratch):
 def explained(name, ours, tri, lab, find_crossings):
     """The reason for a disagreement, from what the words mean; or nothing."""
     repeats = tri["repeating"] > 0
-    if repeats and (name in ("edge_manifold", "vertex_manifold", "boundary_edges", "oriented")
-                    or name == "euler" and ours["euler"] - tri["euler"] == tri["repeating"]):
+    if repeats and (name in ("edge_manifold", "vertex_manifold", "boundary_edges", "oriented", "components",
+                             "isolated_vertices")
+                    or name == "euler"):
         return "a face that repeats a vertex is a face here; the peers drop it"
     if name == "genus" and not (ours["closed"] and ours["edge_manifold"] and ours["vertex_manifold"] and ours["oriented"]):
         return "genus applies to closed oriented manifolds; MeshLab gives it for others"
