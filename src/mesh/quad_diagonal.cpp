@@ -2,7 +2,6 @@
 #include "mesh/quad_diagonal.hpp"
 
 #include "base/parallel.hpp"
-#include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <unordered_map>
@@ -27,6 +26,23 @@ std::unordered_map<std::uint64_t, int> repeated_keys(std::vector<std::uint64_t> 
     return found;
 }
 
+/// The only edges that a diagonal may coincide with, each once.
+std::vector<std::uint64_t> edges_between_corners_of_quads(const Mesh& mesh) {
+    std::vector<std::uint8_t> of_quad(mesh.vertex_count());
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (mesh.face_size(f) == 4)
+            for (const Index w : mesh.face_wedges(f)) of_quad[mesh.vertex_of_wedge(w)] = 1;
+    std::vector<std::uint64_t> keys;
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        for (Index c = mesh.face_begin(f), last = mesh.face_end(f) - 1; c < mesh.face_end(f); last = c++) {
+            const Index from = mesh.vertex(last), to = mesh.vertex(c);
+            if (of_quad[from] && of_quad[to] && from != to) keys.push_back(key_of(from, to));
+        }
+    radix_sort(keys, [](std::uint64_t k) { return k; });
+    keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+    return keys;
+}
+
 } // namespace
 
 QuadDiagonals quad_diagonals(const Mesh& mesh, Index f) {
@@ -48,14 +64,12 @@ QuadCuts quad_cuts(const Mesh& mesh) {
         if (mesh.face_size(static_cast<Index>(f)) == 4)
             cuts.at_second[f] = quad_diagonals(mesh, static_cast<Index>(f)).cut_at_second;
     });
-    std::vector<std::uint64_t> keys;
-    for (const auto& [low, high] : build_edges(mesh).edges) keys.push_back(key_of(low, high));
+    std::vector<std::uint64_t> keys = edges_between_corners_of_quads(mesh);
     const std::size_t old = keys.size();
     for (Index f = 0; f < mesh.face_count(); ++f)
         if (mesh.face_size(f) == 4) keys.push_back(diagonal_of(mesh, f, cuts.at_second[f]));
     auto taken = repeated_keys(keys);
     if (taken.empty()) return cuts;
-    std::sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(old));
     std::sort(keys.begin() + static_cast<std::ptrdiff_t>(old), keys.end());
     const auto is_free = [&](std::uint64_t key) {
         const auto half = keys.begin() + static_cast<std::ptrdiff_t>(old);
