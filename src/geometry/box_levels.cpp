@@ -1,5 +1,7 @@
 #include "geometry/box_levels.hpp"
 
+#include "base/storage.hpp"
+
 #include <algorithm>
 
 namespace facetmill {
@@ -34,7 +36,7 @@ void BoxLevels::number_nodes(std::size_t items) {
     level_begin.clear();
     for (std::size_t many = items; level_begin.empty() || many > 1;)
         level_begin.push_back(many = (many + 3) / 4);
-    nodes.resize(exclusive_scan(level_begin));
+    resize_large(nodes, exclusive_scan(level_begin));
 }
 
 } // namespace facetmill

@@ -1,9 +1,11 @@
 #include "geometry/face_tree.hpp"
 
 #include "base/parallel.hpp"
+#include "base/storage.hpp"
 #include "geometry/halving.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 namespace facetmill {
 
@@ -17,9 +19,13 @@ bool is_finite(const Surface& surface, std::size_t t) {
 /// The numbers of the triangles with finite corners, ascending.
 std::vector<Index> finite_triangles(const Surface& surface) {
     std::vector<Index> kept;
-    kept.reserve(surface.size());
-    for (std::size_t t = 0; t < surface.size(); ++t)
-        if (is_finite(surface, t)) kept.push_back(static_cast<Index>(t));
+    resize_large(kept, surface.size());
+    std::atomic<bool> all = true;
+    parallel_for(surface.size(), [&](std::size_t t) {
+        kept[t] = static_cast<Index>(t);
+        if (!is_finite(surface, t)) all = false;
+    });
+    if (!all) std::erase_if(kept, [&](Index t) { return !is_finite(surface, t); });
     return kept;
 }
 
@@ -30,15 +36,16 @@ FaceTree::FaceTree(const Surface& surface, Use use) {
     if (kept.empty()) return;
     const Box all = surface.bounds();
     set_frame(all);
-    std::vector<CentredItem> order(kept.size());
+    std::vector<CentredItem> order;
+    resize_large(order, kept.size());
     parallel_for(order.size(), [&](std::size_t i) {
         const Index t = kept[i];
         const Vec3 sum = local(surface.point(t, 0)) + local(surface.point(t, 1)) + local(surface.point(t, 2));
         order[i] = {{static_cast<float>(sum.x), static_cast<float>(sum.y), static_cast<float>(sum.z)}, t};
     });
     sort_by_halving(order);
-    triangles.resize(kept.size());
-    faces.resize(kept.size());
+    resize_large(triangles, kept.size());
+    resize_large(faces, kept.size());
     parallel_for(kept.size(), [&](std::size_t i) {
         const Index t = order[i].item;
         triangles[i] = {surface.point(t, 0), surface.point(t, 1), surface.point(t, 2)};

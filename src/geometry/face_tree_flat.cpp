@@ -1,5 +1,6 @@
 // The part of the tree that lies flat along the surface: plates and patches.
 #include "base/parallel.hpp"
+#include "base/storage.hpp"
 #include "geometry/face_tree.hpp"
 
 #include <algorithm>
@@ -140,7 +141,7 @@ Moments flatten_leaf(const FaceTree& tree, std::size_t n, Plates& plates) {
 
 void FaceTree::flatten() {
     constexpr std::size_t chunk = 1024;
-    plates.resize((triangles.size() + 3) / 4);
+    resize_large(plates, (triangles.size() + 3) / 4);
     std::vector<Moments> moments(plates.size());
     parallel_for(
         plates.size(), [&](std::size_t n) { moments[n] = flatten_leaf(*this, n, plates[n]); }, chunk);

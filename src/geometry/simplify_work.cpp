@@ -1,6 +1,7 @@
 #include "geometry/simplify_work.hpp"
 
 #include "base/parallel.hpp"
+#include "base/storage.hpp"
 
 #include <atomic>
 #include <bit>
@@ -90,7 +91,7 @@ Work build_work(const Mesh& mesh) {
     const std::vector<Keyed> order = ordered_vertices(mesh, s);
     const std::size_t n = order.size(), m = mesh.face_count();
     std::vector<Index> rank(mesh.vertex_count(), none);
-    s.at.resize(n), s.source.resize(n);
+    resize_large(s.at, n), resize_large(s.source, n);
     parallel_for(n, [&](std::size_t i) {
         s.source[i] = order[i].item;
         rank[order[i].item] = static_cast<Index>(i);
@@ -98,7 +99,10 @@ Work build_work(const Mesh& mesh) {
     });
     s.moved.resize(n), s.touched.resize(n), s.stirred.resize(n);
     const std::vector<Keyed> faces = ordered_faces(mesh, rank, n);
-    s.tri.resize(3 * m), s.flags.resize(3 * m), s.cost.assign(3 * m, never), s.face_source.resize(m);
+    resize_large(s.tri, 3 * m), resize_large(s.flags, 3 * m), resize_large(s.face_source, m);
+    s.cost.reserve(3 * m);
+    prefault(s.cost.data(), 3 * m * sizeof(s.cost[0]));
+    s.cost.assign(3 * m, never);
     if (mesh.has_seams()) s.wedge.resize(3 * m);
     parallel_for(m, [&](std::size_t i) {
         s.face_source[i] = faces[i].item;
@@ -116,7 +120,7 @@ Work build_work(const Mesh& mesh) {
 void build_lists(Work& s) {
     // Serial: along the curve this is a few milliseconds per million faces, less than sorting would take.
     s.first.assign(s.vertex_slots(), none);
-    s.next.resize(s.tri.size());
+    resize_large(s.next, s.tri.size());
     for (std::size_t c = s.tri.size(); c-- > 0;)
         s.next[c] = std::exchange(s.first[s.tri[c]], static_cast<Index>(c));
 }

@@ -1,6 +1,7 @@
 // Polygons into triangles, without new points.
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
+#include "base/storage.hpp"
 #include "mesh/quad_diagonal.hpp"
 
 #include <algorithm>
@@ -134,7 +135,7 @@ Mesh triangulated(const Mesh& mesh) {
     result.wedge_vertex = mesh.wedge_vertex;
     result.attributes = mesh.attributes;
     result.primitives = mesh.primitives;
-    result.corners.resize(std::size_t{triangles} * 3);
+    resize_large(result.corners, std::size_t{triangles} * 3);
     std::vector<Index> parent(triangles);
     parallel_for(
         faces,
