@@ -1,22 +1,25 @@
 #!/usr/bin/env python3
 """Judging and probing a large closed mesh: facetmill's benchmarks beside trimesh (with Embree for rays) and pymeshlab.
 
-soundness.py FACETMILL_BENCH MESH [FILTER]
+soundness.py MESH [--build build/release] [--only FILTER]
 
-MESH is a triangle mesh in a file that all can read. FACETMILL_BENCH is build/.../bench/facetmill_bench, which also
-has CGAL's times. Needs numpy, trimesh, embreex, pymeshlab. Prints CPU and wall seconds of each in one run, and what
-the others cost relative to facetmill.
+MESH is a closed triangle mesh in a file that all can read. CGAL's times come from facetmill_bench, too. Run it by an
+interpreter that has numpy, trimesh, embreex and pymeshlab. Prints CPU and wall seconds of each in one run, and what the
+others cost relative to facetmill.
 """
+import argparse
 import json
 import os
+import pathlib
 import subprocess
-import sys
 import time
 
 import numpy as np
 import pymeshlab
 import trimesh
 from trimesh.ray import ray_pyembree
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def timed(work, times=1):
@@ -70,11 +73,15 @@ def lab(path):
 
 
 def main():
-    bench, path = sys.argv[1:3]
-    pattern = sys.argv[3] if len(sys.argv) > 3 else "inspect_scan|self_inter|face_tree|probe_points|segments|closest"
-    mesh = trimesh.load(path, process=False)
+    ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    ask.add_argument("mesh")
+    ask.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path)
+    ask.add_argument("--only", default="inspect_scan|self_inter|face_tree|probe_points|segments|closest",
+                     help="the benchmarks of ours that run, as a pattern")
+    args = ask.parse_args()
+    path, mesh = args.mesh, trimesh.load(args.mesh, process=False)
     print(f"{len(mesh.faces)} faces; CPU seconds, wall seconds")
-    ours = facetmill(bench, path, pattern)
+    ours = facetmill(args.build / "bench/facetmill_bench", path, args.only)
     for name, (cpu, wall) in ours.items():
         print(f"  {name:<34}{cpu:9.3f}{wall:9.3f}")
 
