@@ -11,14 +11,24 @@ namespace facetmill {
 /// nothing where the system cannot.
 void prefault(void* memory, std::size_t bytes);
 
-/// v.resize(n), its new pages asked for in parallel.
+/// v.reserve(n), the pages of what is not in use yet asked for in parallel.
+template <class T>
+void reserve_large(std::vector<T>& v, std::size_t n) {
+    if (n <= v.size()) return;
+    v.reserve(n);
+    prefault(v.data() + v.size(), (n - v.size()) * sizeof(T));
+}
+
+/// v.resize(n), and v.resize(n, value), likewise.
 template <class T>
 void resize_large(std::vector<T>& v, std::size_t n) {
-    if (n > v.size()) {
-        v.reserve(n);
-        prefault(v.data() + v.size(), (n - v.size()) * sizeof(T));
-    }
+    reserve_large(v, n);
     v.resize(n);
+}
+template <class T>
+void resize_large(std::vector<T>& v, std::size_t n, const T& value) {
+    reserve_large(v, n);
+    v.resize(n, value);
 }
 
 } // namespace facetmill

@@ -100,9 +100,7 @@ Work build_work(const Mesh& mesh) {
     s.moved.resize(n), s.touched.resize(n), s.stirred.resize(n);
     const std::vector<Keyed> faces = ordered_faces(mesh, rank, n);
     resize_large(s.tri, 3 * m), resize_large(s.flags, 3 * m), resize_large(s.face_source, m);
-    s.cost.reserve(3 * m);
-    prefault(s.cost.data(), 3 * m * sizeof(s.cost[0]));
-    s.cost.assign(3 * m, never);
+    resize_large(s.cost, 3 * m, never);
     if (mesh.has_seams()) s.wedge.resize(3 * m);
     parallel_for(m, [&](std::size_t i) {
         s.face_source[i] = faces[i].item;

@@ -104,9 +104,7 @@ EdgeTable build_edges(const Mesh& mesh) {
     resize_large(table.corner_offsets, std::size_t{edges} + 1);
     table.corner_offsets[edges] = static_cast<Index>(items.size());
     resize_large(table.edge_corners, items.size());
-    table.corner_edge.reserve(mesh.corner_count());
-    prefault(table.corner_edge.data(), mesh.corner_count() * sizeof(Index));
-    table.corner_edge.resize(mesh.corner_count(), none);
+    resize_large(table.corner_edge, mesh.corner_count(), none);
     parallel_for(
         buckets.count(),
         [&](std::size_t b) {

@@ -1,5 +1,7 @@
 #include "stage/cap_option.hpp"
 
+#include "mesh/placement.hpp"
+
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -13,8 +15,6 @@ Index material_number(const Scene& scene, const std::string& name) {
 void add_material(Scene& scene, const std::string& name) {
     if (material_number(scene, name) == scene.materials.size()) scene.materials.emplace_back().name = name;
 }
-
-Vec3 in_world(const Part& part, const Vec3& p) { return part.skinned ? p : part.transform.point(p); }
 
 void warn_of_open(std::string_view stage, const Part& part, const std::vector<OpenContour>& open,
                   Context& context) {

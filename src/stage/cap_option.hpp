@@ -36,7 +36,4 @@ void add_material(Scene& scene, const std::string& name);
 void warn_of_open(std::string_view stage, const Part& part, const std::vector<OpenContour>& open,
                   Context& context);
 
-/// The place in the world of a point of a part.
-Vec3 in_world(const Part& part, const Vec3& p);
-
 } // namespace facetmill

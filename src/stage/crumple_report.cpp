@@ -1,5 +1,7 @@
 #include "stage/crumple_report.hpp"
 
+#include "mesh/placement.hpp"
+
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -16,7 +18,7 @@ Vec3 place_of(const CrumpledPart& work, Index face) {
 
 Box world_box(const Part& part) {
     Box box;
-    for (const Vec3& p : part.mesh.positions) box.add(part.skinned ? p : part.transform.point(p));
+    for (const Vec3& p : part.mesh.positions) box.add(in_world(part, p));
     return box;
 }
 

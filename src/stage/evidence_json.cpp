@@ -3,6 +3,7 @@
 #include "base/point_json.hpp"
 #include "geometry/boundary.hpp"
 #include "geometry/evidence.hpp"
+#include "mesh/placement.hpp"
 
 #include <algorithm>
 #include <array>
@@ -43,8 +44,7 @@ void add_loops(Json& evidence, const Part& part) {
 
 void add_places(Json& evidence, const Part& part, const Assertion& assertion) {
     for (const Place& place : places_against(part, assertion, most - evidence.size())) {
-        Json entry = {{"part", part.name},
-                      {"at", point_json(part.skinned ? place.at : part.transform.point(place.at))}};
+        Json entry = {{"part", part.name}, {"at", point_json(in_world(part, place.at))}};
         if (place.face != none) entry["face"] = place.face;
         if (place.with != none) entry["with"] = place.with;
         evidence.push_back(std::move(entry));

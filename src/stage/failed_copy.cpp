@@ -2,6 +2,7 @@
 
 #include "io/codec.hpp"
 #include "io/outputs.hpp"
+#include "options/mark_at.hpp"
 #include "stage/evidence_json.hpp"
 
 #include <array>
@@ -65,8 +66,7 @@ Scene failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_
 void verify_failed_copy(const std::string& path, const Value& given, Problems& problems) {
     const io::Codec* codec = io::codec_for(path);
     if (codec && codec->write) return;
-    const Value* at = given.is_map() ? given.find("mark") : nullptr;
-    problems.add(at ? at->mark : given.mark, "E-FORMAT", fmt::format("validate: no format writes '{}'", path),
+    problems.add(mark_at(given, "mark"), "E-FORMAT", fmt::format("validate: no format writes '{}'", path),
                  "facetmill formats lists them; .glb shows the colours");
 }
 

@@ -1,5 +1,7 @@
 #include "stage/relax_option.hpp"
 
+#include "options/mark_at.hpp"
+
 namespace facetmill {
 
 namespace {
@@ -90,19 +92,15 @@ RelaxSettings relax_settings(const RelaxOptions& o) {
 }
 
 void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems) {
-    const auto mark = [&](const char* name) {
-        const Value* value = given.is_map() ? given.find(name) : nullptr;
-        return value ? value->mark : given.mark;
-    };
     try {
         check_relax_settings(relax_settings(o));
     } catch (const Error& e) {
         const auto& d = e.diagnostics().front();
-        problems.add(mark("factor"), d.id, d.message, d.hint);
+        problems.add(mark_at(given, "factor"), d.id, d.message, d.hint);
     }
     const auto belongs = [&](const char* name, Method method, const char* to) {
         if (given.is_map() && given.find(name) && o.method != method)
-            problems.add(mark(name), "E-EXCLUSIVE",
+            problems.add(mark_at(given, name), "E-EXCLUSIVE",
                          std::string("relax: '") + name + "' goes with the method " + to + " only");
     };
     belongs("pass_band", Method::taubin, "taubin");
@@ -110,7 +108,7 @@ void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems)
     belongs("push_back", Method::hc, "hc");
     if (given.is_map() && given.find("neighbours") && o.method == Method::cotangent)
         problems.add(
-            mark("neighbours"), "E-EXCLUSIVE",
+            mark_at(given, "neighbours"), "E-EXCLUSIVE",
             "relax: 'neighbours' does not go with the method cotangent, which weights those by angles");
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/functions.hpp"
 #include "base/spelling.hpp"
+#include "options/mark_at.hpp"
 #include "stage/numbers_option.hpp"
 
 #include <fmt/format.h>
@@ -152,11 +153,8 @@ class Together {
   public:
     Together(const Value& given, Problems& problems) : given_(given), problems_(problems) {}
 
-    const Mark& mark(const char* name) const {
-        const Value* value = given_.is_map() ? given_.find(name) : nullptr;
-        return value ? value->mark : given_.mark;
-    }
-    bool has(const char* name) const { return given_.is_map() && given_.find(name); }
+    const Mark& mark(const char* name) const { return mark_at(given_, name); }
+    bool has(const char* name) const { return given_.find(name); }
     void refuse(bool when, const char* name, const char* what, const char* hint) {
         if (when) problems_.add(mark(name), "E-CONFLICT", std::string("simplify: ") + what, hint);
     }

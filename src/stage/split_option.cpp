@@ -1,5 +1,7 @@
 #include "stage/split_option.hpp"
 
+#include "options/mark_at.hpp"
+
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -76,24 +78,20 @@ void declare_split(Declare<SplitOptions>& d) {
 }
 
 void verify_split(const SplitOptions& o, const Value& given, Problems& problems) {
-    const auto mark = [&](const char* name) {
-        const Value* value = given.is_map() ? given.find(name) : &given;
-        return value ? value->mark : given.mark;
-    };
     const SplitMethod method = o.chosen();
     if (o.grid && o.method && o.method != SplitMethod::grid)
-        problems.add(mark("method"), "E-EXCLUSIVE", "split: 'grid' goes with the method grid only",
+        problems.add(mark_at(given, "method"), "E-EXCLUSIVE", "split: 'grid' goes with the method grid only",
                      "leave out either method or grid");
     if (o.method == SplitMethod::grid && !o.grid)
         problems.add(given.mark, "E-MISSING",
                      "split: the method grid needs 'grid', the number of pieces per edge",
                      "for example split: {grid: 3}");
     if (o.cut != Cut::longest_edge && method != SplitMethod::bisect)
-        problems.add(mark("cut"), "E-EXCLUSIVE",
+        problems.add(mark_at(given, "cut"), "E-EXCLUSIVE",
                      fmt::format("split: 'cut' goes with the method bisect, not with {}", spelled(method)));
     if (o.cut != Cut::longest_edge && o.has_target())
         problems.add(
-            mark("cut"), "E-EXCLUSIVE",
+            mark_at(given, "cut"), "E-EXCLUSIVE",
             fmt::format("split: 'cut: widest-angle' does not go with the target '{}', which its cuts "
                         "may never reach",
                         o.max_edge    ? "max_edge"
@@ -101,12 +99,12 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
                                       : "faces"),
             "leave out cut, or give passes and no target");
     if (o.creases && (!is_smooth(method) || method == SplitMethod::sqrt3))
-        problems.add(mark("creases"), "E-EXCLUSIVE",
+        problems.add(mark_at(given, "creases"), "E-EXCLUSIVE",
                      fmt::format("split: 'creases' goes with loop, butterfly and catmull-clark, not with {}",
                                  spelled(method)));
     if (o.min_angle && (o.max_edge || o.faces))
-        problems.add(mark("min_angle"), "E-EXCLUSIVE", "split: 'min_angle' goes with no other target",
-                     "use two split stages");
+        problems.add(mark_at(given, "min_angle"), "E-EXCLUSIVE",
+                     "split: 'min_angle' goes with no other target", "use two split stages");
     try {
         SplitSettings s;
         s.method = method;
@@ -114,7 +112,7 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
         check_split_targets(s);
     } catch (const Error& e) {
         const auto& d = e.diagnostics().front();
-        problems.add(mark(o.max_edge ? "max_edge" : "min_angle"), d.id, d.message, d.hint);
+        problems.add(mark_at(given, o.max_edge ? "max_edge" : "min_angle"), d.id, d.message, d.hint);
     }
 }
 

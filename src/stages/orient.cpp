@@ -1,5 +1,6 @@
 #include "geometry/orient.hpp"
 
+#include "mesh/placement.hpp"
 #include "report/summary.hpp"
 #include "stage/stage.hpp"
 
@@ -34,7 +35,7 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
         undecided += p.undecided;
     }
     if (crossed > 0) {
-        const Vec3 at = part.skinned ? first->conflict : part.transform.point(first->conflict);
+        const Vec3 at = in_world(part, first->conflict);
         context.warn(
             "W-ORIENT",
             fmt::format(

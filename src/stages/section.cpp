@@ -1,3 +1,4 @@
+#include "options/mark_at.hpp"
 #include "stage/hatch_option.hpp"
 #include "stage/plane_option.hpp"
 #include "stage/section_drawing.hpp"
@@ -35,10 +36,9 @@ void declare(Declare<SectionOptions>& d) {
 
 void verify(const SectionOptions& o, const Value& given, Problems& problems) {
     if (o.plane) verify_plane(*o.plane, given.mark, problems);
-    const Value* to = given.is_map() ? given.find("to") : nullptr;
     for (const auto& path : o.to)
         if (!io::is_drawing(path.text))
-            problems.add(to ? to->mark : given.mark, "E-DRAWING",
+            problems.add(mark_at(given, "to"), "E-DRAWING",
                          fmt::format("section: drawings are not written as '{}'", path.text),
                          "the formats are .svg, .dxf and .json");
 }

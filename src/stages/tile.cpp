@@ -1,3 +1,4 @@
+#include "options/mark_at.hpp"
 #include "stage/cap_option.hpp"
 #include "stage/stage.hpp"
 #include "stage/tile_parts.hpp"
@@ -28,29 +29,25 @@ void declare(Declare<TileOptions>& d) {
 }
 
 void verify(const TileOptions& o, const Value& given, Problems& problems) {
-    const auto mark = [&](const char* name) {
-        const Value* value = given.is_map() ? given.find(name) : nullptr;
-        return value ? value->mark : given.mark;
-    };
     const auto axis = [&](char c) {
         return std::string_view("xyz").find(c) != std::string_view::npos &&
                std::count(o.axes.begin(), o.axes.end(), c) == 1;
     };
     if (o.axes.empty() || !std::all_of(o.axes.begin(), o.axes.end(), axis))
-        problems.add(mark("axes"), "E-TILE",
+        problems.add(mark_at(given, "axes"), "E-TILE",
                      fmt::format("tile: 'axes' names each of x, y, z at most once, found '{}'", o.axes),
                      "for example axes: xy");
     const Value* sizes = given.is_map() ? given.find("size") : &given;
     for (const Length& size : o.size)
         if (!(size.amount > 0) && !(sizes && sizes->deferred))
-            problems.add(mark("size"), "E-TILE",
+            problems.add(mark_at(given, "size"), "E-TILE",
                          fmt::format("tile: 'size' must be above 0, found {}", size.text));
     if (o.size.size() > 1 && o.size.size() != o.axes.size())
-        problems.add(mark("size"), "E-TILE",
+        problems.add(mark_at(given, "size"), "E-TILE",
                      fmt::format("tile: {} sizes for {} axes", o.size.size(), o.axes.size()),
                      "give one size, or one for each axis");
     if (!o.origin.empty() && o.origin.size() != o.axes.size())
-        problems.add(mark("origin"), "E-TILE",
+        problems.add(mark_at(given, "origin"), "E-TILE",
                      fmt::format("tile: {} origins for {} axes", o.origin.size(), o.axes.size()),
                      "give one for each axis");
 }

@@ -1,5 +1,7 @@
 #include "base/functions.hpp"
 #include "io/convert.hpp"
+#include "mesh/placement.hpp"
+#include "options/mark_at.hpp"
 #include "stage/convention_option.hpp"
 #include "stage/stage.hpp"
 
@@ -132,7 +134,7 @@ class Mover {
         Box all;
         for (const Part& part : scene_.parts)
             if (context_.selects(part, scene_))
-                for (const Vec3& p : part.mesh.positions) all.add(part.skinned ? p : part.transform.point(p));
+                for (const Vec3& p : part.mesh.positions) all.add(in_world(part, p));
         return all;
     }
 
@@ -165,8 +167,7 @@ Scene run(Scene scene, const TransformOptions& o, Context& context) {
 
 void verify(const TransformOptions& o, const Value& given, Problems& problems) {
     const auto refuse = [&](const char* name, std::string message) {
-        const Value* at = given.is_map() ? given.find(name) : nullptr;
-        problems.add(at ? at->mark : given.mark, "E-TRANSFORM", "transform: " + std::move(message));
+        problems.add(mark_at(given, name), "E-TRANSFORM", "transform: " + std::move(message));
     };
     if (!o.translate.empty() && o.translate.size() != 3)
         refuse("translate", fmt::format("translate takes three lengths, found {}", o.translate.size()));
