@@ -4,6 +4,7 @@
 #include "geometry/rays.hpp"
 #include "geometry/self_intersections.hpp"
 #include "geometry/surface_normal.hpp"
+#include "mesh/bare.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -217,9 +218,7 @@ OrientResult orient(Mesh mesh, const OrientSettings& settings) {
         Spread spread = Spreader(mesh).run();
         flips = spread.flips;
         if (settings.method == OrientMethod::outward) {
-            Mesh agreed; // what outside is asked of
-            agreed.positions = mesh.positions, agreed.wedge_vertex = mesh.wedge_vertex;
-            agreed.corners = mesh.corners, agreed.face_offsets = mesh.face_offsets;
+            Mesh agreed = bare(mesh); // what outside is asked of
             flip_faces(agreed, flips);
             const auto turns = Outside(agreed, spread, settings.nested).run();
             for (Index f = 0; f < flips.size(); ++f) flips[f] = flips[f] != turns[spread.piece_of[f]];

@@ -9,6 +9,7 @@
 #include "geometry/self_intersections.hpp"
 #include "geometry/uv_overlaps.hpp"
 #include "geometry/wall_thickness.hpp"
+#include "mesh/bare.hpp"
 
 #include <algorithm>
 #include <array>
@@ -115,10 +116,7 @@ std::vector<Index> coplanar_overlaps(const Mesh& mesh) {
 }
 
 std::vector<Index> inward_faces(const Mesh& mesh) {
-    Mesh bare;
-    bare.positions = mesh.positions, bare.wedge_vertex = mesh.wedge_vertex;
-    bare.corners = mesh.corners, bare.face_offsets = mesh.face_offsets;
-    const OrientResult r = orient(bare, {});
+    const OrientResult r = orient(bare(mesh), {});
     std::vector<Index> list;
     for (const auto& piece : r.pieces)
         if (!piece.orientable || piece.flipped > 0) list.push_back(piece.first_face);

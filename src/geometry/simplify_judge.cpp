@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/closest_point.hpp"
+#include "mesh/bare.hpp"
 
 namespace facetmill::simplification {
 
@@ -30,10 +31,9 @@ bool any_beyond(const Surface& surface, const FaceTree& tree, double bound) {
 
 /// The positions and faces alone, without vertices that no face uses.
 Mesh used(const Mesh& from) {
-    Mesh bare;
-    bare.positions = from.positions, bare.corners = from.corners, bare.wedge_vertex = from.wedge_vertex;
-    drop_unused(bare);
-    return bare;
+    Mesh out = bare(from);
+    drop_unused(out);
+    return out;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "mesh/bare.hpp"
 
 #include <limits>
 #include <string>
@@ -12,15 +13,11 @@ namespace {
 
 /// The triangles of a mesh with polygons, and the face of each.
 void cut_polygons(const Mesh& mesh, Surface& surface) {
-    Mesh bare;
-    bare.positions = mesh.positions;
-    bare.wedge_vertex = mesh.wedge_vertex;
-    bare.corners = mesh.corners;
-    bare.face_offsets = mesh.face_offsets;
+    Mesh numbered = bare(mesh);
     std::vector<std::uint32_t> numbers(mesh.face_count());
     for (std::size_t f = 0; f < numbers.size(); ++f) numbers[f] = static_cast<std::uint32_t>(f);
-    bare.attributes.push_back({"face", Domain::face, Role::index, 1, false, std::move(numbers)});
-    Mesh cut = triangulated(bare);
+    numbered.attributes.push_back({"face", Domain::face, Role::index, 1, false, std::move(numbers)});
+    Mesh cut = triangulated(numbered);
     surface.faces = std::get<std::vector<std::uint32_t>>(std::move(cut.attributes[0].data));
     surface.positions = std::move(cut.positions);
     surface.corners = std::move(cut.corners);

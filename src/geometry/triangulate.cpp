@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
 #include "geometry/triangulate_rings.hpp"
+#include "mesh/bare.hpp"
 #include "mesh/lineage.hpp"
 #include "mesh/quad_diagonal.hpp"
 
@@ -131,17 +132,9 @@ FaceKinds face_kinds(const Mesh& mesh, double planar) {
 
 FaceKinds face_kinds(const Scene& scene, double planar) {
     FaceKinds all;
-    for (const Part& part : scene.parts) {
-        if (part.skinned || part.transform.identity()) {
-            all = joined(all, face_kinds(part.mesh, planar));
-            continue;
-        }
-        Mesh placed;
-        placed.corners = part.mesh.corners, placed.face_offsets = part.mesh.face_offsets;
-        placed.wedge_vertex = part.mesh.wedge_vertex, placed.positions = part.mesh.positions;
-        apply(placed, part.transform);
-        all = joined(all, face_kinds(placed, planar));
-    }
+    for (const Part& part : scene.parts)
+        all = joined(all, effective(part).identity() ? face_kinds(part.mesh, planar)
+                                                     : face_kinds(in_world(part), planar));
     all.worst = none;
     return all;
 }

@@ -3,7 +3,7 @@
 #include "base/point_json.hpp"
 #include "geometry/boundary.hpp"
 #include "geometry/evidence.hpp"
-#include "mesh/placement.hpp"
+#include "mesh/bare.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,18 +21,16 @@ bool is_about_borders(std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The mesh alone, where it stands in the world.
-Mesh in_world(const Part& part) {
-    Mesh mesh;
-    mesh.positions = part.mesh.positions, mesh.wedge_vertex = part.mesh.wedge_vertex;
-    mesh.corners = part.mesh.corners, mesh.face_offsets = part.mesh.face_offsets;
-    if (!part.skinned)
-        for (Vec3& p : mesh.positions) p = part.transform.point(p);
+/// The mesh alone where it stands in the world, as inspect looks at it: a mirrored part's faces are not
+/// turned round, so that both see the same corner first.
+Mesh placed(const Part& part) {
+    Mesh mesh = bare(part.mesh);
+    for (Vec3& p : mesh.positions) p = in_world(part, p);
     return mesh;
 }
 
 void add_loops(Json& evidence, const Part& part) {
-    const auto chains = boundary_chains(in_world(part));
+    const auto chains = boundary_chains(placed(part));
     for (std::size_t i = 0; i < chains.size() && evidence.size() < most; ++i)
         evidence.push_back({{"part", part.name},
                             {"at", point_json(chains[i].at)},
@@ -64,7 +62,7 @@ std::vector<Place> places_against(const Part& part, const Assertion& assertion, 
     if (!property.quality) return places_against(part.mesh, property.name, limit);
     if (!is_by_face(*property.quality)) return places_against(part.mesh, *property.quality, limit);
     const auto fails = [&](double value) { return !holds(assertion.bound, value); };
-    auto places = places_against(in_world(part), *property.quality, limit, fails);
+    auto places = places_against(placed(part), *property.quality, limit, fails);
     for (Place& place : places)
         if (place.face != none) place.at = middle(part.mesh, place.face);
     return places;
