@@ -1,9 +1,10 @@
 #include "geometry/measure.hpp"
 
+#include "mesh/bare.hpp"
 #include "report/measure_csv.hpp"
 #include "report/measure_json.hpp"
 #include "report/summary.hpp"
-#include "stage/stage.hpp"
+#include "stage/measure_option.hpp"
 
 #include <fmt/format.h>
 
@@ -11,48 +12,12 @@ namespace facetmill {
 
 namespace {
 
-struct MeasureOptions {
-    double density = 1;
-    Angle sharp = Angle::degrees(30);
-    bool areas = false, curvature = false;
-    std::vector<PathText> to;
-};
-
-void declare(Declare<MeasureOptions>& d) {
-    d.option("density", &MeasureOptions::density,
-             "Mass per cubic scene unit; mass and inertia are multiplied by it.")
-        .above(0);
-    d.option("sharp", &MeasureOptions::sharp, "Edges that turn by more than this count as sharp.")
-        .between(0, 180);
-    d.option("areas", &MeasureOptions::areas,
-             "Writes the area of every face, in square scene units, as face attribute area.");
-    d.option(
-        "curvature", &MeasureOptions::curvature,
-        "Writes the curvature at every vertex as vertex attributes gaussian_curvature and mean_curvature "
-        "(per square scene unit and per scene unit; 0 where there is none).");
-    d.option(
-        "to", &MeasureOptions::to,
-        "Writes the results there: .json all of them, .csv one line per face (part, face, corners, area, "
-        "centroid, unit normal, farthest corner from its plane); - is JSON on standard output.");
-}
-
-/// The mesh as it stands in the world.
-Mesh in_world(const Part& part) {
-    Mesh mesh = part.mesh;
-    mesh.attributes.clear();
-    mesh.primitives.clear();
-    if (!part.skinned && !part.transform.identity()) apply(mesh, part.transform);
-    return mesh;
-}
-
 void set_attribute(Mesh& mesh, const char* name, Domain domain, std::vector<double> values) {
     mesh.drop(name, domain);
     for (double& x : values)
         if (!std::isfinite(x)) x = 0;
     mesh.attributes.push_back({name, domain, Role::generic, 1, false, std::move(values)});
 }
-
-bool is_csv(const PathText& path) { return path.text.ends_with(".csv"); }
 
 struct Measures {
     Json parts = Json::array();
@@ -86,7 +51,7 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
 }
 
 Scene run(Scene scene, const MeasureOptions& o, Context& context) {
-    const bool list_faces = std::any_of(o.to.begin(), o.to.end(), is_csv);
+    const bool list_faces = std::any_of(o.to.begin(), o.to.end(), lists_faces);
     Measures all;
     for (auto& part : scene.parts) {
         if (!context.selects(part, scene)) continue;
@@ -102,56 +67,34 @@ Scene run(Scene scene, const MeasureOptions& o, Context& context) {
         {"parts", std::move(all.parts)}};
     context.say(report::measure_summary(context.result()));
     for (const auto& path : o.to) {
-        const std::string text = is_csv(path) ? all.csv : context.result().dump(2) + "\n";
+        const std::string text = lists_faces(path) ? all.csv : context.result().dump(2) + "\n";
         context.run().outputs.add(context.places().output(path.text), std::as_bytes(std::span(text)));
     }
     return scene;
 }
 
-void verify(const MeasureOptions& o, const Value& given, Problems& problems) {
-    for (const auto& path : o.to)
-        if (path.text != "-" && !is_csv(path) && !path.text.ends_with(".json"))
-            problems.add(given.mark, "E-FORMAT", fmt::format("measure cannot write '{}'", path.text),
-                         "a name that ends in .json or .csv");
-}
-
-const RegisterStage registered{make_stage<MeasureOptions>(
+const RegisterStage registered = make_stage<MeasureOptions>(
     {.name = "measure",
      .about = "Measures areas, volume, centroids, inertia, edges, angles and curvature.",
      .details =
          "The results stand in the report, for every part and in all, in world space and scene units; angles "
          "are in degrees. The area of a polygon in space is half the length of the sum of cross products "
-         "around it, "
-         "right for concave faces, and for faces that are not planar the area of their projection along the "
-         "mean normal. "
-         "shell is the surface without thickness: its centroid is weighted by area. solid is the inside of a "
-         "closed surface, filled with the density: volume, mass, centroid, inertia about the centroid, "
-         "principal "
-         "moments (ascending) with their axes, radii of gyration. It is null for open surfaces, and in all "
-         "when one part "
-         "is open.\n\n"
+         "around it, right for concave faces, and for faces that are not planar the area of their projection "
+         "along the mean normal. shell is the surface without thickness: its centroid is weighted by area. "
+         "solid is the inside of a closed surface, filled with the density: volume, mass, centroid, inertia "
+         "about the centroid, principal moments (ascending) with their axes, radii of gyration. It is null "
+         "for open surfaces, and in all when one part is open.\n\n"
          "Edges turn by the angle between the normals of their two faces, negative where concave. aspect is "
-         "1 for "
-         "an equilateral triangle: longest edge over the height on it. kinds are the note's types of "
-         "polygon. The mean "
-         "curvature at a vertex comes from the turns of its edges, the Gaussian one from what its angles "
-         "lack of a "
-         "full turn, both over a third of the area around; their statistics leave out borders. "
-         "total_in_turns is "
-         "Euler's number of a manifold, whatever its shape.\n\n"
+         "1 for an equilateral triangle: longest edge over the height on it. kinds are the note's types of "
+         "polygon. The mean curvature at a vertex comes from the turns of its edges, the Gaussian one from "
+         "what its angles lack of a full turn, both over a third of the area around; their statistics leave "
+         "out borders. total_in_turns is Euler's number of a manifold, whatever its shape.\n\n"
          "The mesh passes on as it is, but for attributes asked for. Sources: the notes on the area of a 3D "
-         "polygon and "
-         "the centroid of a surface; D. Eberly, 'Polyhedral mass properties' (2002); M. Meyer et al., "
-         "'Discrete "
-         "differential-geometry operators' (2003).",
+         "polygon and the centroid of a surface; D. Eberly, 'Polyhedral mass properties' (2002); M. Meyer et "
+         "al., 'Discrete differential-geometry operators' (2003).",
      .examples = {"measure", "measure: {density: 7.85, to: part.json}",
                   "measure: {curvature: true, to: [all.json, faces.csv]}"}},
-    declare, run,
-    StageHooks<MeasureOptions>{.files =
-                                   [](const MeasureOptions& o) {
-                                       return StageFiles{{}, o.to};
-                                   },
-                               .verify = verify})};
+    declare_measure, run, {.files = files_of_measure, .verify = verify_measure});
 
 } // namespace
 

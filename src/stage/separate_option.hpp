@@ -1,0 +1,28 @@
+#pragma once
+// The options of separate, and what they take a part apart into.
+
+#include "stage/stage.hpp"
+
+namespace facetmill {
+
+struct SeparateOptions {
+    enum class By { component, material, group };
+
+    By by = By::component;
+    std::string attribute = "group";
+    std::int64_t most = 10000;
+};
+
+void declare_separate(Declare<SeparateOptions>& d);
+
+/// What a part is taken apart into: a label for each face, and a name for each label, in the order of their
+/// first faces.
+struct PieceLabels {
+    std::vector<Index> of_face;
+    std::vector<std::string> names;
+};
+
+/// The pieces of the part. Throws stage (E-GROUP) when it has no such attribute.
+PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
+
+} // namespace facetmill
