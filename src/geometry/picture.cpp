@@ -1,41 +1,72 @@
 #include "geometry/picture.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/painter.hpp"
 #include "mesh/placement.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace facetmill {
 
 namespace {
 
-constexpr int samples = 2;    ///< a side of each pixel
 constexpr int band_rows = 32; ///< of samples, drawn by one thread
 
-using Colour = std::array<float, 3>; ///< linear
-constexpr Colour inside{0.75f, 0.3f, 0.12f};
-
-/// World to samples: x right, y down, z towards the viewer.
+/// World to samples: x right, y down, z towards the viewer, 0 in the middle of what is seen.
 struct View {
     Vec3 right, up, towards;
-    double scale = 1, x = 0, y = 0;
+    double scale = 0, x = 0, y = 0, z = 0; ///< the scene's middle goes to the canvas' middle
 
     Vec3 of(const Vec3& p) const {
-        return {dot(p, right) * scale + x, -dot(p, up) * scale + y, dot(p, towards) * scale};
+        return {dot(p, right) * scale + x, -dot(p, up) * scale + y, dot(p, towards) * scale + z};
     }
 };
 
-View view_of(const Scene& scene, int width, int height) {
+Vec3 direction(Viewpoint viewpoint, const Vec3& up, const Vec3& front) {
+    const Vec3 right = cross(up, front);
+    switch (viewpoint) {
+    case Viewpoint::front:
+        return front;
+    case Viewpoint::back:
+        return -front;
+    case Viewpoint::left:
+        return -right;
+    case Viewpoint::right:
+        return right;
+    case Viewpoint::top:
+        return up;
+    case Viewpoint::bottom:
+        return -up;
+    case Viewpoint::corner:
+        break;
+    }
+    return front + right * 0.55 + up * 0.45;
+}
+
+View axes_of(const Scene& scene, const PictureSettings& settings) {
     const Vec3 extent = scene.bounds().extent();
     const bool z_up = scene.up == UpAxis::z || (scene.up == UpAxis::unknown && extent.z >= extent.y);
     const Vec3 up = z_up ? Vec3{0, 0, 1} : Vec3{0, 1, 0}, front = z_up ? Vec3{0, -1, 0} : Vec3{0, 0, 1};
     View view;
-    view.towards = normalised(front + Vec3{0.55, 0, 0} + up * 0.45);
-    view.right = normalised(cross(up, view.towards));
+    view.towards = normalised(settings.from.value_or(direction(settings.viewpoint, up, front)));
+    Vec3 right = cross(up, view.towards);
+    // From straight above or below, the front is at the bottom or the top of the picture.
+    if (length(right) < 1e-9) right = cross(dot(up, view.towards) > 0 ? -front : front, view.towards);
+    view.right = normalised(right);
     view.up = cross(view.towards, view.right);
+    return view;
+}
+
+bool shown(const Part& part, const PictureSettings& settings) {
+    return !settings.shows || settings.shows(part);
+}
+
+/// The box of what is seen along the view's axes, in units of the scene.
+Box seen_box(const Scene& scene, const PictureSettings& settings, View view) {
+    view.scale = 1;
     Box seen;
     for (const Part& part : scene.parts) {
+        if (!shown(part, settings)) continue;
         const Transform to_world = effective(part);
         seen.add(parallel_reduce(
             part.mesh.vertex_count(), Box{},
@@ -48,83 +79,19 @@ View view_of(const Scene& scene, int width, int height) {
             },
             [](Box a, const Box& b) { return a.add(b), a; }));
     }
+    return seen;
+}
+
+View view_of(const Scene& scene, const PictureSettings& settings, const Canvas& canvas) {
+    View view = axes_of(scene, settings);
+    const Box seen = seen_box(scene, settings, view);
     if (seen.empty()) return view;
     const Vec3 size = seen.extent(), middle = seen.centre();
-    const double tallest = std::max(size.x / width, size.y / height);
+    const double tallest = std::max(size.x / canvas.width, size.y / canvas.height);
     view.scale = tallest > 0 ? 0.92 / tallest : 1;
-    view.x = width / 2.0 - middle.x * view.scale, view.y = height / 2.0 - middle.y * view.scale;
+    view.x = canvas.width / 2.0 - middle.x * view.scale, view.y = canvas.height / 2.0 - middle.y * view.scale;
+    view.z = -middle.z * view.scale;
     return view;
-}
-
-/// What has been drawn so far.
-struct Canvas {
-    int width, height;
-    std::vector<float> depth;
-    std::vector<Colour> colours;
-
-    Canvas(int w, int h)
-        : width(w), height(h), depth(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), -HUGE_VALF),
-          colours(depth.size()) {}
-
-    void put(int x, int y, double z, const Colour& colour) {
-        const std::size_t at =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-        if (!(static_cast<float>(z) > depth[at])) return;
-        depth[at] = static_cast<float>(z), colours[at] = colour;
-    }
-};
-
-/// A triangle on the canvas, seen anticlockwise or not.
-struct Triangle {
-    std::array<Vec3, 3> p;
-    double area = 0; ///< twice, positive when the front is seen
-
-    explicit Triangle(const std::array<Vec3, 3>& corners) : p(corners) {
-        area = (p[2].x - p[0].x) * (p[1].y - p[0].y) - (p[1].x - p[0].x) * (p[2].y - p[0].y);
-    }
-    bool drawn() const { return area != 0 && is_finite(p[0]) && is_finite(p[1]) && is_finite(p[2]); }
-    /// The unit normal towards the viewer.
-    Vec3 normal() const {
-        const Vec3 n = normalised(cross(p[1] - p[0], p[2] - p[0]));
-        return n.z < 0 ? -n
-                       : n; // y points down, which turns the triangle over; the side seen is told by area
-    }
-};
-
-Colour shaded(const Colour& base, const Vec3& normal) {
-    const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // from the upper left of the viewer
-    const auto amount = static_cast<float>(0.16 + 0.84 * std::max(0.0, dot(normal, light)));
-    return {base[0] * amount, base[1] * amount, base[2] * amount};
-}
-
-/// Draws the rows [first, last) of the triangle.
-void draw(const Triangle& t, const Colour& colour, bool edges, int first, int last, Canvas& canvas) {
-    const auto [x0, x1] = std::minmax({t.p[0].x, t.p[1].x, t.p[2].x});
-    const auto [y0, y1] = std::minmax({t.p[0].y, t.p[1].y, t.p[2].y});
-    const int left = std::max(0, static_cast<int>(std::ceil(x0 - 0.5)));
-    const int right = std::min(canvas.width - 1, static_cast<int>(std::floor(x1 - 0.5)));
-    const int top = std::max(first, static_cast<int>(std::ceil(y0 - 0.5)));
-    const int bottom = std::min(last - 1, static_cast<int>(std::floor(y1 - 0.5)));
-    std::array<double, 3> lengths{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 e = t.p[(i + 2) % 3] - t.p[(i + 1) % 3];
-        lengths[i] = std::sqrt(e.x * e.x + e.y * e.y);
-    }
-    for (int y = top; y <= bottom; ++y)
-        for (int x = left; x <= right; ++x) {
-            double z = 0, nearest_edge = HUGE_VAL;
-            bool covered = true;
-            for (std::size_t i = 0; i < 3 && covered; ++i) {
-                const Vec3 &a = t.p[(i + 1) % 3], &b = t.p[(i + 2) % 3];
-                const double w = ((b.y - a.y) * (x + 0.5 - a.x) - (b.x - a.x) * (y + 0.5 - a.y)) / t.area;
-                covered = w >= 0;
-                z += w * t.p[i].z;
-                if (edges) nearest_edge = std::min(nearest_edge, w * std::abs(t.area) / lengths[i]);
-            }
-            if (!covered) continue;
-            const float dim = nearest_edge < 0.75 ? 0.45f : 1;
-            canvas.put(x, y, z, {colour[0] * dim, colour[1] * dim, colour[2] * dim});
-        }
 }
 
 /// The triangles of a part that touch each band of rows, in order.
@@ -144,95 +111,155 @@ std::vector<std::vector<Index>> in_bands(const Mesh& mesh, const std::vector<Vec
     return bands;
 }
 
-struct Look {
-    Colour colour{0.72f, 0.74f, 0.78f};
-    bool double_sided = false;
+/// The edges of polygons, so that those that triangles have inside are not drawn.
+class RealEdges {
+  public:
+    explicit RealEdges(const Mesh& mesh) {
+        if (mesh.all_triangles()) return;
+        edges_.reserve(mesh.corner_count());
+        for (Index f = 0; f < mesh.face_count(); ++f)
+            for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+                edges_.push_back(
+                    key(mesh.vertex(c), mesh.vertex(c + 1 < mesh.face_end(f) ? c + 1 : mesh.face_begin(f))));
+        std::sort(edges_.begin(), edges_.end());
+    }
+    bool has(Index a, Index b) const {
+        return edges_.empty() || std::binary_search(edges_.begin(), edges_.end(), key(a, b));
+    }
+
+  private:
+    static std::uint64_t key(Index a, Index b) {
+        return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    }
+    std::vector<std::uint64_t> edges_; ///< empty: all are real
 };
 
-std::vector<Look> looks_of(const Mesh& mesh, const Scene& scene) {
-    std::vector<Look> looks(std::max<std::size_t>(1, mesh.primitives.size()));
-    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
-        if (mesh.primitives[i].material >= scene.materials.size()) continue;
-        const Material& material = scene.materials[mesh.primitives[i].material];
-        for (std::size_t c = 0; c < 3; ++c)
-            looks[i].colour[c] *= static_cast<float>(std::clamp(material.base_colour[c], 0.0, 1.0));
-        looks[i].double_sided = material.double_sided;
+/// How much of its colour a face shows.
+float lit(const CanvasTriangle& t, Shading shading, bool double_sided) {
+    const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // from the upper left of the viewer
+    const Vec3 n = t.towards_viewer();
+    double amount = dot(n, light);
+    if (shading == Shading::one_sided && t.area < 0 && !double_sided) amount = -amount;
+    if (shading == Shading::absolute) amount = std::abs(amount);
+    return static_cast<float>(0.16 + 0.84 * std::max(0.0, amount));
+}
+
+/// One part, its points already on the canvas.
+class PartDrawing {
+  public:
+    PartDrawing(const Part& part, const Mesh& triangles, const Painter& painter, const View& view,
+                const PictureSettings& settings)
+        : mesh_(triangles), painter_(painter), view_(view), settings_(settings),
+          points_(triangles.vertex_count()) {
+        const Transform to_world = effective(part);
+        parallel_for(points_.size(),
+                     [&](std::size_t v) { points_[v] = view.of(to_world.point(mesh_.positions[v])); });
     }
-    return looks;
-}
 
-void draw_faces(const Mesh& mesh, const Scene& scene, const std::vector<Vec3>& points, bool edges,
-                Canvas& canvas) {
-    const auto looks = looks_of(mesh, scene);
-    const auto bands = in_bands(mesh, points, canvas.height);
-    parallel_for(
-        bands.size(),
-        [&](std::size_t band) {
-            const int first = static_cast<int>(band) * band_rows, last = first + band_rows;
-            for (const Index f : bands[band]) {
-                const Triangle t({points[mesh.vertex(3 * f)], points[mesh.vertex(3 * f + 1)],
-                                  points[mesh.vertex(3 * f + 2)]});
-                if (!t.drawn()) continue;
-                const Look& look = looks[std::min<std::size_t>(mesh.primitive_of(f), looks.size() - 1)];
-                const Colour& base = t.area > 0 || look.double_sided ? look.colour : inside;
-                draw(t, shaded(base, t.normal()), edges, first, std::min(last, canvas.height), canvas);
-            }
-        },
-        1);
-}
-
-void draw_points(const std::vector<Vec3>& points, Canvas& canvas) {
-    for (const Vec3& p : points) {
-        if (!is_finite(p)) continue;
-        const int x = static_cast<int>(std::clamp<double>(p.x, 0, canvas.width - 1));
-        const int y = static_cast<int>(std::clamp<double>(p.y, 0, canvas.height - 1));
-        canvas.put(x, y, p.z, Look{}.colour);
+    void draw_faces(const RealEdges* lines, Canvas& canvas) const {
+        const auto bands = in_bands(mesh_, points_, canvas.height);
+        parallel_for(
+            bands.size(),
+            [&](std::size_t band) {
+                const int first = static_cast<int>(band) * band_rows;
+                for (const Index f : bands[band]) {
+                    CanvasTriangle t({point(f, 0), point(f, 1), point(f, 2)});
+                    if (!t.drawn()) continue;
+                    paint(t, f, lines);
+                    draw(t, first, std::min(first + band_rows, canvas.height), canvas);
+                }
+            },
+            1);
     }
-}
 
-/// The means of each pixel's samples; the square root is near enough to sRGB's curve for a picture.
-Picture developed(const Canvas& canvas) {
-    Picture picture{canvas.width / samples, canvas.height / samples, {}};
-    picture.rgba.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) *
-                        4);
-    parallel_for(picture.rgba.size() / 4, [&](std::size_t pixel) {
-        const std::size_t w = static_cast<std::size_t>(picture.width), x = pixel % w, y = pixel / w;
-        Colour sum{};
-        int covered = 0;
-        for (std::size_t i = 0; i < samples * samples; ++i) {
-            const std::size_t at = (y * samples + i / samples) * w * samples + x * samples + i % samples;
-            if (canvas.depth[at] == -HUGE_VALF) continue;
-            ++covered;
-            for (std::size_t c = 0; c < 3; ++c) sum[c] += canvas.colours[at][c];
+    void draw_points(Canvas& canvas) const {
+        for (Index v = 0; v < points_.size(); ++v)
+            if (is_finite(points_[v]))
+                draw_dot(points_[v], settings_.point, painter_.of(none, mesh_.has_seams() ? none : v),
+                         canvas);
+    }
+
+  private:
+    const Vec3& point(Index f, Index k) const { return points_[mesh_.vertex(3 * f + k)]; }
+
+    void paint(CanvasTriangle& t, Index f, const RealEdges* lines) const {
+        constexpr Colour inside{0.75f, 0.3f, 0.12f};
+        const bool double_sided = painter_.double_sided(f);
+        const bool turned = settings_.shading == Shading::sides && t.area < 0 && !double_sided;
+        const float amount = lit(t, settings_.shading, double_sided);
+        for (Index k = 0; k < 3; ++k) {
+            Colour base = turned ? inside : painter_.of(f, mesh_.corners[3 * f + k]);
+            if (painter_.by_normal()) base = of_normal(t);
+            for (std::size_t c = 0; c < 3; ++c)
+                t.colours[k][c] = base[c] * (painter_.by_normal() ? 1 : amount);
+            const Index a = mesh_.vertex(3 * f + (k + 1) % 3), b = mesh_.vertex(3 * f + (k + 2) % 3);
+            t.lines[k] = lines && lines->has(a, b);
         }
-        if (covered == 0) return;
-        for (std::size_t c = 0; c < 3; ++c)
-            picture.rgba[4 * pixel + c] =
-                static_cast<std::uint8_t>(255 * std::sqrt(sum[c] / static_cast<float>(covered)) + 0.5f);
-        picture.rgba[4 * pixel + 3] = static_cast<std::uint8_t>(255 * covered / (samples * samples));
-    });
-    return picture;
-}
+    }
+
+    /// x y z of the face's own normal in the world, from 0 to 1.
+    Colour of_normal(const CanvasTriangle& t) const {
+        Vec3 n = t.towards_viewer();
+        if (t.area < 0) n = -n;
+        const Vec3 world = view_.right * n.x - view_.up * n.y + view_.towards * n.z;
+        Colour colour{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto x = static_cast<float>(0.5 + 0.5 * world[c]);
+            colour[c] = x * x; // developed() takes the root
+        }
+        return colour;
+    }
+
+    const Mesh& mesh_;
+    const Painter& painter_;
+    const View& view_;
+    const PictureSettings& settings_;
+    std::vector<Vec3> points_;
+};
 
 } // namespace
 
 Picture picture_of(const Scene& scene, const PictureSettings& settings) {
-    Canvas canvas(settings.width * samples, settings.height * samples);
-    const View view = view_of(scene, canvas.width, canvas.height);
-    const bool few = scene.face_count() <= settings.edges_up_to;
+    Canvas canvas(settings.width, settings.height);
+    const View view = view_of(scene, settings, canvas);
+    bool found = false;
+    const auto range = range_of(scene, settings, found).value_or(std::array<double, 2>{0, 0});
+    const bool lines = settings.edges == EdgeLines::all ||
+                       (settings.edges == EdgeLines::few && scene.face_count() <= settings.few);
+    std::size_t number = 0, faces = 0;
     for (const Part& part : scene.parts) {
-        const Transform to_world = effective(part);
-        std::vector<Vec3> points(part.mesh.vertex_count());
-        parallel_for(points.size(),
-                     [&](std::size_t v) { points[v] = view.of(to_world.point(part.mesh.positions[v])); });
+        if (!shown(part, settings)) continue;
+        faces += part.mesh.face_count();
+        const Mesh cut = part.mesh.all_triangles() ? Mesh{} : triangulated(part.mesh);
+        const Mesh& triangles = part.mesh.all_triangles() ? part.mesh : cut;
+        const Painter painter(triangles, scene, settings, number++, range);
+        const PartDrawing drawing(part, triangles, painter, view, settings);
         if (part.mesh.face_count() == 0)
-            draw_points(points, canvas);
-        else if (part.mesh.all_triangles())
-            draw_faces(part.mesh, scene, points, few, canvas);
-        else
-            draw_faces(triangulated(part.mesh), scene, points, false, canvas);
+            drawing.draw_points(canvas);
+        else if (lines) {
+            const RealEdges real(part.mesh);
+            drawing.draw_faces(&real, canvas);
+        } else
+            drawing.draw_faces(nullptr, canvas);
     }
-    return developed(canvas);
+    Picture picture = developed(canvas, settings.ground);
+    picture.scale = view.scale / Canvas::samples;
+    picture.faces = faces, picture.range = range, picture.has_attribute = found;
+    return picture;
+}
+
+Picture beside(const Picture& left, const Picture& right) {
+    Picture both = left;
+    both.width = left.width + right.width;
+    both.rgba.clear();
+    both.rgba.reserve(left.rgba.size() + right.rgba.size());
+    for (std::size_t y = 0; y < static_cast<std::size_t>(left.height); ++y)
+        for (const Picture* p : {&left, &right}) {
+            const std::size_t row = 4 * static_cast<std::size_t>(p->width);
+            const auto begin = p->rgba.begin() + static_cast<std::ptrdiff_t>(y * row);
+            both.rgba.insert(both.rgba.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
+        }
+    return both;
 }
 
 } // namespace facetmill

@@ -31,6 +31,7 @@ const std::vector<KnownWarning>& known_warnings() {
         {"W-MESHOPT", "EXT_meshopt_compression is not written: the data is stored plain."},
         {"W-MTL", "A material library of an OBJ is missing, elsewhere, or has statements that are not kept."},
         {"W-NAN", "Values of an attribute are not finite numbers and are set to 0."},
+        {"W-NO-ATTRIBUTE", "render was to paint by an attribute that no part has."},
         {"W-NODES", "A glTF node has two parents and stands under the first."},
         {"W-ONLY", "`only`, or a foreach over parts, selects no part."},
         {"W-OPEN-SECTION", "A section has open contours, because the mesh is open where the plane cuts it."},

@@ -1,0 +1,72 @@
+#include "support/catch.hpp"
+
+#include "mesh/shapes.hpp"
+#include "support/failure.hpp"
+#include "support/run_stage.hpp"
+#include "support/temporary.hpp"
+
+using namespace facetmill;
+using test::options;
+using test::problems_of;
+using test::run_stage;
+using test::scene_of;
+
+namespace {
+
+/// Big-endian, as the header of a PNG has it.
+std::uint32_t number_at(const io::Input& bytes, std::size_t at) {
+    std::uint32_t n = 0;
+    for (std::size_t i = 0; i < 4; ++i) n = n << 8 | std::to_integer<std::uint32_t>(bytes.bytes()[at + i]);
+    return n;
+}
+
+} // namespace
+
+TEST_CASE("render writes a PNG and passes the scene on", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto run = run_stage(
+        "render",
+        options({{"path", (folder.path() / "a.png").string()}, {"width", "320"}, {"height", "240"}}),
+        scene_of(shapes::cube()));
+    CHECK_FALSE(run.scene.parts[0].changed);
+    REQUIRE(run.state->outputs.files().size() == 1);
+    const io::Input bytes = run.state->outputs.staged(*run.state->outputs.files()[0]);
+    CHECK(number_at(bytes, 0) == 0x89504e47);
+    CHECK(number_at(bytes, 16) == 320);
+    CHECK(number_at(bytes, 20) == 240);
+    CHECK(run.record.result["faces"] == 12);
+    CHECK(run.record.result["width"] == 320);
+    CHECK(run.record.result["pixels_per_unit"].get<double>() > 100);
+    CHECK(run.warnings().empty());
+}
+
+TEST_CASE("both shadings make a picture of twice the width", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto run = run_stage("render",
+                               options({{"path", (folder.path() / "b.png").string()},
+                                        {"width", "100"},
+                                        {"height", "80"},
+                                        {"shading", "beside"}}),
+                               scene_of(shapes::cube()));
+    CHECK(run.record.result["width"] == 200);
+    CHECK(run.record.result["height"] == 80);
+}
+
+TEST_CASE("render says what it was not given", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto run =
+        run_stage("render", options({{"path", (folder.path() / "c.png").string()}, {"attribute", "heat"}}),
+                  scene_of({}));
+    CHECK(run.warnings() == std::vector<std::string>{"W-NO-ATTRIBUTE"});
+    CHECK(run.record.result["pixels_per_unit"] == 0.0);
+    CHECK(problems_of("render", options({{"path", "a.jpg"}})) ==
+          "E-PICTURE render: pictures are PNG, and 'a.jpg' does not end in .png | for example render: "
+          "view.png");
+    CHECK(problems_of("render", options({{"path", "a.png"}, {"from", "0,0,0"}}))
+              .starts_with("E-DIRECTION render: 'from' needs a direction"));
+    CHECK(problems_of("render", options({{"path", "a.png"}, {"from", "0,0,1"}, {"view", "top"}}))
+              .starts_with("E-EXCLUSIVE"));
+    CHECK(problems_of("render", options({{"path", "a.png"}, {"width", "100000"}})).starts_with("E-RANGE"));
+    CHECK(problems_of("render", options({{"path", "a.png"}, {"height", "0"}})).starts_with("E-RANGE"));
+    CHECK(problems_of("render", options({})).starts_with("E-MISSING"));
+}
