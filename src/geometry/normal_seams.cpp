@@ -3,6 +3,7 @@
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
 #include "geometry/moved.hpp"
+#include "geometry/spokes.hpp"
 #include "mesh/lineage.hpp"
 #include "mesh/topology.hpp"
 
@@ -140,10 +141,6 @@ class Fan {
         Vec3 area;
         bool several; ///< normals among those joined
     };
-    struct Spoke {
-        Index other, corner;
-    };
-
     std::size_t place(Index wedge) const {
         return static_cast<std::size_t>(std::lower_bound(wedges_.begin(), wedges_.end(), wedge,
                                                          [](const Member& m, Index w) { return m.id < w; }) -
@@ -155,25 +152,11 @@ class Fan {
     }
 
     void join_across_edges(std::span<const Index> corners) {
-        spokes_.clear();
-        for (const Index c : corners) {
-            const Index f = face_of_[c], begin = mesh_.face_begin(f), end = mesh_.face_end(f);
-            spokes_.push_back({mesh_.vertex(c + 1 == end ? begin : c + 1), c});
-            spokes_.push_back({mesh_.vertex(c == begin ? end - 1 : c - 1), c});
-        }
-        std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
-            return a.other != b.other ? a.other < b.other : a.corner < b.corner;
+        spokes_.pairs(mesh_, face_of_, corners, [&](Index c, Index d, bool) {
+            if (!smooth(c, d)) return;
+            const std::size_t a = root(place(mesh_.corners[c])), b = root(place(mesh_.corners[d]));
+            wedges_[std::max(a, b)].root = std::min(a, b);
         });
-        for (std::size_t i = 0; i < spokes_.size();) {
-            std::size_t j = i + 1;
-            while (j < spokes_.size() && spokes_[j].other == spokes_[i].other) ++j;
-            if (j - i == 2 && smooth(spokes_[i].corner, spokes_[i + 1].corner)) {
-                const std::size_t a = root(place(mesh_.corners[spokes_[i].corner])),
-                                  b = root(place(mesh_.corners[spokes_[i + 1].corner]));
-                wedges_[std::max(a, b)].root = std::min(a, b);
-            }
-            i = j;
-        }
     }
 
     /// Whether the edge between the faces of two corners is to be shaded smoothly.
@@ -221,7 +204,7 @@ class Fan {
     const Others& others_;
     double least_cosine_;
     std::vector<Member> wedges_;
-    std::vector<Spoke> spokes_;
+    Spokes spokes_;
     std::vector<std::size_t> firsts_;
 };
 
@@ -240,37 +223,57 @@ void forget_wedges(Mesh& mesh) {
     mesh.wedge_vertex = {};
 }
 
-} // namespace
-
-NormalSeams merge_normal_seams(Mesh& mesh, double crease) {
-    NormalSeams result;
-    Attribute* normals = mesh.find("NORMAL", Domain::wedge);
-    if (!mesh.has_seams() || !normals || normals->components != 3 || !(crease > 0)) return result;
-    const auto areas = area_vectors(mesh);
-    const auto face_of = corner_faces(mesh);
-    const bool faceted = flat_shaded(mesh, *normals, areas, face_of);
+/// Merges wedges, all at a vertex that only normals part (faceted) or those across smooth edges. Returns how
+/// many went.
+std::size_t merge_wedges(Mesh& mesh, const std::vector<Vec3>& areas, const std::vector<Index>& face_of,
+                         bool faceted, double least_cosine) {
+    Attribute& normals = *mesh.find("NORMAL", Domain::wedge);
     const auto corners = corners_at_vertices(mesh);
     const Others others(mesh);
-    Attribute renewed = *normals;
+    Attribute renewed = normals;
     std::vector<Index> into(mesh.wedge_count());
     parallel_for(into.size(), [&](std::size_t w) { into[w] = static_cast<Index>(w); });
-    result.merged = parallel_reduce(
+    const std::size_t merged = parallel_reduce(
         mesh.vertex_count(), std::size_t{0},
         [&](std::size_t begin, std::size_t end) {
-            Fan fan(mesh, areas, face_of, *normals, others, cosine(crease));
+            Fan fan(mesh, areas, face_of, normals, others, least_cosine);
             std::size_t gone = 0;
             for (std::size_t v = begin; v < end; ++v)
                 gone += fan.merge(corners.of(static_cast<Index>(v)), faceted, into, renewed);
             return gone;
         },
         [](std::size_t a, std::size_t b) { return a + b; });
-    if (result.merged == 0) return result;
-    *normals = std::move(renewed);
+    if (merged == 0) return 0;
+    normals = std::move(renewed);
     parallel_for(mesh.corner_count(), [&](std::size_t c) { mesh.corners[c] = into[mesh.corners[c]]; });
     drop_unused(mesh);
     forget_wedges(mesh);
+    return merged;
+}
+
+} // namespace
+
+NormalSeams merge_normal_seams(Mesh& mesh, double crease) {
+    NormalSeams result;
+    const Attribute* normals = mesh.find("NORMAL", Domain::wedge);
+    if (!mesh.has_seams() || !normals || normals->components != 3 || !(crease > 0)) return result;
+    const auto areas = area_vectors(mesh);
+    const auto face_of = corner_faces(mesh);
+    const bool faceted = flat_shaded(mesh, *normals, areas, face_of);
+    result.merged = merge_wedges(mesh, areas, face_of, faceted, cosine(crease));
+    if (result.merged == 0) return result;
     result.shading = faceted ? NormalSeams::Shading::faceted : NormalSeams::Shading::smoothed;
     return result;
+}
+
+std::size_t forget_normals(Mesh& mesh) {
+    Attribute* normals = mesh.find("NORMAL", Domain::wedge);
+    if (!normals) return 0;
+    std::size_t merged = 0;
+    if (mesh.has_seams() && normals->components == 3)
+        merged = merge_wedges(mesh, area_vectors(mesh), corner_faces(mesh), true, 1);
+    mesh.drop("NORMAL", Domain::wedge);
+    return merged;
 }
 
 namespace {

@@ -25,6 +25,10 @@ struct NormalSeams {
 /// Vertices that no face uses are dropped when something is merged. The tangent of the first wedge is taken.
 NormalSeams merge_normal_seams(Mesh& mesh, double crease);
 
+/// Takes the normals away, and merges the wedges of a vertex that differ in nothing else but TANGENT (the
+/// first one's is taken). Returns how many wedges went. Vertices that no face uses are dropped then.
+std::size_t forget_normals(Mesh& mesh);
+
 /// Gives every corner the normal of its face: wedges are split where the normals of faces that share one
 /// differ by more than half a degree, tangents are made perpendicular. The mesh must have NORMAL.
 void set_facet_normals(Mesh& mesh);

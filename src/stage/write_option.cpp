@@ -1,6 +1,7 @@
 #include "stage/write_option.hpp"
 
 #include "base/spelling.hpp"
+#include "options/mark_at.hpp"
 #include "stage/convention_option.hpp"
 
 #include <algorithm>
@@ -43,7 +44,8 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"precision", {"ply", "obj", "off"}, o.precision == Precision::full},
             {"draco", {"gltf", "glb", "drc"}, o.draco && o.draco->on},
             {"mesh_manifold", {"gltf", "glb"}, o.mesh_manifold},
-            {"lods", {"gltf", "glb"}, o.lods}};
+            {"lods", {"gltf", "glb"}, o.lods},
+            {"normals", {"ply", "obj", "off", "gltf", "glb", "drc"}, o.normals != NormalKind::keep}};
 }
 
 /// Options that say something another format knows.
@@ -55,6 +57,9 @@ void verify_options(const WriteOptions& o, const std::string& format, const Valu
                 given.find_entry(name)->key_mark, "E-EXCLUSIVE",
                 fmt::format("write: '{}' goes with {}, not with {}", name, fmt::join(formats, ", "), format),
                 "leave it out");
+    if (o.crease && o.normals != NormalKind::smooth)
+        problems.add(mark_at(given, "crease"), "E-EXCLUSIVE",
+                     "write: 'crease' goes with normals: smooth only", "add normals: smooth");
 }
 
 /// The file's name without suffix and .gz.
@@ -82,6 +87,16 @@ void declare_write(Declare<WriteOptions>& d) {
                         {{"single", Precision::single, "rounded to 32-bit floats"},
                          {"full", Precision::full, "with all 64 bits (PLY, OBJ, OFF)"}},
                         "How positions are written.");
+    d.choice<NormalKind>(
+        "normals", &WriteOptions::normals,
+        {{"keep", NormalKind::keep, "those of the scene; readers of glTF shade what has none flat"},
+         {"smooth", NormalKind::smooth, "the mean of the faces around a vertex, weighted by angle"},
+         {"flat", NormalKind::flat, "those of the faces"},
+         {"none", NormalKind::none, "not written, nor tangents"}},
+        "The normals in the file; the scene keeps its own.");
+    d.option("crease", &WriteOptions::crease,
+             "With smooth normals: edges that bend by more stay sharp; unset, none does.")
+        .above(0);
     d.group("draco", &WriteOptions::draco, "glTF with KHR_draco_mesh_compression: true, or its settings.",
             declare_draco);
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,

@@ -1,6 +1,7 @@
 #pragma once
 // The options of write, and what they come to.
 
+#include "geometry/give_normals.hpp"
 #include "stage/stage.hpp"
 
 namespace facetmill {
@@ -20,6 +21,8 @@ struct WriteOptions {
     UpAxis up = UpAxis::unknown;
     bool ascii = false, big_endian = false, mesh_manifold = false, lods = false;
     Precision precision = Precision::single;
+    NormalKind normals = NormalKind::keep;
+    std::optional<Angle> crease; ///< of smooth normals
     std::optional<DracoOptions> draco;
 };
 

@@ -1,8 +1,8 @@
 #include "support/catch.hpp"
 
 #include "mesh/shapes.hpp"
-#include "stage/stage.hpp"
 #include "support/failure.hpp"
+#include "support/run_stage.hpp"
 #include "support/temporary.hpp"
 
 using namespace facetmill;
@@ -35,12 +35,6 @@ struct Bench {
         scene = info.run(std::move(scene), options.get(), context);
     }
 };
-
-Value options(std::vector<std::pair<std::string, std::string>> given) {
-    std::vector<Value::Entry> entries;
-    for (auto& [key, text] : given) entries.push_back({key, {}, Value::scalar(text)});
-    return Value::map(std::move(entries));
-}
 
 const char* const triangle_stl = "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 10 0 "
                                  "0\nvertex 0 0 20\nendloop\nendfacet\nendsolid\n";
@@ -163,6 +157,37 @@ TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
           fmt::format("'{}' as read again is less sound than the scene: 2 degenerate_faces (before: 0)",
                       (b.dir / "c.ply").string()));
     CHECK(b.state.record.outputs[1].read_back["closed"] == true);
+}
+
+TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages]") {
+    Bench b;
+    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    b.scene.parts.emplace_back().mesh = shapes::cube();
+    b.scene.parts[0].name = "cube";
+    for (const auto& [normals, crease, wedges] :
+         {std::tuple{"smooth", "", 8U}, {"smooth", "40deg", 24U}, {"flat", "", 24U}, {"keep", "", 8U}}) {
+        const std::string path = std::string(normals) + crease + ".glb";
+        Value given = options({{"path", path}, {"normals", normals}});
+        if (*crease) given.set("crease", Value::scalar(crease));
+        b.run("write", given);
+        CHECK(b.record.warnings.empty());
+        CHECK(b.state.record.outputs.back().read_back["closed"] == true);
+        CHECK(b.scene.parts[0].mesh.attributes.empty());
+        CHECK_FALSE(b.scene.parts[0].mesh.has_seams());
+        CHECK_FALSE(b.scene.parts[0].changed);
+        Bench again;
+        b.state.outputs.commit();
+        again.state.places = b.state.places;
+        again.run("load", Value::scalar(path));
+        const Mesh& mesh = again.scene.parts.at(0).mesh;
+        CHECK(mesh.wedge_count() == wedges);
+        CHECK((mesh.find("NORMAL", Domain::wedge) != nullptr) == (std::string_view(normals) != "keep"));
+    }
+    CHECK(problems_of("write", options({{"path", "a.glb"}, {"crease", "30"}})) ==
+          "E-EXCLUSIVE write: 'crease' goes with normals: smooth only | add normals: smooth");
+    CHECK(problems_of("write", options({{"path", "a.stl"}, {"normals", "smooth"}}))
+              .starts_with(
+                  "E-EXCLUSIVE write: 'normals' goes with ply, obj, off, gltf, glb, drc, not with stl"));
 }
 
 TEST_CASE("write refuses what it cannot mean", "[stages]") {
