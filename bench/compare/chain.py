@@ -16,7 +16,8 @@ import sys
 import tempfile
 import time
 
-from simplify import ROOT, make_input, output
+from peers import ROOT, output
+from simplify import make_input
 
 PYMESHLAB = """
 import pymeshlab, sys

@@ -14,18 +14,12 @@ import argparse
 import json
 import os
 import pathlib
-import subprocess
-import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from peers import add_common_options, crumpled_sphere, output, peers_of
 
-TIMED = """
-import json, sys, time, numpy
-def measured(call):
-    wall, cpu = time.perf_counter(), time.process_time(); result = call()
-    return result, time.perf_counter() - wall, time.process_time() - cpu
-def report(wall, cpu, faces): print(json.dumps({"wall": wall, "cpu": cpu, "faces": int(faces)}))
+PLANE = """
+import numpy
 def plane(points): return numpy.array([1, 0.7, 0.3]), (points.min(axis=0) + points.max(axis=0)) / 2
 """
 
@@ -69,16 +63,8 @@ report(wall, cpu, len(cut.faces))
 }
 
 
-def output(command, cores=None):
-    limit = (lambda: os.sched_setaffinity(0, cores)) if cores else None
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, preexec_fn=limit)
-    if done.returncode != 0:
-        raise RuntimeError((done.stderr.strip() or "it failed").splitlines()[-1])
-    return done.stdout
-
-
 def measure(command, cores, repeat):
-    runs = [json.loads(output(command, cores)) for _ in range(repeat)]
+    runs = [json.loads(output(command, cores and (lambda: os.sched_setaffinity(0, cores)))) for _ in range(repeat)]
     best = dict(runs[0])
     for key in ("wall", "cpu", "above"):
         if key in best:
@@ -98,24 +84,15 @@ def row(name, one, all_cores, ours):
 def main():
     ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ask.add_argument("scan", nargs="?", help="a closed triangle mesh, PLY")
-    ask.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path)
-    ask.add_argument("--repeat", default=5, type=int, help="the fastest of so many runs counts")
-    ask.add_argument("--python", help="an interpreter that has Python peers")
+    add_common_options(ask, repeat=5)
     args = ask.parse_args()
-    program = args.build / "bench/clip_peers"
-    peers = {name: [program, "run", name] for name in output([program, "list"]).splitlines()}
-    for name, (module, code) in PYTHON_PEERS.items():
-        try:
-            output([args.python or "false", "-c", f"import {module}"])
-            peers[name] = [args.python, "-c", TIMED + code]
-        except (RuntimeError, OSError):
-            print(f"missing: {name}", file=sys.stderr)
+    peers = peers_of(args.build / "bench/clip_peers", args.python,
+                     {name: (module, PLANE + code) for name, (module, code) in PYTHON_PEERS.items()})
     with tempfile.TemporaryDirectory() as folder:
         scan = args.scan
         if not scan:
             scan = pathlib.Path(folder) / "in.ply"
-            output([args.build / "facetmill", "pipe", "--quiet", "generate", "icosphere", "--level", "8", "!", "crumple",
-                    "--grid", "1", "--amplitude", "0.01%", "!", "write", scan])
+            crumpled_sphere(args.build / "facetmill", "8", scan)
         core = {min(os.sched_getaffinity(0))}
         first = "facetmill clip, capped"
         print("| | CPU s, one core | x ours | wall s, all cores | x ours | faces | memory added (1 = 2x input + output) |")

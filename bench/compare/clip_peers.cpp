@@ -2,12 +2,11 @@
 // centre, in this process, and prints as JSON what it took. bench/compare/clip.py makes a table of it.
 
 #include "compare/cgal_clip.hpp"
+#include "compare/clock.hpp"
 #include "geometry/clip.hpp"
 #include "geometry/section.hpp"
 #include "io/codec.hpp"
 
-#include <chrono>
-#include <ctime>
 #include <fmt/format.h>
 #include <fstream>
 #include <functional>
@@ -32,18 +31,16 @@ std::size_t status(const std::string& name) {
 
 /// What a call took: time, and how far memory went above what was there before.
 struct Meter {
-    double wall = 0, cpu = 0;
+    bench::Clock clock;
     std::size_t above = 0, bytes_in = 0, bytes_out = 0;
 
     template <class Call>
     void measure(Call&& call) {
         std::ofstream("/proc/self/clear_refs") << 5; // the peak starts again from here
         const std::size_t before = status("VmRSS");
-        const auto wall_then = std::chrono::steady_clock::now();
-        const std::clock_t cpu_then = std::clock();
+        clock.start();
         call();
-        cpu = static_cast<double>(std::clock() - cpu_then) / CLOCKS_PER_SEC;
-        wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_then).count();
+        clock.stop();
         const std::size_t peak = status("VmHWM");
         above = peak > before ? peak - before : 0;
     }
@@ -103,7 +100,8 @@ int run(const std::string& name, const char* path) {
     const std::size_t count = peer->second(mesh, meter);
     fmt::print(
         "{{\"wall\": {:.4f}, \"cpu\": {:.4f}, \"faces\": {}, \"above\": {}, \"in\": {}, \"out\": {}}}\n",
-        meter.wall, meter.cpu, count, meter.above, meter.bytes_in, meter.bytes_out);
+        meter.clock.wall_seconds, meter.clock.cpu_seconds, count, meter.above, meter.bytes_in,
+        meter.bytes_out);
     return 0;
 }
 

@@ -13,19 +13,11 @@ vtk, trimesh and pymeshlab. Missing ones are named.
 import argparse
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from peers import add_common_options, crumpled_sphere, output, peers_of
 
-TIMED = """
-import json, sys, time
-def measured(call):
-    wall, cpu = time.perf_counter(), time.process_time(); result = call()
-    return result, time.perf_counter() - wall, time.process_time() - cpu
-def report(wall, cpu, faces): print(json.dumps({"wall": wall, "cpu": cpu, "faces": int(faces)}))
-"""
 VTK = """
 import vtk
 reader = vtk.vtkPLYReader(); reader.SetFileName(sys.argv[1]); reader.Update()
@@ -54,18 +46,6 @@ PYTHON_PEERS = {
                          "threshold=pymeshlab.PercentageValue(0))"),
     "relax: pymeshlab Laplacian": ("pymeshlab", PYMESHLAB % "apply_coord_laplacian_smoothing(stepsmoothnum=10)"),
 }
-
-
-def output(command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError((done.stderr.strip() or "it failed").splitlines()[-1])
-    return done.stdout
-
-
-def sphere(facetmill, level, path):
-    output([facetmill, "pipe", "--quiet", "generate", "icosphere", "--level", level, "!", "crumple",
-            "--grid", "1", "--amplitude", "0.01%", "!", "write", path])
 
 
 def fastest(peers, scan, repeat):
@@ -100,7 +80,7 @@ def curve(program, facetmill, levels, repeat, folder):
     ours = {name: [program, "run", name] for name in ("split: facetmill", "relax: facetmill")}
     for level in levels.split(","):
         faces, path = 20 * 4 ** int(level), pathlib.Path(folder) / "sphere.ply"
-        sphere(facetmill, level, path)
+        crumpled_sphere(facetmill, level, path)
         for name, run in fastest(dict(ours), path, repeat).items():
             print(f"| {faces:,} | {name} | {run['wall']:.3f} | {run['wall'] / faces * 1e9:.0f} | {run['cpu']:.3f} | "
                   f"{run['cpu'] / faces * 1e9:.0f} |", flush=True)
@@ -109,19 +89,11 @@ def curve(program, facetmill, levels, repeat, folder):
 def main():
     ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ask.add_argument("scan", nargs="?", help="a closed triangle mesh, PLY")
-    ask.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path)
-    ask.add_argument("--repeat", default=5, type=int, help="the fastest of so many runs counts")
-    ask.add_argument("--python", help="an interpreter that has Python peers")
+    add_common_options(ask, repeat=5)
     ask.add_argument("--curve", help="levels of icospheres, with commas")
     args = ask.parse_args()
     program = args.build / "bench/shaping_peers"
-    peers = {name: [program, "run", name] for name in output([program, "list"]).splitlines()}
-    for name, (module, code) in PYTHON_PEERS.items():
-        try:
-            output([args.python or "false", "-c", f"import {module}"])
-            peers[name] = [args.python, "-c", TIMED + code]
-        except (RuntimeError, OSError):
-            print(f"missing: {name}", file=sys.stderr)
+    peers = peers_of(program, args.python, PYTHON_PEERS)
     if "split: PMP" not in peers:
         print("missing: PMP", file=sys.stderr)
     with tempfile.TemporaryDirectory() as folder:
@@ -130,7 +102,7 @@ def main():
         scan = args.scan
         if not scan:
             scan = pathlib.Path(folder) / "in.ply"
-            sphere(args.build / "facetmill", "8", scan)
+            crumpled_sphere(args.build / "facetmill", "8", scan)
         table(peers, scan, args.repeat)
 
 

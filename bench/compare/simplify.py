@@ -12,36 +12,25 @@ Peers: meshoptimizer (Debian's, or the newest by cmake -DMESHOPTIMIZER_SOURCE=it
 import argparse
 import json
 import pathlib
-import subprocess
-import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from peers import ROOT, add_common_options, output, peers_of
 
 PYTHON_PEERS = {
-    "pymeshlab": """
-import pymeshlab, time, sys
+    "pymeshlab": ("pymeshlab", """
+import pymeshlab
 ms = pymeshlab.MeshSet(verbose=False); ms.load_new_mesh(sys.argv[1])
-n = ms.current_mesh().face_number(); t = time.perf_counter()
-ms.meshing_decimation_quadric_edge_collapse(targetfacenum=int(n * float(sys.argv[3])))
-t = time.perf_counter() - t
-ms.save_current_mesh(sys.argv[2]); print('{"seconds": %f, "faces": %d}' % (t, ms.current_mesh().face_number()))
-""",
-    "fast_simplification": """
-import fast_simplification, trimesh, time, sys
-m = trimesh.load(sys.argv[1], process=False); t = time.perf_counter()
-p, f = fast_simplification.simplify(m.vertices, m.faces, 1 - float(sys.argv[3]))
-t = time.perf_counter() - t
-trimesh.Trimesh(p, f, process=False).export(sys.argv[2]); print('{"seconds": %f, "faces": %d}' % (t, len(f)))
-""",
+n = int(ms.current_mesh().face_number() * float(sys.argv[3]))
+_, wall, cpu = measured(lambda: ms.meshing_decimation_quadric_edge_collapse(targetfacenum=n))
+ms.save_current_mesh(sys.argv[2]); report(wall, cpu, ms.current_mesh().face_number())
+"""),
+    "fast_simplification": ("fast_simplification", """
+import fast_simplification, trimesh
+m = trimesh.load(sys.argv[1], process=False)
+(p, f), wall, cpu = measured(lambda: fast_simplification.simplify(m.vertices, m.faces, 1 - float(sys.argv[3])))
+trimesh.Trimesh(p, f, process=False).export(sys.argv[2]); report(wall, cpu, len(f))
+"""),
 }
-
-
-def output(command):
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode != 0:
-        raise RuntimeError((done.stderr.strip() or "it failed").splitlines()[-1])
-    return done.stdout
 
 
 def make_input(facetmill, scan, passes, path):
@@ -54,21 +43,13 @@ def make_input(facetmill, scan, passes, path):
 def main():
     ask = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     ask.add_argument("scan", nargs="?", default=ROOT / "examples/data/nefertiti.ply")
-    ask.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path)
     ask.add_argument("--passes", default="0,2", help="splits of the scan: 0, 2, 3 (default: 0,2)")
     ask.add_argument("--ratios", default="0.5,0.1,0.01")
     ask.add_argument("--only", default="", help="peers whose name has this")
-    ask.add_argument("--repeat", default=3, type=int, help="the fastest of so many runs counts")
-    ask.add_argument("--python", help="an interpreter that has Python peers")
+    add_common_options(ask, repeat=3)
     args = ask.parse_args()
     program = args.build / "bench/simplify_peers"
-    peers = {name: [program, "run", name] for name in output([program, "list"]).splitlines()}
-    for name, code in PYTHON_PEERS.items():
-        try:
-            output([args.python or "false", "-c", f"import {name}"])
-            peers[name] = [args.python, "-c", code]
-        except (RuntimeError, OSError):
-            print(f"missing: {name}", file=sys.stderr)
+    peers = peers_of(program, args.python, PYTHON_PEERS)
     print("| faces | to | simplifier | seconds | CPU s | bytes/face | faces out | RMS % | max % | closed | manifold | self-inters. |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
@@ -88,8 +69,8 @@ def row(program, name, command, scan, result, ratio, repeat):
         print(f"| | {float(ratio):.0%} | {name} | {problem} |")
         return
     faces = next(int(line.split()[2]) for line in open(scan, "rb") if line.startswith(b"element face"))
-    print(f"| {faces:,} | {float(ratio):.0%} | {name} | {min(r['seconds'] for r in runs):.3f} | "
-          f"{min(r.get('cpu', 0) for r in runs):.3f} | {runs[0].get('peak_bytes', 0) / faces:.0f} | {runs[0]['faces']:,} | "
+    print(f"| {faces:,} | {float(ratio):.0%} | {name} | {min(r['wall'] for r in runs):.3f} | "
+          f"{min(r['cpu'] for r in runs):.3f} | {runs[0].get('peak_bytes', 0) / faces:.0f} | {runs[0]['faces']:,} | "
           f"{judged['rms_percent']:.5f} | {judged['max_percent']:.4f} | {judged['closed']} | {judged['manifold']} | "
           f"{judged['self_intersections']} |", flush=True)
 

@@ -135,7 +135,7 @@ int run(const char* name, const char* in, const char* out, double ratio) {
     write(result, out);
     rusage use{};
     getrusage(RUSAGE_SELF, &use);
-    fmt::print("{{\"seconds\": {:.4f}, \"cpu\": {:.4f}, \"faces\": {}, \"peak_bytes\": {}}}\n",
+    fmt::print("{{\"wall\": {:.4f}, \"cpu\": {:.4f}, \"faces\": {}, \"peak_bytes\": {}}}\n",
                clock.wall_seconds, clock.cpu_seconds, result.face_count(), use.ru_maxrss * 1024);
     return 0;
 }
