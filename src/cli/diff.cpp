@@ -1,5 +1,6 @@
 // facetmill diff: two mesh files side by side.
 
+#include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "cli/command.hpp"
 #include "io/codec.hpp"
@@ -15,17 +16,20 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* diff_examples =
-    R"(Compares counts, topology, geometry, attributes, materials and parts. The distance between the surfaces is
-measured both ways, from points spread over the area and from every vertex. Limits are in units of A (0.2, 2mm) or in
-percent of A's diagonal (0.5%); without any, surfaces may be 0.0001% apart, which float32 coordinates need. When both
-files have a unit or an up axis, B is brought to A's first. Exit code 0 when they agree, 1 when they differ in
-anything that is not ignored, 3 or 6 when a file cannot be read.
+    R"(Compares counts, topology, geometry, attributes, materials, parts and what glTF has beside meshes (document).
+The distance between the surfaces is measured both ways, from points spread over the area and from every vertex; of
+a file without faces, from and to each of its points. Limits are in units of A (0.2, 2mm) or in percent of A's
+diagonal (0.5%); without any, surfaces may be 0.0001% apart, which float32 coordinates need. When both files have a
+unit or an up axis, B is brought to A's first. Attributes are compared element by element, in the order of the files.
+Exit code 0 when they agree, 1 when they differ in anything that is not ignored, 3 or 6 when a file cannot be read.
+What cannot be compared (lines, values of attributes of other sizes) is named, and makes "complete" false in JSON.
 
 Examples
   facetmill diff scan.ply scan.glb
   facetmill diff scan.ply web.glb --max 0.5% --rms 0.05% --ignore counts,attributes
   facetmill diff a.stl b.stl --json | jq .deviation.maximum
   facetmill diff part.obj part.glb --max 0.01mm --certify --all
+  facetmill diff cloud.ply scan.ply --max 1mm --ignore counts,topology,attributes
 )";
 
 struct DiffOptions {
@@ -35,6 +39,13 @@ struct DiffOptions {
     bool json = false, all = false;
     int threads = 0;
 };
+
+/// What is wrong with a number that must be 0 or more, or nothing.
+std::string not_negative(const std::string& text) {
+    const auto number = parse_real(text);
+    if (number && *number >= 0) return {};
+    return fmt::format("expected a number of 0 or more, found '{}'", text);
+}
 
 /// A length on the command line, in A's units or in percent.
 std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& text, const std::string& option,
@@ -55,22 +66,32 @@ std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& tex
     return report::ComparisonSettings::Limit{length.amount / metres(unit), false};
 }
 
-Scene read(const std::string& name, const Console& console) {
+/// Reads a file; what its reader could not keep is noted, so that it is not taken for the same.
+Scene read(const std::string& name, bool is_a, std::vector<report::LeftOut>& left_out,
+           const Console& console) {
+    static const std::set<std::string> not_kept{"W-ATTRIBUTE", "W-EXTENSION",  "W-FACES",   "W-GROUPS",
+                                                "W-IMAGE",     "W-INCOMPLETE", "W-INDEX",   "W-MTL",
+                                                "W-NAN",       "W-SKIPPED",    "W-TRAILING"};
     io::ReadLog log;
     Scene scene = io::read_scene(io::Input::open(name), {}, log);
-    for (const auto& warning : log.warnings) console.diagnostic(warning);
+    for (const auto& warning : log.warnings) {
+        console.diagnostic(warning);
+        if (not_kept.contains(warning.id)) left_out.push_back({is_a, warning.message});
+    }
     return scene;
 }
 
 /// Whether the scene is one part that is called like its file: a format without names.
 bool is_named_by_file(const Scene& scene, const std::string& file) {
-    return scene.parts.size() == 1 && scene.parts[0].name == std::filesystem::path(file).stem().string();
+    const std::string own = file == "-" ? "standard input" : std::filesystem::path(file).stem().string();
+    return scene.parts.size() == 1 && scene.parts[0].name == own;
 }
 
 int diff(DiffOptions& options, const CommandLine& line, const Console& console) {
     set_threads(options.threads);
-    const Scene a = read(options.a, console);
-    Scene b = read(options.b, console);
+    std::vector<report::LeftOut> left_out;
+    const Scene a = read(options.a, true, left_out, console);
+    Scene b = read(options.b, false, left_out, console);
     io::convert(b, {b.unit == Unit::unknown ? Unit::unknown : a.unit,
                     b.up == UpAxis::unknown ? UpAxis::unknown : a.up});
     if (is_named_by_file(a, options.a) && is_named_by_file(b, options.b)) b.parts[0].name = a.parts[0].name;
@@ -79,7 +100,8 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
     settings.rms = limit_of(options.rms, "--rms", a.unit, line);
     settings.mean = limit_of(options.mean, "--mean", a.unit, line);
     settings.ignored = {options.ignored.begin(), options.ignored.end()};
-    const auto comparison = report::compare(a, b, settings);
+    auto comparison = report::compare(a, b, settings);
+    comparison.left_out = std::move(left_out);
     print(options.json ? report::to_json(comparison, options.a, options.b)
                                  .dump(2, ' ', false, Json::error_handler_t::replace) +
                              "\n"
@@ -90,39 +112,40 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
 } // namespace
 
 Command diff_command() {
-    return {
-        "diff", "Compares two mesh files; exit code 1 when they differ.", diff_examples, false,
-        [](CLI::App& app, Console& console) {
-            auto options = std::make_shared<DiffOptions>();
-            auto& settings = options->settings;
-            app.add_option("A", options->a, "The mesh file to compare with, or - for standard input.")
-                ->required();
-            app.add_option("B", options->b, "The other mesh file.")->required();
-            app.add_option("--max", options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
-            app.add_option("--rms", options->rms,
-                           "The largest root mean square distance over the area allowed.");
-            app.add_option("--mean", options->mean, "The largest mean distance over the area allowed.");
-            app.add_option("--values", settings.attribute_limit,
-                           "How far attribute values may be apart. Default: 1e-6.")
-                ->check(CLI::NonNegativeNumber);
-            app.add_option(
-                   "--ignore", options->ignored,
-                   "Sections that do not decide: counts, topology, geometry, attributes, materials, parts.")
-                ->delimiter(',')
-                ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::comparison_sections),
-                                                               std::end(report::comparison_sections))));
-            app.add_option("--samples", settings.deviation.samples,
-                           "Points of the area measured each way. Default: 100000.");
-            app.add_option("--seed", settings.deviation.seed, "Where they fall. Default: 1.");
-            app.add_flag("--certify", settings.deviation.certify,
-                         "Also give a guaranteed bound of the distance, and hold --max against it.");
-            app.add_flag("--all", options->all, "Also show what is the same.");
-            app.add_flag("--json", options->json, "As JSON (facetmill schema diff).");
-            app.add_option("-j,--threads", options->threads, "How many threads. Default: all cores.")
-                ->check(CLI::Range(1, 4096));
-            add_message_options(app, console);
-            return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
-        }};
+    return {"diff", "Compares two mesh files; exit code 1 when they differ.", diff_examples, false,
+            [](CLI::App& app, Console& console) {
+                auto options = std::make_shared<DiffOptions>();
+                auto& settings = options->settings;
+                app.add_option("A", options->a, "The mesh file to compare with, or - for standard input.")
+                    ->required();
+                app.add_option("B", options->b, "The other mesh file.")->required();
+                app.add_option("--max", options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
+                app.add_option("--rms", options->rms,
+                               "The largest root mean square distance over the area allowed.");
+                app.add_option("--mean", options->mean, "The largest mean distance over the area allowed.");
+                app.add_option("--values", settings.attribute_limit,
+                               "How far attribute values may be apart. Default: 1e-6.")
+                    ->check(not_negative);
+                app.add_option(
+                       "--ignore", options->ignored,
+                       "Do not decide: counts, topology, geometry, attributes, materials, parts, document.")
+                    ->delimiter(',')
+                    ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::comparison_sections),
+                                                                   std::end(report::comparison_sections))));
+                app.add_option("--samples", settings.deviation.samples,
+                               "Points of the area measured each way. Default: 100000.")
+                    ->check(CLI::Range(0, 1000000000));
+                app.add_option("--seed", settings.deviation.seed, "Where they fall. Default: 1.")
+                    ->check(not_negative);
+                app.add_flag("--certify", settings.deviation.certify,
+                             "Also give a guaranteed bound of the distance, and hold --max against it.");
+                app.add_flag("--all", options->all, "Also show what is the same.");
+                app.add_flag("--json", options->json, "As JSON (facetmill schema diff).");
+                app.add_option("-j,--threads", options->threads, "How many threads. Default: all cores.")
+                    ->check(CLI::Range(1, 4096));
+                add_message_options(app, console);
+                return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
+            }};
 }
 
 } // namespace facetmill::cli

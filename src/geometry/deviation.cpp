@@ -68,17 +68,15 @@ struct Sums {
     double distances = 0, squares = 0;
 };
 
-void measure_area(DirectedDeviation& d, const Surface& from, const FaceTree& to,
-                  const DeviationSettings& settings) {
-    const auto samples = sample_area(from, settings.samples, settings.seed);
-    std::vector<Vec3> points(samples.size());
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = samples[i].point;
+/// The maximum, mean and rms of the distances of these points; face_of(i) is where the i-th lies.
+template <class FaceOf>
+void measure_points(DirectedDeviation& d, const std::vector<Vec3>& points, const FaceTree& to,
+                    FaceOf&& face_of) {
     const auto found = closest_points(to, points);
-    d.samples = samples.size();
     for (std::size_t i = 0; i < found.size(); ++i)
         if (found[i].distance > d.maximum) {
             d.maximum = found[i].distance;
-            d.from = points[i], d.to = found[i].point, d.face = from.face(samples[i].triangle);
+            d.from = points[i], d.to = found[i].point, d.face = face_of(i);
         }
     const Sums sums = parallel_reduce(
         found.size(), Sums{},
@@ -94,6 +92,14 @@ void measure_area(DirectedDeviation& d, const Surface& from, const FaceTree& to,
     if (found.empty()) return;
     d.mean = sums.distances / static_cast<double>(found.size());
     d.rms = std::sqrt(sums.squares / static_cast<double>(found.size()));
+}
+
+void measure_area(DirectedDeviation& d, const Surface& from, const FaceTree& to,
+                  const std::vector<SurfaceSample>& samples) {
+    std::vector<Vec3> points(samples.size());
+    for (std::size_t i = 0; i < points.size(); ++i) points[i] = samples[i].point;
+    d.samples = samples.size();
+    measure_points(d, points, to, [&](std::size_t i) { return from.face(samples[i].triangle); });
 }
 
 } // namespace
@@ -143,11 +149,16 @@ DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const De
         if (settings.certify) d.bound = HUGE_VAL;
         return d;
     }
-    measure_area(d, from, to, settings);
-    const Farthest vertex = farthest_of(to, vertices, d.maximum);
-    if (vertex.distance > d.maximum) {
-        d.maximum = vertex.distance;
-        d.from = vertex.from, d.to = vertex.to, d.face = none;
+    const auto samples = sample_area(from, settings.samples, settings.seed);
+    if (samples.empty()) {
+        measure_points(d, vertices, to, [](std::size_t) { return none; });
+    } else {
+        measure_area(d, from, to, samples);
+        const Farthest vertex = farthest_of(to, vertices, d.maximum);
+        if (vertex.distance > d.maximum) {
+            d.maximum = vertex.distance;
+            d.from = vertex.from, d.to = vertex.to, d.face = none;
+        }
     }
     if (settings.certify) bound_deviation(d, from, to, settings);
     return d;

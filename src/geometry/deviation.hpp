@@ -23,8 +23,8 @@ struct DeviationSettings {
 
 /// From one surface to the other: the distance of each sample to the closest point there.
 struct DirectedDeviation {
-    std::size_t samples = 0;  ///< over the area; mean and rms are over these
-    std::size_t vertices = 0; ///< that triangles use; they enter the maximum only
+    std::size_t samples = 0;  ///< over the area; mean and rms are over these, without any over the vertices
+    std::size_t vertices = 0; ///< that triangles use; where there are samples they enter the maximum only
     double maximum = 0, rms = 0, mean = 0;
     Vec3 from, to;     ///< the farthest sample and the point closest to it
     Index face = none; ///< a face of the surface measured from, at the farthest sample; none for a vertex

@@ -23,19 +23,17 @@ void compare_properties(const Comparing& with) {
     }
 }
 
-template <class List>
-void compare_names(const Comparing& with, const char* section, const List& a, const List& b) {
-    with.add(section, "number", a.size(), b.size());
-    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
-        with.add(section, fmt::format("{}", i), i < a.size() ? Json(a[i].name) : Json(nullptr),
-                 i < b.size() ? Json(b[i].name) : Json(nullptr));
-}
-
 } // namespace
 
 bool Comparison::differs() const {
     return std::any_of(lines.begin(), lines.end(),
                        [&](const Difference& d) { return !d.same && !ignored.contains(d.section); });
+}
+
+bool Comparison::complete() const {
+    return left_out.empty() && std::all_of(lines.begin(), lines.end(), [&](const Difference& d) {
+               return d.compared || ignored.contains(d.section);
+           });
 }
 
 Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings) {
@@ -44,8 +42,9 @@ Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& set
     compare_properties(with);
     if (!settings.ignored.contains("geometry")) compare_geometry(with);
     compare_attributes(with);
-    compare_names(with, "materials", a.materials, b.materials);
+    compare_materials(with);
     compare_names(with, "parts", a.parts, b.parts);
+    compare_documents(with);
     result.ignored = settings.ignored;
     return result;
 }

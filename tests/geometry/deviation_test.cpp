@@ -1,9 +1,13 @@
 #include "support/catch.hpp"
 
 #include "base/parallel.hpp"
+#include "base/random.hpp"
 #include "geometry/deviation.hpp"
+#include "geometry/loose_points.hpp"
 #include "mesh/shapes.hpp"
 #include "support/meshes.hpp"
+
+#include <algorithm>
 
 using namespace facetmill;
 
@@ -105,4 +109,62 @@ TEST_CASE("nothing is infinitely far from something, and not from nothing", "[ge
     CHECK(d.maximum() == HUGE_VAL);
     CHECK(deviation(Mesh{}, shapes::cube()).rms() == HUGE_VAL);
     CHECK(deviation(Mesh{}, Mesh{}, {.certify = true}).maximum() == 0);
+}
+
+TEST_CASE("points are measured as points: all of them, to the nearest, by any number of threads",
+          "[geometry]") {
+    const auto cloud = [](std::uint64_t seed, std::size_t count) {
+        Scene scene;
+        for (std::size_t i = 0; i < count; ++i)
+            scene.parts.resize(1), scene.parts[0].mesh.positions.push_back(
+                                       {uniform(hashed(seed, 3 * i)), uniform(hashed(seed, 3 * i + 1)),
+                                        uniform(hashed(seed, 3 * i + 2))});
+        return loose_points_of(scene);
+    };
+    const Surface a = cloud(1, 400), b = cloud(2, 300);
+    const auto nearest = [](const Surface& from, const Surface& to) {
+        std::vector<double> all;
+        for (const Vec3& p : from.positions) {
+            double least = HUGE_VAL;
+            for (const Vec3& q : to.positions) least = std::min(least, length(p - q));
+            all.push_back(least);
+        }
+        return all;
+    };
+    const auto d = deviation(a, b, {.certify = true});
+    for (const auto& [way, all] :
+         {std::pair(d.forward, nearest(a, b)), std::pair(d.backward, nearest(b, a))}) {
+        double sum = 0, squares = 0;
+        for (const double x : all) sum += x, squares += x * x;
+        CHECK(way.maximum == *std::max_element(all.begin(), all.end()));
+        CHECK(way.mean == Approx(sum / static_cast<double>(all.size())).epsilon(1e-12));
+        CHECK(way.rms == Approx(std::sqrt(squares / static_cast<double>(all.size()))).epsilon(1e-12));
+        CHECK(way.samples == 0);
+        CHECK(way.vertices == all.size());
+        CHECK(way.face == none);
+        CHECK(length(way.from - way.to) == way.maximum);
+        CHECK(*way.bound == Approx(way.maximum).epsilon(1e-9));
+    }
+    set_threads(1);
+    const auto alone = deviation(a, b);
+    set_threads(0);
+    CHECK(alone.forward.mean == d.forward.mean);
+    CHECK(alone.backward.rms == d.backward.rms);
+}
+
+TEST_CASE("loose points are the vertices without faces, in the world", "[geometry]") {
+    Scene scene;
+    scene.parts.resize(2);
+    scene.parts[0].mesh = shapes::cube();
+    scene.parts[0].mesh.positions.push_back({1, 2, 3});
+    scene.parts[0].transform.m[0][3] = 10;
+    scene.parts[1].mesh.positions = {{5, 5, 5}};
+    const Surface points = loose_points_of(scene);
+    REQUIRE(points.positions == std::vector<Vec3>{{11, 2, 3}, {5, 5, 5}});
+    CHECK(points.size() == 2);
+    const Surface all = joined(surface_of(scene.parts[0]), points);
+    CHECK(all.size() == 14);
+    CHECK(all.face(11) == 11);
+    CHECK(all.face(12) == none);
+    CHECK(all.point(13, 2) == Vec3{5, 5, 5});
 }

@@ -1,5 +1,6 @@
 """The executable among other processes: signals, full disks, unwritable targets, streams. All outputs or none."""
 
+import json
 import os
 import pathlib
 import signal
@@ -109,6 +110,19 @@ class Process(Case):
         self.mill("pipe", "load", "t.off", "!", "write", "folder.ply", expect=4)
         self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["file", "folder.ply", "t.off"])
 
+    def test_diff_does_not_take_for_the_same_what_was_not_read(self):
+        points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+        self.write("lines.obj", points + "l 1 2 3\n")
+        self.write("others.obj", points + "l 1 3\n")
+        done = self.mill("diff", "lines.obj", "others.obj")
+        self.assertTrue(done.stdout.startswith("lines.obj and others.obj agree in what was compared\n"
+                                               "  not compared: lines.obj: "), done.stdout)
+        found = json.loads(self.mill("diff", "--json", "lines.obj", "others.obj").stdout)
+        self.assertEqual((found["same"], found["complete"]), (True, False))
+        self.assertEqual([left["file"] for left in found["left_out"]], ["a", "b"])
+        self.write("moved.obj", points.replace("0 1 0", "0 9 0"))
+        self.mill("diff", "lines.obj", "moved.obj", expect=1)
+
     def test_bad_inputs_have_their_exit_codes(self):
         self.write("cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n"
                               "property float y\nproperty float z\nend_header\n")
@@ -124,6 +138,8 @@ class Process(Case):
         self.mill("diff", "t.off", "cut.ply", expect=6)
         self.mill("diff", "t.off", "t.off", "--max", "2mm", expect=2)
         self.mill("diff", "t.off", "t.off", "--max", "-1", expect=2)
+        self.mill("diff", "t.off", "t.off", "--values", "nan", expect=2)
+        self.mill("diff", "t.off", "t.off", "--samples", "-1", expect=2)
         self.mill("run", "none.yaml", expect=3)
         self.mill("stages", "relux", expect=2)
         self.mill("pipe", "load", "t.off", "!", "relux", expect=2)

@@ -105,3 +105,137 @@ TEST_CASE("something differs from nothing", "[report]") {
     CHECK(d.differs());
     CHECK(report::to_json(d, "a", "b")["deviation"]["maximum"].is_null());
 }
+
+namespace {
+
+Scene cloud_of(std::vector<Vec3> points) {
+    Mesh mesh;
+    mesh.positions = std::move(points);
+    return scene_of(std::move(mesh));
+}
+
+const report::Difference* line(const Comparison& comparison, const std::string& name) {
+    for (const auto& d : comparison.lines)
+        if (d.name == name) return &d;
+    return nullptr;
+}
+
+} // namespace
+
+TEST_CASE("clouds of as many points differ when a point is elsewhere", "[report]") {
+    const Scene a = cloud_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
+                b = cloud_of({{0, 0, 0}, {1, 0, 0}, {0, 9, 0}});
+    const Comparison same = report::compare(a, a), other = report::compare(a, b);
+    CHECK_FALSE(same.differs());
+    CHECK(same.deviation->forward.vertices == 3);
+    CHECK(different(other) == "geometry: deviation maximum");
+    CHECK(other.deviation->forward.maximum == 1);
+    CHECK(other.deviation->backward.maximum == 8);
+    const Json json = report::to_json(other, "a", "b");
+    CHECK(json["geometry_of"] == Json{{"a", "points"}, {"b", "points"}});
+    ComparisonSettings settings;
+    settings.rms = ComparisonSettings::Limit{4.6, false}; // sqrt(64 / 3) is 4.62
+    CHECK(different(report::compare(a, b, settings)) == "geometry: deviation rms");
+    settings.rms->amount = 4.62;
+    CHECK_FALSE(report::compare(a, b, settings).differs());
+}
+
+TEST_CASE("a cloud is measured against a surface", "[report]") {
+    const Scene sheet = scene_of(shapes::grid(4, 3)), cloud = cloud_of({{1, 1, 0.5}, {2, 1.5, 0.25}});
+    const Comparison d = report::compare(cloud, sheet);
+    CHECK(d.deviation->forward.maximum == 0.5);
+    CHECK(d.deviation->forward.mean == 0.375);
+    CHECK(d.deviation->backward.maximum > 1);
+    CHECK(report::to_json(d, "a", "b")["geometry_of"]["b"] == "surface");
+    CHECK(report::compare(cloud, scene_of({})).differs());
+    CHECK_FALSE(report::compare(scene_of({}), scene_of({})).differs());
+}
+
+TEST_CASE("points beside a surface are measured to all of the other scene", "[report]") {
+    Mesh with_one = shapes::grid(4, 3), with_another = with_one;
+    with_one.positions.push_back({1, 1, 2});
+    with_another.positions.push_back({1, 1, 2.5});
+    ComparisonSettings settings;
+    settings.ignored = {"counts", "topology"};
+    CHECK(different(report::compare(scene_of(with_one), scene_of(with_another))) ==
+          "geometry: loose points maximum");
+    CHECK(line(report::compare(scene_of(with_one), scene_of(with_another)), "loose points maximum")->a ==
+          0.5);
+    const Comparison lost = report::compare(scene_of(with_one), scene_of(shapes::grid(4, 3)), settings);
+    CHECK(line(lost, "loose points maximum")->a == 2);
+    CHECK(line(lost, "loose points maximum")->b == 0);
+    CHECK(lost.deviation->maximum() < 1e-15);
+    CHECK_FALSE(report::compare(scene_of(with_one), scene_of(with_one), settings).differs());
+}
+
+TEST_CASE("numbers that are none agree with themselves alone", "[report]") {
+    const auto with = [](std::vector<double> values) {
+        Scene scene = scene_of(shapes::tetrahedron());
+        scene.parts[0].mesh.attributes.push_back({"q", Domain::vertex, Role::generic, 1, false, values});
+        return scene;
+    };
+    const Scene a = with({NAN, HUGE_VAL, -HUGE_VAL, 1});
+    CHECK_FALSE(report::compare(a, a).differs());
+    for (const auto& values : std::vector<std::vector<double>>{
+             {1, HUGE_VAL, -HUGE_VAL, 1}, {NAN, -HUGE_VAL, -HUGE_VAL, 1}, {NAN, HUGE_VAL, -HUGE_VAL, NAN}}) {
+        CHECK(different(report::compare(a, with(values))) == "attributes: q (vertex)");
+        CHECK(different(report::compare(with(values), a)) == "attributes: q (vertex)");
+    }
+}
+
+TEST_CASE("normals are compared in the world", "[report]") {
+    const Scene a = scene_of(shapes::uv_cube());
+    Scene turned = a, baked = a;
+    Transform quarter;
+    quarter.m[0][0] = 0, quarter.m[0][1] = -1, quarter.m[1][0] = 1, quarter.m[1][1] = 0;
+    turned.parts[0].transform = quarter;
+    apply(baked.parts[0].mesh, quarter);
+    CHECK(different(report::compare(turned, baked)).empty());
+    CHECK(different(report::compare(a, turned)).find("NORMAL") != std::string::npos);
+}
+
+TEST_CASE("what could not be compared is said, and is not the same", "[report]") {
+    Scene a = scene_of(shapes::uv_cube()), b = a;
+    b.parts[0].mesh.find("TEXCOORD_0", Domain::wedge)->resize(7); // as another number of wedges would
+    Comparison d = report::compare(a, b);
+    CHECK_FALSE(d.differs());
+    CHECK_FALSE(d.complete());
+    CHECK_FALSE(line(d, "TEXCOORD_0 (wedge)")->compared);
+    const std::string text = report::to_text(d, "a", "b", false);
+    CHECK(text.starts_with("a and b agree in what was compared\n"));
+    CHECK(text.find("not compared: values of 24 and 7 elements") != std::string::npos);
+    CHECK(report::to_json(d, "a", "b")["complete"] == false);
+    d.ignored = {"attributes"};
+    CHECK(d.complete());
+    d.left_out.push_back({false, "lines"});
+    CHECK_FALSE(d.complete());
+    CHECK(report::to_text(d, "a", "b", false).find("  not compared: b: lines\n") != std::string::npos);
+}
+
+TEST_CASE("materials differ by their looks and by the faces they are on", "[report]") {
+    Scene a = scene_of(shapes::grid(2, 1)); // four triangles
+    a.materials = {{.name = "red"}, {.name = "blue"}};
+    Mesh& mesh = a.parts[0].mesh;
+    mesh.primitives.resize(2);
+    mesh.primitives[0].material = 0, mesh.primitives[1].material = 1;
+    const auto assign = [](Scene& scene, std::vector<std::uint32_t> faces) {
+        auto& m = scene.parts[0].mesh;
+        m.drop(primitive_attribute, Domain::face);
+        m.attributes.push_back(
+            {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(faces)});
+    };
+    assign(a, {0, 0, 1, 1});
+    CHECK_FALSE(report::compare(a, a).differs());
+    Scene looks = a, swapped = a, reordered = a;
+    looks.materials[0].base_colour[1] = 0.5;
+    looks.materials[1].double_sided = true;
+    CHECK(different(report::compare(a, looks)) == "materials: 0 base_colour, materials: 1 double_sided");
+    assign(swapped, {1, 1, 0, 0});
+    CHECK(different(report::compare(a, swapped)) == "materials: 0 faces, materials: 1 faces");
+    assign(reordered, {1, 1, 0, 0});
+    auto& corners = reordered.parts[0].mesh.corners;
+    std::rotate(corners.begin(), corners.begin() + 6, corners.end());
+    CHECK(different(report::compare(a, reordered)).empty());
+    assign(swapped, {0, 0, 0, 0});
+    CHECK(line(report::compare(a, swapped), "1 faces")->a.is_null());
+}
