@@ -1,14 +1,33 @@
 #include "geometry/clean.hpp"
 
+#include "geometry/clean_solids.hpp"
 #include "geometry/clean_steps.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace facetmill {
 
 namespace {
 
 using namespace clean_steps;
+
+bool untangle(Work& work, const CleanSettings& s) {
+    if (s.self_intersections == Untangle::off) return false;
+    SelfIntersections found = crossings(work.mesh);
+    if (found.count == 0) return false;
+    if (found.count > found.pairs.size()) {
+        work.not_done.push_back({"self_intersections",
+                                 fmt::format("{} pairs of faces intersect, and more than {} are not tried",
+                                             found.count, most_pairs),
+                                 middle_of_face(work.mesh, found.pairs[0].first)});
+        return false;
+    }
+    bool changed = s.self_intersections != Untangle::local && unite_solids(work, found, s);
+    if (s.self_intersections == Untangle::unite) return changed;
+    if (changed) found = crossings(work.mesh);
+    return resolve_self_intersections(work, std::move(found)) || changed;
+}
 
 bool one_round(Work& work, const CleanSettings& s) {
     work.not_done.clear();
@@ -26,7 +45,7 @@ bool one_round(Work& work, const CleanSettings& s) {
         work.not_done.resize(told); // those that stay are told below
     }
     if (s.non_manifold) changed |= split_non_manifold(work);
-    if (s.self_intersections) changed |= resolve_self_intersections(work);
+    changed |= untangle(work, s);
     if (s.holes) changed |= fill_holes(work, *s.holes);
     if (s.components) changed |= remove_components(work, *s.components);
     if (s.shells) changed |= remove_inner_shells(work);
@@ -47,7 +66,7 @@ Fates fates_of(const Mesh& mesh, const Fates& mixed) {
 std::size_t CleanCounts::total() const {
     return welded_vertices + stitched_edges + t_vertices + repeated_corners + degenerate_faces +
            duplicate_faces + split_vertices + split_edges + filled_holes + components + shells +
-           isolated_vertices + intersecting_faces;
+           isolated_vertices + intersecting_faces + united_pieces;
 }
 
 CleanResult clean(Mesh mesh, const CleanSettings& settings) {

@@ -17,6 +17,14 @@ enum class HoleFill {
     smooth,  ///< as minimal, then refined to the density around it and faired (fair_patch)
 };
 
+/// What becomes of faces that intersect.
+enum class Untangle {
+    off,
+    local, ///< they are replaced place by place, where that ends the intersection
+    unite, ///< closed pieces that pass through each other or themselves become one solid
+    all    ///< unite, then local for the rest
+};
+
 struct HoleSettings {
     HoleFill method = HoleFill::minimal;
     std::size_t most_edges = 0; ///< larger holes stay; 0: no limit
@@ -40,7 +48,7 @@ struct CleanSettings {
     bool non_manifold = true; ///< edges of more than two faces and vertices of several fans come apart
     bool isolated = true;     ///< vertices that no face uses go
     bool shells = false;      ///< closed pieces inside others go
-    bool self_intersections = false; ///< faces that intersect are replaced, where that ends it
+    Untangle self_intersections = Untangle::off;
     std::optional<HoleSettings> holes;
     std::optional<ComponentSettings> components;
     double within = 0; ///< how near is near
@@ -60,6 +68,9 @@ struct CleanCounts {
                 degenerate_faces = 0, duplicate_faces = 0, split_vertices = 0, split_edges = 0,
                 filled_holes = 0, hole_faces = 0, components = 0, component_faces = 0, shells = 0,
                 shell_faces = 0, isolated_vertices = 0, intersecting_faces = 0;
+    std::size_t united_pieces = 0; ///< closed pieces that intersected and are part of a union now
+    std::size_t refined_faces = 0; ///< cut where they intersected, once per pass
+    std::size_t covered_faces = 0; ///< intersected nothing and lay inside another piece
     std::size_t total() const;
     bool operator==(const CleanCounts&) const = default;
 };

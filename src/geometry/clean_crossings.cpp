@@ -1,6 +1,5 @@
 // The step of clean that replaces faces that intersect others, place by place.
 #include "geometry/clean_steps.hpp"
-#include "geometry/self_intersections.hpp"
 #include "geometry/surface_normal.hpp"
 #include "geometry/surgery.hpp"
 #include "mesh/topology.hpp"
@@ -14,19 +13,7 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-constexpr std::size_t most_pairs = std::size_t{1} << 22;
 constexpr int most_rings = 4;
-
-/// Intersecting pairs; vertices at one place count as one, so that faces which an edge or vertex parts
-/// (split_non_manifold) do not count for touching there.
-SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among) {
-    Mesh plain;
-    plain.positions = mesh.positions, plain.corners = mesh.corners, plain.face_offsets = mesh.face_offsets;
-    const auto place = lowest_at_place(mesh);
-    for (Index w = 0; w < mesh.wedge_count(); ++w)
-        plain.wedge_vertex.push_back(place[mesh.vertex_of_wedge(w)]);
-    return find_self_intersections(plain, {.limit = most_pairs, .among = std::move(among)});
-}
 
 /// The edges of one face as (low, high), ascending.
 EdgeList open_edges(const Mesh& mesh) {
@@ -241,8 +228,7 @@ class Untangler {
 
 } // namespace
 
-bool resolve_self_intersections(Work& work) {
-    SelfIntersections found = crossings(work.mesh, {});
+bool resolve_self_intersections(Work& work, SelfIntersections found) {
     return found.count > 0 && Untangler(work, std::move(found)).run();
 }
 

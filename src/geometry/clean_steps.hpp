@@ -3,6 +3,7 @@
 // return value whether it changed anything.
 
 #include "geometry/clean.hpp"
+#include "geometry/self_intersections.hpp"
 #include "geometry/surgery.hpp"
 
 namespace facetmill::clean_steps {
@@ -52,11 +53,21 @@ bool remove_components(Work& work, const ComponentSettings& settings);
 /// Closed pieces that lie inside other closed pieces and touch none go.
 bool remove_inner_shells(Work& work);
 bool remove_isolated(Work& work);
+/// The pairs of faces that intersect, for the two steps below; vertices at one place count as one, so that
+/// faces which only an edge or vertex parts (split_non_manifold) are none. At most most_pairs are listed.
+SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {});
+inline constexpr std::size_t most_pairs = std::size_t{1} << 22;
+/// Closed pieces that pass through each other, or through themselves, become one solid: the union, by winding
+/// numbers (see unite). `found` are the crossings of the mesh. What is closed stays closed; what intersects
+/// does not any more, but with pieces that are not closed: those, and solids that cannot be united, are told
+/// and left exactly as they were. Faces that intersect nothing and lie outside of all other pieces are left
+/// alone.
+bool unite_solids(Work& work, const SelfIntersections& found, const CleanSettings& settings);
 /// Place by place: removes the faces that intersect others, if need be with up to four rings around them, and
 /// fills what that opens. A place is left as it was when that would leave an intersection or an open edge
 /// that was not there, change the topology, or take half of a piece along. Faces that touch only where
 /// vertices of theirs are at one place do not count.
-bool resolve_self_intersections(Work& work);
+bool resolve_self_intersections(Work& work, SelfIntersections found);
 
 /// For each vertex the lowest one at the same place.
 std::vector<Index> lowest_at_place(const Mesh& mesh);

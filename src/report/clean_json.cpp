@@ -22,6 +22,9 @@ Json counts_json(const CleanCounts& n) {
             {"removed_shells", n.shells},
             {"shell_faces", n.shell_faces},
             {"isolated_vertices", n.isolated_vertices},
+            {"united_pieces", n.united_pieces},
+            {"refined_faces", n.refined_faces},
+            {"covered_faces", n.covered_faces},
             {"intersecting_faces", n.intersecting_faces}};
 }
 

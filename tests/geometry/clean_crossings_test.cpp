@@ -14,7 +14,7 @@ namespace {
 
 CleanSettings untangling() {
     CleanSettings s;
-    s.self_intersections = true;
+    s.self_intersections = Untangle::local;
     return s;
 }
 

@@ -305,7 +305,7 @@ TEST_CASE("clean removes isolated vertices", "[geometry]") {
 TEST_CASE("clean takes an empty mesh and one of points", "[geometry]") {
     CleanSettings s;
     s.holes = HoleSettings{}, s.components = ComponentSettings{2, 0, 0, 0};
-    s.shells = s.self_intersections = true;
+    s.shells = true, s.self_intersections = Untangle::all;
     s.weld = s.stitch = s.t_vertices = Nearness::near, s.within = 1;
     CHECK(cleaned({}, s).counts.total() == 0);
     Mesh points;
@@ -334,7 +334,7 @@ TEST_CASE("clean replaces faces that intersect", "[geometry]") {
     mesh.positions[0] *= -1.5;
     REQUIRE(inspect(mesh, {.self_intersections = true}).self_intersections.value() > 0);
     CleanSettings s;
-    s.self_intersections = true;
+    s.self_intersections = Untangle::local;
     const auto r = cleaned(mesh, s);
     CHECK(r.counts.intersecting_faces > 0);
     CHECK(is_sound_solid(r.mesh));
@@ -344,7 +344,7 @@ TEST_CASE("clean replaces faces that intersect", "[geometry]") {
 TEST_CASE("clean leaves intersections that it cannot end, and says so", "[geometry]") {
     const Mesh mesh = shapes::crossing();
     CleanSettings s;
-    s.self_intersections = true;
+    s.self_intersections = Untangle::local;
     s.isolated = false;
     const auto r = cleaned(mesh, s);
     if (r.counts.intersecting_faces == 0) CHECK(r.not_done.at(0).step == "self_intersections");

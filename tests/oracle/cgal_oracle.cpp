@@ -8,6 +8,7 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
@@ -50,6 +51,20 @@ std::vector<std::pair<Index, Index>> self_intersections(const Mesh& mesh) {
 double hausdorff_distance(const Mesh& from, const Mesh& to, double error) {
     return CGAL::Polygon_mesh_processing::bounded_error_Hausdorff_distance<CGAL::Sequential_tag>(
         surface_of(from), surface_of(to), error);
+}
+
+Mesh union_of(const Mesh& a, const Mesh& b) {
+    Surface of_a = surface_of(a), of_b = surface_of(b), joined;
+    if (!CGAL::Polygon_mesh_processing::corefine_and_compute_union(of_a, of_b, joined))
+        throw std::runtime_error("no union");
+    joined.collect_garbage();
+    Mesh mesh;
+    for (const auto v : joined.vertices())
+        mesh.positions.push_back({joined.point(v).x(), joined.point(v).y(), joined.point(v).z()});
+    for (const auto f : joined.faces())
+        for (const auto v : joined.vertices_around_face(joined.halfedge(f)))
+            mesh.corners.push_back(static_cast<Index>(v));
+    return mesh;
 }
 
 namespace {

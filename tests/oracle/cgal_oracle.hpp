@@ -17,6 +17,10 @@ std::vector<std::pair<Index, Index>> self_intersections(const Mesh& mesh);
 /// above it (CGAL's bounded_error_Hausdorff_distance). Edge-manifold triangle meshes.
 double hausdorff_distance(const Mesh& from, const Mesh& to, double error);
 
+/// The union of two closed meshes by CGAL's corefinement. Edge-manifold triangle meshes that do not intersect
+/// themselves.
+Mesh union_of(const Mesh& a, const Mesh& b);
+
 /// CGAL's AABB tree over the triangles of a mesh.
 class Tree {
   public:

@@ -23,7 +23,7 @@ std::vector<std::pair<std::string, CleanSettings>> all_settings(double diagonal)
     smooth.holes = HoleSettings{HoleFill::smooth, 40, 0};
     solid.components = ComponentSettings{2, 0, 0, 0}, solid.holes = HoleSettings{};
     solid.shells = true;
-    all = near, all.self_intersections = all.shells = true, all.holes = HoleSettings{};
+    all = near, all.self_intersections = Untangle::all, all.shells = true, all.holes = HoleSettings{};
     return {{"plain", plain},   {"off", off},     {"near", near}, {"holes", holes},
             {"smooth", smooth}, {"solid", solid}, {"all", all}};
 }

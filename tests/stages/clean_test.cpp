@@ -48,6 +48,33 @@ TEST_CASE("clean warns of what it could not repair, and where", "[stages]") {
     CHECK(run.record.result["parts"][0]["not_done"][0]["at"][0] > 90);
 }
 
+TEST_CASE("clean reports what it united; true is all, false is off", "[stages]") {
+    Mesh mesh = shapes::cube(), other = shapes::cube();
+    for (Vec3& p : other.positions) p += Vec3{0.5, 0.5, 0.5};
+    append(mesh, other);
+    for (const char* options :
+         {"{self_intersections: union}", "{self_intersections: all}", "{self_intersections: true}"}) {
+        const auto run = run_stage("clean", options, scene_of(mesh));
+        const auto& part = run.record.result["parts"][0];
+        CHECK(part["united_pieces"] == 2);
+        CHECK(part["refined_faces"] == 12);
+        CHECK(part["covered_faces"] == 0);
+        CHECK(inspect(run.scene).volume == 1.875);
+        CHECK(run.record.warnings.empty());
+    }
+    for (const char* options : {"{self_intersections: off}", "{self_intersections: false}", ""})
+        CHECK(run_stage("clean", options, scene_of(mesh)).record.result["parts"][0]["changed"] == false);
+    CHECK(failure([&] {
+              run_stage("clean", "{self_intersections: yes}", scene_of(mesh));
+          }).find("E-CHOICE") != std::string::npos);
+    // A turned cube is inside out there, and said to be.
+    for (Index f = 12; f < 24; ++f) std::swap(mesh.corners[3 * f], mesh.corners[3 * f + 1]);
+    const auto run = run_stage("clean", "{self_intersections: union}", scene_of(mesh));
+    REQUIRE(run.record.warnings.size() == 1);
+    CHECK(run.record.warnings[0].id == "W-CLEAN");
+    CHECK(run.record.warnings[0].message.find("orient") != std::string::npos);
+}
+
 TEST_CASE("clean takes lengths in the world", "[stages]") {
     Mesh mesh = shapes::cube();
     const auto stray = static_cast<Index>(mesh.positions.size());

@@ -1,0 +1,301 @@
+#include "geometry/cgal/arrangement.hpp"
+
+#include "geometry/box_tree.hpp"
+#include "geometry/cgal/plane_cut.hpp"
+#include "mesh/topology.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace facetmill {
+
+namespace {
+
+using Quick = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Corners = std::array<Quick::Point_3, 3>;
+
+Quick::Point_3 quick(const Vec3& p) { return {p.x, p.y, p.z}; }
+
+/// On which side of the plane of t each of three points is.
+std::array<int, 3> sides(const Corners& t, const Corners& points) {
+    std::array<int, 3> side{};
+    for (std::size_t i = 0; i < 3; ++i) side[i] = CGAL::orientation(t[0], t[1], t[2], points[i]);
+    return side;
+}
+
+/// Whether a point of its plane is in the triangle, borders included.
+bool holds(const Corners& t, const Quick::Point_3& p) {
+    for (std::size_t i = 0; i < 3; ++i)
+        if (CGAL::coplanar_orientation(t[i], t[(i + 1) % 3], t[(i + 2) % 3], p) == CGAL::NEGATIVE)
+            return false;
+    return true;
+}
+
+/// Whether the line through a and b, which are on both sides of it, passes through the triangle, borders
+/// included.
+bool passes_through(const Quick::Point_3& a, const Quick::Point_3& b, const Corners& t) {
+    bool left = false, right = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const int side = CGAL::orientation(a, b, t[i], t[(i + 1) % 3]);
+        left |= side > 0, right |= side < 0;
+    }
+    return !(left && right);
+}
+
+/// Where triangles of different planes meet, and which are of one plane.
+class Meetings {
+  public:
+    Meetings(const TriangleSoup& soup, ExactNodes& nodes)
+        : soup_(soup), nodes_(nodes), place_of_(soup.triangles.size(), none), sets_(soup.cut.size()),
+          points_(soup.cut.size()), segments_(soup.cut.size()), flat_(soup.cut.size()) {
+        for (Index i = 0; i < soup.cut.size(); ++i) {
+            place_of_[soup.cut[i]] = i;
+            for (const Index p : soup.triangles[soup.cut[i]]) nodes.know(p);
+            const Corners t = corners(soup.cut[i]);
+            flat_[i] = CGAL::collinear(t[0], t[1], t[2]);
+        }
+        for (const auto& [s, t] : soup.pairs) meet(s, t);
+    }
+
+    /// By their first triangles.
+    std::vector<PlaneGroup> groups() {
+        std::map<Index, PlaneGroup> by_set;
+        for (Index i = 0; i < soup_.cut.size(); ++i) {
+            if (flat_[i]) continue;
+            PlaneGroup& g = by_set[sets_.find(i)];
+            g.triangles.push_back(soup_.cut[i]);
+            g.points.insert(g.points.end(), points_[i].begin(), points_[i].end());
+            g.segments.insert(g.segments.end(), segments_[i].begin(), segments_[i].end());
+        }
+        std::vector<PlaneGroup> all;
+        for (auto& [set, g] : by_set) {
+            std::sort(g.segments.begin(), g.segments.end());
+            g.segments.erase(std::unique(g.segments.begin(), g.segments.end()), g.segments.end());
+            all.push_back(std::move(g));
+        }
+        return all;
+    }
+
+  private:
+    Corners corners(Index t) const {
+        const auto& [a, b, c] = soup_.triangles[t];
+        return {quick(soup_.points[a]), quick(soup_.points[b]), quick(soup_.points[c])};
+    }
+
+    void meet(Index s, Index t) {
+        const Index i = place_of_[s], j = place_of_[t];
+        const Corners a = corners(s), b = corners(t);
+        if (flat_[i] || flat_[j]) {
+            if (!flat_[j]) put_on(a, soup_.triangles[s], b, j);
+            if (!flat_[i]) put_on(b, soup_.triangles[t], a, i);
+            return;
+        }
+        const auto of_s = sides(b, a);
+        if (of_s == std::array{0, 0, 0}) {
+            sets_.join(i, j);
+            return;
+        }
+        const auto of_t = sides(a, b);
+        std::vector<Index> found;
+        collect(s, a, of_s, t, b, found);
+        collect(t, b, of_t, s, a, found);
+        std::sort(found.begin(), found.end());
+        found.erase(std::unique(found.begin(), found.end()), found.end());
+        for (const Index k : {i, j}) {
+            if (found.size() == 1) points_[k].push_back(found[0]);
+            if (found.size() == 2) segments_[k].emplace_back(found[0], found[1]);
+        }
+    }
+
+    void put_on(const Corners& points, const std::array<Index, 3>& nodes, const Corners& t, Index at) {
+        const auto side = sides(t, points);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (side[k] == 0 && holds(t, points[k])) points_[at].push_back(nodes[k]);
+    }
+
+    /// The ends of what the sides of s have in common with t.
+    void collect(Index s, const Corners& a, const std::array<int, 3>& side, Index t, const Corners& b,
+                 std::vector<Index>& found) {
+        const auto& nodes = soup_.triangles[s];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            if (side[k] == 0 && holds(b, a[k])) found.push_back(nodes[k]);
+            if (side[k] * side[next] < 0 && passes_through(a[k], a[next], b))
+                found.push_back(crossing(nodes[k], nodes[next], t));
+        }
+    }
+
+    Index crossing(Index from, Index to, Index t) {
+        const auto [low, high] = std::minmax(from, to);
+        const auto [at, fresh] = known_.try_emplace({low, high, t});
+        if (fresh) {
+            const auto p = nodes_.at(low), q = nodes_.at(high);
+            const auto& corner = soup_.triangles[t];
+            const auto o = nodes_.at(corner[0]);
+            const auto normal = CGAL::cross_product(nodes_.at(corner[1]) - o, nodes_.at(corner[2]) - o);
+            const ExactKernel::FT above = normal * (p - o), below = normal * (q - o);
+            at->second = nodes_.find_or_add(p + (above / (above - below)) * (q - p));
+        }
+        return at->second;
+    }
+
+    const TriangleSoup& soup_;
+    ExactNodes& nodes_;
+    std::vector<Index> place_of_; ///< of triangles in cut
+    DisjointSets sets_;           ///< of one plane; by place in cut, as are:
+    std::vector<std::vector<Index>> points_;
+    std::vector<std::vector<std::pair<Index, Index>>> segments_;
+    std::vector<std::uint8_t> flat_; ///< without area
+    std::map<std::tuple<Index, Index, Index>, Index> known_;
+};
+
+/// At most how often lines could cross in the group: pairs of boxes that meet, counted up to a limit.
+std::size_t possible_crossings(const TriangleSoup& soup, const PlaneGroup& group, const ExactNodes& nodes,
+                               std::size_t limit) {
+    auto lines = group.segments;
+    if (group.triangles.size() > 1)
+        for (const Index t : group.triangles)
+            for (std::size_t i = 0; i < 3; ++i)
+                lines.emplace_back(soup.triangles[t][i], soup.triangles[t][(i + 1) % 3]);
+    if (lines.size() < 64) return lines.size() * lines.size() / 2;
+    std::vector<Box> boxes(lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        boxes[i].add(nodes.rounded(lines[i].first)), boxes[i].add(nodes.rounded(lines[i].second));
+    std::size_t count = 0;
+    const BoxTree tree(boxes);
+    for (std::size_t i = 0; i < boxes.size() && count <= limit; ++i)
+        tree.visit(boxes[i], [&](Index j) { count += j > i; });
+    return count;
+}
+
+/// More than these take longer than a minute or so.
+constexpr std::size_t most_pairs = 1'000'000, most_crossings = 2'000'000;
+
+} // namespace
+
+struct Arrangement::Own {
+    explicit Own(TriangleSoup given) : soup(std::move(given)), nodes(soup.points) {}
+
+    TriangleSoup soup;
+    ExactNodes nodes; // refers to the soup's points
+    std::vector<Piece> pieces;
+    SidesOfNodes sides;
+    std::optional<Index> overfull;
+    std::optional<BoxTree> tree;
+    Box bounds;
+
+    void cut() {
+        if (soup.pairs.size() > most_pairs) {
+            overfull = most_met();
+            return;
+        }
+        const auto groups = Meetings(soup, nodes).groups();
+        std::size_t possible = 0, worst = 0;
+        for (const PlaneGroup& g : groups) {
+            const std::size_t count = possible_crossings(soup, g, nodes, most_crossings);
+            if (count > worst) worst = count, overfull = g.triangles.front();
+            possible += count;
+        }
+        if (possible > most_crossings) return;
+        overfull.reset();
+        for (const PlaneGroup& g : groups) cut_in_plane(soup, g, nodes, pieces, sides);
+    }
+
+    /// The triangle of most pairs.
+    Index most_met() const {
+        std::vector<Index> count(soup.triangles.size(), 0);
+        for (const auto& [s, t] : soup.pairs) ++count[s], ++count[t];
+        return static_cast<Index>(std::max_element(count.begin(), count.end()) - count.begin());
+    }
+
+    void plant() {
+        std::vector<Box> boxes(soup.triangles.size());
+        for (std::size_t t = 0; t < boxes.size(); ++t)
+            for (const Index p : soup.triangles[t]) boxes[t].add(soup.points[p]);
+        for (const Box& b : boxes) bounds.add(b);
+        tree.emplace(std::move(boxes));
+    }
+};
+
+Arrangement::Arrangement(TriangleSoup soup) : own_(std::make_unique<Own>(std::move(soup))) {
+    own_->cut();
+    if (!own_->overfull) own_->plant();
+}
+Arrangement::~Arrangement() = default;
+
+std::optional<Index> Arrangement::overfull() const { return own_->overfull; }
+const std::vector<Arrangement::Piece>& Arrangement::pieces() const { return own_->pieces; }
+Vec3 Arrangement::position(Index node) const { return own_->nodes.rounded(node); }
+std::size_t Arrangement::node_count() const { return own_->nodes.size(); }
+std::optional<int> Arrangement::side_of(Index triangle, Index node) const {
+    const auto at = own_->sides.find({triangle, node});
+    return at == own_->sides.end() ? std::nullopt : std::optional(at->second);
+}
+
+namespace {
+
+using Point = ExactNodes::Point;
+
+/// A ray along an axis, moved aside by less than any distance: by e along the next axis and e * e along the
+/// one after.
+struct Ray {
+    Point from;
+    int axis;
+    bool forward;
+
+    /// Which side of the line from a to b the ray is on, seen along the axis.
+    int side(const Vec3& a, const Vec3& b) const {
+        const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+        const auto i = static_cast<std::size_t>(u), j = static_cast<std::size_t>(v);
+        using Flat = ExactKernel::Point_2;
+        const int exact = CGAL::orientation(Flat(a[i], a[j]), Flat(b[i], b[j]), Flat(from[u], from[v]));
+        if (exact != 0) return exact;
+        if (a[j] != b[j]) return a[j] > b[j] ? 1 : -1;
+        return a[i] < b[i] ? 1 : a[i] > b[i] ? -1 : 0;
+    }
+
+    /// 1 when it leaves through the front of the triangle, -1 when it enters, 0 when it does not pass
+    /// through.
+    int passes(const Vec3& a, const Vec3& b, const Vec3& c) const {
+        const int turn = side(a, b);
+        if (turn == 0 || side(b, c) != turn || side(c, a) != turn) return 0;
+        const auto exact = [](const Vec3& p) { return Point(p.x, p.y, p.z); };
+        const int above = turn * CGAL::orientation(exact(a), exact(b), exact(c), from);
+        if (above == 0 || (above < 0) != forward) return 0;
+        return forward ? turn : -turn;
+    }
+};
+
+} // namespace
+
+int Arrangement::look_ahead(const std::array<Index, 3>& nodes, std::span<const Index> but,
+                            const std::function<void(Index, int)>& hit) const {
+    const auto p = own_->nodes.at(nodes[0]), q = own_->nodes.at(nodes[1]), r = own_->nodes.at(nodes[2]);
+    const auto normal = CGAL::cross_product(q - p, r - p);
+    const Vec3 &a = position(nodes[0]), rough = cross(position(nodes[1]) - a, position(nodes[2]) - a);
+    std::array<int, 3> axes{0, 1, 2};
+    std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
+        return std::abs(rough[static_cast<std::size_t>(i)]) > std::abs(rough[static_cast<std::size_t>(j)]);
+    });
+    const int axis =
+        *std::find_if(axes.begin(), axes.end(), [&](int i) { return !CGAL::is_zero(normal[i]); });
+    const auto k = static_cast<std::size_t>(axis);
+    const Ray ray{CGAL::centroid(p, q, r), axis, a[k] > own_->bounds.centre()[k]};
+    Box along;
+    for (int i = 0; i < 3; ++i) {
+        const auto [low, high] = CGAL::to_interval(ray.from[i]);
+        along.min[static_cast<std::size_t>(i)] = low, along.max[static_cast<std::size_t>(i)] = high;
+    }
+    (ray.forward ? along.max : along.min)[k] = ray.forward ? HUGE_VAL : -HUGE_VAL;
+    const auto& soup = own_->soup;
+    own_->tree->visit(along, [&](Index t) {
+        if (std::find(but.begin(), but.end(), t) != but.end()) return;
+        const auto& [i, j, l] = soup.triangles[t];
+        if (const int way = ray.passes(soup.points[i], soup.points[j], soup.points[l])) hit(t, way);
+    });
+    return CGAL::is_positive(normal[axis]) == ray.forward ? 1 : -1;
+}
+
+} // namespace facetmill

@@ -1,0 +1,70 @@
+#pragma once
+// Triangles cut along each other, exactly, and what lies around the pieces. Free of CGAL, which does the work
+// behind it.
+
+#include "mesh/mesh.hpp"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace facetmill {
+
+/// Triangles between points, and those of them that are to be cut.
+struct TriangleSoup {
+    std::vector<Vec3> points;
+    std::vector<std::array<Index, 3>> triangles; ///< into points
+    std::vector<Index> cut;                      ///< triangles, ascending
+    std::vector<std::pair<Index, Index>> pairs;  ///< of those, that may meet elsewhere than in shared points
+};
+
+/// After Zhou, Grinspun, Zorin, Jacobson 2016, "Mesh arrangements for solid geometry". The nodes are the
+/// points, then those where triangles meet; all are kept exactly. Triangles of one plane that overlap are cut
+/// together, so that what they have in common is there once.
+class Arrangement {
+  public:
+    /// A triangle that a piece is part of; sign is 1 when both turn the same way, else -1.
+    struct Source {
+        Index triangle;
+        int sign;
+    };
+    struct Piece {
+        std::array<Index, 3> nodes;
+        std::vector<Source> sources; ///< by triangle
+    };
+
+    /// Requires finite points; points at one place that triangles to be cut use must be one. Triangles to be
+    /// cut that have no area have no pieces; their points are put on the other triangles of their pairs.
+    explicit Arrangement(TriangleSoup soup);
+    ~Arrangement();
+
+    /// A triangle where the most meet, if triangles meet, or lines in a plane could cross, more often than is
+    /// worth trying: nothing was cut.
+    std::optional<Index> overfull() const;
+    /// The pieces of the triangles to be cut, none twice; deterministic.
+    const std::vector<Piece>& pieces() const;
+    /// The node, rounded: exactly the point where it is one.
+    Vec3 position(Index node) const;
+    std::size_t node_count() const;
+    /// The side of the triangle (0: from its first corner to its second) that a node, no corner of it, lies
+    /// on; none for nodes inside.
+    std::optional<int> side_of(Index triangle, Index node) const;
+
+    /// Calls hit(triangle, way) for the triangles, but those listed, that a ray from the centre of three
+    /// nodes along an axis passes through: way is 1 when it leaves through their front, -1 when it enters.
+    /// Edges and vertices count once (see `passes` of geometry/rays.hpp). Returns 1 when the ray begins on
+    /// the front of the three nodes, else -1. Exact, as long as no other triangle holds the centre. Requires
+    /// nodes that are not on one line.
+    int look_ahead(const std::array<Index, 3>& nodes, std::span<const Index> but,
+                   const std::function<void(Index triangle, int way)>& hit) const;
+
+  private:
+    struct Own;
+    std::unique_ptr<Own> own_;
+};
+
+} // namespace facetmill

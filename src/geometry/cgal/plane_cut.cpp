@@ -1,0 +1,179 @@
+#include "geometry/cgal/plane_cut.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <set>
+
+namespace facetmill {
+
+namespace {
+
+using Sources = std::vector<Arrangement::Source>;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Index, ExactKernel>;
+using PlainFaceBase = CGAL::Constrained_triangulation_face_base_2<ExactKernel>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<Sources, ExactKernel, PlainFaceBase>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Delaunay =
+    CGAL::Constrained_Delaunay_triangulation_2<ExactKernel, Structure, CGAL::Exact_intersections_tag>;
+using Triangulation = CGAL::Constrained_triangulation_plus_2<Delaunay>;
+using Vertex = Triangulation::Vertex_handle;
+using Face = Triangulation::Face_handle;
+using Constraint = Triangulation::Constraint_id;
+using Point2 = ExactKernel::Point_2;
+using Point3 = ExactKernel::Point_3;
+
+/// The plane of a triangle, seen along an axis from where the triangle turns left.
+class Frame {
+  public:
+    Frame(const Point3& a, const Point3& b, const Point3& c, const Vec3& rough_normal) : origin_(a) {
+        normal_ = CGAL::cross_product(b - a, c - a);
+        std::array<int, 3> axes{0, 1, 2};
+        std::stable_sort(axes.begin(), axes.end(), [&](int i, int j) {
+            return std::abs(rough_normal[static_cast<std::size_t>(i)]) >
+                   std::abs(rough_normal[static_cast<std::size_t>(j)]);
+        });
+        drop_ = *std::find_if(axes.begin(), axes.end(), [&](int i) { return !CGAL::is_zero(normal_[i]); });
+        u_ = (drop_ + 1) % 3, v_ = (drop_ + 2) % 3;
+        if (CGAL::is_negative(normal_[drop_])) std::swap(u_, v_);
+    }
+
+    Point2 flat(const Point3& p) const { return {p[u_], p[v_]}; }
+    Point3 lifted(const Point2& p) const {
+        const ExactKernel::FT du = p.x() - origin_[u_], dv = p.y() - origin_[v_];
+        std::array<ExactKernel::FT, 3> x;
+        x[static_cast<std::size_t>(u_)] = p.x(), x[static_cast<std::size_t>(v_)] = p.y();
+        x[static_cast<std::size_t>(drop_)] =
+            origin_[drop_] - (normal_[u_] * du + normal_[v_] * dv) / normal_[drop_];
+        return {x[0], x[1], x[2]};
+    }
+
+  private:
+    Point3 origin_;
+    ExactKernel::Vector_3 normal_;
+    int drop_ = 2, u_ = 0, v_ = 1;
+};
+
+class Cutter {
+  public:
+    Cutter(const TriangleSoup& soup, const PlaneGroup& group, ExactNodes& nodes)
+        : soup_(soup), group_(group), nodes_(nodes), frame_(frame_of(group.triangles.front())) {}
+
+    void run(std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides) {
+        for (const Index t : group_.triangles)
+            for (const Index p : soup_.triangles[t]) vertex_of(p);
+        for (const Index p : group_.points) vertex_of(p);
+        for (const auto& [a, b] : group_.segments) vertex_of(a), vertex_of(b);
+        for (const Index t : group_.triangles)
+            for (std::size_t i = 0; i < 3; ++i)
+                constrain(soup_.triangles[t][i], soup_.triangles[t][(i + 1) % 3]);
+        for (const auto& [a, b] : group_.segments) constrain(a, b);
+        name_vertices();
+        for (const Index t : group_.triangles) spread(t, sides);
+        emit(pieces);
+    }
+
+  private:
+    Frame frame_of(Index t) const {
+        const auto& [a, b, c] = soup_.triangles[t];
+        const Vec3 &p = soup_.points[a], &q = soup_.points[b], &r = soup_.points[c];
+        return {nodes_.at(a), nodes_.at(b), nodes_.at(c), cross(q - p, r - p)};
+    }
+
+    Vertex vertex_of(Index node) {
+        const auto [at, fresh] = vertices_.try_emplace(node);
+        if (fresh) at->second = t_.insert(frame_.flat(nodes_.at(node)));
+        return at->second;
+    }
+
+    void constrain(Index a, Index b) {
+        const auto [at, fresh] = constraints_.try_emplace(std::minmax({a, b}));
+        if (fresh)
+            at->second = t_.insert_constraint(vertices_.at(at->first.first), vertices_.at(at->first.second));
+    }
+
+    void name_vertices() {
+        for (auto v = t_.finite_vertices_begin(); v != t_.finite_vertices_end(); ++v) v->info() = none;
+        for (const auto& [node, v] : vertices_) v->info() = node;
+        for (auto v = t_.finite_vertices_begin(); v != t_.finite_vertices_end(); ++v)
+            if (v->info() == none) v->info() = nodes_.find_or_add(frame_.lifted(v->point()));
+    }
+
+    /// The vertices along a side of a triangle, from its first corner to its second.
+    std::vector<Vertex> path(Index from, Index to) const {
+        const Constraint c = constraints_.at(std::minmax({from, to}));
+        std::vector<Vertex> all;
+        for (auto v = t_.vertices_in_constraint_begin(c); v != t_.vertices_in_constraint_end(c); ++v)
+            all.push_back(*v);
+        if (all.front()->info() != from) std::reverse(all.begin(), all.end());
+        return all;
+    }
+
+    /// The triangle left of the edge from p to q.
+    Face left_of(Vertex p, Vertex q) const {
+        Face f;
+        int i = 0;
+        t_.is_edge(p, q, f, i);
+        return f->vertex(Triangulation::ccw(i)) == p ? f : f->neighbor(i);
+    }
+
+    /// Tells the faces within triangle t that they are part of it.
+    void spread(Index t, SidesOfNodes& sides) {
+        const auto& corners = soup_.triangles[t];
+        const auto flat = [&](std::size_t i) { return vertices_.at(corners[i])->point(); };
+        const bool left = CGAL::orientation(flat(0), flat(1), flat(2)) == CGAL::LEFT_TURN;
+        std::set<std::pair<Index, Index>> border;
+        std::vector<Face> stack;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto along = path(corners[i], corners[(i + 1) % 3]);
+            for (std::size_t k = 0; k + 1 < along.size(); ++k) {
+                border.insert(std::minmax({along[k]->info(), along[k + 1]->info()}));
+                stack.push_back(left ? left_of(along[k], along[k + 1]) : left_of(along[k + 1], along[k]));
+                if (k > 0) sides[{t, along[k]->info()}] = static_cast<int>(i);
+            }
+        }
+        while (!stack.empty()) {
+            const Face f = stack.back();
+            stack.pop_back();
+            if (!f->info().empty() && f->info().back().triangle == t) continue;
+            f->info().push_back({t, left ? 1 : -1});
+            for (int i = 0; i < 3; ++i) {
+                const Index a = f->vertex(Triangulation::ccw(i))->info(),
+                            b = f->vertex(Triangulation::cw(i))->info();
+                if (!border.contains(std::minmax({a, b}))) stack.push_back(f->neighbor(i));
+            }
+        }
+    }
+
+    void emit(std::vector<Arrangement::Piece>& pieces) const {
+        const auto first = static_cast<std::ptrdiff_t>(pieces.size());
+        for (auto f = t_.finite_faces_begin(); f != t_.finite_faces_end(); ++f) {
+            if (f->info().empty()) continue;
+            std::array<Index, 3> abc{f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
+            std::rotate(abc.begin(), std::min_element(abc.begin(), abc.end()), abc.end());
+            pieces.push_back({abc, f->info()});
+        }
+        std::sort(pieces.begin() + first, pieces.end(),
+                  [](const auto& a, const auto& b) { return a.nodes < b.nodes; });
+    }
+
+    const TriangleSoup& soup_;
+    const PlaneGroup& group_;
+    ExactNodes& nodes_;
+    Frame frame_;
+    Triangulation t_;
+    std::map<Index, Vertex> vertices_; ///< of the nodes that were given
+    std::map<std::pair<Index, Index>, Constraint> constraints_;
+};
+
+} // namespace
+
+void cut_in_plane(const TriangleSoup& soup, const PlaneGroup& group, ExactNodes& nodes,
+                  std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides) {
+    Cutter(soup, group, nodes).run(pieces, sides);
+}
+
+} // namespace facetmill

@@ -1,0 +1,27 @@
+#pragma once
+// The mesh that a union leaves: uncut faces and pieces of cut ones.
+
+#include "geometry/cgal/arrangement.hpp"
+#include "mesh/lineage.hpp"
+
+namespace facetmill::clean_steps {
+
+/// A piece on the outside, and the triangle (of the face) that it takes its attributes from: both turn the
+/// same way.
+struct OuterPiece {
+    std::array<Index, 3> nodes;
+    Index triangle;
+};
+
+/// What the arrangement's triangles are in the mesh. Its first points are the mesh's vertices.
+struct TriangleFaces {
+    std::vector<Index> face;                   ///< [triangles]
+    std::vector<std::array<Index, 3>> corners; ///< [triangles] of the face
+};
+
+/// The uncut faces, then the pieces; vertices and wedges that lose their last face go. Nodes that round to
+/// one place are one vertex, and pieces that lose a corner by that are left out.
+Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
+                 const Arrangement& arrangement, const TriangleFaces& triangles, Fates& fates);
+
+} // namespace facetmill::clean_steps
