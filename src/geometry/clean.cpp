@@ -32,6 +32,8 @@ bool untangle(Work& work, const CleanSettings& s) {
 bool one_round(Work& work, const CleanSettings& s) {
     work.not_done.clear();
     bool changed = false;
+    // What a patch runs into is united with it in the next round, or told there.
+    const bool may_cross = s.self_intersections == Untangle::unite || s.self_intersections == Untangle::all;
     if (s.weld != Nearness::off) changed |= weld_equal(work, s.non_manifold);
     if (s.weld == Nearness::near) changed |= weld_near(work, s.within);
     if (s.degenerate) changed |= remove_degenerate(work);
@@ -41,12 +43,12 @@ bool one_round(Work& work, const CleanSettings& s) {
     if (s.stitch != Nearness::off) changed |= stitch(work, s.stitch == Nearness::near ? s.within : 0);
     if (s.holes && s.non_manifold) { // holes that touch at a vertex would be one hole once it is split
         const std::size_t told = work.not_done.size();
-        changed |= fill_holes(work, *s.holes);
+        changed |= fill_holes(work, *s.holes, nullptr, may_cross);
         work.not_done.resize(told); // those that stay are told below
     }
     if (s.non_manifold) changed |= split_non_manifold(work);
     changed |= untangle(work, s);
-    if (s.holes) changed |= fill_holes(work, *s.holes);
+    if (s.holes) changed |= fill_holes(work, *s.holes, nullptr, may_cross);
     if (s.components) changed |= remove_components(work, *s.components);
     if (s.shells) changed |= remove_inner_shells(work);
     if (s.isolated) changed |= remove_isolated(work);

@@ -181,7 +181,7 @@ class Untangler {
         EdgeList before;
         for (const auto& [low, high] : open_)
             if (!goes[low] && !goes[high]) before.emplace_back(number[low], number[high]);
-        fill_holes(trial, {}, &before);
+        fill_holes(trial, {}, &before, true);
         std::vector<Index> patches(trial.mesh.face_count(), none); // the groups of the faces that came
         for (auto f = static_cast<Index>(kept.size()); f < patches.size(); ++f)
             for (Index c = trial.mesh.face_begin(f); c < trial.mesh.face_end(f); ++c)

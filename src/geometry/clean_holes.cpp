@@ -1,7 +1,7 @@
 // The step of clean that fills holes.
 #include "base/predicates.hpp"
 #include "geometry/cgal/fair_patch.hpp"
-#include "geometry/clean_steps.hpp"
+#include "geometry/clean_occupied.hpp"
 #include "geometry/hole_outlines.hpp"
 #include "geometry/span_outline.hpp"
 #include "geometry/surgery.hpp"
@@ -18,69 +18,44 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-/// The edges and triangles that are there already, by place: vertices at one place count as one, so that a
-/// patch fits even after they are welded.
-class Occupied {
-  public:
-    explicit Occupied(const Mesh& mesh) : place_(lowest_at_place(mesh)) {
-        for (Index f = 0; f < mesh.face_count(); ++f) {
-            const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-            for (Index c = begin; c < end; ++c)
-                edges_.push_back(edge(mesh.vertex(c), mesh.vertex(c + 1 == end ? begin : c + 1)));
-            if (end - begin == 3)
-                triangles_.push_back(
-                    triangle({mesh.vertex(begin), mesh.vertex(begin + 1), mesh.vertex(begin + 2)}));
-        }
-        std::sort(edges_.begin(), edges_.end());
-        std::sort(triangles_.begin(), triangles_.end());
-    }
-    bool has_edge(Index a, Index b) const {
-        return std::binary_search(edges_.begin(), edges_.end(), edge(a, b)) ||
-               new_edges_.contains(edge(a, b));
-    }
-    bool has_triangle(const std::array<Index, 3>& abc) const {
-        const auto t = triangle(abc);
-        return std::binary_search(triangles_.begin(), triangles_.end(), t) || new_triangles_.contains(t);
-    }
-    void add_edge(Index a, Index b) { new_edges_.insert(edge(a, b)); }
-    void add_triangle(const std::array<Index, 3>& abc) { new_triangles_.insert(triangle(abc)); }
-
-  private:
-    std::pair<Index, Index> edge(Index a, Index b) const {
-        return {std::min(place_[a], place_[b]), std::max(place_[a], place_[b])};
-    }
-    std::array<Index, 3> triangle(std::array<Index, 3> abc) const {
-        for (Index& v : abc) v = place_[v];
-        std::sort(abc.begin(), abc.end());
-        return abc;
-    }
-
-    std::vector<Index> place_;
-    std::vector<std::pair<Index, Index>> edges_;
-    std::vector<std::array<Index, 3>> triangles_;
-    std::set<std::pair<Index, Index>> new_edges_;
-    std::set<std::array<Index, 3>> new_triangles_;
-};
-
 class Filler {
   public:
     Filler(Work& work, const HoleSettings& settings, const EdgeList* other_than)
         : work_(work), mesh_(work.mesh), settings_(settings), other_than_(other_than), occupied_(work.mesh),
           corners_(corners_at_vertices(work.mesh)), face_of_(corner_faces(work.mesh)) {}
 
-    bool run() {
-        Outlines(mesh_).each([&](const Outline& o) { fill(o); },
+    /// The outlines, by their order, whose patches run into faces.
+    std::set<std::size_t> crossing() const {
+        std::set<std::size_t> into;
+        if (filled_ == 0) return into;
+        const Mesh trial = with_patches(mesh_, patches_);
+        std::vector<std::uint8_t> among(trial.face_count(), 0);
+        std::fill(among.begin() + static_cast<std::ptrdiff_t>(mesh_.face_count()), among.end(), 1);
+        const auto found = crossings(trial, std::move(among));
+        const auto outline = [&](Index f) { return outline_of_face_[f - mesh_.face_count()]; };
+        for (const auto& [low, high] : found.pairs)
+            if (low < mesh_.face_count()) into.insert(outline(high));
+        for (const auto& [low, high] : found.pairs) // of two that run into each other the first may stay
+            if (low >= mesh_.face_count() && !into.contains(outline(low))) into.insert(outline(high));
+        return into;
+    }
+
+    bool run(const std::set<std::size_t>& left) {
+        left_ = &left;
+        Outlines(mesh_).each([&](const Outline& o) { fill(o), ++outline_; },
                              [&](Index c) {
                                  refuse(
                                      "neighbouring faces disagree about the outside, or the edge belongs to "
                                      "more than two faces; orient first",
                                      mesh_.point(c));
                              });
-        if (filled_ == 0) return false;
+        return filled_ > 0;
+    }
+
+    void accept() {
         work_.counts.filled_holes += filled_;
         work_.counts.hole_faces += patches_.sources.size();
         work_.mesh = with_patches(mesh_, patches_, patches_.points.empty() ? nullptr : &work_.fates);
-        return true;
     }
 
   private:
@@ -120,6 +95,7 @@ class Filler {
         if (lacks_area(ring, patch)) return refuse("no patch has area everywhere", ring[0]);
         if (collides(o, patch))
             return refuse("a patch would double a face or make an edge of more than two", ring[0]);
+        if (left_->contains(outline_)) return refuse("a patch would run into other faces", ring[0]);
         add(o, ring, patch);
     }
 
@@ -245,6 +221,7 @@ class Filler {
             if (t[0] < n && t[1] < n && t[2] < n)
                 occupied_.add_triangle({vertex(o, t[0]), vertex(o, t[1]), vertex(o, t[2])});
             patches_.add_face(wedges, source);
+            outline_of_face_.push_back(outline_);
         }
         ++filled_;
     }
@@ -274,13 +251,23 @@ class Filler {
     VertexLists corners_;
     std::vector<Index> face_of_;
     Patches patches_;
-    std::size_t filled_ = 0;
+    std::vector<std::size_t> outline_of_face_; ///< of the patches
+    const std::set<std::size_t>* left_ = nullptr;
+    std::size_t filled_ = 0, outline_ = 0;
 };
 
 } // namespace
 
-bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than) {
-    return Filler(work, settings, other_than).run();
+bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross) {
+    const std::size_t told = work.not_done.size();
+    for (std::set<std::size_t> left;;) {
+        Filler filler(work, settings, other_than);
+        if (!filler.run(left)) return false;
+        const auto more = may_cross ? std::set<std::size_t>{} : filler.crossing();
+        if (more.empty()) return filler.accept(), true;
+        left.insert(more.begin(), more.end());
+        work.not_done.resize(told);
+    }
 }
 
 } // namespace facetmill::clean_steps

@@ -59,9 +59,10 @@ const RegisterStage registered = make_stage<CleanOptions>(
          "replaces faces that intersect place by place, if need be with up to four rings around "
          "them: where that would open the surface, change its topology, take half of a piece or "
          "leave an intersection, the place is left as it was.\n\n"
-         "Holes that touch at a vertex are filled each for itself. A hole whose patch would not fit, "
-         "or whose neighbours disagree about the outside (orient first), is left. What is left is named "
-         "in the report (W-CLEAN).\n\n"
+         "Holes that touch at a vertex are filled each for itself. A hole whose patch would not fit or "
+         "would run into other faces, or whose neighbours disagree about the outside (orient first), "
+         "is left; with self_intersections: union or all, a patch may run into other faces, which "
+         "are united with it next. What is left is named in the report (W-CLEAN).\n\n"
          "Attributes of what stays are kept; at new vertices they are interpolated, and patches "
          "copy the face attributes from across their edge. The report counts what each step did.",
      .examples = {"clean", "clean: {holes: minimal, components: {faces: 10}}",

@@ -6,6 +6,7 @@
 
 #include "geometry/clean.hpp"
 #include "geometry/inspect.hpp"
+#include "geometry/surgery.hpp"
 
 using namespace facetmill;
 using namespace facetmill::testing;
@@ -117,6 +118,45 @@ TEST_CASE("clean fills holes that touch at a vertex each for itself", "[geometry
         CHECK(inspect(r.mesh).boundary_loops == 1);
         CHECK(test::area(r.mesh) == Approx(16));
     }
+}
+
+TEST_CASE("clean leaves a hole whose patch would run into other faces, and says so", "[geometry]") {
+    Mesh mesh = shapes::quad_cube(); // without its top
+    Index top = none;
+    for (Index f = 0; f < 6; ++f) {
+        bool high = true;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) high = high && mesh.point(c).z == 1;
+        if (high) top = f;
+    }
+    REQUIRE(top != none);
+    std::vector<Index> others;
+    for (Index f = 0; f < 6; ++f)
+        if (f != top) others.push_back(f);
+    Mesh open = keep_faces(mesh, others);
+    append(open, moved(open, {3, 0, 0})); // a second one, with nothing in its way
+    Mesh spike = shapes::tetrahedron();   // through the first one's opening
+    for (Vec3& p : spike.positions) p = p * 0.25 + Vec3{0.3, 0.3, 0.9};
+    append(open, spike);
+    CleanSettings s;
+    s.holes = HoleSettings{};
+    for (const HoleFill method : {HoleFill::minimal, HoleFill::planar, HoleFill::smooth}) {
+        s.holes->method = method;
+        const auto r = clean(open, s);
+        CHECK(r.counts.filled_holes == 1);
+        CHECK(intersections(r.mesh) == 0);
+        REQUIRE(r.not_done.size() == 1);
+        CHECK(r.not_done[0].step == "holes");
+        CHECK(r.not_done[0].at.x <= 1);
+        CHECK(r.not_done[0].why == "a patch would run into other faces");
+        CHECK(test::broken_clean_law(open, s).empty());
+    }
+    s.self_intersections = Untangle::unite; // then the patch and the spike become one solid
+    const auto r = clean(open, s);
+    CHECK(r.not_done.empty());
+    CHECK(inspect(r.mesh).closed);
+    CHECK(intersections(r.mesh) == 0);
+    CHECK(test::volume(r.mesh) > 2);
+    CHECK(test::volume(r.mesh) < 2 + test::volume(spike));
 }
 
 TEST_CASE("clean keeps doubled faces that hold a closed surface closed", "[geometry]") {
