@@ -37,7 +37,7 @@ class Golden(Case):
         return same, contents
 
     def check_report(self, report, files):
-        self.assertTrue(all(check["passed"] for check in report["checks"]))
+        self.assertTrue(all(check["passed"] or check["severity"] == "warning" for check in report["checks"]))
         for output in report["outputs"]:
             name = output["path"].rsplit("/", 1)[-1]
             self.assertEqual(output["sha256"], files[name], name)
@@ -72,12 +72,15 @@ class Figures(Golden):
     """The figures of the notes: without a warning, each file one of its own, and a picture of it in the docs."""
 
     def check_figure(self, path):
-        files, reports = self.run_pipeline(path, "j1", "-j", "1", "--strict")
+        fails = "severity: warn" in path.read_text()  # a figure of what does not hold
+        strict = [] if fails else ["--strict"]
+        files, reports = self.run_pipeline(path, "j1", "-j", "1", *strict)
         for report in reports.values():
             self.check_report(report, files)
         self.assertEqual(len(set(files.values())), len(files), "two files of a figure are the same")
         if not SLOW:
-            self.assertEqual(self.run_pipeline(path, "j2", "-j", "2", "--strict")[0], files)
+            self.assertEqual(self.run_pipeline(path, "j2", "-j", "2", *strict)[0], files)
+        self.assertEqual(fails, any(not c["passed"] for report in reports.values() for c in report["checks"]))
         picture = SOURCE / f"docs/figures/{path.stem}.png"
         self.assertLess(picture.stat().st_size, 60000)
         self.assertIn(f"figures/{path.name}", (SOURCE / "docs/figures.md").read_text())
