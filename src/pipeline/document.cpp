@@ -1,6 +1,6 @@
 #include "pipeline/document.hpp"
 
-#include "pipeline/source.hpp"
+#include "pipeline/yaml_text.hpp"
 
 #include <fmt/format.h>
 #include <map>
@@ -69,7 +69,7 @@ class Builder : public YAML::EventHandler {
         if (c == '~' || c == 'n' || c == 'N')
             value.mark = source_.mark(at, c == '~' ? 1 : 4);
         else if (!stack_.empty() && stack_.back().value.is_list())
-            value.mark = empty_item_mark(at);
+            value.mark = empty_item_mark(source_, at);
         complete(std::move(value), anchor);
     }
 
@@ -77,14 +77,14 @@ class Builder : public YAML::EventHandler {
                   const std::string& text) override {
         const std::size_t at = content(mark);
         if (tag == "?") refuse_unquoted(at, text);
-        Value value = Value::scalar(text, scalar_mark(at, text, tag == "?"), tag != "?");
+        Value value = Value::scalar(text, scalar_mark(source_, at, text, tag == "?"), tag != "?");
         if (tag != "?" && tag != "!") apply_tag(tag, value);
         value.deferred = unknown_.contains(at);
         complete(std::move(value), anchor);
     }
 
     void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-        const Mark where = source_.mark(offset(mark), alias_length(offset(mark)));
+        const Mark where = alias_mark(source_, offset(mark));
         const auto found = anchors_.find(anchor);
         if (found == anchors_.end()) {
             problems_.add(where, "E-YAML", "an alias inside the content that it stands for");
@@ -131,61 +131,20 @@ class Builder : public YAML::EventHandler {
     }
 
     /// Where the content of a node begins: yaml-cpp's mark is at its anchor or tag.
-    std::size_t content(const YAML::Mark& mark) const {
-        const std::string& text = source_.text();
-        std::size_t at = offset(mark);
-        while (at < text.size() && (text[at] == '&' || text[at] == '!')) {
-            at = std::min(text.size(), text.find_first_of(" \t\r\n,[]{}", at));
-            at = std::min(text.size(), text.find_first_not_of(" \t\r\n", at));
-        }
-        return at;
-    }
-
-    /// The dash of an item that has nothing behind it; yaml-cpp's mark is at what follows.
-    Mark empty_item_mark(std::size_t at) const {
-        const std::string& text = source_.text();
-        const std::size_t dash = text.find_last_of("-[,", std::min(at, text.size() - 1));
-        return source_.mark(dash == std::string::npos ? at : dash);
-    }
-
-    int alias_length(std::size_t at) const {
-        const std::size_t end =
-            std::min(source_.text().size(), source_.text().find_first_of(" \t\r\n,[]{}", at));
-        return source_.characters(at, end);
-    }
-
-    Mark scalar_mark(std::size_t at, const std::string& text, bool plain) const {
-        const std::string& all = source_.text();
-        if (plain) {
-            const std::size_t line_end = std::min(all.size(), all.find('\n', at));
-            return source_.mark(at, source_.characters(at, std::min(at + text.size(), line_end)));
-        }
-        const char quote = at < all.size() ? all[at] : ' ';
-        if (quote != '"' && quote != '\'') return source_.mark(at);
-        for (std::size_t i = at + 1; i < all.size() && all[i] != '\n'; ++i) {
-            if (all[i] == '\\' && quote == '"')
-                ++i;
-            else if (all[i] == quote)
-                return source_.mark(at, source_.characters(at, i + 1));
-        }
-        return source_.mark(at);
-    }
+    std::size_t content(const YAML::Mark& mark) const { return content_at(source_.text(), offset(mark)); }
 
     /// `${x}` in braces or brackets reads as "$" and a map; say so instead of what YAML says.
     void refuse_unquoted(std::size_t at, const std::string& text) {
-        const std::string& all = source_.text();
         const bool in_flow = !stack_.empty() && stack_.back().flow;
-        const std::size_t brace = at + text.size();
-        if (!in_flow || !text.ends_with('$') || brace >= all.size() || all[brace] != '{') return;
-        const std::size_t closed = all.find_first_of("},]\n", brace);
-        const std::size_t end =
-            std::min(all.size(), all.find_first_of(" ,]}\r\n", std::min(closed, all.size() - 1) + 1));
-        const std::string written = all.substr(at, end - at);
+        const auto end = in_flow ? end_of_unquoted(source_.text(), at, text) : std::nullopt;
+        if (!end) return;
+        const std::string written = source_.text().substr(at, *end - at);
         throw Unquoted{at,
-                       end,
+                       *end,
                        {Severity::error, "E-UNQUOTED",
                         fmt::format("inside {{}} and [] an expression must be quoted, found {}", written),
-                        source_.mark(at, source_.characters(at, end)), fmt::format("write \"{}\"", written)}};
+                        source_.mark(at, source_.characters(at, *end)),
+                        fmt::format("write \"{}\"", written)}};
     }
 
     void apply_tag(const std::string& tag, Value& value) {
@@ -306,34 +265,6 @@ class Builder : public YAML::EventHandler {
     std::map<YAML::anchor_t, Anchored> anchors_;
     std::size_t nodes_ = 0;
 };
-
-/// What yaml-cpp says, in words for people where its own are opaque.
-std::pair<std::string, std::string> explained(const std::string& message) {
-    if (message == "end of map flow not found")
-        return {"expected ',' or '}' here", "a text with special characters must be quoted"};
-    if (message == "end of sequence flow not found")
-        return {"expected ',' or ']' here", "a text with special characters must be quoted"};
-    if (message == "illegal map value")
-        return {"a ':' cannot stand here", "quote a text that holds ': ', and mind the indentation"};
-    if (message == "end of map not found") return {"expected a key of the map here", "mind the indentation"};
-    if (message == "end of sequence not found")
-        return {"expected an item of the list ('- ...') here", "mind the indentation"};
-    if (message == "illegal EOF in scalar") return {"the quote is never closed", ""};
-    return {message, ""};
-}
-
-/// "- relax" and then "when: ..." below it: the name needs a colon to have keys beside it.
-std::optional<std::string> bare_item_hint(const SourceIndex& source, std::size_t at) {
-    const std::string& text = source.text();
-    const std::size_t line = text.rfind('\n', std::min(at, text.size() - 1) - (at > 0 ? 1 : 0));
-    if (text.empty() || line == std::string::npos || line == 0) return {};
-    const std::size_t before = text.rfind('\n', line - 1);
-    std::string above = text.substr(before == std::string::npos ? 0 : before + 1,
-                                    line - (before == std::string::npos ? 0 : before + 1));
-    above.erase(0, above.find_first_not_of(' '));
-    if (!above.starts_with("- ") || above.find_first_of(":{}[]\"'#") != std::string::npos) return {};
-    return fmt::format("a stage with keys beside it needs a colon: '{}:' in the line above", above);
-}
 
 /// Parses the text, which is the source's but for what stands for unknown texts. Throws Unquoted.
 Value parse_text(const std::string& text, const SourceIndex& index, const std::set<std::size_t>& unknown,

@@ -1,0 +1,78 @@
+#include "pipeline/yaml_text.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::pipeline {
+
+std::size_t content_at(const std::string& text, std::size_t at) {
+    while (at < text.size() && (text[at] == '&' || text[at] == '!')) {
+        at = std::min(text.size(), text.find_first_of(" \t\r\n,[]{}", at));
+        at = std::min(text.size(), text.find_first_not_of(" \t\r\n", at));
+    }
+    return at;
+}
+
+Mark empty_item_mark(const SourceIndex& source, std::size_t at) {
+    const std::string& text = source.text();
+    const std::size_t dash = text.find_last_of("-[,", std::min(at, text.size() - 1));
+    return source.mark(dash == std::string::npos ? at : dash);
+}
+
+Mark alias_mark(const SourceIndex& source, std::size_t at) {
+    const std::string& text = source.text();
+    const std::size_t end = std::min(text.size(), text.find_first_of(" \t\r\n,[]{}", at));
+    return source.mark(at, source.characters(at, end));
+}
+
+Mark scalar_mark(const SourceIndex& source, std::size_t at, const std::string& text, bool plain) {
+    const std::string& all = source.text();
+    if (plain) {
+        const std::size_t line_end = std::min(all.size(), all.find('\n', at));
+        return source.mark(at, source.characters(at, std::min(at + text.size(), line_end)));
+    }
+    const char quote = at < all.size() ? all[at] : ' ';
+    if (quote != '"' && quote != '\'') return source.mark(at);
+    for (std::size_t i = at + 1; i < all.size() && all[i] != '\n'; ++i) {
+        if (all[i] == '\\' && quote == '"')
+            ++i;
+        else if (all[i] == quote)
+            return source.mark(at, source.characters(at, i + 1));
+    }
+    return source.mark(at);
+}
+
+std::optional<std::size_t> end_of_unquoted(const std::string& all, std::size_t at, const std::string& text) {
+    const std::size_t brace = at + text.size();
+    if (!text.ends_with('$') || brace >= all.size() || all[brace] != '{') return {};
+    const std::size_t closed = all.find_first_of("},]\n", brace);
+    return std::min(all.size(), all.find_first_of(" ,]}\r\n", std::min(closed, all.size() - 1) + 1));
+}
+
+std::pair<std::string, std::string> explained(const std::string& message) {
+    if (message == "end of map flow not found")
+        return {"expected ',' or '}' here", "a text with special characters must be quoted"};
+    if (message == "end of sequence flow not found")
+        return {"expected ',' or ']' here", "a text with special characters must be quoted"};
+    if (message == "illegal map value")
+        return {"a ':' cannot stand here", "quote a text that holds ': ', and mind the indentation"};
+    if (message == "end of map not found") return {"expected a key of the map here", "mind the indentation"};
+    if (message == "end of sequence not found")
+        return {"expected an item of the list ('- ...') here", "mind the indentation"};
+    if (message == "illegal EOF in scalar") return {"the quote is never closed", ""};
+    return {message, ""};
+}
+
+std::optional<std::string> bare_item_hint(const SourceIndex& source, std::size_t at) {
+    const std::string& text = source.text();
+    const std::size_t line = text.rfind('\n', std::min(at, text.size() - 1) - (at > 0 ? 1 : 0));
+    if (text.empty() || line == std::string::npos || line == 0) return {};
+    const std::size_t before = text.rfind('\n', line - 1);
+    std::string above = text.substr(before == std::string::npos ? 0 : before + 1,
+                                    line - (before == std::string::npos ? 0 : before + 1));
+    above.erase(0, above.find_first_not_of(' '));
+    if (!above.starts_with("- ") || above.find_first_of(":{}[]\"'#") != std::string::npos) return {};
+    return fmt::format("a stage with keys beside it needs a colon: '{}:' in the line above", above);
+}
+
+} // namespace facetmill::pipeline
