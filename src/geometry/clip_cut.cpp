@@ -270,13 +270,12 @@ void remember(CutMemory& memory, const PlaneCut& cut, std::span<const Vec3> more
     std::vector<Vec3> points;
     for (std::size_t e = 0; e < memory.entries.size(); ++e) {
         const auto& entry = memory.entries[e];
-        if (same_plane(entry.plane, cut.plane)) continue;
         points.clear();
         for (std::size_t i = 0; i < cut.points.size(); ++i)
             if (entry.counts_as_on(positions[cut.vertices[i].a]) &&
                 entry.counts_as_on(positions[cut.vertices[i].b]))
                 points.push_back(cut.points[i]);
-        if (!points.empty()) memory.add(entry.plane, points);
+        if (!points.empty() && !same_plane(entry.plane, cut.plane)) memory.add(entry.plane, points);
     }
     points = cut.points;
     points.insert(points.end(), more.begin(), more.end());
