@@ -5,6 +5,7 @@
 #include "geometry/moved.hpp"
 #include "geometry/normal_seams.hpp"
 #include "geometry/spokes.hpp"
+#include "geometry/surface_normal.hpp"
 
 #include <numeric>
 #include <tuple>
@@ -12,15 +13,6 @@
 namespace facetmill {
 
 namespace {
-
-/// Newell's normal of a face, of unit length, or 0.
-Vec3 unit_normal(const Mesh& mesh, Index f) {
-    Vec3 sum;
-    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-    for (Index c = begin + 1; c + 1 < end; ++c)
-        sum += cross(mesh.point(c) - mesh.point(begin), mesh.point(c + 1) - mesh.point(begin));
-    return normalised(sum);
-}
 
 double angle_at(const Mesh& mesh, Index f, Index c) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
@@ -83,7 +75,8 @@ class SmoothFan {
                                             corners.begin());
         };
         spokes_.pairs(mesh_, face_of_, corners, [&](Index c, Index d, bool agree) {
-            if (!agree || dot(normals_[face_of_[c]], normals_[face_of_[d]]) < least_cosine_) return;
+            if (!agree || bends_more(dot(normals_[face_of_[c]], normals_[face_of_[d]]), least_cosine_))
+                return;
             const std::size_t a = root(place(c)), b = root(place(d));
             roots_[std::max(a, b)] = std::min(a, b);
         });
@@ -121,7 +114,7 @@ void set_wedges(Mesh& mesh, const std::vector<Index>& wedge_of_corner, const std
 void set_smooth_normals(Mesh& mesh, double crease) {
     std::vector<Vec3> normals(mesh.face_count());
     parallel_for(normals.size(),
-                 [&](std::size_t f) { normals[f] = unit_normal(mesh, static_cast<Index>(f)); });
+                 [&](std::size_t f) { normals[f] = normalised(area_vector(mesh, static_cast<Index>(f))); });
     const auto face_of = corner_faces(mesh);
     const auto corners_at = corners_at_vertices(mesh);
     const double least_cosine = crease >= pi ? -2 : cosine(crease);

@@ -4,6 +4,7 @@
 #include "base/parallel.hpp"
 #include "geometry/moved.hpp"
 #include "geometry/spokes.hpp"
+#include "mesh/area_vector.hpp"
 #include "mesh/lineage.hpp"
 #include "mesh/topology.hpp"
 
@@ -22,15 +23,10 @@ constexpr std::size_t most_compared = 64;
 
 Vec3 normal_of(const Attribute& a, Index w) { return {a.value(w, 0), a.value(w, 1), a.value(w, 2)}; }
 
-/// Twice the area of every face along its normal.
+/// Of every face.
 std::vector<Vec3> area_vectors(const Mesh& mesh) {
     std::vector<Vec3> areas(mesh.face_count());
-    parallel_for(areas.size(), [&](std::size_t f) {
-        const Index begin = mesh.face_begin(static_cast<Index>(f)),
-                    end = mesh.face_end(static_cast<Index>(f));
-        for (Index c = begin + 1; c + 1 < end; ++c)
-            areas[f] += cross(mesh.point(c) - mesh.point(begin), mesh.point(c + 1) - mesh.point(begin));
-    });
+    parallel_for(areas.size(), [&](std::size_t f) { areas[f] = area_vector(mesh, static_cast<Index>(f)); });
     return areas;
 }
 

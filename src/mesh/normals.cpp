@@ -1,19 +1,10 @@
 #include "base/parallel.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/area_vector.hpp"
 #include "mesh/topology.hpp"
 
 namespace facetmill {
 
 namespace {
-
-/// Twice the area of the face along its normal (Newell's sum, taken from the first corner).
-Vec3 area_vector(const Mesh& mesh, Index f) {
-    Vec3 sum;
-    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-    for (Index c = begin + 1; c + 1 < end; ++c)
-        sum += cross(mesh.point(c) - mesh.point(begin), mesh.point(c + 1) - mesh.point(begin));
-    return sum;
-}
 
 /// The wedges at one vertex that had the same normal, and the sum of the area vectors of their faces.
 struct NormalGroup {
