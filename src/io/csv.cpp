@@ -3,6 +3,7 @@
 #include "base/numbers.hpp"
 #include "io/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -27,43 +28,142 @@ bool take_number(std::string_view& line, double& value) {
     return true;
 }
 
-} // namespace
+/// What parts the cells of a heading.
+char delimiter_of(std::string_view heading) {
+    for (const char c : {',', ';', '\t'})
+        if (heading.find(c) != heading.npos) return c;
+    return ' ';
+}
 
-std::vector<double> read_table(const Input& input, std::size_t columns) {
-    std::vector<double> numbers;
-    std::string_view text = as_text(input.bytes());
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3); // a byte order mark
-    int number = 0;
-    bool first = true;
-    while (!text.empty()) {
-        ++number;
-        const auto end = text.find_first_of("\r\n");
-        std::string_view line = text.substr(0, end);
-        const bool pair = end != text.npos && text.substr(end, 2) == "\r\n";
-        text.remove_prefix(end == text.npos ? text.size() : end + (pair ? 2 : 1));
-        line = skip_parting(line.substr(0, line.find('#')));
-        if (line.empty()) continue;
-        double value = 0;
-        std::string_view peek = line;
-        if (first && !take_number(peek, value)) {
+std::string_view trimmed(std::string_view cell) {
+    while (!cell.empty() && parts(cell.front())) cell.remove_prefix(1);
+    while (!cell.empty() && parts(cell.back())) cell.remove_suffix(1);
+    return cell;
+}
+
+/// The cells of a line, empty ones too; blanks beside each other part once.
+std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
+    std::vector<std::string_view> cells;
+    for (std::size_t at = 0; at <= line.size();) {
+        const auto end = std::min(line.find(delimiter, at), line.size());
+        if (delimiter != ' ' || end > at) cells.push_back(trimmed(line.substr(at, end - at)));
+        at = end + 1;
+    }
+    return cells;
+}
+
+bool same_word(std::string_view a, std::string_view b) {
+    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// Where the columns of these names stand; empty when one of them is missing, or when they are the first.
+std::vector<std::size_t> places_of(std::span<const std::string_view> names,
+                                   const std::vector<std::string_view>& heading) {
+    std::vector<std::size_t> places;
+    for (const auto name : names)
+        for (std::size_t c = 0; c < heading.size(); ++c)
+            if (same_word(heading[c], name)) {
+                places.push_back(c);
+                break;
+            }
+    bool first = true; // as they stand without a heading
+    for (std::size_t i = 0; i < places.size(); ++i) first = first && places[i] == i;
+    return places.size() == names.size() && !first ? places : std::vector<std::size_t>{};
+}
+
+/// Reads lines one after another, and knows their numbers for messages.
+class Table {
+  public:
+    Table(const Input& input, std::size_t columns, std::span<const std::string_view> names)
+        : input_(input), columns_(columns), names_(names), text_(as_text(input.bytes())) {
+        if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3); // a byte order mark
+    }
+
+    std::vector<double> read() {
+        bool first = true;
+        while (!text_.empty()) {
+            const std::string_view whole = next_line(), line = skip_parting(whole);
+            if (line.empty()) continue;
+            double value = 0;
+            std::string_view peek = line;
+            if (first && !take_number(peek, value))
+                delimiter_ = delimiter_of(whole), places_ = places_of(names_, cells_of(whole, delimiter_));
+            else if (places_.empty())
+                read_first(line);
+            else
+                read_places(whole);
             first = false;
-            continue;
         }
-        first = false;
-        for (std::size_t c = 0; c < columns; ++c) {
-            if (!take_number(line, value))
-                malformed(input.name(), number, "E-CSV",
-                          skip_parting(line).empty()
-                              ? fmt::format("{} numbers in a row, expected {}", c, columns)
-                              : fmt::format("expected a number, found {}",
-                                            in_quotes(skip_parting(line).substr(
-                                                0, skip_parting(line).find_first_of(",; \t")))));
-            if (!std::isfinite(value))
-                malformed(input.name(), number, "E-CSV", "a number that is not finite");
-            numbers.push_back(value);
+        return std::move(numbers_);
+    }
+
+  private:
+    /// Without what follows #.
+    std::string_view next_line() {
+        ++number_;
+        const auto end = text_.find_first_of("\r\n");
+        const std::string_view line = text_.substr(0, end);
+        const bool pair = end != text_.npos && text_.substr(end, 2) == "\r\n";
+        text_.remove_prefix(end == text_.npos ? text_.size() : end + (pair ? 2 : 1));
+        return line.substr(0, line.find('#'));
+    }
+
+    void keep(double value) {
+        if (!std::isfinite(value)) malformed(input_.name(), number_, "E-CSV", "a number that is not finite");
+        numbers_.push_back(value);
+    }
+
+    [[noreturn]] void expected_number(std::string_view found) const {
+        malformed(input_.name(), number_, "E-CSV",
+                  fmt::format("expected a number, found {}", in_quotes(found)));
+    }
+
+    /// The first columns.
+    void read_first(std::string_view line) {
+        double value = 0;
+        for (std::size_t c = 0; c < columns_; ++c) {
+            if (!take_number(line, value)) {
+                const std::string_view rest = skip_parting(line);
+                if (rest.empty())
+                    malformed(input_.name(), number_, "E-CSV",
+                              fmt::format("{} numbers in a row, expected {}", c, columns_));
+                expected_number(rest.substr(0, rest.find_first_of(",; \t")));
+            }
+            keep(value);
         }
     }
-    return numbers;
+
+    /// The columns that the heading names.
+    void read_places(std::string_view line) {
+        const auto cells = cells_of(line, delimiter_);
+        for (const std::size_t place : places_) {
+            if (place >= cells.size())
+                malformed(input_.name(), number_, "E-CSV",
+                          fmt::format("{} columns in a row, expected {}", cells.size(), place + 1));
+            double value = 0;
+            std::string_view cell = cells[place];
+            if (!take_number(cell, value) || !skip_parting(cell).empty()) expected_number(cells[place]);
+            keep(value);
+        }
+    }
+
+    const Input& input_;
+    std::size_t columns_;
+    std::span<const std::string_view> names_;
+    std::string_view text_;
+    int number_ = 0;
+    char delimiter_ = ',';
+    std::vector<std::size_t> places_; ///< of the named columns; empty: the first ones
+    std::vector<double> numbers_;
+};
+
+} // namespace
+
+std::vector<double> read_table(const Input& input, std::size_t columns,
+                               std::span<const std::string_view> names) {
+    return Table(input, columns, names).read();
 }
 
 std::string csv_number(double x) { return std::isfinite(x) ? spelled(x) : ""; }

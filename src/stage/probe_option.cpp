@@ -6,7 +6,9 @@ namespace facetmill {
 
 void declare_probe(Declare<ProbeOptions>& d) {
     d.option("points", &ProbeOptions::points,
-             "Points to ask about: rows of x, y, z in world space, or a CSV file with such rows.")
+             "Points to ask about: rows of x, y, z in world space, or a CSV file with such rows; columns "
+             "that its "
+             "heading calls x, y, z are read wherever they stand. In one line '0,0,0; 1,2,3'.")
         .primary();
     d.option("points_of", &ProbeOptions::points_of,
              "Parts, by name or glob, whose vertices are the points; the other parts are the surface.");
@@ -14,10 +16,10 @@ void declare_probe(Declare<ProbeOptions>& d) {
              "Rows of six numbers, from x, y, z to x, y, z; or a CSV file.");
     d.option("rays", &ProbeOptions::rays,
              "Rows of six numbers, a start x, y, z and a direction x, y, z; or a CSV file.");
-    d.option("along", &ProbeOptions::along,
-             "An attribute of three numbers, NORMAL for one: a ray from every vertex along it. The faces at "
-             "the vertex "
-             "do not count.");
+    d.option(
+        "along", &ProbeOptions::along,
+        "An attribute of three numbers: a ray from every vertex along it. NORMAL, where a part has none, is "
+        "that of the faces. The faces at the vertex do not count.");
     d.option("reverse", &ProbeOptions::reverse,
              "Rays of along run the other way; along NORMAL that is inward, and measures the wall.");
     d.choice<ProbeOptions::Hits>(

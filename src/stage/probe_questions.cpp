@@ -1,6 +1,7 @@
 #include "stage/probe_questions.hpp"
 
-#include "mesh/placement.hpp"
+#include "geometry/surface_normal.hpp"
+#include "mesh/bare.hpp"
 
 #include <fmt/format.h>
 
@@ -41,31 +42,63 @@ std::vector<Line> lines_asked(const ProbeOptions& o, Context& context) {
     std::vector<Line> lines;
     for (const auto& r : rows) {
         const Vec3 from{r[0], r[1], r[2]}, to{r[3], r[4], r[5]};
+        if (rays && to == Vec3{})
+            throw Error(ErrorKind::usage, "E-RAY", fmt::format("ray {} has no direction", lines.size()),
+                        "a ray is a start and a direction; from point to point go segments");
         lines.push_back({from, rays ? from + to : to, rays});
     }
     return lines;
 }
 
+namespace {
+
+/// Normals of vertices in the world, of the faces there by their area; faces of a mirrored part keep their
+/// front.
+std::vector<Vec3> normals_of_faces(const Part& part) {
+    const Mesh world = in_world(part);
+    std::vector<Vec3> sums(world.vertex_count());
+    for (Index f = 0; f < world.face_count(); ++f) {
+        const Vec3 normal = area_vector(world, f);
+        for (Index c = world.face_begin(f); c < world.face_end(f); ++c) sums[world.vertex(c)] += normal;
+    }
+    return sums;
+}
+
+/// The attribute's directions at the vertices, in the world; wedges of a vertex are added up.
+std::vector<Vec3> directions_of(const Part& part, const std::string& name) {
+    const Mesh& mesh = part.mesh;
+    const Attribute* found = mesh.find(name, Domain::vertex);
+    const bool wedges = !found;
+    if (!found) found = mesh.find(name, Domain::wedge);
+    if (!found && name == "NORMAL") return normals_of_faces(part);
+    if (!found || found->components < 3)
+        throw Error(
+            ErrorKind::stage, "E-ATTRIBUTE",
+            fmt::format("part '{}' has no attribute '{}' of three numbers at vertices", part.name, name),
+            "facetmill info lists the attributes of a file; NORMAL goes without");
+    Mesh alone; // turned as the part is
+    alone.attributes.push_back(*found);
+    apply(alone, effective(part));
+    const Attribute& a = alone.attributes.front();
+    const bool is_turned = a.role == Role::normal || a.role == Role::tangent || a.role == Role::morph_vector;
+    std::vector<Vec3> directions(mesh.vertex_count());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Vec3 d{a.value(i, 0), a.value(i, 1), a.value(i, 2)};
+        directions[wedges ? mesh.vertex_of_wedge(static_cast<Index>(i)) : i] +=
+            is_turned ? d : effective(part).vector(d);
+    }
+    return directions;
+}
+
+} // namespace
+
 std::vector<Line> lines_along(const ProbeOptions& o, const Questions& q) {
     std::vector<Line> lines;
     for (const Part* part : q.surface) {
-        const Mesh& mesh = part->mesh;
-        const Attribute* a = mesh.find(o.along, Domain::vertex);
-        const bool wedges = !a;
-        if (!a) a = mesh.find(o.along, Domain::wedge);
-        if (!a || a->components < 3)
-            throw Error(ErrorKind::stage, "E-ATTRIBUTE",
-                        fmt::format("part '{}' has no attribute '{}' of three numbers at vertices",
-                                    part->name, o.along),
-                        "facetmill info lists the attributes of a file");
-        std::vector<Vec3> directions(mesh.vertex_count());
-        for (std::size_t i = 0; i < a->size(); ++i)
-            directions[wedges ? mesh.vertex_of_wedge(static_cast<Index>(i)) : i] +=
-                {a->value(i, 0), a->value(i, 1), a->value(i, 2)};
-        const Transform world = effective(*part);
+        const std::vector<Vec3> directions = directions_of(*part, o.along);
         for (std::size_t v = 0; v < directions.size(); ++v) {
-            const Vec3 from = world.point(mesh.positions[v]);
-            const Vec3 d = normalised(world.vector(directions[v])) * (o.reverse ? -1.0 : 1.0);
+            const Vec3 from = in_world(*part, part->mesh.positions[v]);
+            const Vec3 d = normalised(directions[v]) * (o.reverse ? -1.0 : 1.0);
             lines.push_back({from, from + d, true});
         }
     }

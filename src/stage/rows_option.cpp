@@ -2,7 +2,9 @@
 
 #include "base/hash.hpp"
 #include "io/csv.hpp"
+#include "stage/numbers_option.hpp"
 
+#include <array>
 #include <fmt/format.h>
 
 namespace facetmill::rows {
@@ -13,7 +15,8 @@ bool refuse(const Value& value, std::size_t columns, Problems& problems) {
     problems.add(
         value.mark, "E-TYPE",
         fmt::format("expected rows of {} numbers or a .csv file, found {}", columns, value.described()),
-        columns == 3 ? "[0, 0, 1], [[0, 0, 1], [1, 2, 3]] or points.csv" : "");
+        columns == 3 ? "[0, 0, 1], [[0, 0, 1], [1, 2, 3]] or points.csv; in one line 0,0,1 or '0,0,1; 1,2,3'"
+                     : "[0, 0, 9, 0, 0, -1] or lines.csv; in one line 0,0,9,0,0,-1");
     return false;
 }
 
@@ -31,16 +34,23 @@ bool parse_row(const Value& value, std::size_t columns, std::vector<double>& num
     return true;
 }
 
-/// "1,2,3", as a one-liner has it.
+/// "1,2,3", as a one-liner has it; of several rows "1,2,3; 4,5,6" or "[[1,2,3],[4,5,6]]".
 bool parse_text(const Value& value, std::size_t columns, std::vector<double>& numbers, Problems& problems) {
-    const std::string& text = value.text;
-    try {
-        const auto bytes = std::as_bytes(std::span(text));
-        numbers = io::read_table(io::Input::of("", {bytes.begin(), bytes.end()}), columns);
-    } catch (const Error&) {
-        return refuse(value, columns, problems);
+    std::string text = value.text;
+    std::erase(text, ' ');
+    if (text.starts_with("[[") && text.ends_with("]]")) {
+        text = text.substr(2, text.size() - 4);
+        for (std::size_t at; (at = text.find("],[")) != std::string::npos;) text.replace(at, 3, ";");
     }
-    return numbers.size() == columns || refuse(value, columns, problems);
+    bool good = true;
+    for (std::size_t at = 0; at <= text.size() && good;) {
+        const auto end = std::min(text.find(';', at), text.size());
+        const Value row = split_at_commas(Value::scalar(text.substr(at, end - at), value.mark));
+        Problems of_row; // the whole text is what people are told of
+        good = parse_row(row, columns, numbers, of_row);
+        at = end + 1;
+    }
+    return good || refuse(value, columns, problems);
 }
 
 } // namespace
@@ -48,7 +58,7 @@ bool parse_text(const Value& value, std::size_t columns, std::vector<double>& nu
 bool parse(const Value& value, std::size_t columns, std::vector<double>& numbers, std::string& file,
            Problems& problems) {
     if (value.deferred) return true;
-    if (value.is_scalar() && value.text.find(',') == std::string::npos)
+    if (value.is_scalar() && (value.text.find(',') == std::string::npos || value.text.ends_with(".csv")))
         return file = value.text, !file.empty();
     if (value.is_scalar()) return parse_text(value, columns, numbers, problems);
     if (!value.is_list() || value.items.empty()) return refuse(value, columns, problems);
@@ -71,7 +81,10 @@ std::vector<double> read(const std::string& file, std::size_t columns, Context& 
     const io::Input input = io::Input::open(context.places().input(file));
     auto& inputs = context.run().record.inputs;
     inputs.push_back({file, input.stored().size(), sha256(input.stored()), {}});
-    return io::read_table(input, columns);
+    constexpr std::array<std::string_view, 3> names{"x", "y", "z"};
+    return io::read_table(input, columns,
+                          columns == 3 ? std::span<const std::string_view>(names)
+                                       : std::span<const std::string_view>());
 }
 
 } // namespace facetmill::rows

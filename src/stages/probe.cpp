@@ -3,6 +3,8 @@
 #include "report/summary.hpp"
 #include "stage/probe_questions.hpp"
 
+#include <fmt/format.h>
+
 namespace facetmill {
 
 namespace {
@@ -11,11 +13,16 @@ Json answer_points(const FaceTree& tree, const Scene& scene, const ProbeOptions&
                    std::string* csv, std::size_t limit, Context& context) {
     PointSettings settings;
     settings.tolerance = context.resolve(o.on, scene, "on");
+    std::vector<std::string> open;
     for (const Part* part : q.surface)
-        settings.closed = settings.closed && count_links(part->mesh).uncancelled_edges == 0;
+        if (count_links(part->mesh).uncancelled_edges != 0) open.push_back(part->name);
+    settings.closed = open.empty();
     if (!settings.closed)
-        context.warn("W-PROBE-OPEN", "the surface is open: nothing is inside or outside it",
-                     "close it (clean), or choose closed parts (only)");
+        context.warn(
+            "W-PROBE-OPEN",
+            fmt::format("the surface is open: nothing is inside or outside it ({} of {} parts, first '{}')",
+                        open.size(), q.surface.size(), open.front()),
+            "close it (clean), or choose closed parts (only)");
     const auto points = points_asked(o, q, context);
     const auto answers = probe_points(tree, points, settings);
     const report::FaceNames names(q.surface);
@@ -67,30 +74,26 @@ Scene run(Scene scene, const ProbeOptions& o, Context& context) {
     return scene;
 }
 
-const RegisterStage registered{make_stage<ProbeOptions>(
+const RegisterStage registered = make_stage<ProbeOptions>(
     {.name = "probe",
      .about = "Asks points, segments and rays about the surface: inside or outside, closest face, hits.",
-     .details = "A point is inside, outside or on the surface, and has a winding number (how often the "
-                "surface goes around it), "
-                "its distance, and the closest point with its part and face. Inside is where the winding "
-                "number is not zero; it "
-                "is decided exactly, by the crossings of a ray with the faces. An open surface has no inside "
-                "(W-PROBE-OPEN); "
-                "distances are measured all the same.\n\n"
-                "Segments and rays have hits: t (0 to 1 along a segment, the distance along a ray), the "
-                "point, part and face, and "
-                "whether the line enters there. Whether a line meets a face is decided by exact signs. A "
-                "line through an edge "
-                "or a corner counts as the line beside it, always to the same side, so a surface that is "
-                "crossed is crossed once; "
-                "a line within a face's plane does not meet that face. An end on the surface is a hit.\n\n"
-                "The scene passes on unchanged. World space, scene units. Sources: the notes 'Intersection "
-                "of a line segment and a "
-                "facet' (1999) and 'Determining if a point lies on the interior of a polygon' (1987).",
+     .details =
+         "A point is inside, outside or on the surface, and has a winding number (how often the surface goes "
+         "around it), its distance, and the closest point with its part and face. Inside is where the "
+         "winding number is not zero; it is decided exactly, by the crossings of a ray with the faces. An "
+         "open surface has no inside (W-PROBE-OPEN); distances are measured all the same.\n\n"
+         "Segments and rays have hits: t (0 to 1 along a segment, the distance along a ray), the point, part "
+         "and face, and whether the line enters there. Whether a line meets a face is decided by exact "
+         "signs. A line through an edge or a corner counts as the line beside it, always to the same side, "
+         "so a surface that is crossed is crossed once; a line within a face's plane does not meet that "
+         "face. An end on the surface is a hit.\n\n"
+         "The scene passes on unchanged. World space, scene units. Sources: the notes 'Intersection of a "
+         "line segment and a facet' (1999) and 'Determining if a point lies on the interior of a polygon' "
+         "(1987).",
      .examples = {"probe: [0, 0, 1]", "probe: {points: probes.csv, to: answers.csv}",
                   "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
                   "probe: {along: NORMAL, reverse: true, to: walls.csv}"}},
-    declare_probe, run, StageHooks<ProbeOptions>{.files = probe_files, .verify = verify_probe})};
+    declare_probe, run, {.files = probe_files, .verify = verify_probe});
 
 } // namespace
 

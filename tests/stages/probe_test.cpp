@@ -96,8 +96,49 @@ TEST_CASE("rays along an attribute measure walls", "[stages]") {
     CHECK(r["count"] == 8);
     CHECK(r["hit"] == 8); // the sum of normals at a corner is its diagonal, which ends in the corner opposite
     CHECK(r["answers"][0]["hits"][0]["t"].get<double>() == Approx(std::sqrt(3.0)));
-    CHECK(refusal("{along: NORMAL}") ==
-          "E-ATTRIBUTE part 'part' has no attribute 'NORMAL' of three numbers at vertices");
+    CHECK(refusal("{along: flow}") ==
+          "E-ATTRIBUTE part 'part' has no attribute 'flow' of three numbers at vertices");
+}
+
+TEST_CASE("normals that a part does not have are those of its faces, in the world", "[stages]") {
+    // At a corner of the cube the faces meet in three directions of the same weight.
+    const Json r = probed("{along: NORMAL, reverse: true}", scene_of(shapes::quad_cube()));
+    CHECK(r["hit"] == 8);
+    CHECK(r["answers"][0]["hits"][0]["t"].get<double>() == Approx(std::sqrt(3.0)));
+    // A plate at 45 degrees, flattened by its node: its normal is not turned as its points are.
+    Scene scene = scene_of(shapes::grid(1, 1));
+    Mesh& plate = scene.parts[0].mesh;
+    for (Vec3& p : plate.positions) p.z = p.x;
+    plate.attributes.push_back(
+        {"NORMAL", Domain::vertex, Role::normal, 3, false, std::vector<float>(12, 0.0F)});
+    for (std::size_t v = 0; v < 4; ++v) {
+        plate.attributes[0].set_value(v, 0, -std::sqrt(0.5));
+        plate.attributes[0].set_value(v, 2, std::sqrt(0.5));
+    }
+    scene.parts[0].transform.m[2][2] = 0.5;
+    Scene wall = scene_of(shapes::grid(20, 20)); // ahead, at z = 10
+    for (Vec3& p : wall.parts[0].mesh.positions) p += Vec3{-10, -10, 10};
+    scene.parts.push_back(wall.parts[0]);
+    const auto reach = [&] {
+        return probed("{along: NORMAL}", scene)["answers"][0]["hits"][0]["t"].get<double>();
+    };
+    CHECK(reach() == Approx(10 * std::sqrt(1.25))); // along (-0.5, 0, 1)
+    plate.drop("NORMAL", Domain::vertex);
+    scene.parts[0].mesh.drop("NORMAL", Domain::vertex);
+    CHECK(reach() == Approx(10 * std::sqrt(1.25)));
+}
+
+TEST_CASE("several rows stand in one line too, and none loses its rest", "[stages]") {
+    const auto count = [](const std::string& rows) {
+        return probed(rows, scene_of(shapes::cube()))["count"];
+    };
+    CHECK(count("\"0,0,0; 1,1,1\"") == 2);
+    CHECK(count("\"[[0, 0, 0], [1, 1, 1], [2, 2, 2]]\"") == 3);
+    CHECK(count("\"[0,0,1]\"") == 1);
+    for (const char* rows :
+         {"\"0,0,0,1,1,1\"", "\"0,0\"", "\"0,0,0;1\"", "\"0,0,x\"", "\"0,0,0;\"", "\"0,,0\""})
+        CHECK(refusal(rows).starts_with("E-TYPE expected rows of 3 numbers"));
+    CHECK(refusal("{rays: [[0, 0, 0, 0, 0, 1], [0, 0, 1, 0, 0, 0]]}") == "E-RAY ray 1 has no direction");
 }
 
 TEST_CASE("probes are read from a table and answers written as one", "[stages]") {
