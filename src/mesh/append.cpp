@@ -1,5 +1,5 @@
 #include "base/parallel.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/bare.hpp"
 
 #include <algorithm>
 
@@ -7,11 +7,30 @@ namespace facetmill {
 
 namespace {
 
-/// An attribute of b's kind for n elements, all zero.
+/// An attribute of the same kind for n elements, all zero.
 Attribute zeros(const Attribute& like, std::size_t n) {
     Attribute a = like;
     std::visit([](auto& v) { v.clear(); }, a.data);
     a.resize(n);
+    return a;
+}
+
+/// The attribute for a mesh that has none: what changes nothing in how it looks. Colours are white and
+/// opaque, normals those of the faces, tangents of length 1; all else is zero.
+Attribute stand_in(const Attribute& like, const Mesh& mesh) {
+    Attribute a = zeros(like, mesh.count(like.domain));
+    if (a.name == "NORMAL" && a.domain == Domain::wedge && a.components == 3) {
+        Mesh alone = bare(mesh);
+        alone.attributes.push_back(std::move(a));
+        recompute_normals(alone);
+        return std::move(alone.attributes[0]);
+    }
+    if (a.role == Role::colour)
+        parallel_for(a.size(), [&](std::size_t i) {
+            for (int c = 0; c < a.components; ++c) a.set_value(i, c, 1);
+        });
+    if (a.role == Role::tangent)
+        parallel_for(a.size(), [&](std::size_t i) { a.set_value(i, 0, 1), a.set_value(i, 3, 1); });
     return a;
 }
 
@@ -46,11 +65,11 @@ void concatenate(Attribute& a, const Attribute& b) {
 void append_attributes(Mesh& a, const Mesh& b) {
     for (auto& own : a.attributes) {
         const Attribute* other = b.find(own.name, own.domain);
-        concatenate(own, other ? *other : zeros(own, b.count(own.domain)));
+        concatenate(own, other ? *other : stand_in(own, b));
     }
     for (const auto& other : b.attributes) {
         if (a.find(other.name, other.domain)) continue;
-        Attribute own = zeros(other, a.count(other.domain));
+        Attribute own = stand_in(other, a);
         concatenate(own, other);
         a.attributes.push_back(std::move(own));
     }
@@ -63,12 +82,19 @@ std::vector<std::string> wedge_attribute_names(const Mesh& mesh) {
     return names;
 }
 
+/// Never empty, since that would stand for all there are: every wedge has a position.
+std::vector<std::string> spelled_out(const Mesh& mesh) {
+    auto names = wedge_attribute_names(mesh);
+    if (names.empty()) names.emplace_back("POSITION");
+    return names;
+}
+
 /// The table of primitives with every "all attributes" spelled out.
 std::vector<Primitive> primitives_of(const Mesh& mesh, bool spell_out) {
     auto table = mesh.primitives.empty() ? std::vector<Primitive>(1) : mesh.primitives;
     if (spell_out)
         for (auto& p : table)
-            if (p.attributes.empty()) p.attributes = wedge_attribute_names(mesh);
+            if (p.attributes.empty()) p.attributes = spelled_out(mesh);
     return table;
 }
 

@@ -103,7 +103,7 @@ std::size_t weld_exact(Mesh& mesh);
 /// than three corners are dropped. The triangulate stage offers more.
 Mesh triangulated(const Mesh& mesh);
 
-/// Appends b to a: vertices, wedges, faces, primitives; attributes that only one has are filled with zeros.
+/// Appends b to a: vertices, wedges, faces, primitives. Attributes that one has none of: see append.cpp.
 void append(Mesh& a, const Mesh& b);
 
 /// Sets wedge attribute NORMAL, if there is one, to the area-weighted normal over the faces that meet at the

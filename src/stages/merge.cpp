@@ -16,6 +16,17 @@ void declare(Declare<MergeOptions>& d) {
     d.option("weld", &MergeOptions::weld, "Makes vertices at exactly the same place one.");
 }
 
+/// Drops what means nothing without the skin. Returns what became of it.
+Fates drop_skin(Mesh& mesh) {
+    Fates fates;
+    std::erase_if(mesh.attributes, [&](const Attribute& a) {
+        if (a.role != Role::joints && a.role != Role::weights) return false;
+        fates.push_back({a.name, a.domain, Fate::Kind::dropped, "merged parts have no skin"});
+        return true;
+    });
+    return fates;
+}
+
 /// The number of the part that each face came from: what `separate: group` parts by.
 void mark_group(Mesh& mesh, std::uint32_t number) {
     mesh.drop("group", Domain::face);
@@ -34,11 +45,12 @@ Scene run(Scene scene, const MergeOptions& o, Context& context) {
             continue;
         }
         if (!part.skinned) apply(part.mesh, part.transform);
+        context.ledger(part, drop_skin(part.mesh));
         mark_group(part.mesh, static_cast<std::uint32_t>(names.size()));
         names.push_back(part.name);
         for (const auto& a : part.mesh.attributes)
-            context.ledger(part,
-                           {{a.name, a.domain, Fate::Kind::kept, "zero where the other parts have none"}});
+            context.ledger(part, {{a.name, a.domain, Fate::Kind::kept,
+                                   "other parts get white, their own normals, or zero"}});
         if (joined) {
             append(joined->mesh, part.mesh);
             continue;
@@ -63,11 +75,11 @@ const RegisterStage registered = make_stage<MergeOptions>(
      .about = "Joins parts into one.",
      .details =
          "The parts (all, or those that `only` names) become one mesh in world space, at the place of the "
-         "first. "
-         "Materials stay with their faces; an attribute that only some parts have is zero in the others. The "
-         "face attribute `group` numbers the parts, so that `separate: group` takes them apart again. Nodes, "
-         "skins and instances of the parts are gone. Closedness is per part: solids that only touch are one "
-         "closed part, and with weld they share vertices.",
+         "first. Materials stay with their faces. An attribute that only some parts have is white "
+         "(colours), the normal of the faces, or zero in the others; in glTF those stay without it. The "
+         "face attribute `group` numbers the parts, so that `separate: group` takes them apart again. "
+         "Nodes, skins and instances of the parts are gone. Closedness is per part: solids that only "
+         "touch are one closed part, and with weld they share vertices.",
      .examples = {"merge", "merge: body", "merge: {weld: true}"}},
     declare, run);
 

@@ -195,11 +195,31 @@ TEST_CASE("append joins polygons with triangles and seams with none", "[mesh]") 
     CHECK(broken_invariants(a).empty());
     CHECK(a.face_count() == 18);
     CHECK(a.wedge_count() == 32);
-    CHECK(a.find("NORMAL", Domain::wedge)->value(0, 2) == 0);
+    CHECK(a.find("NORMAL", Domain::wedge)->value(0, 2) == Approx(-1 / std::sqrt(3.0)));
+    CHECK(a.find("TEXCOORD_0", Domain::wedge)->value(0, 0) == 0);
     CHECK(a.find("NORMAL", Domain::wedge)->value(8, 2) == -1);
     CHECK(a.primitives.size() == 2);
     CHECK(a.primitive_of(5) == 0);
     CHECK(a.primitive_of(6) == 1);
+}
+
+TEST_CASE("what has no attributes looks as before beside what has some", "[mesh]") {
+    Mesh coloured = shapes::cube();
+    coloured.attributes.push_back(
+        {"COLOR_0", Domain::wedge, Role::colour, 4, true, std::vector<std::uint8_t>(32, 7)});
+    for (const bool first : {true, false}) {
+        Mesh a = first ? shapes::cube() : coloured;
+        append(a, first ? coloured : shapes::cube());
+        CHECK(broken_invariants(a).empty());
+        const auto& colours = std::get<std::vector<std::uint8_t>>(a.find("COLOR_0", Domain::wedge)->data);
+        const std::size_t plain = first ? 0 : 32;
+        CHECK(std::vector(colours.begin() + plain, colours.begin() + plain + 32) ==
+              std::vector<std::uint8_t>(32, 255));
+        CHECK(colours[32 - plain] == 7);
+        const Index face = first ? 0 : 12;
+        CHECK(a.primitives.at(a.primitive_of(face)).attributes == std::vector<std::string>{"POSITION"});
+        CHECK(a.primitives.at(a.primitive_of(12 - face)).attributes == std::vector<std::string>{"COLOR_0"});
+    }
 }
 
 TEST_CASE("append keeps equal primitives once", "[mesh]") {
