@@ -99,6 +99,19 @@ std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn) {
     return frames;
 }
 
+std::set<std::size_t> animated_nodes(const Json& document) {
+    std::set<std::size_t> nodes;
+    for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
+        const Place channels = item(document, "animations", a).at("channels");
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            const Place target = channels.at(c).at("target");
+            if (target.text_or("path", "") != "weights" && target.find("node"))
+                nodes.insert(target.at("node").index(count_of(document, "nodes"), "node"));
+        }
+    }
+    return nodes;
+}
+
 std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames) {
     std::vector<std::vector<std::size_t>> children(frames.size());
     std::vector<std::size_t> order;

@@ -6,6 +6,7 @@
 #include "mesh/scene.hpp"
 
 #include <functional>
+#include <set>
 
 namespace facetmill::io::gltf {
 
@@ -24,6 +25,9 @@ using Warn = std::function<void(const char*, std::string)>;
 std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn = {});
 /// The node indices so that parents come before children.
 std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames);
+
+/// The nodes whose translation, rotation or scale an animation drives.
+std::set<std::size_t> animated_nodes(const Json& document);
 
 /// A mesh that faces are read from, and where it stands: one part of the scene. The writer asks for the same
 /// list, to see what has changed since.

@@ -8,17 +8,42 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-std::set<std::size_t> animated_nodes(const Json& document) {
-    std::set<std::size_t> nodes;
-    for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
-        const Place channels = item(document, "animations", a).at("channels");
-        for (std::size_t c = 0; c < channels.size(); ++c) {
-            const Place target = channels.at(c).at("target");
-            if (target.text_or("path", "") != "weights" && target.find("node"))
-                nodes.insert(target.at("node").index(count_of(document, "nodes"), "node"));
-        }
+/// The morph targets of the mesh at a node of the document; 0 where there is none.
+std::size_t target_count(const Json& document, const Json& node) {
+    if (!node.contains("mesh")) return 0;
+    const Json& first = document["meshes"][node["mesh"].get<std::size_t>()]["primitives"][0];
+    return first.contains("targets") ? first["targets"].size() : 0;
+}
+
+/// Whether a channel animates the morph weights of a node that had targets and has none now. Warns of it.
+bool is_dead(Patch& patch, const Place& channel) {
+    const Json &document = patch.builder.json(), &source = patch.builder.source().json();
+    const Place target = channel.at("target");
+    if (target.text_or("path", "") != "weights" || !target.find("node")) return false;
+    const auto n = target.at("node").index(count_of(source, "nodes"), "node");
+    if (target_count(document, document["nodes"][n]) > 0 || target_count(source, source["nodes"][n]) == 0)
+        return false;
+    patch.warn("W-MORPH", fmt::format("nodes[{}] has no morph targets now: their animation is dropped", n));
+    return true;
+}
+
+/// Drops the animation of morph weights where the targets are gone, which glTF forbids, and animations that
+/// have nothing left to do.
+void drop_dead_weights(Patch& patch) {
+    Json& document = patch.builder.json();
+    const std::size_t count = count_of(document, "animations");
+    if (count == 0) return;
+    Json kept = Json::array();
+    for (std::size_t a = 0; a < count; ++a) {
+        Json animation = document["animations"][a], channels = Json::array();
+        const Place place = item(document, "animations", a).at("channels");
+        for (std::size_t c = 0; c < place.size(); ++c)
+            if (!is_dead(patch, place.at(c))) channels.push_back(animation["channels"][c]);
+        animation["channels"] = std::move(channels);
+        if (!animation["channels"].empty()) kept.push_back(std::move(animation));
     }
-    return nodes;
+    document["animations"] = std::move(kept);
+    if (document["animations"].empty()) document.erase("animations");
 }
 
 void remove_mesh(Json& node) {
@@ -30,9 +55,7 @@ void set_mesh(Patch& patch, std::size_t node, const Placement& placement, int pa
     if (part < 0 || mesh < 0) return remove_mesh(json);
     json["mesh"] = mesh;
     if (placement.skinned && !patch.scene.parts[static_cast<std::size_t>(part)].skinned) json.erase("skin");
-    const Json& object = patch.builder.json()["meshes"][static_cast<std::size_t>(mesh)];
-    const Json& first = object["primitives"][0];
-    const std::size_t targets = first.contains("targets") ? first["targets"].size() : 0;
+    const std::size_t targets = target_count(patch.builder.json(), json);
     if (json.contains("weights") && json["weights"].size() != targets) json.erase("weights");
     const std::string& name = patch.scene.parts[static_cast<std::size_t>(part)].name;
     if (name != placement.name) json["name"] = name;
@@ -192,7 +215,7 @@ std::vector<int> patch_nodes(Patch& patch, const std::vector<int>& mesh_of_part)
             set_mesh(patch, static_cast<std::size_t>(node), patch.placements[p], part,
                      part < 0 ? -1 : mesh_of_part[static_cast<std::size_t>(part)]);
     }
-    if (patch.base >= 0) move_nodes(patch);
+    if (patch.base >= 0) move_nodes(patch), drop_dead_weights(patch);
     for (std::size_t i = 0; i < placed.size(); ++i)
         if (!placed[i]) nodes[i] = static_cast<int>(add_node(patch, patch.scene.parts[i], mesh_of_part[i]));
     return nodes;

@@ -99,6 +99,21 @@ TEST_CASE("a part that lost its skin moves by its node", "[io]") {
     CHECK(after["nodes"][0]["matrix"] == Json::parse("[1,0,0,0,0,1,0,0,0,0,1,0,4,0,0,1]"));
 }
 
+TEST_CASE("morph targets that are gone take the animation of their weights along", "[io]") {
+    Json document = Json::parse(rich);
+    document["meshes"][0]["primitives"][0]["targets"] = Json::parse(R"([{"POSITION":0}])");
+    document["animations"] = Json::parse(R"([{"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}}],
+        "samplers":[{"input":0,"output":0}]}])");
+    Scene scene = test::read_text(document.dump());
+    CHECK(written_json(scene)["animations"] == document["animations"]);
+    scene.parts[0].mesh = shapes::cube();
+    scene.parts[0].changed = true;
+    const io::Written written = test::written(scene, "glb");
+    CHECK_FALSE(Json::parse(test::json_of(written.files[0].bytes)).contains("animations"));
+    REQUIRE(written.warnings.size() == 1);
+    CHECK(written.warnings[0].id == "W-MORPH");
+}
+
 TEST_CASE("instances share a mesh until they differ", "[io]") {
     Json document = Json::parse(rich);
     document["nodes"].push_back({{"mesh", 0}, {"name", "twin"}});

@@ -137,7 +137,8 @@ TEST_CASE("EXT_mesh_manifold gives the same vertices back, and says when a mesh 
     CHECK(only_mesh(test::again(test::scene_of(mesh))).vertex_count() == 7);
     const io::Written open = test::written(test::scene_of(shapes::grid(1, 1)), "glb", settings);
     REQUIRE(open.warnings.size() == 1);
-    CHECK(open.warnings[0].message == "part 'thing' is not manifold, so EXT_mesh_manifold is not written");
+    CHECK(open.warnings[0].message ==
+          "part 'thing' is no closed manifold, so EXT_mesh_manifold is not written");
 }
 
 TEST_CASE("attributes of types that glTF lacks are converted, face attributes dropped, and both said",
