@@ -1,8 +1,7 @@
 #include "report/comparison_lines.hpp"
 
 #include "geometry/loose_points.hpp"
-#include "geometry/surface_normal.hpp"
-#include "mesh/placement.hpp"
+#include "report/comparison_sides.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -10,32 +9,6 @@
 namespace facetmill::report {
 
 namespace {
-
-/// Whether the second is inside out against the first: by the signs of the volumes, or, open, by which
-/// way the faces look in all.
-void compare_sides(const Comparing& with) {
-    const auto looks = [](const Scene& scene) {
-        Vec3 sum;
-        for (const Part& part : scene.parts) {
-            const Transform t = effective(part);
-            for (Index f = 0; f < part.mesh.face_count(); ++f)
-                sum += area_vector(part.mesh, f, t) * (t.determinant() < 0 ? -0.5 : 0.5);
-        }
-        return sum;
-    };
-    const Properties a = inspect(with.a), b = inspect(with.b);
-    bool turned = false;
-    if (a.volume && b.volume) {
-        const auto solid = [](const Properties& p) { // more than rounding
-            return std::abs(*p.volume) > 1e-12 * p.area * std::sqrt(p.area);
-        };
-        turned = solid(a) && solid(b) && (*a.volume < 0) != (*b.volume < 0);
-    } else if (!a.volume && !b.volume) {
-        const Vec3 u = looks(with.a), v = looks(with.b);
-        turned = dot(u, v) < 0 && length(u) > 1e-6 * a.area && length(v) > 1e-6 * b.area;
-    }
-    with.add("geometry", "turned round", false, turned);
-}
 
 /// Says that one file tells its unit or its up axis and the other does not.
 void compare_frames(const Comparing& with) {
@@ -106,7 +79,8 @@ std::optional<Limit> maximum_of(const ComparisonSettings& s) {
 void compare_geometry(const Comparing& with) {
     const auto& settings = with.settings;
     compare_frames(with);
-    compare_sides(with);
+    const Turned turned = turned_round(with.a, with.b);
+    with.add("geometry", "turned round", false, turned.round, !turned.round, turned.note);
     const Shape a(with.a), b(with.b);
     with.result.geometry_a = a.kind(), with.result.geometry_b = b.kind();
     const auto d = with.result.deviation = deviation(a.main(), b.main(), settings.deviation);

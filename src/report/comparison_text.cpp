@@ -66,7 +66,7 @@ std::string to_text(const Comparison& comparison, const std::string& name_a, con
                             comparison.ignored.contains(section) ? " (ignored)" : "");
         for (const auto* d : lines)
             if (all || !d->same || !d->compared || d->section == "geometry")
-                text += fmt::format("    {:<24}{:<16}{:<16}{}{}\n", d->name, text_of(d->a), text_of(d->b),
+                text += fmt::format("    {:<23} {:<15} {:<15} {}{}\n", d->name, text_of(d->a), text_of(d->b),
                                     d->same ? "" : "differs ", d->note);
         if (section == std::string_view("geometry") && comparison.deviation)
             text += place_text(*comparison.deviation) + measured_text(comparison);

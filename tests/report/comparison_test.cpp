@@ -91,6 +91,29 @@ TEST_CASE("a surface turned inside out differs, closed or open", "[report]") {
     }
 }
 
+TEST_CASE("one piece or part turned inside out is enough to differ", "[report]") {
+    Scene a = scene_of(shapes::icosphere(1));
+    for (Vec3& p : a.parts[0].mesh.positions) p = p * 3;
+    append(a.parts[0].mesh, shapes::cube());
+    a.parts.push_back(scene_of(shapes::grid(3, 2)).parts[0]);
+    const auto turned = [](Mesh mesh, std::size_t from) {
+        for (std::size_t c = from; c < mesh.corners.size(); c += 3)
+            std::swap(mesh.corners[c], mesh.corners[c + 1]);
+        return mesh;
+    };
+    Scene b = a, c = a;
+    b.parts[0].mesh = turned(a.parts[0].mesh, 240);
+    c.parts[1].mesh = turned(a.parts[1].mesh, 0);
+    CHECK(different(report::compare(a, a)).empty());
+    for (const auto& [other, note] : {std::pair(b, "1 of 3 pieces, the first at face 80 of 'part'"),
+                                      std::pair(c, "1 of 3 pieces, the first at face 0 of 'part'")}) {
+        const auto found = report::compare(a, other);
+        CHECK(different(found) == "geometry: turned round");
+        for (const auto& d : found.lines)
+            if (d.name == "turned round") CHECK(d.note == note);
+    }
+}
+
 TEST_CASE("topology is compared property by property", "[report]") {
     Mesh open = shapes::cube();
     open.corners.resize(30);
