@@ -26,8 +26,10 @@ struct Spread {
 /// Breadth first over edges of two faces, from the lowest face of each piece.
 class Spreader {
   public:
-    explicit Spreader(const Mesh& mesh)
-        : mesh_(mesh), edges_(build_edges(mesh)), faces_(corner_faces(mesh)) {}
+    explicit Spreader(const Mesh& mesh) : mesh_(mesh), edges_(build_edges(mesh)), faces_(corner_faces(mesh)) {
+        for (Index e = 0; e < edges_.size(); ++e)
+            if (edges_.corners_of(e).size() > 2) look_past_spikes(e);
+    }
 
     Spread run() {
         out_.piece_of.assign(mesh_.face_count(), none);
@@ -38,6 +40,24 @@ class Spreader {
     }
 
   private:
+    /// A face that runs along an edge to and fro (a corner is repeated there) ends at none of its sides: what
+    /// is across the edge for the two others, when there are just two.
+    void look_past_spikes(Index e) {
+        std::vector<Index> others;
+        for (const Index c : edges_.corners_of(e)) {
+            const auto back = std::find_if(others.begin(), others.end(), [&](Index d) {
+                return faces_[c] == faces_[d] && mesh_.vertex(c) != mesh_.vertex(d);
+            });
+            if (back == others.end())
+                others.push_back(c);
+            else
+                others.erase(back);
+        }
+        if (others.size() == 2) across_[others[0]] = others[1], across_[others[1]] = others[0];
+        for (const Index c : edges_.corners_of(e))
+            if (std::find(others.begin(), others.end(), c) == others.end()) across_[c] = none;
+    }
+
     void spread_from(Index first) {
         OrientedPiece piece;
         piece.first_face = first, piece.closed = true;
@@ -58,11 +78,14 @@ class Spreader {
             const Index e = edges_.corner_edge[c];
             if (e == none) continue;
             const auto corners = edges_.corners_of(e);
+            Index other = corners[0] == c ? corners.back() : corners[0];
             if (corners.size() != 2) {
-                piece.closed = false;
-                continue;
+                const auto found = across_.find(c);
+                piece.closed &= found != across_.end();
+                if (found == across_.end() || found->second == none) continue;
+                other = found->second;
             }
-            const Index other = corners[0] == c ? corners[1] : corners[0], g = faces_[other];
+            const Index g = faces_[other];
             const bool turns = (mesh_.vertex(other) == mesh_.vertex(c)) != (out_.flips[f] != 0);
             if (out_.piece_of[g] == none) {
                 out_.piece_of[g] = out_.piece_of[f], out_.flips[g] = turns;
@@ -77,6 +100,7 @@ class Spreader {
     const Mesh& mesh_;
     EdgeTable edges_;
     std::vector<Index> faces_;
+    std::map<Index, Index> across_; ///< of corners at crowded edges: see look_past_spikes
     Spread out_;
 };
 
@@ -99,7 +123,7 @@ class Outside {
                 if (!piece.orientable) return;
                 const bool cavity = nested_ == Nested::cavities && piece.depth % 2 == 1;
                 const double out = piece.closed ? volume(p) : votes(p);
-                piece.undecided = !(out > 0 || out < 0);
+                piece.undecided = !(out > 0 || out < 0) && has_sides(p);
                 turns[p] = cavity ? out > 0 : out < 0;
             },
             1);
@@ -111,6 +135,15 @@ class Outside {
         Vec3 sum;
         for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) sum += mesh_.point(c);
         return sum / mesh_.face_size(f);
+    }
+
+    /// Whether some face of the piece has a front at all: three corners apart.
+    bool has_sides(std::size_t p) const {
+        return std::any_of(faces_[p].begin(), faces_[p].end(), [&](Index f) {
+            std::set<Index> vertices;
+            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) vertices.insert(mesh_.vertex(c));
+            return vertices.size() > 2;
+        });
     }
 
     double volume(std::size_t p) const {

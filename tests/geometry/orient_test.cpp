@@ -92,6 +92,22 @@ TEST_CASE("orient makes nested shells solids and cavities in turn", "[geometry]"
     CHECK(test::volume(solids.mesh) == Approx(sphere + sphere / 8 + 0.001 + 1));
 }
 
+TEST_CASE("orient looks past faces with repeated corners", "[geometry]") {
+    Mesh mesh = shapes::icosphere(1);
+    append(mesh, scaled(shapes::icosphere(1), 0.5));
+    const double sphere = test::volume(shapes::icosphere(1));
+    const Index far = static_cast<Index>(mesh.vertex_count()) - 1;
+    for (const auto& spike : {std::array<Index, 3>{mesh.corners[0], mesh.corners[1], mesh.corners[1]},
+                              std::array<Index, 3>{mesh.corners[4], mesh.corners[3], mesh.corners[4]},
+                              std::array<Index, 3>{0, 0, 0}, std::array<Index, 3>{0, far, 0}})
+        add_face(mesh, spike);
+    const auto r = oriented(shaken(mesh, 7));
+    CHECK(test::volume(r.mesh) == Approx(sphere - sphere / 8));
+    for (const auto& p : r.pieces) CHECK_FALSE(p.undecided);
+    CHECK(r.pieces.at(1).closed);
+    CHECK(r.pieces.at(1).depth == 1);
+}
+
 TEST_CASE("orient takes no piece that passes through another for its cavity", "[geometry]") {
     const Mesh ball = shapes::icosphere(2);
     const double volume = test::volume(ball);
