@@ -2,8 +2,10 @@
 
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
+#include "geometry/clean_steps.hpp"
 #include "geometry/closest_point.hpp"
 #include "geometry/doubled.hpp"
+#include "geometry/links.hpp"
 #include "geometry/self_intersections.hpp"
 #include "geometry/surface_normal.hpp"
 #include "mesh/inverse.hpp"
@@ -162,7 +164,9 @@ std::size_t unbalanced_edges(const Mesh& mesh) {
 
 } // namespace
 
-ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
+namespace {
+
+ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     ThickenResult r;
     const auto n = static_cast<Index>(mesh.vertex_count());
     std::vector<Index> back(n), copies(n);
@@ -191,6 +195,16 @@ ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
     if (s.self_intersections) r.self_intersections = find_self_intersections(d.mesh, {.limit = 0}).count;
     r.mesh = std::move(d.mesh);
     return r;
+}
+
+} // namespace
+
+ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
+    const LinkCounts links = count_links(mesh);
+    if (links.crowded_edges == 0 && links.non_manifold_vertices == 0) return thicken_sheets(mesh, s);
+    clean_steps::Work apart{.mesh = mesh, .counts = {}, .not_done = {}, .fates = {}};
+    clean_steps::split_non_manifold(apart);
+    return thicken_sheets(apart.mesh, s);
 }
 
 } // namespace facetmill

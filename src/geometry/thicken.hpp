@@ -35,7 +35,9 @@ struct ThickenResult {
 /// solid with a cavity. A vertex moves so that the planes of its faces move by the distance each, as nearly
 /// as one point allows (least squares, weighted by the angles of the faces at the vertex); where that goes
 /// farther than corner_limit it is held back. Wedges of the back have normals turned; walls have their own
-/// when the mesh has normals. Requires a consistently oriented surface to be closed afterwards. O(n log n).
+/// when the mesh has normals. Requires a consistently oriented surface to be closed afterwards. Sheets that
+/// meet at an edge of more than two faces, or only at a vertex, are taken apart first, as clean does: each
+/// becomes a solid of its own. O(n log n).
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
 
 struct WiresSettings {

@@ -3,6 +3,7 @@
 #include "stage/thicken_report.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace facetmill {
 
@@ -26,6 +27,12 @@ Json thicken_edges(Part& part, const ThickenOptions& o, double thickness, Contex
         fates.push_back({a.name, a.domain, Fate::Kind::dropped, "cylinders have no attributes"});
     context.ledger(part, fates);
     part.mesh = std::move(r.mesh);
+    if (std::exchange(part.skinned, false)) {
+        part.transform = {};
+        context.warn("W-SKIN",
+                     fmt::format("thicken: the cylinders of part '{}' stand in bind pose, without its skin",
+                                 part.name));
+    }
     return described(part, r, context);
 }
 
@@ -54,7 +61,8 @@ const RegisterStage registered = make_stage<ThickenOptions>(
                 "open edges. A closed surface becomes a hollow solid. Every vertex moves so that the planes "
                 "of its faces move by the thickness, as nearly as one point allows: flat walls keep their "
                 "thickness up to their corners. Sharp corners are held back by corner_limit. The surface has "
-                "to be oriented (orient) for the solid to be closed (W-THICKEN-OPEN).\n\n"
+                "to be oriented (orient) for the solid to be closed (W-THICKEN-OPEN). Sheets that meet at an "
+                "edge of more than two faces, or only at a vertex, become solids of their own.\n\n"
                 "The result is looked through for self-intersections (W-THICKEN), and the wall is measured, "
                 "from the vertices of the front to the faces of the back; the report has both. Attributes "
                 "are kept on both sides, normals turned on the back; walls have the attributes of their edge "
