@@ -64,7 +64,7 @@ void declare_transform(Declare<TransformOptions>& d) {
     d.option("ground", &TransformOptions::ground,
              "Then rests the parts on the ground: the lowest point along up is at 0.");
     d.option("bake", &TransformOptions::bake,
-             "Moves the vertices and leaves the parts' nodes without a transform.");
+             "Moves the vertices and leaves the parts' nodes without a transform; not of animated parts.");
 }
 
 void verify_transform(const TransformOptions& o, const Value& given, Problems& problems) {

@@ -1,3 +1,4 @@
+#include "io/animated.hpp"
 #include "io/convert.hpp"
 #include "mesh/placement.hpp"
 #include "stage/transform_option.hpp"
@@ -28,10 +29,7 @@ class Mover {
         if (!o_.translate.empty()) move(moved(translation()));
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
         if (o_.ground && !box().empty()) move(moved(drop()));
-        if (o_.bake)
-            context_.for_each_part(scene_, [](Part& part) {
-                if (!part.skinned) apply(part.mesh, part.transform), part.transform = {};
-            });
+        if (o_.bake) bake();
         Json rows = Json::array();
         for (const auto& row : all_.m) rows.push_back({row[0], row[1], row[2], row[3]});
         context_.result() = {{"matrix", rows},
@@ -83,6 +81,19 @@ class Mover {
             if (part.skinned) warn_of_skin(part.name);
             part.skinned = false;
         }
+    }
+
+    /// What is animated keeps its node: the animation would move the baked points about another place.
+    void bake() {
+        const auto animated = io::animated_parts(scene_);
+        context_.for_each_part(scene_, [&](Part& part) {
+            if (animated[static_cast<std::size_t>(&part - scene_.parts.data())])
+                context_.warn("W-TRANSFORM",
+                              fmt::format("transform: part '{}' is animated and is not baked", part.name),
+                              "its node has moved; merge makes it a part that stands still");
+            else if (!part.skinned)
+                apply(part.mesh, part.transform), part.transform = {};
+        });
     }
 
     void warn_of_skin(const std::string& name) {

@@ -48,6 +48,40 @@ TEST_CASE("transform converts units and the up axis, and sizes stay", "[stages]"
           "W-UNITS");
 }
 
+TEST_CASE("transform bakes no part that an animation moves", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts.push_back(scene.parts[0]);
+    Document document;
+    document.json = R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[]}],
+        "nodes":[{"children":[1]},{"mesh":0},{"mesh":0}],
+        "animations":[{"samplers":[{}],"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}}]}]})";
+    scene.documents.push_back(std::make_shared<Document>(document));
+    for (int i = 0; i < 2; ++i) scene.parts[i].document = 0, scene.parts[i].node = 1 + i;
+    const auto run = run_stage("transform", "{translate: [1, 2, 3], bake: true}", scene);
+    CHECK(run.scene.parts[0].transform.m[1][3] == 2);
+    CHECK(run.scene.parts[1].transform.identity());
+    CHECK(run.scene.parts[1].mesh.bounds().min == Vec3{1, 2, 3});
+    REQUIRE(run.record.warnings.size() == 1);
+    CHECK(run.record.warnings[0].id == "W-TRANSFORM");
+}
+
+TEST_CASE("merge leaves no joints without a skin, thicken no skin without joints", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts[0].skinned = true;
+    scene.parts[0].transform.m[0][3] = 9; // which a skin ignores
+    scene.parts[0].mesh.attributes = {
+        {"JOINTS_0", Domain::wedge, Role::joints, 4, false, std::vector<std::uint8_t>(32, 0)},
+        {"WEIGHTS_0", Domain::wedge, Role::weights, 4, false, std::vector<float>(32, 0.25F)}};
+    const auto merged = run_stage("merge", "", scene);
+    CHECK_FALSE(merged.scene.parts[0].skinned);
+    CHECK(merged.scene.parts[0].mesh.find("JOINTS_0", Domain::wedge) == nullptr);
+    CHECK(merged.scene.parts[0].mesh.find("WEIGHTS_0", Domain::wedge) == nullptr);
+    const auto wires = run_stage("thicken", "{thickness: 0.1, what: edges}", scene);
+    CHECK_FALSE(wires.scene.parts[0].skinned);
+    CHECK(wires.scene.bounds().max.x < 2);
+    CHECK(wires.record.warnings.at(0).id == "W-SKIN");
+}
+
 TEST_CASE("transform says when a skin is lost, by units and axes too", "[stages]") {
     Scene scene = scene_of(shapes::cube(), Unit::m);
     scene.up = UpAxis::y;
