@@ -114,20 +114,38 @@ double area(std::span<const Vec3> p) {
     return length(area_vector(p));
 }
 
+namespace {
+
+/// Along the normal of the polygon's plane, also where its parts cancel in the sum (a bow-tie): then that of
+/// its largest triangle at the corner farthest from the first. Zero when all corners are on a line.
+Vec3 upright(std::span<const Vec3> p) {
+    const Vec3 area = area_vector(p);
+    Vec3 far, largest;
+    for (const Vec3& q : p)
+        if (length(q - p[0]) > length(far)) far = q - p[0];
+    if (length(area) > 1e-12 * dot(far, far)) return area;
+    for (const Vec3& q : p) {
+        const Vec3 normal = cross(far, q - p[0]);
+        if (length(normal) > length(largest)) largest = normal;
+    }
+    return dot(largest, area) < 0 ? -largest : largest;
+}
+
+} // namespace
+
 double plane_deviation(std::span<const Vec3> p) {
     if (p.size() <= 3) return 0;
-    const Vec3 normal = normalised(area_vector(p));
+    const Vec3 normal = normalised(upright(p));
     Vec3 mean;
     for (const Vec3& q : p) mean += q - p[0];
     mean = p[0] + mean / static_cast<double>(p.size());
-    const bool flat = normal == Vec3{};
     double most = 0;
-    for (const Vec3& q : p) most = std::max(most, flat ? length(q - mean) : std::abs(dot(q - mean, normal)));
+    for (const Vec3& q : p) most = std::max(most, std::abs(dot(q - mean, normal)));
     return most;
 }
 
 std::vector<Vec2> flattened(std::span<const Vec3> corners) {
-    const Vec3 normal = area_vector(corners);
+    const Vec3 normal = upright(corners);
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)
         if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;

@@ -81,7 +81,7 @@ Vec3 area_vector(std::span<const Vec3> corners);
 double area(std::span<const Vec3> corners);
 
 /// The largest distance of a corner from the plane through the mean of the corners across area_vector; 0 for
-/// triangles. For a polygon without area: the largest distance from the mean.
+/// triangles. For a polygon whose parts cancel in area: across that of its largest triangle; 0 on a line.
 double plane_deviation(std::span<const Vec3> corners);
 
 /// The corners seen along the coordinate axis nearest to the normal, mirrored so that the ring is

@@ -126,6 +126,19 @@ TEST_CASE("the census of faces", "[geometry]") {
     CHECK(kinds.non_planar == 0);
 }
 
+TEST_CASE("the census of faces whose parts cancel in area", "[geometry]") {
+    for (const double z : {0.0, 2.5}) {
+        const auto bow = face(std::vector<Vec3>{{0, 0, 0}, {2, 2, z}, {2, 0, z}, {0, 2, 0}});
+        const FaceKinds kinds = face_kinds(bow);
+        CHECK(kinds.count(Kind::self_intersecting) == 1);
+        CHECK(kinds.non_planar == 0);
+        CHECK(kinds.deviation < 1e-12);
+    }
+    const FaceKinds line = face_kinds(face(std::vector<Vec2>{{0, 0}, {1, 1}, {3, 3}, {2, 2}}));
+    CHECK(line.count(Kind::degenerate) == 1);
+    CHECK(line.non_planar == 0);
+}
+
 TEST_CASE("closed stays closed, triangles stay as they are", "[geometry]") {
     const auto cube = triangulate(shapes::quad_cube());
     CHECK(cube.mesh.all_triangles());
