@@ -13,7 +13,7 @@ namespace facetmill {
 enum class Nearness { off, exact, near };
 enum class HoleFill {
     minimal, ///< triangles between the outline's vertices, of least bend and area (span_outline)
-    planar,  ///< the outline as a polygon, only where it lies in one plane
+    planar,  ///< the outline as a polygon, where it lies in a plane to the rounding of 32 bits
     smooth,  ///< as minimal, then refined to the density around it and faired (fair_patch)
 };
 

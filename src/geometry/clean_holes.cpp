@@ -157,7 +157,11 @@ class Filler {
         add_face(polygon, wedges);
         TriangulateResult cut = triangulate(polygon);
         HolePatch patch;
-        if (cut.kinds.non_planar > 0) {
+        double largest = 0;
+        for (const Vec3& p : ring)
+            for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, std::abs(p[i]));
+        const double rounding = 0x1p-21 * largest; // of files with coordinates of 32 bits
+        if (cut.kinds.non_planar > 0 && cut.kinds.deviation > rounding) {
             why = fmt::format("its outline is not planar, by {:.6g}", cut.kinds.deviation);
             return patch;
         }

@@ -255,6 +255,22 @@ TEST_CASE("clean fills planar holes with planar patches, and says which are not"
     CHECK(r.not_done[0].why.substr(0, 28) == "its outline is not planar, b");
 }
 
+TEST_CASE("clean fills holes that are planar but for the rounding of their file", "[geometry]") {
+    CleanSettings s;
+    s.holes = HoleSettings{HoleFill::planar, 0, 0};
+    Mesh open = shapes::open_cone(24);
+    for (Vec3& p : open.positions) { // on a slant, away from the origin, as 32 bits hold it
+        p = Vec3{0.8 * p.x - 0.6 * p.z, p.y, 0.6 * p.x + 0.8 * p.z} + Vec3{21, -7, 3};
+        for (std::size_t i = 0; i < 3; ++i) p[i] = static_cast<float>(p[i]);
+    }
+    auto r = cleaned(open, s);
+    CHECK(r.counts.filled_holes == 1);
+    CHECK(is_sound_solid(r.mesh));
+    open.positions[1] = open.positions[1] + Vec3{0, 0, 1e-4};
+    open.positions[9] = open.positions[9] - Vec3{0, 0, 1e-4};
+    CHECK(cleaned(open, s).counts.filled_holes == 0);
+}
+
 TEST_CASE("clean fills only the holes that are small enough", "[geometry]") {
     Mesh open = without_face(shapes::icosphere(1), 0);
     append(open, shapes::open_cone(8));
