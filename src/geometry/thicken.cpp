@@ -150,6 +150,13 @@ void measure(const Mesh& solid, const Mesh& surface, const Transform& to_world, 
     if (count > 0) r.mean = sum / static_cast<double>(count), r.thinnest = least;
 }
 
+/// The diagonal of the box around all vertices, in world.
+double size_of(const Mesh& mesh, const Transform& to_world) {
+    Box box;
+    for (const Vec3& p : mesh.positions) box.add(to_world.point(p));
+    return box.empty() ? 0 : length(box.max - box.min);
+}
+
 /// Edges along which more faces run one way than the other.
 std::size_t unbalanced_edges(const Mesh& mesh) {
     const auto edges = build_edges(mesh);
@@ -192,7 +199,8 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     r.limited = ways.limited, r.still = ways.still;
     if (mesh.face_count() > 0) measure(d.mesh, mesh, s.to_world, r);
     r.unbalanced = unbalanced_edges(d.mesh);
-    if (s.self_intersections) r.self_intersections = find_self_intersections(d.mesh, {.limit = 0}).count;
+    if (s.self_intersections && s.thickness <= size_of(mesh, s.to_world))
+        r.self_intersections = find_self_intersections(d.mesh, {.limit = 0}).count;
     r.mesh = std::move(d.mesh);
     return r;
 }

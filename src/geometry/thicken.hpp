@@ -3,6 +3,8 @@
 
 #include "mesh/mesh.hpp"
 
+#include <optional>
+
 #include <cstddef>
 
 namespace facetmill {
@@ -27,7 +29,8 @@ struct ThickenResult {
     double thinnest = 0, mean = 0; ///< from vertices and middles of faces of the front to the back, in world
     std::size_t unbalanced =
         0; ///< edges of the result that are not closed: the surface was not oriented there
-    std::size_t self_intersections = 0; ///< pairs of faces
+    /// Pairs of faces. Not looked for when the thickness is more than the surface is large: nearly all meet.
+    std::optional<std::size_t> self_intersections;
 };
 
 /// Makes a solid of the surface: the front as it is (moved outward by the thickness, or half of it), a copy

@@ -52,7 +52,7 @@ const std::vector<KnownWarning>& known_warnings() {
         {"W-SPLIT-NOTHING", "split has nothing to do: there are as many faces as the target allows."},
         {"W-SPLIT-SHARED", "Faces that share two edges got new edges with more than two faces."},
         {"W-SPLIT-STOPPED", "split stopped before max_edge was reached, because of passes or faces."},
-        {"W-THICKEN", "The faces of a thickened part intersect."},
+        {"W-THICKEN", "The faces of a thickened part intersect, or it is smaller than its thickness."},
         {"W-THICKEN-OPEN", "The solid is not closed: the surface was not oriented."},
         {"W-THICKEN-THIN", "A thickened wall is thinner somewhere than asked for."},
         {"W-TILE-NOTHING", "A part without faces gives no tile."},

@@ -57,17 +57,19 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context) {
 const RegisterStage registered = make_stage<ThickenOptions>(
     {.name = "thicken",
      .about = "Gives a surface a thickness: it becomes a closed solid; or makes cylinders of its edges.",
-     .details = "A copy of the surface, turned round, stands at the thickness behind it, and walls close the "
-                "open edges. A closed surface becomes a hollow solid. Every vertex moves so that the planes "
-                "of its faces move by the thickness, as nearly as one point allows: flat walls keep their "
-                "thickness up to their corners. Sharp corners are held back by corner_limit. The surface has "
-                "to be oriented (orient) for the solid to be closed (W-THICKEN-OPEN). Sheets that meet at an "
-                "edge of more than two faces, or only at a vertex, become solids of their own.\n\n"
-                "The result is looked through for self-intersections (W-THICKEN), and the wall is measured, "
-                "from the vertices of the front to the faces of the back; the report has both. Attributes "
-                "are kept on both sides, normals turned on the back; walls have the attributes of their edge "
-                "and normals of their own.\n\n"
-                "Source: the note on facets, which doubles a surface and makes cylinders of lines.",
+     .details =
+         "A copy of the surface, turned round, stands at the thickness behind it, and walls close the "
+         "open edges. A closed surface becomes a hollow solid. Every vertex moves so that the planes "
+         "of its faces move by the thickness, as nearly as one point allows: flat walls keep their "
+         "thickness up to their corners. Sharp corners are held back by corner_limit. The surface has "
+         "to be oriented (orient) for the solid to be closed (W-THICKEN-OPEN). Sheets that meet at an "
+         "edge of more than two faces, or only at a vertex, become solids of their own.\n\n"
+         "The result is looked through for self-intersections (W-THICKEN), unless the thickness is more "
+         "than the part is large, and the wall is measured, from the vertices of the front to the "
+         "faces of the back; the report has both. Attributes "
+         "are kept on both sides, normals turned on the back; walls have the attributes of their edge "
+         "and normals of their own.\n\n"
+         "Source: the note on facets, which doubles a surface and makes cylinders of lines.",
      .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
                   "thicken: {thickness: 0.5%, what: edges, sides: 6}"}},
     declare_thicken, run);

@@ -39,6 +39,14 @@ TEST_CASE("thicken makes solids of sheets that meet at an edge, and walls apart 
         CHECK(thickened(bow, 0.1, side).wall_faces == 12);
 }
 
+TEST_CASE("thicken does not look through what is thicker than it is large", "[geometry]") {
+    const Mesh ball = shapes::icosphere(1); // of diameter 2: its box is 2 sqrt(3) from corner to corner
+    CHECK(thicken(ball, {.thickness = 3}).self_intersections.has_value());
+    CHECK_FALSE(thicken(ball, {.thickness = 4}).self_intersections);
+    const Transform half{{{0.5, 0, 0, 0}, {0, 0.5, 0, 0}, {0, 0, 0.5, 0}}};
+    CHECK_FALSE(thicken(ball, {.thickness = 3, .to_world = half}).self_intersections);
+}
+
 TEST_CASE("thicken makes a plate of a sheet", "[geometry]") {
     for (const ThickenSide side : {ThickenSide::inward, ThickenSide::outward, ThickenSide::centred}) {
         const auto r = thickened(shapes::grid(3, 2), 0.5, side);
