@@ -1,5 +1,6 @@
 #include "io/drawing.hpp"
 
+#include "base/markup.hpp"
 #include "base/numbers.hpp"
 
 #include <algorithm>
@@ -28,23 +29,6 @@ Scale scale_of(Unit unit) {
     default:
         return {"mm", metres(unit) * 1000};
     }
-}
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '&')
-            out += "&amp;";
-        else if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-    }
-    return out;
 }
 
 Box bounds_of(const Drawing& drawing) {

@@ -1,5 +1,5 @@
+#include "base/markup.hpp"
 #include "report/check_text.hpp"
-#include "report/markup.hpp"
 #include "report/numbers.hpp"
 #include "report/render.hpp"
 

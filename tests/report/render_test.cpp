@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
+#include "base/markup.hpp"
 #include "mesh/shapes.hpp"
-#include "report/markup.hpp"
 #include "report/numbers.hpp"
 #include "report/render.hpp"
 #include "support/failure.hpp"

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace facetmill::report {
+namespace facetmill {
 
 /// The text with & < > and both quotes as entities; control characters, which XML cannot hold, become U+FFFD.
 std::string escaped(std::string_view text);
 
-} // namespace facetmill::report
+} // namespace facetmill
