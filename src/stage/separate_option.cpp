@@ -2,6 +2,7 @@
 
 #include "mesh/topology.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -46,6 +47,13 @@ PieceLabels by_group(const Part& part, const std::string& attribute) {
         throw Error(ErrorKind::stage, "E-GROUP",
                     fmt::format("separate: part '{}' has no face attribute '{}'", part.name, attribute),
                     "merge makes 'group'; info lists the attributes");
+    constexpr double largest = 9007199254740992; // beyond 2^53 doubles skip integers
+    for (Index f = 0; f < part.mesh.face_count(); ++f)
+        if (const double x = a->value(f, 0); !(std::abs(x) <= largest) || x != std::floor(x))
+            throw Error(ErrorKind::stage, "E-GROUP",
+                        fmt::format("separate: '{}' of part '{}' numbers no groups: it is {} at face {}",
+                                    attribute, part.name, x, f),
+                        "a group is a whole number");
     return labelled(
         part.mesh.face_count(), [&](Index f) { return static_cast<std::int64_t>(a->value(f, 0)); },
         [&](std::int64_t group, std::size_t) { return fmt::format("{}.{}", part.name, group); });

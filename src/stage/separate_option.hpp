@@ -22,7 +22,8 @@ struct PieceLabels {
     std::vector<std::string> names;
 };
 
-/// The pieces of the part. Throws stage (E-GROUP) when it has no such attribute.
+/// The pieces of the part. Throws stage (E-GROUP) when it has no such attribute, or one
+/// whose values are not all whole numbers.
 PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
 
 } // namespace facetmill

@@ -173,6 +173,16 @@ TEST_CASE("separate refuses a group that is not there, and too many parts", "[st
           "stage [E-GROUP] separate: part 'part' has no face attribute 'group' | merge makes 'group'; info "
           "lists the "
           "attributes");
+    for (const double value : {0.5, HUGE_VAL - HUGE_VAL, HUGE_VAL, 1e300}) {
+        Scene scene = scene_of(shapes::tetrahedron());
+        scene.parts[0].mesh.attributes.push_back(
+            {"group", Domain::face, Role::generic, 1, false, std::vector<double>{1, 2, value, -3}});
+        CHECK(failure([&] {
+                  run_stage("separate", "group", scene);
+              }).starts_with("stage [E-GROUP] separate: 'group' of part 'part' numbers no groups: it is "));
+        scene.parts[0].mesh.attributes[0].set_value(2, 0, 1);
+        CHECK(run_stage("separate", "group", scene).scene.parts.size() == 3);
+    }
     Mesh soup;
     for (Index i = 0; i < 9; ++i)
         soup.positions.push_back({double(i), double(i * i), 0}), soup.corners.push_back(i);
