@@ -32,6 +32,10 @@ Surface loose_points_of(const Scene& scene) {
     return points;
 }
 
+Surface surface_or_points_of(const Scene& scene) {
+    return scene.face_count() > 0 ? surface_of(scene) : loose_points_of(scene);
+}
+
 Surface joined(Surface a, const Surface& b) {
     require_numbers(a.corners.size() + b.corners.size());
     const auto base = static_cast<Index>(a.positions.size());

@@ -10,6 +10,9 @@ namespace facetmill {
 /// vertices. Throws limit (E-LIMIT) when they cannot be numbered.
 Surface loose_points_of(const Scene& scene);
 
+/// What distances of a scene are of: its surface, or, where it has no faces, its points. Throws as above.
+Surface surface_or_points_of(const Scene& scene);
+
 /// Both as one. Throws as above.
 Surface joined(Surface a, const Surface& b);
 

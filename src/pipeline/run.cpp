@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/point_json.hpp"
 #include "geometry/inspect.hpp"
+#include "geometry/loose_points.hpp"
 #include "io/png.hpp"
 #include "mesh/invariants.hpp"
 #include "pipeline/failures.hpp"
@@ -189,7 +190,7 @@ class Runner {
         if (done) stage.after = brief(scene);
         if (done && step.stage->loads) state_.load_diagonal = scene.bounds().diagonal();
         if (done && step.stage->loads && keeps_loaded_)
-            state_.loaded = std::make_shared<const Surface>(surface_of(scene));
+            state_.loaded = std::make_shared<const Surface>(surface_or_points_of(scene));
         if (done && takes_pictures_) add_picture(scene, stage);
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
@@ -235,7 +236,7 @@ class Runner {
         if (!step.ensure || !step.ensure->deviation) return {};
         if (step.ensure->deviation->from == DeviationLimits::From::load && state_.loaded)
             return state_.loaded;
-        return std::make_shared<const Surface>(surface_of(scene));
+        return std::make_shared<const Surface>(surface_or_points_of(scene));
     }
 
     /// entered: the bounds of the scene that entered the step.

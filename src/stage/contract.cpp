@@ -1,6 +1,7 @@
 #include "stage/contract.hpp"
 
 #include "base/numbers.hpp"
+#include "geometry/loose_points.hpp"
 #include "report/deviation_json.hpp"
 
 #include <fmt/format.h>
@@ -100,7 +101,7 @@ std::string spelled(const DeviationLimits& limits) {
 
 void check_deviation(const DeviationLimits& limits, const Mark& where, const Surface& before,
                      const Scene& scene, Context& context) {
-    const DeviationResult measured = deviation(before, surface_of(scene), limits.settings());
+    const DeviationResult measured = deviation(before, surface_or_points_of(scene), limits.settings());
     context.result()["deviation"] = report::deviation_json(measured);
     const auto check = [&](const std::string& name, const std::optional<Length>& limit, double value,
                            const std::string& found) {

@@ -123,6 +123,12 @@ class Process(Case):
         self.write("moved.obj", points.replace("0 1 0", "0 9 0"))
         self.mill("diff", "lines.obj", "moved.obj", expect=1)
 
+    def test_a_contract_on_the_deviation_holds_points_too(self):
+        self.write("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+                                "property float z\nend_header\n0 0 0\n1 0 0\n")
+        for limit, code in (("--ensure.deviation=10%", 1), ("--ensure.deviation=600%", 0)):
+            self.mill("pipe", "load", "cloud.ply", "!", "transform", "--translate=0,5,0", limit, expect=code)
+
     def test_bad_inputs_have_their_exit_codes(self):
         self.write("cut.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty float x\n"
                               "property float y\nproperty float z\nend_header\n")
