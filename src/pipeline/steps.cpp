@@ -44,7 +44,7 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
     for (const auto& entry : item.entries)
         if (!stage && is_stage(entry.key) && !is_common_key(entry.key)) stage = &entry;
     if (!stage) stage = item.find_entry("ensure"); // a stage of its own when it is alone
-    bool good = true;
+    bool good = true, known = true;                // known: all that is wrong is words that mean nothing
     for (const auto& entry : item.entries) {
         if (&entry == stage || (stage && belongs(entry.key, stage->key)) ||
             (!stage && is_common_key(entry.key)))
@@ -59,10 +59,12 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
                 entry.key_mark, "E-STAGE",
                 fmt::format("two stages in one item: '{}' and '{}'", stage->key, entry.key),
                 fmt::format("make it two items:\n    - {}: ...\n    - {}: ...", stage->key, entry.key));
+            known = false;
             continue;
         }
         const StageInfo* info = stage_named(stage->key);
         const bool is_option = info && info->options.find(entry.key);
+        known &= !is_option;
         problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is no key of an item", entry.key),
                      is_option
                          ? fmt::format("it is an option of {}: write {}: {{{}: ...}}, or indent it more",
@@ -70,7 +72,7 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
                          : suggestion(entry.key, keys_beside(stage->key)));
     }
     if (!stage && good) problems.add(item.mark, "E-STAGE", "the item has no stage", "- clip: {plane: z=0}");
-    return good ? stage : nullptr;
+    return good || known ? stage : nullptr; // its options are looked at, too
 }
 
 /// A name from a file that is a path as a whole ("${part}") becomes the name of a file, not a way to

@@ -18,6 +18,9 @@ Questions questions_of(const Scene& scene, const ProbeOptions& o, const Context&
     if (!o.points_of.empty() && q.sources.empty())
         throw Error(ErrorKind::usage, "E-PART", "'points_of' names no part of the scene",
                     "facetmill info lists them");
+    if (q.surface.empty() && !q.sources.empty())
+        throw Error(ErrorKind::usage, "E-PART", "'points_of' leaves no part to ask",
+                    "the other parts are the surface: load one, or name fewer");
     return q;
 }
 

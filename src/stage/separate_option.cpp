@@ -73,6 +73,11 @@ void declare_separate(Declare<SeparateOptions>& d) {
     d.option("most", &SeparateOptions::most, "Refuses to make more parts than this (a count).").at_least(1);
 }
 
+void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems) {
+    if (given.find("attribute") && o.by != By::group)
+        problems.add(given.mark, "E-SEPARATE", "separate: 'attribute' goes with by: group");
+}
+
 PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {
     const Mesh& mesh = part.mesh;
     if (o.by == By::material) return by_material(part, scene);

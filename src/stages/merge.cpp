@@ -1,5 +1,6 @@
 #include "stage/stage.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -34,6 +35,16 @@ void mark_group(Mesh& mesh, std::uint32_t number) {
                                std::vector<std::uint32_t>(mesh.face_count(), number)});
 }
 
+/// The name, or with a number behind it when another part has it.
+std::string free_name(const std::string& name, const std::vector<Part>& others) {
+    const auto taken = [&](const std::string& n) {
+        return std::any_of(others.begin(), others.end(), [&](const Part& part) { return part.name == n; });
+    };
+    std::string free = name;
+    for (int n = 2; taken(free); ++n) free = fmt::format("{}_{}", name, n);
+    return free;
+}
+
 Scene run(Scene scene, const MergeOptions& o, Context& context) {
     std::vector<Part> rest;
     std::optional<Part> joined;
@@ -61,7 +72,7 @@ Scene run(Scene scene, const MergeOptions& o, Context& context) {
     std::size_t welded = 0;
     if (joined) {
         if (o.weld) welded = weld_exact(joined->mesh);
-        if (!o.name.empty()) joined->name = o.name;
+        if (!o.name.empty()) joined->name = free_name(o.name, rest);
         context.result() = {{"part", joined->name}, {"welded_vertices", welded}};
         rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(place), std::move(*joined));
     }

@@ -22,14 +22,13 @@ void require_few(std::size_t parts, std::int64_t most) {
                     "remove small pieces first (clean: {components: {faces: 10}}), or raise most");
 }
 
-/// The first piece keeps the part's node and skin, the others stand beside it.
+/// The first piece keeps the part's node, the others stand beside it; all keep its skin.
 Part piece_of(const Part& part, Mesh mesh, std::string name, bool first) {
     Part piece;
     piece.name = std::move(name), piece.mesh = std::move(mesh);
     piece.changed = true;
-    if (first || !part.skinned) piece.transform = part.transform;
-    if (!first) return piece;
-    piece.skinned = part.skinned;
+    piece.transform = part.transform, piece.skinned = part.skinned;
+    if (!first && !part.skinned) return piece;
     piece.document = part.document, piece.node = part.node, piece.source_mesh = part.source_mesh;
     return piece;
 }
@@ -69,9 +68,10 @@ const RegisterStage registered = make_stage<SeparateOptions>(
      .details = "Each piece becomes a part of its own, named after the part and its number, material or "
                 "group, in the order of their first faces. Vertices and wedges that pieces share are copied, "
                 "attributes kept, isolated vertices dropped. The first piece keeps the part's node, the "
-                "others stand beside it. A part of one piece stays as it is.",
+                "others stand beside it; all keep its skin. A cavity is a piece of its own. A part of one "
+                "piece stays as it is.",
      .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"}},
-    declare_separate, run);
+    declare_separate, run, {.verify = verify_separate});
 
 } // namespace
 

@@ -176,10 +176,13 @@ TEST_CASE("what is wrong with a pipeline is said with its place and the way out"
 
 TEST_CASE("all errors are reported at once", "[pipeline]") {
     const auto problems =
-        planned(stages("  - test-cot\n  - test-cut: {capp: 1, faces: x}\n  - test-write\n")).problems;
+        planned(stages("  - test-cot\n  - test-cut: {capp: 1, faces: x}\n  - test-cut: three\n    ony: a\n"
+                       "  - test-write\n"))
+            .problems;
     for (const char* id :
          {"[E-STAGE]: there is no stage 'test-cot'", "[E-KEY]: test-cut has no option 'capp'",
-          "[E-TYPE]: expected an integer", "[E-MISSING]: test-write: 'path' is needed"})
+          "[E-TYPE]: expected an integer, found 'x'", "[E-TYPE]: expected an integer, found 'three'",
+          "[E-KEY]: 'ony' is no key of an item", "[E-MISSING]: test-write: 'path' is needed"})
         CHECK(problems.find(id) != std::string::npos);
 }
 

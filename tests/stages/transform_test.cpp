@@ -123,6 +123,42 @@ TEST_CASE("transform refuses what would flatten the parts", "[stages]") {
           "usage [E-TRANSFORM] test.yaml:1:13: transform: translate takes three lengths, found 2");
 }
 
+TEST_CASE("options without effect are named", "[stages]") {
+    CHECK(failure([] {
+              run_stage("transform", "{about: centre}", scene_of(shapes::cube()));
+          }).find("about goes with scale or rotate") != std::string::npos);
+    CHECK(failure([] {
+              run_stage("separate", "{attribute: patch}", scene_of(shapes::cube()));
+          }).find("'attribute' goes with by: group") != std::string::npos);
+}
+
+TEST_CASE("merge gives no part the name of another", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    for (const char* name : {"arm", "leg"}) {
+        scene.parts.push_back(scene.parts[0]);
+        scene.parts.back().name = name;
+    }
+    const StageInfo& merge = test::stage_for_test("merge");
+    Problems problems;
+    const auto options = test::options_of(merge, Value::scalar("leg"), problems);
+    test::StageRun run;
+    const PartFilter some{{"part", "arm"}};
+    Context context(*run.state, run.record, some, scene.bounds(), {});
+    const Scene merged = merge.run(std::move(scene), options.get(), context);
+    REQUIRE(merged.parts.size() == 2);
+    CHECK(merged.parts[0].name == "leg_2");
+}
+
+TEST_CASE("all pieces of a skinned part keep its skin", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    append(scene.parts[0].mesh, shapes::cube());
+    scene.parts[0].skinned = true;
+    scene.parts[0].document = 0, scene.parts[0].node = 3;
+    const auto run = run_stage("separate", "", scene);
+    REQUIRE(run.scene.parts.size() == 2);
+    for (const Part& part : run.scene.parts) CHECK((part.skinned && part.document == 0 && part.node == 3));
+}
+
 TEST_CASE("merge joins parts in the world, separate takes them apart again", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     scene.parts.push_back(scene.parts[0]);
