@@ -13,9 +13,10 @@ namespace {
 using namespace clean_steps;
 
 bool untangle(Work& work, const CleanSettings& s) {
-    if (s.self_intersections == Untangle::off) return false;
+    if (s.self_intersections == Untangle::off || work.untangled) return false;
     SelfIntersections found = crossings(work.mesh);
-    if (found.count == 0) return false;
+    work.untangled = found.count == 0;
+    if (work.untangled) return false;
     if (found.count > found.pairs.size()) {
         work.not_done.push_back({"self_intersections",
                                  fmt::format("{} pairs of faces intersect, and more than {} are not tried",
@@ -24,7 +25,7 @@ bool untangle(Work& work, const CleanSettings& s) {
         return false;
     }
     bool changed = s.self_intersections != Untangle::local && unite_solids(work, found, s);
-    if (s.self_intersections == Untangle::unite) return changed;
+    if (s.self_intersections == Untangle::unite || work.untangled) return changed;
     if (changed) found = crossings(work.mesh);
     return resolve_self_intersections(work, std::move(found)) || changed;
 }
@@ -32,26 +33,30 @@ bool untangle(Work& work, const CleanSettings& s) {
 bool one_round(Work& work, const CleanSettings& s) {
     work.not_done.clear();
     bool changed = false;
+    const auto did = [&](bool any) {
+        changed |= any;
+        if (any) work.untangled = false;
+    };
     // What a patch runs into is united with it in the next round, or told there.
     const bool may_cross = s.self_intersections == Untangle::unite || s.self_intersections == Untangle::all;
-    if (s.weld != Nearness::off) changed |= weld_equal(work, s.non_manifold);
-    if (s.weld == Nearness::near) changed |= weld_near(work, s.within);
-    if (s.degenerate) changed |= remove_degenerate(work);
-    if (s.duplicates) changed |= remove_duplicates(work);
+    if (s.weld != Nearness::off) did(weld_equal(work, s.non_manifold));
+    if (s.weld == Nearness::near) did(weld_near(work, s.within));
+    if (s.degenerate) did(remove_degenerate(work));
+    if (s.duplicates) did(remove_duplicates(work));
     if (s.t_vertices != Nearness::off)
-        changed |= resolve_t_vertices(work, s.t_vertices == Nearness::near ? s.within : 0);
-    if (s.stitch != Nearness::off) changed |= stitch(work, s.stitch == Nearness::near ? s.within : 0);
+        did(resolve_t_vertices(work, s.t_vertices == Nearness::near ? s.within : 0));
+    if (s.stitch != Nearness::off) did(stitch(work, s.stitch == Nearness::near ? s.within : 0));
     if (s.holes && s.non_manifold) { // holes that touch at a vertex would be one hole once it is split
         const std::size_t told = work.not_done.size();
-        changed |= fill_holes(work, *s.holes, nullptr, may_cross);
+        did(fill_holes(work, *s.holes, nullptr, may_cross));
         work.not_done.resize(told); // those that stay are told below
     }
-    if (s.non_manifold) changed |= split_non_manifold(work);
+    if (s.non_manifold) did(split_non_manifold(work));
     changed |= untangle(work, s);
-    if (s.holes) changed |= fill_holes(work, *s.holes, nullptr, may_cross);
-    if (s.components) changed |= remove_components(work, *s.components);
-    if (s.shells) changed |= remove_inner_shells(work);
-    if (s.isolated) changed |= remove_isolated(work);
+    if (s.holes) did(fill_holes(work, *s.holes, nullptr, may_cross));
+    if (s.components) did(remove_components(work, *s.components));
+    if (s.shells) did(remove_inner_shells(work));
+    if (s.isolated) did(remove_isolated(work));
     return changed;
 }
 

@@ -71,6 +71,9 @@ struct CleanCounts {
     std::size_t united_pieces = 0; ///< closed pieces that intersected and are part of a union now
     std::size_t refined_faces = 0; ///< cut where they intersected, once per pass
     std::size_t covered_faces = 0; ///< intersected nothing and lay inside another piece
+    /// Edges of more than two faces that unions made, where solids touch; none if non_manifold takes them
+    /// apart.
+    std::size_t touching_edges = 0;
     std::size_t total() const;
     bool operator==(const CleanCounts&) const = default;
 };

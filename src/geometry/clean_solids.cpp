@@ -22,7 +22,7 @@ const char* reason(Fitness f) {
     case Fitness::disagreeing:
         return "has faces that disagree about the outside (orient first)";
     case Fitness::flat:
-        return "has faces without area (see degenerate)";
+        return "has faces without area (see degenerate), or of no finite size";
     }
     return "";
 }
@@ -40,7 +40,8 @@ std::vector<Fitness> fitness_of(const Mesh& mesh, const Components& pieces) {
         if (f == Fitness::fit) f = Fitness::disagreeing;
     }
     for (Index f = 0; f < mesh.face_count(); ++f)
-        if (is_degenerate(mesh, f)) fitness[pieces.of_face[f]] = Fitness::flat;
+        if (is_degenerate(mesh, f) || !is_finite(middle_of_face(mesh, f)))
+            fitness[pieces.of_face[f]] = Fitness::flat;
     return fitness;
 }
 

@@ -13,7 +13,8 @@ struct Work {
     Mesh mesh;
     CleanCounts counts;
     std::vector<NotDone> not_done;
-    Fates fates; ///< of the step that mixed attributes last
+    Fates fates;            ///< of the step that mixed attributes last
+    bool untangled = false; ///< the mesh is known to have no crossings
 };
 
 /// Vertices at one place become the lowest of them. Where the faces that meet there would only come apart

@@ -11,8 +11,10 @@ namespace facetmill::clean_steps {
 namespace {
 
 constexpr int most_passes = 8;
-/// Face attribute that tells, while this step works, the cluster (counted from 1) that a face came from.
+/// Face attribute that tells, while this step works, the cluster (counted from 1) that a face came from, and
+/// whether the last pass made it.
 constexpr std::string_view mark_name = "facetmill:solid";
+constexpr std::uint32_t fresh = std::uint32_t{1} << 31;
 
 void put_marks(Mesh& mesh, const Solids& solids) {
     std::vector<std::uint32_t> marks(mesh.face_count());
@@ -45,7 +47,7 @@ class Trial {
         for (int pass = 0; pass < most_passes; ++pass) {
             if (!one_pass(solids, found)) return std::move(failures_);
             tidy();
-            found = crossings_of_marked();
+            found = crossings_of_fresh();
             if (found.pairs.empty()) return std::move(failures_);
             solids = find_solids(work_.mesh, found);
             check_marks(solids, found);
@@ -68,7 +70,7 @@ class Trial {
 
   private:
     void fail(std::uint32_t mark, std::string why) {
-        if (mark != 0) failures_.try_emplace(mark - 1, std::move(why));
+        if ((mark & ~fresh) != 0) failures_.try_emplace((mark & ~fresh) - 1, std::move(why));
     }
 
     bool one_pass(const Solids& solids, const SelfIntersections& found) {
@@ -80,6 +82,9 @@ class Trial {
         }
         if (!united.refused.empty()) return false;
         work_.mesh = std::move(united.mesh), work_.fates = std::move(united.fates);
+        auto& marks = std::get<std::vector<std::uint32_t>>(work_.mesh.find(mark_name, Domain::face)->data);
+        for (std::size_t f = 0; f < marks.size(); ++f)
+            marks[f] = (marks[f] & ~fresh) | (f < united.uncut_faces ? 0 : fresh);
         work_.counts.refined_faces += united.cut_faces;
         work_.counts.covered_faces += united.covered_faces;
         return true;
@@ -95,13 +100,14 @@ class Trial {
         work_.counts = before; // a part of the union
     }
 
-    SelfIntersections crossings_of_marked() const {
+    /// Faces that are not fresh cross as little as they did before the last pass.
+    SelfIntersections crossings_of_fresh() const {
         const auto marks = marks_of(work_.mesh);
         std::vector<std::uint8_t> among(marks.size());
-        for (std::size_t f = 0; f < among.size(); ++f) among[f] = marks[f] != 0;
+        for (std::size_t f = 0; f < among.size(); ++f) among[f] = (marks[f] & fresh) != 0;
         SelfIntersections found = crossings(work_.mesh, std::move(among));
         std::erase_if(found.pairs, [&](const auto& pair) { // there before
-            const auto m = marks[pair.first], n = marks[pair.second];
+            const auto m = marks[pair.first] & ~fresh, n = marks[pair.second] & ~fresh;
             return (m == 0 && solids_.meets_unfit[n - 1]) || (n == 0 && solids_.meets_unfit[m - 1]);
         });
         return found;
@@ -112,7 +118,7 @@ class Trial {
         const auto marks = marks_of(work_.mesh);
         for (const auto& [f, g] : found.pairs)
             for (const auto& [one, other] : {std::pair{f, g}, std::pair{g, f}})
-                if (marks[other] == 0)
+                if ((marks[other] & ~fresh) == 0)
                     fail(marks[one], "the union, rounded, would run into another piece");
                 else if (!solids.closed[solids.pieces.of_face[one]])
                     fail(marks[one], "the union, rounded, would not be closed");
@@ -124,18 +130,20 @@ class Trial {
     Failures failures_;
 };
 
-/// The clusters whose faces do not close any more.
-Failures open_clusters(const Mesh& mesh, const Solids& before) {
+/// The clusters whose faces do not close any more; counts the edges of more than two faces of clusters.
+Failures open_clusters(const Mesh& mesh, std::size_t& crowded) {
     Failures failures;
+    crowded = 0;
     const auto marks = marks_of(mesh);
     const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
     for (Index e = 0; e < edges.size(); ++e) {
         int balance = 0;
         for (const Index c : edges.corners_of(e)) balance += mesh.vertex(c) == edges.edges[e].low ? 1 : -1;
-        for (const Index c : edges.corners_of(e))
-            if (balance != 0 && marks[faces[c]] != 0 && marks[faces[c]] <= before.clusters())
-                failures.try_emplace(marks[faces[c]] - 1, "the union, rounded, would not be closed");
+        const auto mark = marks[faces[edges.corners_of(e)[0]]] & ~fresh;
+        crowded += mark != 0 && edges.corners_of(e).size() > 2;
+        if (balance != 0 && mark != 0)
+            failures.try_emplace(mark - 1, "the union, rounded, would not be closed");
     }
     return failures;
 }
@@ -144,6 +152,7 @@ Failures open_clusters(const Mesh& mesh, const Solids& before) {
 
 bool unite_solids(Work& work, const SelfIntersections& found, const CleanSettings& settings) {
     Solids solids = find_solids(work.mesh, found);
+    bool left = !solids.unfit.empty();
     for (NotDone& n : solids.unfit) work.not_done.push_back(std::move(n));
     const auto any = [&] {
         return std::any_of(solids.cluster.begin(), solids.cluster.end(), [](Index c) { return c != none; });
@@ -151,13 +160,17 @@ bool unite_solids(Work& work, const SelfIntersections& found, const CleanSetting
     while (any()) {
         Trial trial(work, solids, settings);
         Failures failures = trial.run(found);
-        if (failures.empty()) failures = open_clusters(trial.mesh(), solids);
+        std::size_t crowded = 0;
+        if (failures.empty()) failures = open_clusters(trial.mesh(), crowded);
         if (failures.empty()) {
-            const auto not_done = std::move(work.not_done);
+            auto not_done = std::move(work.not_done);
             work = trial.finish();
-            work.not_done = not_done;
+            work.counts.touching_edges += crowded;
+            work.untangled = !left;
+            work.not_done = std::move(not_done);
             return true;
         }
+        left = true;
         for (auto& [cluster, why] : failures) {
             work.not_done.push_back({"self_intersections", std::move(why), solids.at[cluster]});
             for (Index& c : solids.cluster)

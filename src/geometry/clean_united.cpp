@@ -1,5 +1,6 @@
 #include "geometry/clean_united.hpp"
 
+#include "base/memory.hpp"
 #include "geometry/clean_united_mesh.hpp"
 #include "geometry/evidence.hpp"
 #include "geometry/surface.hpp"
@@ -17,6 +18,8 @@ constexpr const char* inside_out = "a piece is inside out and no cavity of a sol
 constexpr const char* too_many = "more than a million pairs of triangles meet, or the lines where they do "
                                  "could cross more than two million "
                                  "times: more than can be united in reasonable time";
+
+constexpr const char* no_memory = "there is not enough memory to unite so many faces that intersect";
 
 /// The winding number on the two sides of a patch, by what turns outward and what turns inward.
 struct Sides {
@@ -45,7 +48,9 @@ class Uniting {
         mark_cut_faces();
         merge_where_cut();
         gather();
-        Arrangement arrangement(soup());
+        TriangleSoup soup = triangle_soup();
+        if (refuse_for_memory(soup)) return std::move(result_);
+        Arrangement arrangement(std::move(soup));
         if (const auto full = arrangement.overfull()) {
             refuse(cluster_of(*full), too_many);
             return std::move(result_);
@@ -65,6 +70,16 @@ class Uniting {
         for (const auto& r : result_.refused)
             if (r.cluster == cluster) return;
         result_.refused.push_back({cluster, why});
+    }
+
+    bool refuse_for_memory(const TriangleSoup& soup) {
+        constexpr double bytes_a_pair = 3000, bytes_a_triangle = 200; // measured
+        const auto available = available_memory();
+        const double needed = bytes_a_pair * static_cast<double>(soup.pairs.size()) +
+                              bytes_a_triangle * static_cast<double>(soup.triangles.size());
+        if (!available || needed < static_cast<double>(*available)) return false;
+        for (Index c = 0; c < solids_.clusters(); ++c) refuse(c, no_memory);
+        return true;
     }
 
     void mark_cut_faces() {
@@ -114,7 +129,7 @@ class Uniting {
         return !is_degenerate(mesh_.positions[n[0]], mesh_.positions[n[1]], mesh_.positions[n[2]]);
     }
 
-    TriangleSoup soup() const {
+    TriangleSoup triangle_soup() const {
         TriangleSoup soup;
         soup.points = mesh_.positions;
         for (Index t = 0; t < triangles_.face.size(); ++t) {
@@ -259,8 +274,9 @@ class Uniting {
         std::stable_sort(pieces.begin(), pieces.end(),
                          [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
         result_.cut_faces = static_cast<std::size_t>(std::count(cut_.begin(), cut_.end(), 1));
-        result_.mesh =
-            united_mesh(mesh_, faces_without(goes), pieces, arrangement, triangles_, result_.fates);
+        const auto uncut = faces_without(goes);
+        result_.uncut_faces = uncut.size();
+        result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, result_.fates);
     }
 
     Mesh mesh_; ///< vertices merged where faces are cut

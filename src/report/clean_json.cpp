@@ -25,6 +25,7 @@ Json counts_json(const CleanCounts& n) {
             {"united_pieces", n.united_pieces},
             {"refined_faces", n.refined_faces},
             {"covered_faces", n.covered_faces},
+            {"touching_edges", n.touching_edges},
             {"intersecting_faces", n.intersecting_faces}};
 }
 

@@ -94,6 +94,19 @@ TEST_CASE("clean unites boxes that overlap, share faces or touch", "[geometry]")
     CHECK(test::euler(mesh) == c.euler);
 }
 
+TEST_CASE("clean counts the edges where united solids touch, unless it takes them apart", "[geometry]") {
+    const Mesh mesh = together({box({0, 0, 0}, {2, 2, 2}), box({2, 2, 1}, {4, 4, 3})});
+    CleanSettings s = uniting();
+    CHECK(clean(mesh, s).counts.touching_edges == 0);
+    s.non_manifold = false;
+    const auto r = clean(mesh, s);
+    CHECK(r.counts.touching_edges == 1);
+    CHECK(test::closed(r.mesh));
+    CHECK(!test::edge_manifold(r.mesh));
+    CHECK(inspect(r.mesh, {.self_intersections = true}).self_intersections == 0);
+    CHECK(test::broken_clean_law(mesh, s).empty());
+}
+
 TEST_CASE("clean unites three boxes as inclusion and exclusion have it", "[geometry]") {
     const Mesh mesh = united(together({box({-1, -1, -1}, {1, 1, 1}), box({0, 0, 0}, {2, 2, 2}),
                                        box({-0.5, -0.5, -1.75}, {1.5, 1.5, 0.25})}));
