@@ -11,6 +11,9 @@ namespace facetmill::clean_steps {
 namespace {
 
 constexpr int most_passes = 8;
+/// Where passes make new crossings, points that are this near (of the size of the mesh) become one, and eight
+/// times as far in each pass after; in the first, only those that round to one place.
+constexpr double nearest = 1.0 / static_cast<double>(std::int64_t{1} << 50);
 /// Face attribute that tells, while this step works, the cluster (counted from 1) that a face came from, and
 /// whether the last pass made it.
 constexpr std::string_view mark_name = "facetmill:solid";
@@ -43,9 +46,11 @@ class Trial {
         for (Index p = 0; p < solids_.pieces.count; ++p)
             work_.counts.united_pieces += solids_.cluster[p] != none;
         SelfIntersections found = first;
+        double within = 0;
         Solids solids = solids_;
         for (int pass = 0; pass < most_passes; ++pass) {
-            if (!one_pass(solids, found)) return std::move(failures_);
+            if (!one_pass(solids, found, within)) return std::move(failures_);
+            within = within > 0 ? 8 * within : nearest * work_.mesh.bounds().diagonal();
             tidy();
             found = crossings_of_fresh();
             if (found.pairs.empty()) return std::move(failures_);
@@ -73,8 +78,8 @@ class Trial {
         if ((mark & ~fresh) != 0) failures_.try_emplace((mark & ~fresh) - 1, std::move(why));
     }
 
-    bool one_pass(const Solids& solids, const SelfIntersections& found) {
-        United united = unite(work_.mesh, solids, found);
+    bool one_pass(const Solids& solids, const SelfIntersections& found, double within) {
+        United united = unite(work_.mesh, solids, found, within);
         for (const auto& refused :
              united.refused) { // a cluster of this pass; its marks say which of the first
             for (Index f = 0; f < work_.mesh.face_count(); ++f)
@@ -94,7 +99,10 @@ class Trial {
     void tidy() {
         const CleanCounts before = work_.counts;
         if (settings_.weld != Nearness::off) weld_equal(work_, settings_.non_manifold);
-        if (settings_.degenerate) remove_degenerate(work_);
+        if (settings_.degenerate) {
+            take_out_flat(work_);
+            remove_degenerate(work_);
+        }
         if (settings_.duplicates) remove_duplicates(work_);
         if (settings_.non_manifold) split_non_manifold(work_);
         work_.counts = before; // a part of the union

@@ -41,8 +41,8 @@ struct Leaf {
 
 class Uniting {
   public:
-    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found)
-        : mesh_(mesh), solids_(solids), found_(found) {}
+    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within)
+        : mesh_(mesh), solids_(solids), found_(found), within_(within) {}
 
     United run() {
         mark_cut_faces();
@@ -276,12 +276,13 @@ class Uniting {
         result_.cut_faces = static_cast<std::size_t>(std::count(cut_.begin(), cut_.end(), 1));
         const auto uncut = faces_without(goes);
         result_.uncut_faces = uncut.size();
-        result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, result_.fates);
+        result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, within_, result_.fates);
     }
 
     Mesh mesh_; ///< vertices merged where faces are cut
     const Solids& solids_;
     const SelfIntersections& found_;
+    double within_;
     std::vector<std::uint8_t> cut_;              ///< [faces]
     std::vector<std::pair<Index, Index>> pairs_; ///< of faces that are cut
     Surface surface_;
@@ -296,8 +297,8 @@ class Uniting {
 
 } // namespace
 
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found) {
-    return Uniting(mesh, solids, found).run();
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within) {
+    return Uniting(mesh, solids, found, within).run();
 }
 
 } // namespace facetmill::clean_steps

@@ -23,7 +23,12 @@ struct United {
 /// the other, facing out. Faces that are not cut stay polygons and keep their order; the pieces of cut ones
 /// are triangles and come last. Vertices at one place where faces are cut become one. Attributes of new
 /// corners are mixed within the face that they are part of, those on an edge between its ends only, so that
-/// seams stay seams. Coordinates are rounded: the result may intersect again.
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found);
+/// seams stay seams. Coordinates are rounded, and new vertices within a distance of others become them: the
+/// result may intersect again.
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within);
+
+/// Takes triangles of exactly no area out of a closed surface without opening it: the vertex between the two
+/// others is put on the edge of the face across. Those for which there is none are left.
+void take_out_flat(Work& work);
 
 } // namespace facetmill::clean_steps

@@ -6,6 +6,8 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <unordered_map>
+#include <utility>
 
 namespace facetmill::clean_steps {
 
@@ -37,8 +39,9 @@ std::array<double, 3> barycentric(const Vec3& p, const Vec3& a, const Vec3& b, c
 
 class Assembly {
   public:
-    Assembly(const Mesh& mesh, const Arrangement& arrangement, const TriangleFaces& triangles)
-        : mesh_(mesh), arrangement_(arrangement), triangles_(triangles), plain_(is_plain(mesh)) {
+    Assembly(const Mesh& mesh, const Arrangement& arrangement, const TriangleFaces& triangles, double within)
+        : mesh_(mesh), arrangement_(arrangement), triangles_(triangles), within_(within),
+          plain_(is_plain(mesh)) {
         result_.positions = mesh.positions, result_.face_offsets = mesh.face_offsets;
         result_.corners = mesh.corners;
         if (!plain_) {
@@ -54,9 +57,11 @@ class Assembly {
     }
 
     Mesh run(std::vector<Index> kept, const std::vector<OuterPiece>& pieces, Fates& fates) {
+        std::vector<std::uint8_t> seen(mesh_.vertex_count(), 0);
         for (const OuterPiece& p : pieces)
             for (const Index node : p.nodes)
-                if (node < mesh_.vertex_count()) at_place_.try_emplace(key(mesh_.positions[node]), node);
+                if (node < seen.size() && !std::exchange(seen[node], 1))
+                    at_place_[cell(mesh_.positions[node])].push_back(node);
         for (const OuterPiece& p : pieces) add(p);
         for (Index f = static_cast<Index>(mesh_.face_count()); f < result_.face_count(); ++f)
             kept.push_back(f);
@@ -67,7 +72,25 @@ class Assembly {
 
   private:
     using Place = std::tuple<double, double, double>;
-    static Place key(const Vec3& p) { return {p.x, p.y, p.z}; }
+    Place cell(const Vec3& p, const Vec3& beside = {}) const {
+        const auto place = [&](double x, double d) { return within_ > 0 ? std::floor(x / within_) + d : x; };
+        return {place(p.x, beside.x), place(p.y, beside.y), place(p.z, beside.z)};
+    }
+
+    /// The lowest vertex at the place or near it.
+    Index vertex_near(const Vec3& p) const {
+        Index lowest = none;
+        const int reach = within_ > 0 ? 1 : 0;
+        for (int i = -reach; i <= reach; ++i)
+            for (int j = -reach; j <= reach; ++j)
+                for (int k = -reach; k <= reach; ++k) {
+                    const auto at = at_place_.find(cell(p, {double(i), double(j), double(k)}));
+                    if (at == at_place_.end()) continue;
+                    for (const Index v : at->second)
+                        if (length(result_.positions[v] - p) <= within_) lowest = std::min(lowest, v);
+                }
+        return lowest;
+    }
 
     static bool is_plain(const Mesh& mesh) {
         return !mesh.has_seams() &&
@@ -87,15 +110,17 @@ class Assembly {
     Index vertex_of(Index node, Index triangle) {
         if (node < mesh_.vertex_count()) return node;
         const Vec3 place = arrangement_.position(node);
-        const auto [at, fresh] =
-            at_place_.try_emplace(key(place), static_cast<Index>(result_.positions.size()));
-        if (fresh) {
-            result_.positions.push_back(place);
-            Mix m = mix_of(node, triangle);
-            for (std::size_t i = 0; i < m.size; ++i) m.corners[i] = mesh_.vertex(m.corners[i]);
-            push(descent_.vertices, m);
-        }
-        return at->second;
+        const auto [known, unknown] = of_node_.try_emplace(node, none);
+        if (!unknown) return known->second;
+        known->second = vertex_near(place);
+        if (known->second != none) return known->second;
+        known->second = static_cast<Index>(result_.positions.size());
+        at_place_[cell(place)].push_back(known->second);
+        result_.positions.push_back(place);
+        Mix m = mix_of(node, triangle);
+        for (std::size_t i = 0; i < m.size; ++i) m.corners[i] = mesh_.vertex(m.corners[i]);
+        push(descent_.vertices, m);
+        return known->second;
     }
 
     Index wedge_of(Index node, Index vertex, Index triangle) {
@@ -142,18 +167,21 @@ class Assembly {
     const Mesh& mesh_;
     const Arrangement& arrangement_;
     const TriangleFaces& triangles_;
+    double within_;
     bool plain_; ///< a vertex is all there is to a wedge
     Mesh result_;
     Descent descent_;
-    std::map<Place, Index> at_place_;                              ///< vertices that pieces use
+    std::map<Place, std::vector<Index>> at_place_;                 ///< vertices that pieces use, by cell
+    std::unordered_map<Index, Index> of_node_;                     ///< vertices of new nodes
     std::map<std::tuple<Index, Index, Index, Index>, Index> made_; ///< wedges
 };
 
 } // namespace
 
 Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
-                 const Arrangement& arrangement, const TriangleFaces& triangles, Fates& fates) {
-    return Assembly(mesh, arrangement, triangles).run(uncut, pieces, fates);
+                 const Arrangement& arrangement, const TriangleFaces& triangles, double within,
+                 Fates& fates) {
+    return Assembly(mesh, arrangement, triangles, within).run(uncut, pieces, fates);
 }
 
 } // namespace facetmill::clean_steps

@@ -19,9 +19,10 @@ struct TriangleFaces {
     std::vector<std::array<Index, 3>> corners; ///< [triangles] of the face
 };
 
-/// The uncut faces, then the pieces; vertices and wedges that lose their last face go. Nodes that round to
-/// one place are one vertex, and pieces that lose a corner by that are left out.
+/// The uncut faces, then the pieces; vertices and wedges that lose their last face go. New nodes that round
+/// to the place of a vertex, or within a distance of it (the lowest such), become it, and pieces that lose a
+/// corner by that are left out.
 Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
-                 const Arrangement& arrangement, const TriangleFaces& triangles, Fates& fates);
+                 const Arrangement& arrangement, const TriangleFaces& triangles, double within, Fates& fates);
 
 } // namespace facetmill::clean_steps

@@ -8,6 +8,7 @@
 #include "base/parallel.hpp"
 #include "geometry/clean.hpp"
 #include "geometry/clean_steps.hpp"
+#include "geometry/clean_united.hpp"
 #include "geometry/inspect.hpp"
 #include "mesh/invariants.hpp"
 
@@ -262,6 +263,32 @@ TEST_CASE("the union of turned spheres is CGAL's", "[geometry]") {
         CHECK(test::area(mesh) == Approx(test::area(oracle)).epsilon(1e-12));
         CHECK(test::euler(mesh) == test::euler(oracle));
     }
+}
+
+TEST_CASE("clean unites solids whose walls nearly run along each other", "[geometry]") {
+    // Their slits are so narrow that rounding closes and crosses many of them.
+    for (int i = 1; i <= 8; ++i) {
+        const Mesh a = shapes::torus(16, 8, 0.6, 0.2), b = moved(a, {0.061 * i, 0, 0});
+        const Mesh c = moved(shapes::torus(24, 6, 0.6, 0.2), {-0.037 * i, 0, 0});
+        const Mesh mesh = united(together({a, b, c}));
+        CHECK(test::volume(mesh) ==
+              Approx(test::volume(oracle::union_of(oracle::union_of(a, b), c))).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("triangles without area are taken out of a closed surface", "[geometry]") {
+    clean_steps::Work work;
+    work.mesh = shapes::tetrahedron(); // faces 0 2 1, 0 1 3, 1 2 3, 2 0 3
+    work.mesh.positions.push_back({0.5, 0, 0});
+    work.mesh.positions.push_back({0.25, 0, 0});
+    // The first face ends at 4, and flat faces on 0 1 and on 0 4 lead from there to the second.
+    work.mesh.corners = {0, 2, 4, 4, 2, 1, 0, 4, 5, 5, 4, 0, 0, 4, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    REQUIRE(test::closed(work.mesh));
+    REQUIRE(inspect(work.mesh).degenerate_faces == 3);
+    clean_steps::take_out_flat(work);
+    CHECK(test::closed(work.mesh));
+    CHECK(inspect(work.mesh).degenerate_faces == 0);
+    CHECK(test::volume(work.mesh) == Approx(1.0 / 6));
 }
 
 TEST_CASE("clean unites solids to the same bytes for any number of threads", "[geometry]") {
