@@ -105,9 +105,11 @@ void compare_places(const Comparing& with) {
     const double most = !limit           ? std::numeric_limits<double>::max()
                         : limit->percent ? limit->amount / 100 * x.bounds().diagonal()
                                          : limit->amount;
+    DeviationSettings settings = with.settings.deviation; // the work is shared among the materials
+    settings.samples = settings.samples / all.size() + 1;
+    settings.certify = false;
     for (const Index material : all) {
-        const auto d =
-            deviation(of_material(x, a, material), of_material(y, b, material), with.settings.deviation);
+        const auto d = deviation(of_material(x, a, material), of_material(y, b, material), settings);
         with.add("materials", material == none ? "faces of none" : fmt::format("{} faces", material),
                  finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
                  "how far its faces are from those of the other file");
