@@ -60,6 +60,7 @@ const std::vector<KnownWarning>& known_warnings() {
         {"W-TRANSFORM", "A glTF node cannot move as its part has, or moves apart from what animates it."},
         {"W-UNITS", "A scene without a unit meets one that has a unit: numbers are taken as they are."},
         {"W-UNORIENTED", "Neighbouring faces disagree, so outlines and holes are told by nesting."},
+        {"W-UP", "A scene without an up axis gets one: it is not turned."},
     };
     return all;
 }

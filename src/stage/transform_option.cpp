@@ -46,7 +46,8 @@ void declare_transform(Declare<TransformOptions>& d) {
     d.choice<UpAxis>(
         "up", &TransformOptions::up,
         {{"unknown", UpAxis::unknown, "as it is"}, {"y", UpAxis::y, "+Y"}, {"z", UpAxis::z, "+Z"}},
-        "The axis that points up from here on; the scene turns so that up stays up.");
+        "The axis that points up from here on; the scene turns so that up stays up, but where it had no up "
+        "axis (W-UP).");
     d.option("scale", &TransformOptions::scale, "One factor, or one for each axis; negative ones mirror.");
     d.group("rotate", &TransformOptions::rotate, "A rotation, anticlockwise seen against the axis.",
             [](Declare<TransformRotation>& r) {

@@ -47,6 +47,12 @@ class Mover {
                           fmt::format("transform: the scene had no unit; its numbers are taken as {}",
                                       spelled(o_.unit)),
                           "say what the file's numbers mean when it is loaded (load: {unit: mm})");
+        if (converted.up_guessed)
+            context_.warn(
+                "W-UP",
+                fmt::format("transform: the scene had no up axis; nothing is turned, and {} is up now",
+                            spelled(o_.up)),
+                "say which axis is up in the file when it is loaded (load: {up: z})");
         return converted;
     }
 

@@ -46,6 +46,10 @@ TEST_CASE("transform converts units and the up axis, and sizes stay", "[stages]"
     check_box(run.scene.bounds(), {0.001, 0, -0.001}, {0.002, 0.001, 0});
     CHECK(run_stage("transform", "{unit: mm}", scene_of(shapes::cube())).record.warnings.at(0).id ==
           "W-UNITS");
+    const auto guessed = run_stage("transform", "{up: y}", scene_of(shapes::cube()));
+    CHECK(guessed.record.warnings.at(0).id == "W-UP");
+    CHECK(guessed.scene.up == UpAxis::y);
+    check_box(guessed.scene.bounds(), {0, 0, 0}, {1, 1, 1});
 }
 
 TEST_CASE("transform bakes no part that an animation moves", "[stages]") {
