@@ -169,19 +169,64 @@ Json& root_nodes(Json& document) {
     return nodes;
 }
 
+/// The node of the document that a new part was split off from; -1 for none.
+int origin_of(const Patch& patch, const Part& part) {
+    const bool there = part.document == patch.base && part.node >= 0 &&
+                       static_cast<std::size_t>(part.node) < patch.frames.size();
+    return there ? part.node : -1;
+}
+
+/// Where the part stands below a node that an animation moves, so that it moves along; nothing when it stands
+/// by itself.
+std::optional<Transform> place_below(const Patch& patch, const Part& part, int origin) {
+    const auto animated = animated_nodes(patch.builder.json());
+    bool moves = false;
+    for (int n = origin; n >= 0; n = patch.frames[static_cast<std::size_t>(n)].parent)
+        moves |= animated.contains(static_cast<std::size_t>(n));
+    if (!moves) return {};
+    const auto up = inverse(wanted_worlds(patch)[static_cast<std::size_t>(origin)]);
+    if (!up) return {};
+    const Transform local = *up * part.transform;
+    return nearly_same(local, {}) ? Transform{} : local;
+}
+
+/// A part that was split off has the morph weights of its origin, and their animation.
+void copy_weights(Patch& patch, int origin, std::size_t node) {
+    Json& document = patch.builder.json();
+    if (origin < 0 || target_count(document, document["nodes"][node]) == 0) return;
+    const Json& from = document["nodes"][static_cast<std::size_t>(origin)];
+    if (from.contains("weights")) document["nodes"][node]["weights"] = from["weights"];
+    if (!document.contains("animations")) return;
+    for (Json& animation : document["animations"]) {
+        Json more = Json::array();
+        for (const Json& channel : animation["channels"])
+            if (channel["target"].value("path", "") == "weights" &&
+                channel["target"].value("node", -1) == origin)
+                more.push_back(channel), more.back()["target"]["node"] = node;
+        for (Json& channel : more) animation["channels"].push_back(std::move(channel));
+    }
+}
+
 std::size_t add_node(Patch& patch, const Part& part, int mesh) {
     Json node = {{"name", part.name}};
     if (mesh >= 0) node["mesh"] = mesh;
     Json& document = patch.builder.json();
-    if (part.skinned && mesh >= 0 && part.document == patch.base && part.node >= 0 &&
-        static_cast<std::size_t>(part.node) < patch.frames.size()) {
-        const Json& source = patch.builder.source().json()["nodes"][static_cast<std::size_t>(part.node)];
+    const int origin = origin_of(patch, part);
+    std::optional<Transform> below;
+    if (part.skinned && mesh >= 0 && origin >= 0) {
+        const Json& source = patch.builder.source().json()["nodes"][static_cast<std::size_t>(origin)];
         if (source.contains("skin")) node["skin"] = source["skin"];
-    } else if (!part.transform.identity()) {
-        node["matrix"] = matrix(part.transform);
+    } else {
+        below = place_below(patch, part, origin);
+        const Transform& at = below ? *below : part.transform;
+        if (!at.identity()) node["matrix"] = matrix(at);
     }
     const std::size_t index = patch.builder.add("nodes", std::move(node));
-    root_nodes(document).push_back(index);
+    Json& siblings =
+        below ? document["nodes"][static_cast<std::size_t>(origin)]["children"] : root_nodes(document);
+    if (!siblings.is_array()) siblings = Json::array();
+    siblings.push_back(index);
+    copy_weights(patch, origin, index);
     return index;
 }
 

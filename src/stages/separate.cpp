@@ -22,14 +22,13 @@ void require_few(std::size_t parts, std::int64_t most) {
                     "remove small pieces first (clean: {components: {faces: 10}}), or raise most");
 }
 
-/// The first piece keeps the part's node, the others stand beside it; all keep its skin.
-Part piece_of(const Part& part, Mesh mesh, std::string name, bool first) {
+/// The first piece keeps the part's node, the others stand beside it; all keep its skin and its animation.
+Part piece_of(const Part& part, Mesh mesh, std::string name) {
     Part piece;
     piece.name = std::move(name), piece.mesh = std::move(mesh);
-    piece.changed = true;
     piece.transform = part.transform, piece.skinned = part.skinned;
-    if (!first && !part.skinned) return piece;
     piece.document = part.document, piece.node = part.node, piece.source_mesh = part.source_mesh;
+    piece.changed = true;
     return piece;
 }
 
@@ -54,8 +53,7 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context) {
         context.ledger(part, fates);
         result.push_back({{"part", part.name}, {"pieces", labels.names.size()}});
         for (std::size_t i = 0; i < pieces.size(); ++i)
-            parts.push_back(
-                piece_of(part, std::move(pieces[i]), unique_name(labels.names[i], taken), i == 0));
+            parts.push_back(piece_of(part, std::move(pieces[i]), unique_name(labels.names[i], taken)));
     }
     scene.parts = std::move(parts);
     context.result() = {{"parts", scene.parts.size()}, {"separated", std::move(result)}};
@@ -68,7 +66,8 @@ const RegisterStage registered = make_stage<SeparateOptions>(
      .details = "Each piece becomes a part of its own, named after the part and its number, material or "
                 "group, in the order of their first faces. Vertices and wedges that pieces share are copied, "
                 "attributes kept, isolated vertices dropped. The first piece keeps the part's node, the "
-                "others stand beside it; all keep its skin. A cavity is a piece of its own. A part of one "
+                "others stand beside it; all keep its skin and its "
+                "animation. A cavity is a piece of its own. A part of one "
                 "piece stays as it is.",
      .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"}},
     declare_separate, run, {.verify = verify_separate});

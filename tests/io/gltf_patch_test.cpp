@@ -85,6 +85,33 @@ TEST_CASE("an animated node that moved gets a node above it, and plays as before
     CHECK(again.parts.at(0).transform == scene.parts[0].transform);
 }
 
+TEST_CASE("what is split off an animated part moves along", "[io]") {
+    Json document = Json::parse(rich);
+    document["meshes"][0]["primitives"][0]["targets"] = Json::parse(R"([{"POSITION":0}])");
+    document["nodes"][0]["weights"] = {0.5};
+    document["animations"] = Json::parse(R"([{"channels":[{"sampler":0,"target":{"node":0,"path":"weights"}}],
+        "samplers":[{"input":0,"output":0}]}])");
+    const auto in_two = [](const Json& given) {
+        Scene scene = test::read_text(given.dump());
+        scene.parts.push_back(scene.parts[0]);
+        scene.parts[1].name = "piece";
+        return scene;
+    };
+    const Json still = written_json(in_two(document)); // it has weights only: the piece stands by itself
+    CHECK(still["nodes"][2]["weights"] == document["nodes"][0]["weights"]);
+    CHECK(still["nodes"][2].contains("matrix"));
+    CHECK(still["scenes"][0]["nodes"] == Json::array({0, 1, 2}));
+    CHECK(still["animations"][0]["channels"][1]["target"] == Json{{"node", 2}, {"path", "weights"}});
+    document["animations"][0]["channels"][0]["target"]["path"] = "translation";
+    Scene scene = in_two(document);
+    scene.parts[1].transform.m[0][3] += 5;
+    const Json moving = written_json(scene);
+    CHECK(moving["nodes"][0]["children"] == Json::array({2}));
+    CHECK(moving["nodes"][2]["matrix"] == Json::parse("[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1]"));
+    CHECK(moving["scenes"][0]["nodes"] == document["scenes"][0]["nodes"]);
+    CHECK(moving["animations"][0]["channels"].size() == 1);
+}
+
 TEST_CASE("a part that lost its skin moves by its node", "[io]") {
     Json document = Json::parse(rich);
     document["skins"] = Json::parse(R"([{"joints":[1]}])");
