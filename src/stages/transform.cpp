@@ -1,7 +1,6 @@
 #include "io/animated.hpp"
-#include "io/convert.hpp"
 #include "mesh/placement.hpp"
-#include "stage/transform_option.hpp"
+#include "stage/transform_report.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +20,8 @@ class Mover {
         : scene_(scene), o_(o), context_(context) {}
 
     void run() {
-        const io::Conversion converted = convert();
+        const io::Conversion converted = io::convert(scene_, {o_.unit, o_.up});
+        warn_of_conversion(converted, o_, context_);
         const Transform spin = spin_of(o_);
         const Vec3 fixed = o_.about == TransformOptions::About::centre ? box().centre() : Vec3{};
         if (!spin.identity()) move(moved(fixed) * spin * moved(-fixed));
@@ -30,32 +30,10 @@ class Mover {
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
         if (o_.ground && !box().empty()) move(moved(drop()));
         if (o_.bake) bake();
-        Json rows = Json::array();
-        for (const auto& row : all_.m) rows.push_back({row[0], row[1], row[2], row[3]});
-        context_.result() = {{"matrix", rows},
-                             {"unit_factor", converted.factor},
-                             {"unit", spelled(scene_.unit)},
-                             {"up", spelled(scene_.up)}};
+        context_.result() = described(scene_, converted, all_);
     }
 
   private:
-    io::Conversion convert() {
-        io::Conversion converted = io::convert(scene_, {o_.unit, o_.up});
-        for (const auto& name : converted.lost_skins) warn_of_skin(name);
-        if (converted.unit_guessed)
-            context_.warn("W-UNITS",
-                          fmt::format("transform: the scene had no unit; its numbers are taken as {}",
-                                      spelled(o_.unit)),
-                          "say what the file's numbers mean when it is loaded (load: {unit: mm})");
-        if (converted.up_guessed)
-            context_.warn(
-                "W-UP",
-                fmt::format("transform: the scene had no up axis; nothing is turned, and {} is up now",
-                            spelled(o_.up)),
-                "say which axis is up in the file when it is loaded (load: {up: z})");
-        return converted;
-    }
-
     Vec3 translation() const {
         Vec3 by;
         for (std::size_t i = 0; i < o_.translate.size(); ++i)
@@ -84,7 +62,7 @@ class Mover {
         for (Part& part : scene_.parts) {
             if (!context_.selects(part, scene_)) continue;
             part.transform = part.skinned ? t : t * part.transform;
-            if (part.skinned) warn_of_skin(part.name);
+            if (part.skinned) warn_of_skin(part.name, context_);
             part.skinned = false;
         }
     }
@@ -94,18 +72,10 @@ class Mover {
         const auto animated = io::animated_parts(scene_);
         context_.for_each_part(scene_, [&](Part& part) {
             if (animated[static_cast<std::size_t>(&part - scene_.parts.data())])
-                context_.warn("W-TRANSFORM",
-                              fmt::format("transform: part '{}' is animated and is not baked", part.name),
-                              "its node has moved; merge makes it a part that stands still");
+                warn_of_animation(part.name, context_);
             else if (!part.skinned)
                 apply(part.mesh, part.transform), part.transform = {};
         });
-    }
-
-    void warn_of_skin(const std::string& name) {
-        context_.warn("W-SKIN",
-                      fmt::format("transform: part '{}' moves in bind pose and loses its skin", name),
-                      "move the node of its skeleton instead");
     }
 
     Scene& scene_;
