@@ -1,6 +1,6 @@
 #include "stage/separate_option.hpp"
 
-#include "mesh/topology.hpp"
+#include "geometry/solid_pieces.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -62,27 +62,34 @@ PieceLabels by_group(const Part& part, const std::string& attribute) {
 } // namespace
 
 void declare_separate(Declare<SeparateOptions>& d) {
-    d.choice<By>("by", &SeparateOptions::by,
-                 {{"component", By::component, "pieces connected through edges"},
-                  {"material", By::material, "faces of one material"},
-                  {"group", By::group, "faces with the same number in a face attribute"}},
-                 "What becomes a part of its own.")
+    d.choice<By>(
+         "by", &SeparateOptions::by,
+         {{"component", By::component, "pieces connected through edges, cavities with the solid around them"},
+          {"material", By::material, "faces of one material"},
+          {"group", By::group, "faces with the same number in a face attribute"}},
+         "What becomes a part of its own.")
         .primary();
     d.option("attribute", &SeparateOptions::attribute,
              "The face attribute that numbers the groups (with group).");
+    d.option(
+        "cavities", &SeparateOptions::cavities,
+        "With component: closed pieces that look inward become parts of their own, too; else they stay with "
+        "the solid that they lie in.");
     d.option("most", &SeparateOptions::most, "Refuses to make more parts than this (a count).").at_least(1);
 }
 
 void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems) {
     if (given.find("attribute") && o.by != By::group)
         problems.add(given.mark, "E-SEPARATE", "separate: 'attribute' goes with by: group");
+    if (given.find("cavities") && o.by != By::component)
+        problems.add(given.mark, "E-SEPARATE", "separate: 'cavities' goes with by: component");
 }
 
 PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {
     const Mesh& mesh = part.mesh;
     if (o.by == By::material) return by_material(part, scene);
     if (o.by == By::group) return by_group(part, o.attribute);
-    const Components pieces = face_components(mesh, false);
+    const Components pieces = o.cavities ? face_components(mesh, false) : solid_pieces(mesh);
     return labelled(
         mesh.face_count(), [&](Index f) { return pieces.of_face[f]; },
         [&](std::int64_t, std::size_t n) { return fmt::format("{}.{}", part.name, n); });

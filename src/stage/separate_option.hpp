@@ -10,6 +10,7 @@ struct SeparateOptions {
 
     By by = By::component;
     std::string attribute = "group";
+    bool cavities = false;
     std::int64_t most = 10000;
 };
 

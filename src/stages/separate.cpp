@@ -67,7 +67,7 @@ const RegisterStage registered = make_stage<SeparateOptions>(
                 "group, in the order of their first faces. Vertices and wedges that pieces share are copied, "
                 "attributes kept, isolated vertices dropped. The first piece keeps the part's node, the "
                 "others stand beside it; all keep its skin and its "
-                "animation. A cavity is a piece of its own. A part of one "
+                "animation. A part of one "
                 "piece stays as it is.",
      .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"}},
     declare_separate, run, {.verify = verify_separate});

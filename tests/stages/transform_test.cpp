@@ -127,6 +127,15 @@ TEST_CASE("transform refuses what would flatten the parts", "[stages]") {
           "usage [E-TRANSFORM] test.yaml:1:13: transform: translate takes three lengths, found 2");
 }
 
+TEST_CASE("separate leaves cavities in their solids, unless it is told to", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    const auto hollow = run_stage("thicken", "{thickness: 0.1}", scene).scene;
+    CHECK(run_stage("separate", "", hollow).scene.parts.size() == 1);
+    const auto apart = run_stage("separate", "{cavities: true}", hollow).scene;
+    REQUIRE(apart.parts.size() == 2);
+    CHECK(*inspect(apart.parts[1].mesh).volume < 0);
+}
+
 TEST_CASE("options without effect are named", "[stages]") {
     CHECK(failure([] {
               run_stage("transform", "{about: centre}", scene_of(shapes::cube()));
