@@ -5,6 +5,9 @@
 #include "geometry/surface_normal.hpp"
 #include "mesh/topology.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace facetmill {
 
 /// A point of the half plane, bounded by the line of the edge, in which the face of corner c starts from the
@@ -23,6 +26,28 @@ inline bool on_same_side(const Vec3& u, const Vec3& v, const Vec3& q, const Vec3
         if (side != 0) return side == orientation_2d(u[x], u[y], v[x], v[y], p[x], p[y]);
     }
     return true;
+}
+
+/// A face at an edge: its corner along it, a point beside, and which way it runs.
+struct EdgeLeaf {
+    Index corner;
+    Vec3 beside;
+    bool forward; ///< from the edge's low vertex to its high one
+    int half = 0; ///< of the turn around the edge, counted from the first leaf: 0 on it, 1, 2 opposite, 3
+};
+
+/// Sorts the leaves by their angle from the first around the edge from u to v, exactly; ties by corner.
+inline void sort_around_edge(const Vec3& u, const Vec3& v, std::vector<EdgeLeaf>& leaves) {
+    const Vec3 start = leaves[0].beside;
+    for (EdgeLeaf& l : leaves) {
+        const int side = orientation_3d(u, v, start, l.beside);
+        l.half = side > 0 ? 1 : side < 0 ? 3 : on_same_side(u, v, start, l.beside) ? 0 : 2;
+    }
+    std::sort(leaves.begin(), leaves.end(), [&](const EdgeLeaf& a, const EdgeLeaf& b) {
+        if (a.half != b.half) return a.half < b.half;
+        const int side = a.half % 2 == 0 ? 0 : orientation_3d(u, v, a.beside, b.beside);
+        return side != 0 ? side > 0 : a.corner < b.corner;
+    });
 }
 
 } // namespace facetmill

@@ -15,7 +15,9 @@ using namespace clean_steps;
 bool untangle(Work& work, const CleanSettings& s) {
     if (s.self_intersections == Untangle::off || work.untangled) return false;
     SelfIntersections found = crossings(work.mesh);
-    work.untangled = found.count == 0;
+    const bool unites = s.self_intersections != Untangle::local;
+    const auto overlaps = unites ? overlaps_at_edges(work.mesh) : std::vector<std::pair<Index, Index>>{};
+    work.untangled = found.count == 0 && overlaps.empty();
     if (work.untangled) return false;
     if (found.count > found.pairs.size()) {
         work.not_done.push_back({"self_intersections",
@@ -24,7 +26,7 @@ bool untangle(Work& work, const CleanSettings& s) {
                                  middle_of_face(work.mesh, found.pairs[0].first)});
         return false;
     }
-    bool changed = s.self_intersections != Untangle::local && unite_solids(work, found, s);
+    bool changed = unites && unite_solids(work, found, overlaps, s);
     if (s.self_intersections == Untangle::unite || work.untangled) return changed;
     if (changed) found = crossings(work.mesh);
     return resolve_self_intersections(work, std::move(found)) || changed;

@@ -12,31 +12,9 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-/// A face at an edge: its corner along it, a point beside, and which way it runs.
-struct Leaf {
-    Index corner;
-    Vec3 beside;
-    bool forward; ///< from the edge's low vertex to its high one
-    int half = 0; ///< of the turn around the edge, counted from the first leaf: 0 on it, 1, 2 opposite, 3
-};
-
-/// Sorts the leaves by their angle from the first around the edge from u to v, exactly; ties by corner.
-void sort_around(const Vec3& u, const Vec3& v, std::vector<Leaf>& leaves) {
-    const Vec3 start = leaves[0].beside;
-    for (Leaf& l : leaves) {
-        const int side = orientation_3d(u, v, start, l.beside);
-        l.half = side > 0 ? 1 : side < 0 ? 3 : on_same_side(u, v, start, l.beside) ? 0 : 2;
-    }
-    std::sort(leaves.begin(), leaves.end(), [&](const Leaf& a, const Leaf& b) {
-        if (a.half != b.half) return a.half < b.half;
-        const int side = a.half % 2 == 0 ? 0 : orientation_3d(u, v, a.beside, b.beside);
-        return side != 0 ? side > 0 : a.corner < b.corner;
-    });
-}
-
 /// Pairs of corners that stay together along a crowded edge: those that have the inside between them. A
 /// forward face has the inside before it around the edge, a backward one behind it.
-std::vector<std::pair<Index, Index>> pairs_along(std::vector<Leaf> leaves) {
+std::vector<std::pair<Index, Index>> pairs_along(std::vector<EdgeLeaf> leaves) {
     std::vector<std::pair<Index, Index>> pairs;
     for (bool found = true; found && leaves.size() > 1;) {
         found = false;
@@ -63,11 +41,11 @@ class Joints {
         const auto corners = edges_.corners_of(e);
         if (corners.size() < 2) return {};
         if (corners.size() == 2) return {{corners[0], corners[1]}};
-        std::vector<Leaf> leaves;
+        std::vector<EdgeLeaf> leaves;
         const auto& [low, high] = edges_.edges[e];
         for (const Index c : corners)
             leaves.push_back({c, beside_edge(mesh_, faces_[c], c), mesh_.vertex(c) == low});
-        sort_around(mesh_.positions[low], mesh_.positions[high], leaves);
+        sort_around_edge(mesh_.positions[low], mesh_.positions[high], leaves);
         return pairs_along(leaves);
     }
 

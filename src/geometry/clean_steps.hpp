@@ -58,12 +58,16 @@ bool remove_isolated(Work& work);
 /// faces which only an edge or vertex parts (split_non_manifold) are none. At most most_pairs are listed.
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {});
 inline constexpr std::size_t most_pairs = std::size_t{1} << 22;
+/// The pairs of faces, lower one first, ascending, at edges around which the surface winds more than once:
+/// there solids overlap without any crossing, as grids do that pass through each other along their lines.
+std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
 /// Closed pieces that pass through each other, or through themselves, become one solid: the union, by winding
-/// numbers (see unite). `found` are the crossings of the mesh. What is closed stays closed; what intersects
-/// does not any more, but with pieces that are not closed: those, and solids that cannot be united, are told
-/// and left exactly as they were. Faces that intersect nothing and lie outside of all other pieces are left
-/// alone.
-bool unite_solids(Work& work, const SelfIntersections& found, const CleanSettings& settings);
+/// numbers (see unite). `found` are the crossings of the mesh, `overlaps` those at edges. What is closed
+/// stays closed; what intersects does not any more, but with pieces that are not closed: those, and solids
+/// that cannot be united, are told and left exactly as they were. Faces that intersect nothing and lie
+/// outside of all other pieces are left alone.
+bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pair<Index, Index>>& overlaps,
+                  const CleanSettings& settings);
 /// Place by place: removes the faces that intersect others, if need be with up to four rings around them, and
 /// fills what that opens. A place is left as it was when that would leave an intersection or an open edge
 /// that was not there, change the topology, or take half of a piece along. Faces that touch only where

@@ -158,8 +158,17 @@ Failures open_clusters(const Mesh& mesh, std::size_t& crowded) {
 
 } // namespace
 
-bool unite_solids(Work& work, const SelfIntersections& found, const CleanSettings& settings) {
+bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pair<Index, Index>>& overlaps,
+                  const CleanSettings& settings) {
     Solids solids = find_solids(work.mesh, found);
+    if (!overlaps.empty()) {
+        for (const auto& [f, g] : overlaps) // of pieces that are not closed they say nothing
+            if (solids.closed[solids.pieces.of_face[f]] && solids.closed[solids.pieces.of_face[g]])
+                found.pairs.emplace_back(f, g);
+        std::sort(found.pairs.begin(), found.pairs.end());
+        found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
+        solids = find_solids(work.mesh, found);
+    }
     bool left = !solids.unfit.empty();
     for (NotDone& n : solids.unfit) work.not_done.push_back(std::move(n));
     const auto any = [&] {

@@ -108,6 +108,37 @@ TEST_CASE("clean counts the edges where united solids touch, unless it takes the
     CHECK(test::broken_clean_law(mesh, s).empty());
 }
 
+TEST_CASE("clean unites grids that overlap and meet in their edges only", "[geometry]") {
+    // Voxels: every line where the two cross is an edge of both, so no face crosses another.
+    const bool as_quads = GENERATE(true, false);
+    const auto block = [&](const Vec3& min) { // of side 2, four squares on every side
+        const Mesh cube = moved(shapes::quad_cube(), min * 0.5);
+        Mesh mesh;
+        for (Index f = 0; f < 6; ++f)
+            for (Index k = 0; k < 4; ++k) {
+                const Vec3 corner = cube.point(4 * f + k), next = cube.point(4 * f + (k + 1) % 4),
+                           last = cube.point(4 * f + (k + 3) % 4);
+                const auto first = static_cast<Index>(mesh.positions.size());
+                for (const Vec3& p : {corner * 2.0, corner + next, next + last, last + corner})
+                    mesh.positions.push_back(p);
+                add_face(mesh, std::array{first, first + 1, first + 2, first + 3});
+            }
+        weld_exact(mesh);
+        return as_quads ? mesh : triangulated(mesh);
+    };
+    const Mesh a = block({0, 0, 0}), mesh = together({a, block({1, 1, 1})});
+    REQUIRE(test::volume(a) == 8);
+    REQUIRE(a.face_count() == (as_quads ? 24 : 48));
+    const Mesh result = united(mesh);
+    CHECK(test::volume(result) == 15);
+    CHECK(test::area(result) == 42);
+    CHECK(test::euler(result) == 2);
+    // Beside each other along an edge they do not overlap.
+    const auto beside = clean(together({a, block({2, 2, 0})}), uniting());
+    CHECK(beside.counts.united_pieces == 0);
+    CHECK(test::volume(beside.mesh) == 16);
+}
+
 TEST_CASE("clean unites three boxes as inclusion and exclusion have it", "[geometry]") {
     const Mesh mesh = united(together({box({-1, -1, -1}, {1, 1, 1}), box({0, 0, 0}, {2, 2, 2}),
                                        box({-0.5, -0.5, -1.75}, {1.5, 1.5, 0.25})}));
