@@ -3,8 +3,9 @@
 #   make          build build/release/facetmill
 #   make deps     install the Debian packages that are missing (tools/deps.sh --list names them)
 #   make demo     build, then mill a real scan and say where to look
-#   make test     build and run all tests                    (PRESET=debug, asan or ci for other builds)
+#   make test     build and run all tests                    (PRESET=debug, asan, tsan or ci for other builds)
 #   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
+#   make tsan     the same with ThreadSanitizer, on plain threads in the place of TBB (slow)
 #   make bench    build and run the benchmarks               (FILTER=clip for some of them)
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
@@ -17,7 +18,7 @@ FILTER ?= .
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all build deps demo test asan bench install deb format check-layers clean
+.PHONY: all build deps demo test asan tsan bench install deb format check-layers clean
 all: build
 
 deps:
@@ -40,6 +41,9 @@ test: build
 
 asan:
 	@$(MAKE) --no-print-directory test PRESET=asan
+
+tsan:
+	@$(MAKE) --no-print-directory test PRESET=tsan
 
 bench:
 	@tools/deps.sh --bench
