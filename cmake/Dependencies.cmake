@@ -12,6 +12,7 @@ find_package(ZLIB REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(CGAL REQUIRED)
 find_package(draco CONFIG QUIET)
+find_library(GMP_LIBRARY gmp REQUIRED)
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h REQUIRED)
 find_library(TINYGLTF_LIBRARY tinygltf REQUIRED)
 find_path(DRACO_INCLUDE_DIR draco/compression/decode.h REQUIRED)
@@ -20,7 +21,7 @@ find_library(DRACO_LIBRARY draco REQUIRED)
 add_library(facetmill_dependencies INTERFACE)
 target_link_libraries(facetmill_dependencies INTERFACE
   Threads::Threads fmt::fmt TBB::tbb nlohmann_json::nlohmann_json yaml-cpp CLI11::CLI11 Eigen3::Eigen OpenSSL::Crypto
-  ZLIB::ZLIB meshoptimizer::meshoptimizer ${TINYGLTF_LIBRARY} ${DRACO_LIBRARY})
+  ZLIB::ZLIB meshoptimizer::meshoptimizer ${TINYGLTF_LIBRARY} ${DRACO_LIBRARY} ${GMP_LIBRARY})
 target_include_directories(facetmill_dependencies SYSTEM INTERFACE ${TINYGLTF_INCLUDE_DIR} ${DRACO_INCLUDE_DIR})
 
 add_library(facetmill_cgal_dependencies INTERFACE)

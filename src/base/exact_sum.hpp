@@ -33,6 +33,8 @@ class ExactSum {
     /// Adds a * b; std::fma is exact on every processor.
     void add_product(double a, double b) {
         const double product = a * b;
+        // The last bit of a product is at most 2^-105 of it.
+        if (!(std::abs(product) > 1e-270 && std::abs(product) < 1e300)) holds_ = holds_ && (a == 0 || b == 0);
         add(std::fma(a, b, -product));
         add(product);
     }
@@ -41,6 +43,9 @@ class ExactSum {
     void add_scaled(const ExactSum<other>& sum, double factor) {
         for (std::size_t i = 0; i < sum.size_; ++i) add_product(sum.parts_[i], factor);
     }
+    /// Whether the products and what they were added to are all within the range of doubles; if not, nothing
+    /// else is told. Sums that are only ever given to add() are trusted.
+    bool holds() const { return holds_; }
     int sign() const { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
     /// The value, rounded; never 0 for a sum that is not.
     double value() const {
@@ -54,6 +59,7 @@ class ExactSum {
     friend class ExactSum;
     std::conditional_t<capacity == 0, std::vector<double>, std::array<double, capacity>> parts_{};
     std::size_t size_ = 0;
+    bool holds_ = true;
 };
 
 } // namespace facetmill

@@ -1,8 +1,10 @@
 #include "base/predicates.hpp"
 
 #include "base/exact_sum.hpp"
+#include "base/whole.hpp"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 
 namespace facetmill {
@@ -14,12 +16,51 @@ int sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 /// Room for what three products of three differences need.
 using Expansion = ExactSum<192>;
 
-/// A power of two that brings the largest of the numbers near 1, so that products neither overflow nor
-/// vanish.
-double scale_for(std::initializer_list<double> numbers) {
-    double most = 0;
-    for (const double x : numbers) most = std::max(most, std::abs(x));
-    return most > 0 && std::isfinite(most) ? std::ldexp(1.0, std::clamp(-std::ilogb(most), -1000, 1000)) : 1;
+/// The numbers along one axis, brought near 1 by a power of two so that their products do not overflow.
+struct Axis {
+    double scale = 1;
+    int lowest = 0; ///< no number, scaled, has a bit below 2^lowest
+
+    Axis(std::initializer_list<double> numbers) {
+        double most = 0, least = HUGE_VAL;
+        for (const double x : numbers) {
+            if (x == 0) continue;
+            most = std::max(most, std::abs(x)), least = std::min(least, std::abs(x));
+        }
+        if (!(most > 0 && std::isfinite(most))) return;
+        const int power = std::clamp(-std::ilogb(most), -1000, 1000);
+        scale = std::ldexp(1.0, power);
+        lowest = std::min(0, std::max(std::ilogb(least) - 52, -1074) + power);
+    }
+};
+
+/// Whether every product of one number of each axis is made of doubles: nothing of it is below the smallest.
+bool doubles_hold_products(std::initializer_list<Axis> axes) {
+    int lowest = 0;
+    for (const Axis& axis : axes) lowest += axis.lowest;
+    return lowest >= -1070;
+}
+
+/// Whole numbers, for what no expansion of doubles can hold: coordinates of very different sizes along an
+/// axis.
+int whole_orientation_2d(double ax, double ay, double bx, double by, double cx, double cy) {
+    const mpz_class x = whole(cx), y = whole(cy);
+    const mpz_class left = (whole(ax) - x) * (whole(by) - y), right = (whole(ay) - y) * (whole(bx) - x);
+    return sgn(mpz_class(left - right));
+}
+
+int whole_orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    std::array<mpz_class, 3> u, v, w;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const mpz_class from = whole(a[i]);
+        u[i] = whole(b[i]) - from, v[i] = whole(c[i]) - from, w[i] = whole(d[i]) - from;
+    }
+    mpz_class sum;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        sum += (u[j] * v[k] - u[k] * v[j]) * w[i];
+    }
+    return sgn(sum);
 }
 
 /// a - b exactly: the rounded difference and what it lost.
@@ -44,10 +85,9 @@ void add_product(Expansion& sum, const Difference& a, const Difference& b, const
 }
 
 int exact_orientation_3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double scale = scale_for({a[i], b[i], c[i], d[i]});
-        a[i] *= scale, b[i] *= scale, c[i] *= scale, d[i] *= scale;
-    }
+    const Axis x{a.x, b.x, c.x, d.x}, y{a.y, b.y, c.y, d.y}, z{a.z, b.z, c.z, d.z};
+    if (!doubles_hold_products({x, y, z})) return whole_orientation_3d(a, b, c, d);
+    for (Vec3* p : {&a, &b, &c, &d}) p->x *= x.scale, p->y *= y.scale, p->z *= z.scale;
     const Difference ux(b.x, a.x), uy(b.y, a.y), uz(b.z, a.z), vx(c.x, a.x), vy(c.y, a.y), vz(c.z, a.z),
         wx(d.x, a.x), wy(d.y, a.y), wz(d.z, a.z);
     Expansion exact;
@@ -64,8 +104,9 @@ int orientation_2d(double ax, double ay, double bx, double by, double cx, double
     if (std::abs(det) > orientation_error * (std::abs(left) + std::abs(right)) &&
         std::abs(det) > orientation_smallest)
         return sign_of(det);
-    const double sx = scale_for({ax, bx, cx}), sy = scale_for({ay, by, cy});
-    ax *= sx, bx *= sx, cx *= sx, ay *= sy, by *= sy, cy *= sy;
+    const Axis x{ax, bx, cx}, y{ay, by, cy};
+    if (!doubles_hold_products({x, y})) return whole_orientation_2d(ax, ay, bx, by, cx, cy);
+    ax *= x.scale, bx *= x.scale, cx *= x.scale, ay *= y.scale, by *= y.scale, cy *= y.scale;
     ExactSum<12> exact; // (a-c) x (b-c), multiplied out
     exact.add_product(ax, by);
     exact.add_product(-ax, cy);
@@ -91,7 +132,9 @@ int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
                         (std::abs(zx) + std::abs(xz)) * std::abs(w.y) +
                         (std::abs(xy) + std::abs(yx)) * std::abs(w.z);
     constexpr double error = 7.771561172376103e-16; // Shewchuk's (7 + 56 e) e
-    if (std::abs(det) > error * size && std::abs(det) > orientation_smallest) return sign_of(det);
+    // What the products of two lose at the lower end of doubles, the third factor magnifies.
+    const double lost = orientation_smallest * (1 + std::abs(w.x) + std::abs(w.y) + std::abs(w.z));
+    if (std::abs(det) > error * size && std::abs(det) > lost) return sign_of(det);
     return exact_orientation_3d(a, b, c, d);
 }
 

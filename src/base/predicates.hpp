@@ -13,8 +13,8 @@ inline constexpr double orientation_error = 3.3306690738754716e-16;
 inline constexpr double orientation_smallest = 1e-290;
 
 /// The sign (-1, 0, 1) of the area of the triangle a, b, c in the plane: 1 when they turn left. Exact for
-/// finite coordinates, as long as no product of two differences overflows or underflows: a floating-point
-/// filter, then exact expansions (Shewchuk 1997, Adaptive precision floating-point arithmetic).
+/// finite coordinates of any size: a floating-point filter, then exact expansions (Shewchuk 1997, Adaptive
+/// precision floating-point arithmetic), and whole numbers where those would overflow or underflow.
 int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy);
 
 /// True when the three points lie on one line (or two coincide), exactly: all three of their axis projections
@@ -22,8 +22,8 @@ int orientation_2d(double ax, double ay, double bx, double by, double cx, double
 bool collinear(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// On which side of the plane through a, b, c the point d lies: 1 when on the side that (b - a) x (c - a)
-/// points to, -1 on the other, 0 on the plane. Exact for finite coordinates, as long as no product of three
-/// differences overflows or underflows: a floating-point filter, then exact expansions.
+/// points to, -1 on the other, 0 on the plane. Exact for finite coordinates of any size, decided like
+/// orientation_2d.
 int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 } // namespace facetmill

@@ -2,10 +2,19 @@
 
 #include "base/error.hpp"
 #include "base/exact_sum.hpp"
+#include "base/whole.hpp"
 
 namespace facetmill {
 
 namespace {
+
+/// For numbers whose products doubles cannot hold.
+double whole_side(const Plane& plane, const Vec3& p) {
+    mpz_class sum = whole(plane.offset) << 1074;
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += whole(plane.normal[i]) * (whole(p[i]) - whole(plane.through[i]));
+    return rounded(sum, 2 * 1074);
+}
 
 double exact_side(const Plane& plane, const Vec3& p) {
     ExactSum<13> sum;
@@ -14,7 +23,7 @@ double exact_side(const Plane& plane, const Vec3& p) {
         sum.add_product(plane.normal[i], -plane.through[i]);
     }
     sum.add(plane.offset);
-    return sum.value();
+    return sum.holds() ? sum.value() : whole_side(plane, p);
 }
 
 } // namespace
@@ -28,7 +37,11 @@ double side(const Plane& plane, const Vec3& p) {
     // 2^-53 so that the roundings of this bound itself do not matter. The smallest normal number covers
     // underflow.
     if (std::fabs(value) > 8.9e-16 * magnitude + 1e-300) return value;
-    if (magnitude == 0 && (p == plane.through || axis_of(plane) >= 0)) return 0;
+    if (magnitude == 0) {
+        const int axis = axis_of(plane);
+        const auto i = static_cast<std::size_t>(axis);
+        if (axis < 0 ? p == plane.through : p[i] == plane.through[i]) return 0;
+    }
     return exact_side(plane, p);
 }
 

@@ -18,8 +18,8 @@ struct Plane {
 
 /// normal . (p - through) + offset: the sign is exact (0 means exactly on the plane), the magnitude good to a
 /// few units in the last place of its largest term, and never 0 for a point off the plane. A filter in plain
-/// doubles decides almost always; else the sum is evaluated as an expansion (Shewchuk, 1997). Exact as long
-/// as no product of a normal's component and a coordinate is beyond 1e290 or its last bit below 1e-300.
+/// doubles decides almost always; else the sum is evaluated as an expansion (Shewchuk, 1997), and in whole
+/// numbers where that would overflow or underflow. Finite numbers of any size.
 double side(const Plane& plane, const Vec3& p);
 
 /// Whether they are one set of points, exactly: whatever the length and the sense of their normals, and

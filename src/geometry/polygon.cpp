@@ -2,6 +2,7 @@
 
 #include "base/exact_sum.hpp"
 #include "base/predicates.hpp"
+#include "base/whole.hpp"
 #include "geometry/ring_tree.hpp"
 #include "geometry/triangulate_rings.hpp"
 
@@ -31,6 +32,16 @@ int turn(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation_2d(a.
 
 const Vec2& following(Ring ring, std::size_t i) { return ring[i + 1 == ring.size() ? 0 : i + 1]; }
 
+/// For numbers whose products doubles cannot hold.
+int whole_orientation(Ring ring) {
+    mpz_class twice;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec2 &a = ring[i], &b = following(ring, i);
+        twice += whole(a.x) * whole(b.y) - whole(b.x) * whole(a.y);
+    }
+    return sgn(twice);
+}
+
 } // namespace
 
 double signed_area(Ring ring) {
@@ -49,7 +60,7 @@ int orientation(Ring ring) {
         size += std::abs(a.x * b.y) + std::abs(a.y * b.x);
     }
     // Each term is off by at most 4 units of rounding of its size, and adding n terms adds n more.
-    const double bound = size * (static_cast<double>(ring.size()) + 4) * 2.3e-16;
+    const double bound = size * (static_cast<double>(ring.size()) + 4) * 2.3e-16 + orientation_smallest;
     if (std::abs(twice) > bound) return twice > 0 ? 1 : -1;
     ExactSum<> exact;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -57,7 +68,7 @@ int orientation(Ring ring) {
         exact.add_product(a.x, b.y);
         exact.add_product(-b.x, a.y);
     }
-    return exact.sign();
+    return exact.holds() ? exact.sign() : whole_orientation(ring);
 }
 
 PrincipalAxes principal_axes(const SecondMoments& m) {

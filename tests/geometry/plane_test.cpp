@@ -24,6 +24,23 @@ TEST_CASE("a term that plain doubles lose decides the side", "[geometry]") {
     CHECK(side({{1, 1, 1}, {}, 0}, {1e16, -1e16, -1e-16}) < 0);
 }
 
+TEST_CASE("sides of a plane are exact where products vanish or overflow", "[geometry]") {
+    constexpr double most = 1.7976931348623157e308, least = 5e-324;
+    for (const double size : {1e-200, 1.0, 1e200}) {
+        const Plane flat{{0, 0, size}, {0, 0, 1e-200}, 0};
+        CHECK(side(flat, {1, 2, 1e-200}) == 0);
+        CHECK(side(flat, {1, 2, std::nextafter(1e-200, 1)}) > 0);
+        CHECK(side(flat, {1, 2, std::nextafter(1e-200, 0)}) < 0);
+        const Plane slanted{{size, size, -size}, {}, 0};
+        CHECK(side(slanted, {most, most, most}) > 0);
+        CHECK(side(slanted, {most, -most, 0}) == 0);
+        CHECK(side(slanted, {most, -most, least}) < 0);
+        CHECK(side(slanted, {least, 0, least}) == 0);
+        CHECK(side(slanted, {least, 0, -least}) > 0);
+        CHECK(std::isfinite(side(slanted, {most, most, -most})));
+    }
+}
+
 TEST_CASE("a plane pulled back through a map separates the same points", "[geometry]") {
     Transform t;
     t.m[0][0] = 0, t.m[0][1] = -2, t.m[1][0] = 2, t.m[1][1] = 0, t.m[2][2] = -1, t.m[2][3] = 5;

@@ -8,9 +8,11 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
@@ -46,6 +48,12 @@ std::vector<std::pair<Index, Index>> self_intersections(const Mesh& mesh) {
         if (a != b) pairs.emplace_back(std::min<Index>(a, b), std::max<Index>(a, b));
     std::sort(pairs.begin(), pairs.end());
     return pairs;
+}
+
+int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    using Exact = CGAL::Simple_cartesian<CGAL::Exact_rational>;
+    const auto at = [](const Vec3& p) { return Exact::Point_3(p.x, p.y, p.z); };
+    return CGAL::orientation(at(a), at(b), at(c), at(d));
 }
 
 double hausdorff_distance(const Mesh& from, const Mesh& to, double error) {

@@ -13,6 +13,9 @@ namespace facetmill::oracle {
 /// oriented triangle mesh, each (lower, higher), sorted.
 std::vector<std::pair<Index, Index>> self_intersections(const Mesh& mesh);
 
+/// The side of the plane through a, b, c that d is on, in rational numbers: 1 where (b - a) x (c - a) points.
+int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
 /// An upper bound of the largest distance from a point of the first mesh to the second, no more than `error`
 /// above it (CGAL's bounded_error_Hausdorff_distance). Edge-manifold triangle meshes.
 double hausdorff_distance(const Mesh& from, const Mesh& to, double error);
