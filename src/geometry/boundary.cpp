@@ -1,5 +1,7 @@
 #include "geometry/boundary.hpp"
 
+#include "geometry/power_scale.hpp"
+
 namespace facetmill {
 
 std::vector<BoundaryChain> boundary_chains(const Mesh& mesh) {
@@ -12,6 +14,7 @@ std::vector<BoundaryChain> boundary_chains(const Mesh& mesh) {
             open.push_back(e), sets.join(edges.edges[e].low, edges.edges[e].high);
     std::vector<Index> number(mesh.vertex_count(), none); // of the chain, by the root of its set
     std::vector<BoundaryChain> chains;
+    const PowerScale scale = even_scale(mesh.bounds());
     for (const Index e : open) { // ascending by lower vertex
         const Vec3 &a = mesh.positions[edges.edges[e].low], &b = mesh.positions[edges.edges[e].high];
         Index& chain = number[sets.find(edges.edges[e].low)];
@@ -20,8 +23,9 @@ std::vector<BoundaryChain> boundary_chains(const Mesh& mesh) {
             chains.push_back({0, 0, faces[edges.corners_of(e)[0]], mix(a, b, 0.5)});
         }
         ++chains[chain].edges;
-        chains[chain].length += length(b - a);
+        chains[chain].length += scale.none() ? length(b - a) : length(scale(b) - scale(a));
     }
+    for (BoundaryChain& c : chains) c.length = unscaled(c.length, scale.powers[0]);
     return chains;
 }
 

@@ -29,7 +29,7 @@ void BoxLevels::set_frame(const Box& all) {
     const Vec3 half = all.max - middle;
     const double reach = std::max({half.x, half.y, half.z});
     if (reach > 0 && std::isfinite(reach))
-        scale = std::ldexp(1.0, std::clamp(-std::ilogb(reach) - 1, -1000, 1000));
+        scale = std::ldexp(1.0, std::min(-std::ilogb(reach) - 1, 1000)); // down to 2^-1024, which is a double
 }
 
 void BoxLevels::number_nodes(std::size_t items) {

@@ -4,6 +4,7 @@
 #include "base/random.hpp"
 #include "geometry/closest_point.hpp"
 #include "geometry/deviation_bound.hpp"
+#include "geometry/power_scale.hpp"
 #include "geometry/space_curve.hpp"
 
 #include <algorithm>
@@ -164,10 +165,34 @@ DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const De
     return d;
 }
 
+namespace {
+
+Surface scaled(Surface surface, const PowerScale& scale) {
+    surface.positions = scale(surface.positions);
+    return surface;
+}
+
+/// Of surfaces that were scaled: what it is of them as they were.
+void unscale(DirectedDeviation& d, const PowerScale& scale) {
+    for (double* x : {&d.maximum, &d.rms, &d.mean}) *x = unscaled(*x, scale.powers[0]);
+    if (d.bound) d.bound = unscaled(*d.bound, scale.powers[0]);
+    d.from = scale.inverse()(d.from), d.to = scale.inverse()(d.to);
+}
+
+} // namespace
+
 DeviationResult deviation(const Surface& first, const Surface& second, const DeviationSettings& settings) {
+    Box both = first.bounds();
+    both.add(second.bounds());
+    if (const PowerScale scale = even_scale(both); !scale.none()) {
+        DeviationResult far = deviation(scaled(first, scale), scaled(second, scale), settings);
+        unscale(far.forward, scale), unscale(far.backward, scale);
+        far.diagonal = unscaled(far.diagonal, scale.powers[0]);
+        return far;
+    }
     DeviationResult result;
     result.seed = settings.seed;
-    result.diagonal = first.bounds().diagonal();
+    result.diagonal = diagonal(first.bounds());
     { // one tree at a time
         const FaceTree tree(second);
         result.forward = deviation_to(first, tree, settings);

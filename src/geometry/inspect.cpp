@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "geometry/evidence.hpp"
 #include "geometry/links.hpp"
+#include "geometry/power_scale.hpp"
 #include "geometry/self_intersections.hpp"
 #include "mesh/topology.hpp"
 
@@ -51,7 +52,7 @@ FaceSums face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, const V
                 for (Index c = begin + 1; c + 1 < end; ++c)
                     add_triangle(positions[mesh.vertex(begin)], positions[mesh.vertex(c)],
                                  positions[mesh.vertex(c + 1)], origin, area, sums.volume);
-                sums.area += length(area) / 2;
+                sums.area += safe_length(area) / 2;
                 sums.triangles += end - begin == 3;
                 sums.degenerate += is_degenerate(mesh, f);
                 sums.repeating += end - begin == 3 && repeats_a_vertex(mesh, f);
@@ -64,6 +65,19 @@ FaceSums face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, const V
         });
 }
 
+/// The same for boxes of any size, area and volume rounded once more.
+FaceSums far_face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, const Box& box) {
+    const PowerScale even = even_scale(box), axes = axis_scale(box);
+    const auto sums_of = [&](const PowerScale& scale) {
+        const Vec3 origin = box.empty() ? Vec3{} : (scale(box.min) + scale(box.max)) * 0.5;
+        return scale.none() ? face_sums(mesh, positions, origin) : face_sums(mesh, scale(positions), origin);
+    };
+    FaceSums sums = sums_of(even);
+    if (!even.none()) sums.area = unscaled(sums.area, 2 * even.powers[0]);
+    if (!axes.none()) sums.volume = unscaled(sums_of(axes).volume, axes.volume());
+    return sums;
+}
+
 /// positions: the mesh's, or where a transform puts them; one that mirrors turns the faces round, as glTF has
 /// it.
 Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, bool mirrored,
@@ -73,7 +87,7 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     p.wedges = static_cast<std::int64_t>(mesh.wedge_count());
     p.faces = static_cast<std::int64_t>(mesh.face_count());
     p.bounds = box_of(positions);
-    const FaceSums sums = face_sums(mesh, positions, p.bounds.empty() ? Vec3{} : p.bounds.centre());
+    const FaceSums sums = far_face_sums(mesh, positions, p.bounds);
     const LinkCounts links = count_links(mesh);
     p.triangles = sums.triangles;
     p.degenerate_faces = sums.degenerate;

@@ -3,6 +3,7 @@
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
 #include "geometry/inspect.hpp"
+#include "geometry/power_scale.hpp"
 
 #include <algorithm>
 
@@ -42,7 +43,7 @@ void add_face(Sums& sums, const Mesh& mesh, Index f, const Vec3& from, std::vect
     p.clear();
     for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) p.push_back(mesh.point(c) - from);
     const Vec3 twice = polygon::area_vector(p) * 2;
-    const double area = length(twice);
+    const double area = safe_length(twice);
     const Vec3 normal = normalised(twice);
     sums.area += area;
     for (std::size_t i = 1; i + 1 < p.size(); ++i) {
@@ -90,6 +91,42 @@ void rotate(double (&m)[3][3], double (&axes)[3][3], int p, int q) {
     }
 }
 
+/// Of a mesh whose box is not far from 1 in size.
+MassResult mass_of(const Mesh& mesh, bool closed) {
+    const Box box = mesh.bounds();
+    const Vec3 from = box.empty() ? Vec3{} : box.centre();
+    const Sums sums = sums_of(mesh, from);
+    MassResult result;
+    result.shell.area = sums.area / 2;
+    if (sums.area > 0) result.shell.centroid = from + sums.shell / (3 * sums.area);
+    if (mesh.face_count() == 0 || !closed) return result;
+    SolidMass& solid = result.solid.emplace();
+    const double area = result.shell.area, ball = area * std::sqrt(area / (36 * pi));
+    if (!(std::abs(sums.volume / 6) > 1e-12 * ball)) return result;
+    solid.volume = sums.volume / 6;
+    const Vec3 centroid = sums.solid / (4 * sums.volume);
+    solid.centroid = from + centroid;
+    solid.spread = sums.spread * (1.0 / 120);
+    add_square(solid.spread, centroid, -solid.volume);
+    return result;
+}
+
+/// What was measured in scaled coordinates, as it is in the given ones.
+ShellMass taken_back(const ShellMass& shell, const PowerScale& scale) {
+    return {unscaled(shell.area, 2 * scale.powers[0]), scale.inverse()(shell.centroid)};
+}
+
+SolidMass taken_back(const SolidMass& solid, const PowerScale& scale) {
+    const auto moment = [&](double x, std::size_t i, std::size_t j) {
+        return unscaled(x, scale.volume() + scale.powers[i] + scale.powers[j]);
+    };
+    const Symmetric& s = solid.spread;
+    return {unscaled(solid.volume, scale.volume()),
+            scale.inverse()(solid.centroid),
+            {moment(s.xx, 0, 0), moment(s.xy, 0, 1), moment(s.xz, 0, 2), moment(s.yy, 1, 1),
+             moment(s.yz, 1, 2), moment(s.zz, 2, 2)}};
+}
+
 Vec3 with_largest_positive(const Vec3& v) {
     std::size_t largest = 0;
     for (std::size_t i = 1; i < 3; ++i)
@@ -124,6 +161,8 @@ Symmetric SolidMass::inertia() const {
 }
 
 ShellMass joined(const ShellMass& a, const ShellMass& b) {
+    if (a.area == 0) return b;
+    if (b.area == 0) return a;
     const double area = a.area + b.area;
     return {area, area > 0 ? (a.centroid * a.area + b.centroid * b.area) / area : Vec3{}};
 }
@@ -144,21 +183,12 @@ SolidMass joined(const SolidMass& a, const SolidMass& b) {
 }
 
 MassResult measure_mass(const Mesh& mesh) {
-    const Box box = mesh.bounds();
-    const Vec3 from = box.empty() ? Vec3{} : box.centre();
-    const Sums sums = sums_of(mesh, from);
+    const bool closed = mesh.face_count() > 0 && inspect(mesh).closed;
+    const PowerScale even = even_scale(mesh.bounds()), axes = axis_scale(mesh.bounds());
+    if (even.none() && axes.none()) return mass_of(mesh, closed);
     MassResult result;
-    result.shell.area = sums.area / 2;
-    if (sums.area > 0) result.shell.centroid = from + sums.shell / (3 * sums.area);
-    if (mesh.face_count() == 0 || !inspect(mesh).closed) return result;
-    SolidMass& solid = result.solid.emplace();
-    const double area = result.shell.area, ball = area * std::sqrt(area / (36 * pi));
-    if (!(std::abs(sums.volume / 6) > 1e-12 * ball)) return result;
-    solid.volume = sums.volume / 6;
-    const Vec3 centroid = sums.solid / (4 * sums.volume);
-    solid.centroid = from + centroid;
-    solid.spread = sums.spread * (1.0 / 120);
-    add_square(solid.spread, centroid, -solid.volume);
+    result.shell = taken_back(mass_of(even(mesh), false).shell, even);
+    if (closed) result.solid = taken_back(*mass_of(axes(mesh), true).solid, axes);
     return result;
 }
 

@@ -2,6 +2,7 @@
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
 #include "geometry/measure.hpp"
+#include "geometry/power_scale.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -71,9 +72,9 @@ double aspect_of(const Vec3& a, const Vec3& b, const Vec3& c, double area) {
     return area > 0 ? longest * longest / (2 * area) * 0.8660254037844386 : none_there;
 }
 
-} // namespace
+// Of meshes whose boxes are not far from 1 in size.
 
-EdgeResult measure_edges(const Mesh& mesh, const SharpSettings& settings) {
+EdgeResult edges_of(const Mesh& mesh, const SharpSettings& settings) {
     const Turns t = turns_of(mesh, area_vectors(mesh));
     EdgeResult r;
     std::vector<double> lengths(t.edges.size());
@@ -95,7 +96,7 @@ EdgeResult measure_edges(const Mesh& mesh, const SharpSettings& settings) {
     return r;
 }
 
-FaceResult measure_faces(const Mesh& mesh) {
+FaceResult faces_of(const Mesh& mesh) {
     FaceResult r;
     r.kinds = face_kinds(mesh);
     const std::vector<Vec3> areas = area_vectors(mesh);
@@ -103,7 +104,7 @@ FaceResult measure_faces(const Mesh& mesh) {
     std::vector<double> angles(mesh.corner_count()), aspects(areas.size(), none_there);
     parallel_for(areas.size(), [&](std::size_t i) {
         const auto f = static_cast<Index>(i);
-        r.areas[i] = length(areas[i]);
+        r.areas[i] = safe_length(areas[i]);
         const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
         for (Index c = begin; c < end; ++c)
             angles[c] = angle_at(mesh.point(c == begin ? end - 1 : c - 1), mesh.point(c),
@@ -118,7 +119,7 @@ FaceResult measure_faces(const Mesh& mesh) {
     return r;
 }
 
-CurvatureResult measure_curvature(const Mesh& given) {
+CurvatureResult curvature_of(const Mesh& given) {
     const Mesh mesh = triangulated(given);
     const std::vector<Vec3> areas = area_vectors(mesh);
     const Turns t = turns_of(mesh, areas);
@@ -160,6 +161,44 @@ CurvatureResult measure_curvature(const Mesh& given) {
     for (const double m : missing) r.total += m;
     r.of_gaussian = statistics(r.gaussian);
     r.of_mean = statistics(r.mean);
+    return r;
+}
+
+/// What was measured in scaled coordinates, and is a length to that power.
+void unscale(Statistics& s, int power) {
+    for (double* x : {&s.minimum, &s.maximum, &s.mean, &s.deviation, &s.median, &s.sum})
+        *x = unscaled(*x, power);
+}
+
+void unscale(std::vector<double>& numbers, int power) {
+    for (double& x : numbers) x = unscaled(x, power);
+}
+
+} // namespace
+
+EdgeResult measure_edges(const Mesh& mesh, const SharpSettings& settings) {
+    const PowerScale scale = even_scale(mesh.bounds());
+    if (scale.none()) return edges_of(mesh, settings);
+    EdgeResult r = edges_of(scale(mesh), settings);
+    unscale(r.length, scale.powers[0]);
+    return r;
+}
+
+FaceResult measure_faces(const Mesh& mesh) {
+    const PowerScale scale = even_scale(mesh.bounds());
+    if (scale.none()) return faces_of(mesh);
+    FaceResult r = faces_of(scale(mesh));
+    unscale(r.area, 2 * scale.powers[0]), unscale(r.areas, 2 * scale.powers[0]);
+    r.kinds.deviation = unscaled(r.kinds.deviation, scale.powers[0]);
+    return r;
+}
+
+CurvatureResult measure_curvature(const Mesh& mesh) {
+    const PowerScale scale = even_scale(mesh.bounds());
+    if (scale.none()) return curvature_of(mesh);
+    CurvatureResult r = curvature_of(scale(mesh));
+    unscale(r.gaussian, -2 * scale.powers[0]), unscale(r.mean, -scale.powers[0]);
+    unscale(r.of_gaussian, -2 * scale.powers[0]), unscale(r.of_mean, -scale.powers[0]);
     return r;
 }
 

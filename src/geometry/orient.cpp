@@ -1,6 +1,7 @@
 #include "geometry/orient.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/power_scale.hpp"
 #include "geometry/rays.hpp"
 #include "geometry/self_intersections.hpp"
 #include "geometry/surface_normal.hpp"
@@ -109,7 +110,7 @@ class Outside {
   public:
     Outside(const Mesh& mesh, Spread& spread, Nested nested)
         : mesh_(mesh), spread_(spread), nested_(nested), rays_(surface_of(mesh), FaceTree::Use::rays),
-          faces_(spread.pieces.size()) {
+          faces_(spread.pieces.size()), scale_(even_scale(mesh.bounds())) {
         for (Index f = 0; f < mesh.face_count(); ++f) faces_[spread.piece_of[f]].push_back(f);
     }
 
@@ -146,8 +147,20 @@ class Outside {
         });
     }
 
+    /// Six times the volume of a closed piece; only its sign counts.
     double volume(std::size_t p) const {
-        const Vec3 origin = mesh_.point(mesh_.face_begin(faces_[p][0]));
+        const double plain = volume(p, [](const Vec3& v) { return v; });
+        if (std::abs(plain) > 1e-200 && std::isfinite(plain)) return plain;
+        Box box;
+        for (const Index f : faces_[p])
+            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) box.add(mesh_.point(c));
+        return volume(p, axis_scale(box));
+    }
+
+    template <class Scale>
+    double volume(std::size_t p, const Scale& scale) const {
+        const Vec3 origin = scale(mesh_.point(mesh_.face_begin(faces_[p][0])));
+        const auto at = [&](Index c) { return scale(mesh_.point(c)) - origin; };
         return parallel_reduce(
             faces_[p].size(), 0.0,
             [&](std::size_t begin, std::size_t end) {
@@ -155,8 +168,7 @@ class Outside {
                 for (std::size_t i = begin; i < end; ++i) {
                     const Index f = faces_[p][i], first = mesh_.face_begin(f);
                     for (Index c = first + 1; c + 1 < mesh_.face_end(f); ++c)
-                        six += dot(mesh_.point(first) - origin,
-                                   cross(mesh_.point(c) - origin, mesh_.point(c + 1) - origin));
+                        six += dot(at(first), cross(at(c), at(c + 1)));
                 }
                 return six;
             },
@@ -217,7 +229,8 @@ class Outside {
         double front = 0;
         for (std::size_t s = 0; s < samples; ++s) {
             const Index f = faces[s * faces.size() / samples];
-            const Vec3 area = area_vector(mesh_, f), from = middle(f);
+            const Vec3 area = area_vector_at(mesh_, f, [&](Index c) { return scale_(mesh_.point(c)); }),
+                       from = middle(f);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const double weight = std::abs(area[axis]);
                 if (!(weight > 0)) continue;
@@ -240,6 +253,7 @@ class Outside {
     Nested nested_;
     FaceTree rays_;
     std::vector<std::vector<Index>> faces_;
+    PowerScale scale_; ///< of the areas that votes weighs
 };
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "geometry/boundary.hpp"
 #include "geometry/clean_steps.hpp"
 #include "geometry/orient.hpp"
+#include "geometry/power_scale.hpp"
 #include "geometry/self_intersections.hpp"
 #include "geometry/uv_overlaps.hpp"
 #include "geometry/wall_thickness.hpp"
@@ -73,6 +74,12 @@ double of_face(const Mesh& mesh, Quality q, Index f) {
 }
 
 std::vector<double> face_values(const Mesh& mesh, Quality q) {
+    if (const PowerScale scale = even_scale(mesh.bounds()); !scale.none()) {
+        auto values = face_values(scale(mesh), q);
+        if (info_of(q).length)
+            for (double& x : values) x = unscaled(x, scale.powers[0]);
+        return values;
+    }
     if (q == Quality::wall_thickness) return wall_thickness(mesh);
     std::vector<double> values(mesh.face_count());
     parallel_for(values.size(), [&](std::size_t f) { values[f] = of_face(mesh, q, static_cast<Index>(f)); });

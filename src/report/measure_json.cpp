@@ -9,6 +9,24 @@ namespace {
 
 constexpr double degrees = 180 / pi;
 
+/// Null unless all of it is known.
+Json known_point(bool known, const Vec3& p) { return known && is_finite(p) ? point_json(p) : Json(nullptr); }
+
+Json principal_json(const SolidMass& solid, double density) {
+    const Symmetric i = solid.inertia();
+    if (!is_finite({i.xx, i.yy, i.zz}) || !is_finite({i.xy, i.xz, i.yz})) return nullptr;
+    const Eigen3 e = eigen(i);
+    Json moments = Json::array(), axes = Json::array(), radii = Json::array();
+    for (std::size_t k = 0; k < 3; ++k) {
+        moments.push_back(e.values[k] * density);
+        axes.push_back(point_json(e.vectors[k]));
+        const double square = solid.volume != 0 ? e.values[k] / solid.volume : 0;
+        // A solid with a volume has moments: they vanish only below the range of numbers.
+        radii.push_back(square > 0 ? Json(std::sqrt(square)) : solid.volume != 0 ? Json(nullptr) : Json(0));
+    }
+    return {{"moments", moments}, {"axes", axes}, {"radii_of_gyration", radii}};
+}
+
 } // namespace
 
 Json statistics_json(const Statistics& s, double factor) {
@@ -18,7 +36,7 @@ Json statistics_json(const Statistics& s, double factor) {
 }
 
 Json shell_json(const ShellMass& shell) {
-    return {{"area", shell.area}, {"centroid", shell.area > 0 ? point_json(shell.centroid) : Json(nullptr)}};
+    return {{"area", shell.area}, {"centroid", known_point(shell.area > 0, shell.centroid)}};
 }
 
 Json solid_json(const std::optional<SolidMass>& solid, double density) {
@@ -28,19 +46,11 @@ Json solid_json(const std::optional<SolidMass>& solid, double density) {
     const Json inertia = Json::array({point_json(Vec3{i.xx, i.xy, i.xz} * density),
                                       point_json(Vec3{i.xy, i.yy, i.yz} * density),
                                       point_json(Vec3{i.xz, i.yz, i.zz} * density)});
-    const Eigen3 e = eigen(i);
-    Json moments = Json::array(), axes = Json::array(), radii = Json::array();
-    for (std::size_t k = 0; k < 3; ++k) {
-        moments.push_back(e.values[k] * density);
-        axes.push_back(point_json(e.vectors[k]));
-        const double square = solid->volume != 0 ? e.values[k] / solid->volume : 0;
-        radii.push_back(square > 0 ? std::sqrt(square) : 0);
-    }
     return {{"volume", solid->volume},
             {"mass", mass},
-            {"centroid", solid->volume != 0 ? point_json(solid->centroid) : Json(nullptr)},
+            {"centroid", known_point(solid->volume != 0, solid->centroid)},
             {"inertia", inertia},
-            {"principal", {{"moments", moments}, {"axes", axes}, {"radii_of_gyration", radii}}}};
+            {"principal", principal_json(*solid, density)}};
 }
 
 Json faces_json(const FaceResult& faces) {

@@ -146,7 +146,9 @@ std::string stop_text(const std::string& stop) {
 }
 
 bool is_measured(const Json& part) {
-    return part.contains("deviation") && part["deviation"]["percent"]["maximum"].is_number();
+    if (!part.contains("deviation")) return false;
+    const Json& percent = part["deviation"]["percent"];
+    return percent["maximum"].is_number() && percent["rms"].is_number();
 }
 
 } // namespace

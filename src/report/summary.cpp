@@ -3,6 +3,7 @@
 #include "report/numbers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -12,7 +13,11 @@ namespace {
 
 constexpr std::size_t few = 5; ///< parts or answers that are told one by one
 
-std::string number(const Json& x) { return x.is_number() ? fmt::format("{:.6g}", x.get<double>()) : "-"; }
+std::string number(const Json& x) {
+    if (!x.is_number()) return "-";
+    const double value = x.get<double>();
+    return std::isfinite(value) ? fmt::format("{:.6g}", value) : "out of range";
+}
 
 std::string point(const Json& p) {
     return p.is_array() && p.size() == 3 ? fmt::format("{} {} {}", number(p[0]), number(p[1]), number(p[2]))

@@ -1,0 +1,42 @@
+#pragma once
+// Products of very large or very small coordinates overflow or vanish. Where a box is far from 1, sums are
+// taken of coordinates times powers of two, which round nothing, and the powers taken out of the result.
+
+#include "mesh/mesh.hpp"
+
+#include <array>
+
+namespace facetmill {
+
+/// p[i] -> p[i] * 2^powers[i].
+struct PowerScale {
+    std::array<int, 3> powers{};
+
+    bool none() const { return powers == std::array<int, 3>{}; }
+    Vec3 operator()(const Vec3& p) const;
+    std::vector<Vec3> operator()(const std::vector<Vec3>& points) const;
+    /// The mesh without its attributes. What lies far below its box's size may lose bits.
+    Mesh operator()(const Mesh& mesh) const;
+    PowerScale inverse() const { return {{-powers[0], -powers[1], -powers[2]}}; }
+    /// The sum of the powers: what volumes are multiplied by.
+    int volume() const { return powers[0] + powers[1] + powers[2]; }
+};
+
+/// Brings the longest side of the box to about 1, every axis alike: for lengths and areas. None while it is
+/// between about 1e-30 and 1e30, where sums of fifth powers have room enough.
+PowerScale even_scale(const Box& box);
+
+/// Brings each side of the box to about 1 by its own power, for volumes and moments; none while all are
+/// within that range. A side of length zero stays.
+PowerScale axis_scale(const Box& box);
+
+/// x / 2^power: infinite or zero when beyond the range of doubles.
+double unscaled(double x, int power);
+
+/// length(v), also where the square of it would overflow or vanish.
+double safe_length(const Vec3& v);
+
+/// The length of the box's diagonal, also where the square of it would overflow or vanish; 0 when empty.
+double diagonal(const Box& box);
+
+} // namespace facetmill
