@@ -1,7 +1,9 @@
 #include "io/codec.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/power_scale.hpp"
 #include "io/attributes.hpp"
+#include "mesh/invariants.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -70,19 +72,30 @@ void check_finite(const Part& part, const std::string& name) {
                 throw Error(ErrorKind::malformed, "E-NAN",
                             fmt::format("the transform of part '{}' in '{}' is not finite", part.name, name));
     const auto& positions = part.mesh.positions;
-    const std::size_t first = parallel_reduce(
-        positions.size(), positions.size(),
-        [&](std::size_t begin, std::size_t end) {
-            for (std::size_t v = begin; v < end; ++v)
-                if (!is_finite(positions[v])) return v;
-            return positions.size();
-        },
-        [](std::size_t a, std::size_t b) { return std::min(a, b); });
+    const std::size_t first = first_not_finite(positions);
     if (first == positions.size()) return;
     const Vec3& p = positions[first];
     throw Error(ErrorKind::malformed, "E-NAN",
                 fmt::format("vertex {} of part '{}' in '{}' is ({}, {}, {}), expected finite numbers", first,
                             part.name, name, p.x, p.y, p.z));
+}
+
+/// Beyond this size, or below one over it, what stages compute from products of coordinates may overflow or
+/// vanish.
+constexpr double far_size = 1e60;
+
+void warn_of_size(const Part& part, ReadLog& log) {
+    const double size = diagonal(part.mesh.bounds());
+    if (size == 0 || (size < far_size && size > 1 / far_size)) return;
+    const std::string length = std::isfinite(size) ? fmt::format("{:.3g}", size) : "more than 1.8e308";
+    log.warnings.push_back(
+        {Severity::warning,
+         "W-SIZE",
+         fmt::format("part '{}' is {} long: verdicts are exact, but areas and volumes may be out of "
+                     "the range of numbers (null, or 0), and stages may round badly",
+                     part.name, length),
+         {},
+         "transform: {scale: ...} brings it near 1"});
 }
 
 /// The file's name without directory, .gz and suffix, for parts that bear none.
@@ -138,6 +151,7 @@ Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
     for (auto& part : scene.parts) {
         if (part.name.empty()) part.name = stem_of(input);
         check_finite(part, input.name());
+        warn_of_size(part, log);
         if (settings.weld == Weld::exact) weld_exact(part.mesh);
         mend_attributes(part, input.name(), log);
         any |= part.mesh.vertex_count() > 0;

@@ -1,5 +1,7 @@
 #include "mesh/invariants.hpp"
 
+#include "base/parallel.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -105,6 +107,28 @@ std::vector<std::string> broken_invariants(const Scene& scene) {
                 out.push_back(fmt::format("part {} ({}): a primitive names no material", p, part.name));
     }
     return out;
+}
+
+std::size_t first_not_finite(const std::vector<Vec3>& points) {
+    return parallel_reduce(
+        points.size(), points.size(),
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (!is_finite(points[i])) return i;
+            return points.size();
+        },
+        [](std::size_t a, std::size_t b) { return std::min(a, b); });
+}
+
+std::optional<std::string> not_finite(const Scene& scene) {
+    for (const Part& part : scene.parts) {
+        const std::size_t first = first_not_finite(part.mesh.positions);
+        if (first < part.mesh.positions.size())
+            return fmt::format("vertex {} of part '{}'", first, part.name);
+    }
+    const Box box = scene.bounds();
+    if (!box.empty() && !(is_finite(box.min) && is_finite(box.max))) return "the box in world space";
+    return {};
 }
 
 } // namespace facetmill

@@ -4,6 +4,7 @@
 #include "base/point_json.hpp"
 #include "geometry/inspect.hpp"
 #include "geometry/loose_points.hpp"
+#include "geometry/power_scale.hpp"
 #include "io/png.hpp"
 #include "mesh/invariants.hpp"
 #include "pipeline/failures.hpp"
@@ -184,11 +185,12 @@ class Runner {
             if (!step.only.patterns.empty() && !step.stage->loads)
                 warn_of_empty_selection(step, scene, context);
             scene = step.stage->run(std::move(scene), step.options.get(), context);
+            require_finite(scene);
             if (settings_.check_invariants) check_invariants(step, scene);
         });
         stage.seconds = seconds_since(start);
         if (done) stage.after = brief(scene);
-        if (done && step.stage->loads) state_.load_diagonal = scene.bounds().diagonal();
+        if (done && step.stage->loads) state_.load_diagonal = diagonal(scene.bounds());
         if (done && step.stage->loads && keeps_loaded_)
             state_.loaded = std::make_shared<const Surface>(surface_or_points_of(scene));
         if (done && takes_pictures_) add_picture(scene, stage);
@@ -221,6 +223,14 @@ class Runner {
         std::string names;
         for (const auto& part : scene.parts) names += (names.empty() ? "" : ", ") + part.name;
         return names.empty() ? "the scene is empty" : "their names: " + names.substr(0, 300);
+    }
+
+    /// Files with other numbers are refused; stages make them of very large ones.
+    static void require_finite(const Scene& scene) {
+        if (const auto what = not_finite(scene))
+            throw Error(ErrorKind::stage, "E-RANGE",
+                        fmt::format("{} came out beyond 1.8e308, the largest number", *what),
+                        "bring the scene near 1 in size first: transform: {scale: ...}");
     }
 
     static void check_invariants(const Step& step, const Scene& scene) {

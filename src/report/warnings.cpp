@@ -46,6 +46,8 @@ const std::vector<KnownWarning>& known_warnings() {
         {"W-SIMPLIFY-NOTHING", "simplify has nothing to do: the target is not below the mesh."},
         {"W-SIMPLIFY-STOPPED", "simplify stopped before its target, because of borders, topology or flips."},
         {"W-SIMPLIFY-VANISHED", "simplify left no face of a part."},
+        {"W-SIZE", "A part is so large or so small that products of its coordinates may be out of the range "
+                   "of numbers."},
         {"W-SKIN", "A skinned part is moved in bind pose and loses its skin."},
         {"W-SKIPPED", "Something in a file that a mesh cannot hold is skipped."},
         {"W-SPLIT-FOLDED", "split laid pieces of concave faces over each other; they are counted."},

@@ -2,6 +2,7 @@
 
 #include "base/glob.hpp"
 #include "base/parallel.hpp"
+#include "geometry/power_scale.hpp"
 #include "mesh/placement.hpp"
 
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ double world_diagonal(const Part& part) {
             return b;
         },
         [](Box a, const Box& b) { return a.add(b), a; });
-    return box.diagonal();
+    return diagonal(box);
 }
 
 } // namespace
@@ -85,11 +86,16 @@ double Context::resolve(const Length& length, const Scene& scene, std::string_vi
                         "a percentage");
         is = length.amount / unit;
     } else if (length.kind == Length::Kind::percent) {
-        const double diagonal = length.of == Length::Of::load           ? run_.load_diagonal
-                                : length.of == Length::Of::part && part ? world_diagonal(*part)
-                                                                        : entering_.diagonal();
-        is = length.amount / 100 * diagonal;
+        const double whole = length.of == Length::Of::load           ? run_.load_diagonal
+                             : length.of == Length::Of::part && part ? world_diagonal(*part)
+                                                                     : diagonal(entering_);
+        is = length.amount / 100 * whole;
     }
+    if (!std::isfinite(is))
+        throw Error(
+            ErrorKind::stage, "E-RANGE",
+            fmt::format("'{}' is {}, and that is beyond 1.8e308, the largest number", option, length.text),
+            "transform: {scale: 1e-300} first");
     const Json resolved = {{"given", length.text}, {"is", is}};
     const bool of_part = length.kind == Length::Kind::percent && length.of == Length::Of::part && part;
     record_.resolved[of_part ? fmt::format("{} ({})", option, part->name) : std::string(option)] = resolved;

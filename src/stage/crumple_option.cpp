@@ -1,5 +1,7 @@
 #include "stage/crumple_option.hpp"
 
+#include "geometry/power_scale.hpp"
+
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -83,8 +85,8 @@ CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene) {
     CrumpleSettings s;
     s.direction = o.direction, s.boundary = o.boundary;
     s.seed = static_cast<std::uint64_t>(o.seed), s.truncate = o.truncate;
-    const double diagonal = scene.bounds().diagonal();
-    s.frequency = diagonal > 0 ? o.frequency / diagonal : 0;
+    const double whole = diagonal(scene.bounds());
+    s.frequency = whole > 0 ? o.frequency / whole : 0;
     s.octaves = static_cast<int>(o.octaves), s.roughness = o.roughness;
     return s;
 }

@@ -1,4 +1,5 @@
 #include "base/error.hpp"
+#include "geometry/power_scale.hpp"
 #include "io/convert.hpp"
 #include "stage/generate_option.hpp"
 
@@ -85,7 +86,7 @@ Scene run(Scene scene, const GenerateOptions& o, Context& context) {
     io::add_scene(scene, std::move(made.scene));
     context.result() = result;
     context.result()["part"] = scene.parts.back().name;
-    context.run().load_diagonal = scene.bounds().diagonal();
+    context.run().load_diagonal = diagonal(scene.bounds());
     return scene;
 }
 

@@ -1,6 +1,7 @@
 #include "base/glob.hpp"
 #include "base/hash.hpp"
 #include "base/spelling.hpp"
+#include "geometry/power_scale.hpp"
 #include "io/convert.hpp"
 #include "stage/convention_option.hpp"
 #include "stage/stage.hpp"
@@ -88,7 +89,7 @@ Scene run(Scene scene, const LoadOptions& o, Context& context) {
             throw Error(ErrorKind::missing, "E-FILE", fmt::format("no file matches '{}'", text.text));
         for (const auto& file : files) load_file(scene, file, o, context);
     }
-    context.run().load_diagonal = scene.bounds().diagonal();
+    context.run().load_diagonal = diagonal(scene.bounds());
     return scene;
 }
 

@@ -330,3 +330,14 @@ TEST_CASE("a pipeline is read from a file, whose folder its inputs are relative 
     CHECK(planned_inputs(plan) == std::vector<std::filesystem::path>{ground.directory / "a.ply"});
     CHECK_THROWS_AS(pipeline::load_plan(ground.directory / "q.yaml", {}, problems), Error);
 }
+
+TEST_CASE("a stage that leaves the range of numbers fails at its place in the pipeline", "[pipeline]") {
+    Ground ground;
+    test::put(ground.directory / "a.off", "OFF\n3 1 0\n0 0 0\n1e300 0 0\n0 1e300 0\n3 0 1 2\n");
+    const auto record = ground.run("  - load: a.off\n  - transform: {scale: 1e10}\n");
+    CHECK(record.exit_code == 5);
+    REQUIRE(record.errors.size() == 1);
+    CHECK(record.errors[0].id == "E-RANGE");
+    CHECK(record.errors[0].where.line == 4);
+    CHECK(record.errors[0].message == "the box in world space came out beyond 1.8e308, the largest number");
+}

@@ -5,6 +5,8 @@
 #include "support/run_stage.hpp"
 #include "support/temporary.hpp"
 
+#include <fmt/format.h>
+
 using namespace facetmill;
 using namespace facetmill::test;
 namespace fs = std::filesystem;
@@ -212,4 +214,15 @@ TEST_CASE("a name that ends in .gz is compressed, and read so", "[stages]") {
     CHECK(b.scene.face_count() == 320);
     CHECK(b.scene.parts[0].name == "s");
     CHECK(get(b.dir / "s.obj.gz").starts_with("\x1f\x8b"));
+}
+
+TEST_CASE("load warns of sizes that products of coordinates cannot follow", "[stages]") {
+    for (const auto& [side, warns] :
+         {std::pair{"1e-61", true}, {"1e-50", false}, {"1e50", false}, {"1e61", true}}) {
+        Bench bench;
+        put(bench.dir / "a.off", fmt::format("OFF\n3 1 0\n0 0 0\n{} 0 0\n0 {} 0\n3 0 1 2\n", side, side));
+        bench.run("load", Value::scalar("a.off"));
+        CHECK(bench.record.warnings.size() == std::size_t{warns});
+        if (warns) CHECK(bench.record.warnings.at(0).id == "W-SIZE");
+    }
 }
