@@ -2,11 +2,13 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iostream>
@@ -63,16 +65,31 @@ Soup compact(const Soup& soup) {
     return all;
 }
 
+using Pairs = std::vector<std::pair<Surface::Face_index, Surface::Face_index>>;
+
+Pairs print_self_intersections(const Surface& mesh) {
+    Pairs pairs;
+    pmp::self_intersections(mesh, std::back_inserter(pairs));
+    std::cout << ", \"pairs\": [";
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        std::cout << (i > 0 ? ", [" : "[") << std::size_t{pairs[i].first} << ", "
+                  << std::size_t{pairs[i].second} << "]";
+    std::cout << "], \"self_intersections\": " << pairs.size();
+    return pairs;
+}
+
+bool repeats_a_vertex(const std::array<std::size_t, 3>& t) {
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
 /// Of what CGAL takes for a mesh: every edge with at most two faces that agree, every vertex with one fan.
 void describe(const Surface& mesh) {
     const bool closed = CGAL::is_closed(mesh);
     auto labels = std::vector<std::size_t>(num_faces(mesh));
     const auto pieces =
         pmp::connected_components(mesh, CGAL::make_property_map(labels), CGAL::parameters::all_default());
-    std::vector<std::pair<Surface::Face_index, Surface::Face_index>> pairs;
-    pmp::self_intersections(mesh, std::back_inserter(pairs));
-    std::cout << ", \"closed\": " << closed << ", \"pieces\": " << pieces
-              << ", \"self_intersections\": " << pairs.size() << ", \"euler\": "
+    const Pairs pairs = print_self_intersections(mesh);
+    std::cout << ", \"closed\": " << closed << ", \"pieces\": " << pieces << ", \"euler\": "
               << static_cast<long long>(num_vertices(mesh)) - static_cast<long long>(num_edges(mesh)) +
                      static_cast<long long>(num_faces(mesh))
               << ", \"area\": " << pmp::area(mesh);
@@ -88,13 +105,20 @@ int main(int count, char** paths) {
     std::cout.precision(17);
     std::cout << std::boolalpha;
     for (int i = 1; i < count; ++i) {
-        const Soup soup = compact(read(paths[i]));
+        Soup soup = compact(read(paths[i]));
         const bool mesh = pmp::is_polygon_soup_a_polygon_mesh(soup.triangles);
         std::cout << "{\"mesh\": " << mesh;
-        if (mesh) {
+        const auto& triangles = soup.triangles;
+        if (mesh || std::none_of(triangles.begin(), triangles.end(), repeats_a_vertex)) {
+            // What is no mesh is taken apart, vertices doubled, until it is one: faces stay, and in their
+            // order.
+            if (!mesh) pmp::orient_polygon_soup(soup.points, soup.triangles);
             Surface surface;
             pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, surface);
-            describe(surface);
+            if (mesh)
+                describe(surface);
+            else
+                print_self_intersections(surface);
         }
         std::cout << "}\n";
     }
