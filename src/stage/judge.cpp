@@ -1,5 +1,6 @@
 #include "stage/judge.hpp"
 
+#include "geometry/solid_pieces.hpp"
 #include "geometry/surgery.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
@@ -55,10 +56,19 @@ class Judge {
         std::string name;
         std::span<const std::size_t> parts;
         const std::vector<Index>* faces; ///< of a piece of the one part; null: as the part has them
+        bool shared = false;             ///< the piece is one of several of a solid: the outer, or a cavity
     };
 
+    /// A cavity's front looks into it, which no piece shows by itself.
+    Properties properties_of(const Scene& scene, const Subject& subject) const {
+        Properties p = inspect(scene, s_.assertions.settings());
+        auto& outward = p.qualities[static_cast<std::size_t>(Quality::outward)];
+        if (subject.shared && outward && p.volume.value_or(0) < 0) outward = 1;
+        return p;
+    }
+
     void judge(const Scene& scene, const Subject& subject) {
-        auto checks = evaluate(s_.assertions, inspect(scene, s_.assertions.settings()), context_.name());
+        auto checks = evaluate(s_.assertions, properties_of(scene, subject), context_.name());
         for (std::size_t i = 0; i < checks.size(); ++i) {
             report::Check& check = checks[i];
             const Assertion& assertion = s_.assertions.all[i];
@@ -90,15 +100,21 @@ class Judge {
     void judge_components(const Scene& scene, std::size_t index) {
         const Part& part = scene.parts[index];
         const Components pieces = face_components(part.mesh, false);
+        const Components solids = solid_pieces(part.mesh);
         std::vector<std::vector<Index>> faces(pieces.count);
         for (Index f = 0; f < part.mesh.face_count(); ++f) faces[pieces.of_face[f]].push_back(f);
+        std::vector<std::size_t> of_solid(solids.count, 0);
+        for (const auto& piece : faces) ++of_solid[solids.of_face[piece[0]]];
         std::size_t number = 0;
         for (Mesh& mesh : separated(part.mesh, pieces.of_face, pieces.count)) {
             Scene one{{}, scene.materials, scene.unit, scene.up, {}};
             one.parts.emplace_back().name = part.name;
             one.parts[0].mesh = std::move(mesh);
             one.parts[0].transform = effective(part);
-            judge(one, {fmt::format("{}.{}", part.name, number), {&index, 1}, &faces[number]});
+            judge(one, {fmt::format("{}.{}", part.name, number),
+                        {&index, 1},
+                        &faces[number],
+                        of_solid[solids.of_face[faces[number][0]]] > 1});
             ++number;
         }
     }

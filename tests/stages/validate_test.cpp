@@ -137,6 +137,19 @@ TEST_CASE("validate takes lengths with units, and says what they are in the scen
     CHECK(judged("{parts: 2, per: part}", scene) == "part parts: 2, found 1");
 }
 
+TEST_CASE("a cavity looks outward as a component when it looks into the hollow", "[stages]") {
+    Mesh hollow = shapes::cube(), inner = shapes::cube();
+    for (Vec3& p : inner.positions) p = p * 0.5 + Vec3{0.25, 0.25, 0.25};
+    for (std::size_t c = 0; c < inner.corners.size(); c += 3)
+        std::swap(inner.corners[c], inner.corners[c + 1]);
+    append(hollow, inner);
+    CHECK(judged("{outward: true, euler: 2, per: component}", hollow) == "");
+    Mesh alone = shapes::cube();
+    append(alone, inner);
+    for (std::size_t v = 8; v < 16; ++v) alone.positions[v].x += 5; // inside out, in no solid
+    CHECK(judged("{outward: true, per: component}", alone) == "part.1 outward: true, found false");
+}
+
 TEST_CASE("validate judges each part or component when asked", "[stages]") {
     Mesh mesh = shapes::cube();
     append(mesh, shapes::grid(1, 1));
