@@ -44,10 +44,9 @@ std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
         for (const Index c : corners)
             leaves.push_back({c, beside_edge(plain, faces[c], c), plain.vertex(c) == low});
         if (!winds_twice(plain.positions[low], plain.positions[high], std::move(leaves))) continue;
-        for (std::size_t i = 0; i < corners.size(); ++i)
-            for (std::size_t j = i + 1; j < corners.size(); ++j)
-                if (faces[corners[i]] != faces[corners[j]])
-                    pairs.push_back(std::minmax({faces[corners[i]], faces[corners[j]]}));
+        for (std::size_t i = 0; i + 1 < corners.size(); ++i) // a chain: all pairs could be too many
+            if (faces[corners[i]] != faces[corners[i + 1]])
+                pairs.push_back(std::minmax({faces[corners[i]], faces[corners[i + 1]]}));
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

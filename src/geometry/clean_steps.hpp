@@ -58,8 +58,9 @@ bool remove_isolated(Work& work);
 /// faces which only an edge or vertex parts (split_non_manifold) are none. At most most_pairs are listed.
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {});
 inline constexpr std::size_t most_pairs = std::size_t{1} << 22;
-/// The pairs of faces, lower one first, ascending, at edges around which the surface winds more than once:
-/// there solids overlap without any crossing, as grids do that pass through each other along their lines.
+/// Pairs of faces, lower one first, ascending, that link all faces at edges around which the surface winds
+/// more than once: there solids overlap without any crossing, as grids do that pass through each other along
+/// their lines.
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
 /// Closed pieces that pass through each other, or through themselves, become one solid: the union, by winding
 /// numbers (see unite). `found` are the crossings of the mesh, `overlaps` those at edges. What is closed

@@ -11,6 +11,9 @@ namespace facetmill::clean_steps {
 namespace {
 
 constexpr int most_passes = 8;
+/// Those that cannot be united are left out and the rest is tried again, so often: a bound for what is
+/// hostile.
+constexpr int most_trials = 8;
 /// Where passes make new crossings, points that are this near (of the size of the mesh) become one, and eight
 /// times as far in each pass after; in the first, only those that round to one place.
 constexpr double nearest = 1.0 / static_cast<double>(std::int64_t{1} << 50);
@@ -174,7 +177,15 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
     const auto any = [&] {
         return std::any_of(solids.cluster.begin(), solids.cluster.end(), [](Index c) { return c != none; });
     };
-    while (any()) {
+    for (int trials = 0; any(); ++trials) {
+        if (trials == most_trials) {
+            for (Index c = 0; c < solids.clusters(); ++c)
+                if (std::find(solids.cluster.begin(), solids.cluster.end(), c) != solids.cluster.end())
+                    work.not_done.push_back(
+                        {"self_intersections",
+                         "given up, since too many others of the part could not be united", solids.at[c]});
+            break;
+        }
         Trial trial(work, solids, settings);
         Failures failures = trial.run(found);
         std::size_t crowded = 0;
