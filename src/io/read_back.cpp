@@ -240,6 +240,7 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, co
         refuse(fmt::format("a vertex moved farther than {}", back.tolerance));
     back.soundness = inspect(back.scene);
     if (!is_sound(back.soundness)) back.losses = losses(inspect(scene), back.soundness);
+    if (!back.losses.empty()) back.changes = vertex_changes(scene, back.scene);
     return back;
 }
 

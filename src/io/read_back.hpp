@@ -4,6 +4,7 @@
 #include "base/json.hpp"
 #include "geometry/inspect.hpp"
 #include "io/codec.hpp"
+#include "io/why_lost.hpp"
 
 namespace facetmill::io {
 
@@ -13,15 +14,16 @@ struct ReadBack {
     double position_error = 0;       ///< how far a vertex that faces use moved at most, in the file's units
     double tolerance = 0;            ///< how far the format and its settings may move one
     Properties soundness;            ///< of the file as decoded
-    std::vector<std::string> losses; ///< how it is less sound than the scene: rounding may merge points
+    std::vector<std::string> losses; ///< how it is less sound than the scene
+    VertexChanges changes;           ///< why, when it is
     Json json() const; ///< vertices, faces, position_error, closed, edge_manifold, vertex_manifold, ...
 };
 
 /// Decodes the file and compares it with the scene (in the file's convention): the number of faces (polygons,
 /// or the triangles that they are cut into), and the distance from every vertex that faces use to the nearest
 /// one of the other side, within what float32 or Draco's bits allow. Throws output (E-READBACK) when it does
-/// not hold what was written. What such rounding did to closedness, manifoldness, orientation and degenerate
-/// or duplicate faces is told, not judged.
+/// not hold what was written. What such rounding, or what the format cannot hold, did to closedness,
+/// manifoldness, orientation and degenerate or duplicate faces is told, not judged.
 ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings);
 
 } // namespace facetmill::io

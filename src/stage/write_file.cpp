@@ -18,6 +18,44 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
+/// Why rounding put points on others or faces on lines, and the way out.
+std::string rounding(std::size_t points, const io::Codec& codec, const io::WriteSettings& settings) {
+    const std::string what = points > 0
+                                 ? fmt::format("put {} point{} on others", points, points == 1 ? "" : "s")
+                                 : std::string("moved points onto lines of others");
+    if (settings.draco.on)
+        return fmt::format("Draco's {} bits {}: more draco.position_bits, or no draco",
+                           settings.draco.position_bits, what);
+    const bool has_full = codec.name == "ply" || codec.name == "obj" || codec.name == "off";
+    if (has_full && !settings.double_positions)
+        return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
+    return fmt::format("the 32-bit floats of {} {}: put clean before write, or write PLY, OBJ or OFF with "
+                       "precision: full",
+                       codec.name, what);
+}
+
+/// Why a file is less sound than the scene, and the way out.
+std::string reason(const io::VertexChanges& changes, const io::Codec& codec,
+                   const io::WriteSettings& settings) {
+    std::vector<std::string> reasons;
+    if (changes.added > 0)
+        reasons.push_back(fmt::format("{} has one set of attributes at a vertex, so seams came apart and {} "
+                                      "vertices were added: write OBJ or glTF, or weld after loading (clean)",
+                                      codec.name, changes.added));
+    if (changes.merged > 0 && codec.name == "stl")
+        reasons.push_back(fmt::format("STL has no shared vertices, so corners at the same place are one when "
+                                      "it is read ({} fewer): write PLY, OBJ or OFF",
+                                      changes.merged));
+    else if (changes.merged > 0)
+        reasons.push_back(
+            fmt::format("vertices of {} at the same place are one when it is read ({} fewer): "
+                        "{}write PLY, OBJ or OFF",
+                        codec.name, changes.merged,
+                        settings.mesh_manifold || settings.draco.on ? "" : "mesh_manifold: true, or "));
+    if (changes.rounded > 0 || reasons.empty()) reasons.push_back(rounding(changes.rounded, codec, settings));
+    return fmt::format("{}", fmt::join(reasons, "; "));
+}
+
 } // namespace
 
 void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context) {
@@ -91,7 +129,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& target
         context.warn("W-ROUNDED",
                      fmt::format("'{}' as read again is less sound than the scene: {}", target.string(),
                                  fmt::join(back.losses, ", ")),
-                     "its numbers are coarser: precision: full, more position_bits, or clean before writing");
+                     reason(back.changes, codec, settings));
 }
 
 } // namespace facetmill

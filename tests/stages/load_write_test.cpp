@@ -158,7 +158,84 @@ TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
     CHECK(b.record.warnings[0].message ==
           fmt::format("'{}' as read again is less sound than the scene: 2 degenerate_faces (before: 0)",
                       (b.dir / "c.ply").string()));
+    CHECK(b.record.warnings[0].hint == "32-bit floats put 1 point on others: precision: full keeps all bits");
     CHECK(b.state.record.outputs[1].read_back["closed"] == true);
+    b.run("write", Value::scalar("c.stl"));
+    REQUIRE(b.record.warnings.size() == 2);
+    CHECK(b.record.warnings[1].hint ==
+          "the 32-bit floats of stl put 1 point on others: put clean before write, "
+          "or write PLY, OBJ or OFF with precision: full");
+}
+
+namespace {
+
+/// The ids and hints of what writing to that file warns of.
+std::string told_of(Bench& b, const Value& value) {
+    b.run("write", value);
+    std::string text;
+    for (const auto& w : b.record.warnings)
+        if (w.id == "W-ROUNDED") text += (text.empty() ? "" : "\n") + w.hint;
+    return text;
+}
+
+/// Two cubes that touch along an edge, whose corners there are different vertices.
+Mesh touching_cubes() {
+    Mesh mesh = shapes::cube(), other = shapes::cube();
+    for (Vec3& p : other.positions) p += Vec3{1, 1, 0};
+    append(mesh, other);
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("write says of seams that come apart that they do", "[stages]") {
+    Bench b;
+    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    b.scene.parts.emplace_back().mesh = shapes::uv_cube(); // closed, 24 wedges on 8 vertices
+    const std::string ply = told_of(b, Value::scalar("c.ply"));
+    CHECK(ply == "ply has one set of attributes at a vertex, so seams came apart and 16 vertices were added: "
+                 "write OBJ or glTF, or weld after loading (clean)");
+    for (const char* path : {"c.obj", "c.glb"}) {
+        b.record.warnings.clear();
+        CHECK(told_of(b, Value::scalar(path)) == "");
+    }
+}
+
+TEST_CASE("write says of vertices that the format makes one that it does", "[stages]") {
+    Bench b;
+    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    b.scene.parts.emplace_back().mesh = touching_cubes();
+    CHECK(told_of(b, Value::scalar("c.stl")) ==
+          "STL has no shared vertices, so corners at the same place are one when it is read (2 fewer): write "
+          "PLY, OBJ or OFF");
+    b.record.warnings.clear();
+    CHECK(
+        told_of(b, Value::scalar("c.glb")) ==
+        "vertices of glb at the same place are one when it is read (2 fewer): mesh_manifold: true, or write "
+        "PLY, OBJ or OFF");
+    for (const Value& value : {Value::scalar("c.ply"), Value::scalar("c.obj"), Value::scalar("c.off"),
+                               options({{"path", "d.glb"}, {"mesh_manifold", "true"}})}) {
+        b.record.warnings.clear();
+        CHECK(told_of(b, value) == "");
+    }
+}
+
+TEST_CASE("write names Draco's bits, and 32-bit floats that move points onto lines", "[stages]") {
+    Bench b;
+    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    Mesh& mesh = b.scene.parts.emplace_back().mesh;
+    mesh = shapes::icosphere(3);
+    std::vector<Value::Entry> given{{"path", {}, Value::scalar("b.glb")},
+                                    {"draco", {}, options({{"position_bits", "3"}})}};
+    const std::string coarse = told_of(b, Value::map(given));
+    CHECK(coarse.find("Draco's 3 bits put ") == 0);
+    CHECK(coarse.ends_with(" points on others: more draco.position_bits, or no draco"));
+    mesh = shapes::grid(1, 1); // a corner so near the diagonal that float32 puts it there
+    for (Vec3& p : mesh.positions) p += Vec3{1 << 20, 0, 0};
+    mesh.positions[1] = {(1 << 20) + 0.5 - 1e-9, 0.5, 0};
+    b.record.warnings.clear();
+    CHECK(told_of(b, Value::scalar("l.ply")) ==
+          "32-bit floats moved points onto lines of others: precision: full keeps all bits");
 }
 
 TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages]") {
