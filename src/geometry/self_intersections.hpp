@@ -14,17 +14,21 @@ namespace facetmill {
 struct SelfIntersectionSettings {
     std::size_t limit = 10;               ///< how many pairs are listed; all are counted
     std::vector<std::uint8_t> among = {}; ///< [faces] only pairs with a face that is set; empty: all pairs
+    bool apart = false;                   ///< pairs that only touch are counted and listed apart
 };
 
 struct SelfIntersections {
     std::size_t count = 0; ///< pairs of faces
     std::vector<std::pair<Index, Index>>
-        pairs; ///< the first by (lower, higher face), as many as the limit allows
+        pairs;                ///< the first by (lower, higher face), as many as the limit allows
+    std::size_t touching = 0; ///< with `apart`: pairs that only touch, which `count` and `pairs` leave out
+    std::vector<std::pair<Index, Index>> touching_pairs; ///< the first of them, likewise
 };
 
 /// Finds the pairs of faces that meet elsewhere than in the vertices and edges they share, decided exactly
 /// (CGAL's exact predicates) on the positions as they are. Sharing is by vertex index: faces that touch at
-/// equal positions of different vertices do meet elsewhere. Neighbours that fold over each other in one plane
+/// equal positions of different vertices do meet elsewhere; on request pairs that only touch there
+/// (geometry/touching.hpp) are told apart. Neighbours that fold over each other in one plane
 /// count. Faces without area take no part (Properties::degenerate_faces counts them), nor do those with
 /// coordinates that are not finite. Polygons stand for their triangles (mesh/triangulated), which do not
 /// count among themselves. A tree of boxes is walked against itself: O(n log n) and the pairs there

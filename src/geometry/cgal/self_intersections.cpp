@@ -4,6 +4,7 @@
 #include "geometry/box_pairs.hpp"
 #include "geometry/evidence.hpp"
 #include "geometry/surface.hpp"
+#include "geometry/touching.hpp"
 #include "geometry/triangles_apart.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <iterator>
 
 namespace facetmill {
 
@@ -87,6 +89,11 @@ struct First {
     }
 };
 
+/// Pairs that run into each other, and pairs that only touch.
+struct Kinds {
+    First real, touching;
+};
+
 /// The triangles to test, those of a polygon one by one.
 class Search {
   public:
@@ -100,27 +107,36 @@ class Search {
         });
     }
 
-    SelfIntersections run(std::size_t limit) const {
+    SelfIntersections run(std::size_t limit, bool apart) const {
         // Two polygons may meet in several of their triangles: all pairs are needed to count each once.
         const bool polygons = !surface_.faces.empty();
         const std::size_t kept = polygons ? SIZE_MAX : limit;
-        First all = pairs_.reduce(
-            First{},
-            [&](First& found, std::size_t i, std::size_t j) {
-                if (facets_meet(facets_[i], facets_[j]))
-                    found.add(std::minmax(facets_[i].face, facets_[j].face), kept);
+        const Touching touching(surface_);
+        Kinds all = pairs_.reduce(
+            Kinds{},
+            [&](Kinds& found, std::size_t i, std::size_t j) {
+                const Facet &s = facets_[i], &t = facets_[j];
+                const int shared = facets_meet(s, t);
+                if (shared < 0) return;
+                const bool touch =
+                    apart && shared < 2 && touching.only_touch(pairs_.items()[i], pairs_.items()[j]);
+                (touch ? found.touching : found.real).add(std::minmax(s.face, t.face), kept);
             },
-            [&](First a, const First& b) {
-                a.add(b, kept);
+            [&](Kinds a, const Kinds& b) {
+                a.real.add(b.real, kept), a.touching.add(b.touching, kept);
                 return a;
             });
-        std::sort(all.pairs.begin(), all.pairs.end());
-        if (polygons) {
-            all.pairs.erase(std::unique(all.pairs.begin(), all.pairs.end()), all.pairs.end());
-            all.count = all.pairs.size();
+        in_order(all.real, polygons), in_order(all.touching, polygons);
+        if (polygons) { // what runs into another in one triangle may touch it in others
+            const Pairs touch = std::move(all.touching.pairs);
+            all.touching.pairs.clear();
+            std::set_difference(touch.begin(), touch.end(), all.real.pairs.begin(), all.real.pairs.end(),
+                                std::back_inserter(all.touching.pairs));
+            all.touching.count = all.touching.pairs.size();
         }
-        all.pairs.resize(std::min(limit, all.pairs.size()));
-        return {all.count, std::move(all.pairs)};
+        for (First* first : {&all.real, &all.touching})
+            first->pairs.resize(std::min(limit, first->pairs.size()));
+        return {all.real.count, std::move(all.real.pairs), all.touching.count, std::move(all.touching.pairs)};
     }
 
     std::vector<std::uint8_t> faces(std::size_t count,
@@ -134,7 +150,7 @@ class Search {
             [&](Nothing&, std::size_t i, std::size_t j) {
                 const auto [f, g] = std::minmax(facets_[i].face, facets_[j].face);
                 if (flag(f).load(relaxed) && flag(g).load(relaxed)) return;
-                if (!facets_meet(facets_[i], facets_[j])) return;
+                if (facets_meet(facets_[i], facets_[j]) < 0) return;
                 if (std::binary_search(exempt.begin(), exempt.end(), std::pair{f, g})) return;
                 flag(f).store(1, relaxed), flag(g).store(1, relaxed);
             },
@@ -165,13 +181,21 @@ class Search {
         return {surface_.positions[v[0]], surface_.positions[v[1]], surface_.positions[v[2]]};
     }
 
-    bool facets_meet(const Facet& s, const Facet& t) const {
-        if (s.face == t.face) return false;
+    static void in_order(First& first, bool once) {
+        std::sort(first.pairs.begin(), first.pairs.end());
+        if (!once) return;
+        first.pairs.erase(std::unique(first.pairs.begin(), first.pairs.end()), first.pairs.end());
+        first.count = first.pairs.size();
+    }
+
+    /// How many vertices the two share, when they meet elsewhere; else -1.
+    int facets_meet(const Facet& s, const Facet& t) const {
+        if (s.face == t.face) return -1;
         auto u = s.vertices, v = t.vertices;
         const int shared = share(u, v);
-        if (shared == 3) return true;
+        if (shared == 3) return shared;
         const Corners a = corners(u), b = corners(v);
-        return !surely_apart(a, b, shared) && meet(a, b, shared);
+        return !surely_apart(a, b, shared) && meet(a, b, shared) ? shared : -1;
     }
 
     Surface surface_;
@@ -182,7 +206,7 @@ class Search {
 } // namespace
 
 SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings) {
-    return Search(mesh, settings.among).run(settings.limit);
+    return Search(mesh, settings.among).run(settings.limit, settings.apart);
 }
 
 std::vector<std::uint8_t> self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
