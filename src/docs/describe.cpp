@@ -18,6 +18,8 @@ std::string type_text(const Option& o) {
     if (o.type == "list" && o.dimension == Dimension::length) text += " of lengths";
     if (o.type == "list" && o.dimension == Dimension::ratio) text += " of ratios";
     if (o.type == "list" && o.dimension == Dimension::angle) text += " of angles";
+    if (o.type == "bound" && o.dimension == Dimension::angle) text += " of an angle";
+    if (o.type == "bound" && o.dimension == Dimension::length) text += " of a length";
     if (const auto range = o.range.spelled(); !range.empty()) text += ", " + range;
     return text;
 }

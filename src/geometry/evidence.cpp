@@ -3,6 +3,8 @@
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
 #include "base/random.hpp"
+#include "geometry/faces_at_vertices.hpp"
+#include "geometry/place_keys.hpp"
 #include "geometry/self_intersections.hpp"
 
 #include <algorithm>
@@ -31,28 +33,28 @@ std::vector<Place> places_of_edges(const Mesh& mesh, std::size_t limit, Fails fa
     std::vector<Place> places;
     for (Index e = 0; e < edges.size() && places.size() < limit; ++e) {
         if (!fails(directions(mesh, edges, e))) continue;
-        const auto& [low, high] = edges.edges[e];
-        places.push_back(
-            {faces[edges.corners_of(e).front()], mix(mesh.positions[low], mesh.positions[high], 0.5)});
+        const Vec3 &low = mesh.positions[edges.edges[e].low], &high = mesh.positions[edges.edges[e].high];
+        places.push_back({.face = faces[edges.corners_of(e).front()],
+                          .at = mix(low, high, 0.5),
+                          .key = key_of_edge(low, high)});
     }
     return places;
 }
 
 std::vector<Place> places_of_vertices(const Mesh& mesh, std::size_t limit, bool isolated) {
     const auto fans = fans_at_vertices(mesh, build_edges(mesh));
+    const auto faces = faces_at_vertices(mesh);
     std::vector<Place> places;
     for (Index v = 0; v < fans.size() && places.size() < limit; ++v)
-        if (isolated ? fans[v] == 0 : fans[v] > 1) places.push_back({none, mesh.positions[v]});
+        if (isolated ? fans[v] == 0 : fans[v] > 1)
+            places.push_back(
+                {.face = faces[v], .at = mesh.positions[v], .key = key_of_point(mesh.positions[v])});
     return places;
 }
 
 std::vector<Place> places_of_faces(const Mesh& mesh, const std::vector<Index>& faces) {
     std::vector<Place> places;
-    for (const Index f : faces) {
-        Vec3 sum;
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
-        places.push_back({f, sum / mesh.face_size(f)});
-    }
+    for (const Index f : faces) places.push_back(place_of(mesh, f));
     return places;
 }
 
@@ -64,11 +66,15 @@ std::vector<Index> degenerate_faces(const Mesh& mesh, std::size_t limit) {
 }
 
 /// The first face of each piece.
-std::vector<Index> first_faces(const Mesh& mesh, std::size_t limit) {
+std::vector<Place> places_of_pieces(const Mesh& mesh, std::size_t limit) {
     const Components pieces = face_components(mesh);
-    std::vector<Index> found;
+    const auto keys = keys_of_pieces(mesh, pieces.of_face, pieces.count);
+    std::vector<Place> found;
     for (Index f = 0; f < mesh.face_count() && found.size() < limit; ++f)
-        if (pieces.of_face[f] == found.size()) found.push_back(f); // pieces are numbered by first face
+        if (pieces.of_face[f] == found.size()) { // pieces are numbered by first face
+            found.push_back(place_of(mesh, f));
+            found.back().key = keys[found.size() - 1];
+        }
     return found;
 }
 
@@ -134,6 +140,24 @@ bool is_degenerate(const Mesh& mesh, Index f) {
     for (Index c = other + 1; c < end; ++c)
         if (!is_degenerate(p, q, mesh.point(c))) return false;
     return true;
+}
+
+Place place_of(const Mesh& mesh, Index f) {
+    Vec3 sum;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
+    return {.face = f, .at = sum / mesh.face_size(f), .key = key_of_face(mesh, f)};
+}
+
+std::vector<Place> places_of_pairs(const Mesh& mesh, const std::vector<std::pair<Index, Index>>& pairs,
+                                   std::size_t limit) {
+    std::vector<Place> places;
+    for (const auto& [f, g] : pairs) {
+        if (places.size() == limit) break;
+        places.push_back(place_of(mesh, f));
+        places.back().with = g;
+        places.back().key = key_of_pair(mesh, f, g);
+    }
+    return places;
 }
 
 std::vector<Index> fans_at_vertices(const Mesh& mesh, const EdgeTable& edges) {
@@ -202,7 +226,7 @@ std::vector<Place> places_against(const Mesh& mesh, std::string_view property, s
         places.insert(places.end(), more.begin(), more.end());
         return places;
     }
-    if (property == "components") return places_of_faces(mesh, first_faces(mesh, limit));
+    if (property == "components") return places_of_pieces(mesh, limit);
     if (property == "vertex_manifold") return places_of_vertices(mesh, limit, false);
     if (property == "isolated_vertices") return places_of_vertices(mesh, limit, true);
     if (property == "degenerate_faces") return places_of_faces(mesh, degenerate_faces(mesh, limit));
@@ -211,13 +235,9 @@ std::vector<Place> places_against(const Mesh& mesh, std::string_view property, s
         faces.resize(std::min(faces.size(), limit));
         return places_of_faces(mesh, faces);
     }
-    if (property == "self_intersections") {
-        std::vector<Index> faces, others;
-        for (const auto& [low, high] : find_self_intersections(mesh, {.limit = limit}).pairs)
-            faces.push_back(low), others.push_back(high);
-        auto places = places_of_faces(mesh, faces);
-        for (std::size_t i = 0; i < places.size(); ++i) places[i].with = others[i];
-        return places;
+    if (property == "self_intersections" || property == "touching") {
+        const auto found = find_self_intersections(mesh, {.limit = limit, .apart = true});
+        return places_of_pairs(mesh, property == "touching" ? found.touching_pairs : found.pairs, limit);
     }
     return {};
 }

@@ -109,8 +109,11 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     p.euler = p.vertices - p.isolated_vertices - p.edges + p.faces;
     if (p.closed) p.volume = (mirrored ? -sums.volume : sums.volume) / 6;
     if (p.closed && p.edge_manifold && p.vertex_manifold && p.oriented) p.genus = p.components - p.euler / 2;
-    if (settings.self_intersections)
-        p.self_intersections = static_cast<std::int64_t>(find_self_intersections(mesh, {.limit = 0}).count);
+    if (settings.self_intersections) {
+        const auto found = find_self_intersections(mesh, {.limit = 0, .apart = true});
+        p.self_intersections = static_cast<std::int64_t>(found.count);
+        p.touching = static_cast<std::int64_t>(found.touching);
+    }
     return p;
 }
 
@@ -163,6 +166,7 @@ void add(Properties& sum, const Properties& p) {
     add_optional(sum.genus, p.genus);
     add_optional(sum.volume, p.volume);
     add_optional(sum.self_intersections, p.self_intersections);
+    add_optional(sum.touching, p.touching);
     sum.bounds.add(p.bounds);
     add_qualities(sum, p);
 }
@@ -195,7 +199,7 @@ Properties inspect(const Scene& scene, const InspectSettings& settings) {
     sum.unit = scene.unit, sum.up = scene.up;
     sum.genus = 0;
     sum.volume = 0;
-    if (settings.self_intersections) sum.self_intersections = 0;
+    if (settings.self_intersections) sum.self_intersections = sum.touching = 0;
     for (const Part& part : scene.parts) add(sum, inspect(part, settings));
     return sum;
 }

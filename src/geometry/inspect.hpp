@@ -6,6 +6,7 @@
 #include "mesh/scene.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -31,6 +32,7 @@ struct Properties {
     std::int64_t duplicate_faces = 0;  ///< faces beyond the first with the same set of vertices
     std::int64_t isolated_vertices = 0;
     std::optional<std::int64_t> self_intersections; ///< pairs of faces; only on request
+    std::optional<std::int64_t> touching;           ///< pairs that touch only; with self_intersections
     double area = 0;
     std::optional<double> volume; ///< signed, when closed
     Box bounds;
@@ -53,9 +55,9 @@ Properties inspect(const Part& part, const InspectSettings& settings = {});
 /// Of all parts in world space (closedness is per part, see the design's section 2).
 Properties inspect(const Scene& scene, const InspectSettings& settings = {});
 
-/// What a property is, and so what may be asked of it: a number or a range, a length or a range of lengths,
-/// true or false, one of several words, or two corners of a box.
-enum class PropertyKind { count, number, length, truth, word, box };
+/// What a property is, and so what may be asked of it: a whole number, any number, an angle in degrees or a
+/// length, or a range of these; true or false, one of several words, or two corners of a box.
+enum class PropertyKind { count, number, angle, length, truth, word, box };
 
 /// An entry of the table of names that users write in validate, ensure and when.
 struct Property {
@@ -69,6 +71,7 @@ struct Property {
     std::optional<Quality> quality = {};      ///< needs its bit in InspectSettings::qualities
     std::vector<std::string_view> words = {}; ///< of a word
     bool of_scene = false;                    ///< of a scene only; reports tell more of it than the value
+    double lowest = 0, highest = HUGE_VAL;    ///< no mesh has a value beyond
     bool truth() const { return kind == PropertyKind::truth; }
 };
 

@@ -29,6 +29,7 @@ Property truth(std::string_view name, bool Properties::*member, std::string_view
 
 Property costly(Property p) { return p.costly = true, p; }
 Property of_scene(Property p) { return p.of_scene = true, p; }
+Property of_either_sign(Property p) { return p.lowest = -HUGE_VAL, p; }
 
 /// words: one for each value of the enumeration, in its order.
 Property word(Property p, std::vector<std::string_view> words) {
@@ -54,8 +55,9 @@ std::vector<Property> basic() {
         number("faces", &P::faces, "Polygons of the surface."),
         number("triangles", &P::triangles, "Faces of three corners."),
         number("components", &P::components, "Pieces connected through vertices."),
-        number("euler", &P::euler,
-               "V - E + F, without isolated vertices; 2 for a closed surface of genus 0 in one piece."),
+        of_either_sign(
+            number("euler", &P::euler,
+                   "V - E + F, without isolated vertices; 2 for a closed surface of genus 0 in one piece.")),
         number("genus", &P::genus,
                "Handles, summed over components, of a closed oriented manifold; else it does not apply."),
         number("boundary_loops", &P::boundary_loops, "Closed chains of boundary edges."),
@@ -68,12 +70,16 @@ std::vector<Property> basic() {
         number("duplicate_faces", &P::duplicate_faces, "Faces beyond the first with the same vertices."),
         number("isolated_vertices", &P::isolated_vertices, "Vertices that no face uses."),
         costly(number("self_intersections", &P::self_intersections,
-                      "Pairs of faces that intersect, exactly; this one costs time.")),
+                      "Pairs of faces that run into each other, exactly; this one costs time.")),
+        costly(number("touching", &P::touching,
+                      "Pairs of faces that touch at edges or corners that they do not share, and do not run "
+                      "into each other there, exactly; costs the same time.")),
         number("area", &P::area, "Surface area, in square scene units.", Kind::number),
-        number("volume", &P::volume,
-               "Enclosed volume, in cubic scene units, negative when inside out; does not apply to an open "
-               "surface.",
-               Kind::number),
+        of_either_sign(
+            number("volume", &P::volume,
+                   "Enclosed volume, in cubic scene units, negative when inside out; does not apply to an "
+                   "open surface.",
+                   Kind::number)),
         {"bounds", Kind::box,
          "The box around everything: its lowest corner at least {min: [x, y, z]}, its highest at most {max: "
          "[x, y, z]}.",
@@ -90,9 +96,13 @@ std::vector<Property> with_qualities() {
     auto all = basic();
     for (std::size_t q = 0; q < quality_count; ++q) {
         const QualityInfo& info = info_of(static_cast<Quality>(q));
-        const Kind kind = info.join == Join::all ? Kind::truth : info.length ? Kind::length : Kind::number;
+        constexpr Kind kinds[] = {Kind::number, Kind::length, Kind::angle, Kind::count}; // by Measure
+        const Kind kind =
+            info.join == Join::all ? Kind::truth : kinds[static_cast<std::size_t>(info.measure)];
         Property p{info.name, kind, info.help, [q](const Properties& all) { return all.qualities[q]; }};
         p.quality = static_cast<Quality>(q);
+        if (kind == Kind::angle) p.highest = 180;
+        if (p.quality == Quality::aspect_ratio) p.lowest = 1;
         all.push_back(std::move(p));
     }
     return all;

@@ -2,10 +2,13 @@
 
 #include "base/functions.hpp"
 #include "base/parallel.hpp"
+#include "base/random.hpp"
 #include "geometry/around_edge.hpp"
+#include "geometry/attribute_qualities.hpp"
 #include "geometry/boundary.hpp"
 #include "geometry/clean_steps.hpp"
 #include "geometry/orient.hpp"
+#include "geometry/place_keys.hpp"
 #include "geometry/power_scale.hpp"
 #include "geometry/self_intersections.hpp"
 #include "geometry/uv_overlaps.hpp"
@@ -18,6 +21,8 @@
 namespace facetmill {
 
 namespace {
+
+using Pairs = std::vector<std::pair<Index, Index>>;
 
 constexpr double degrees = 180 / pi;
 
@@ -76,7 +81,7 @@ double of_face(const Mesh& mesh, Quality q, Index f) {
 std::vector<double> face_values(const Mesh& mesh, Quality q) {
     if (const PowerScale scale = even_scale(mesh.bounds()); !scale.none()) {
         auto values = face_values(scale(mesh), q);
-        if (info_of(q).length)
+        if (info_of(q).measure == Measure::length)
             for (double& x : values) x = unscaled(x, scale.powers[0]);
         return values;
     }
@@ -86,8 +91,8 @@ std::vector<double> face_values(const Mesh& mesh, Quality q) {
     return values;
 }
 
-/// The lower face of each pair of neighbours that lie on each other.
-std::vector<Index> folded_faces(const Mesh& mesh) {
+/// The pairs of neighbours that lie on each other, the lower face first.
+Pairs folded_faces(const Mesh& mesh) {
     const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
     std::vector<std::uint8_t> folded(edges.size(), 0);
@@ -100,24 +105,26 @@ std::vector<Index> folded_faces(const Mesh& mesh) {
         const Vec3 p = beside_edge(mesh, f, corners[0]), q = beside_edge(mesh, g, corners[1]);
         folded[e] = orientation_3d(u, v, p, q) == 0 && on_same_side(u, v, p, q);
     });
-    std::vector<Index> list;
+    Pairs list;
     for (Index e = 0; e < folded.size(); ++e)
-        if (folded[e]) list.push_back(std::min(faces[edges.corners_of(e)[0]], faces[edges.corners_of(e)[1]]));
+        if (folded[e])
+            list.push_back(std::minmax(faces[edges.corners_of(e)[0]], faces[edges.corners_of(e)[1]]));
     std::sort(list.begin(), list.end());
     return list;
 }
 
-/// The lower face of each intersecting pair that lies in one plane.
-std::vector<Index> coplanar_overlaps(const Mesh& mesh) {
-    std::vector<Index> list;
-    for (const auto& [f, g] : find_self_intersections(mesh, {.limit = std::size_t{1} << 24}).pairs) {
+/// The intersecting pairs that lie in one plane.
+Pairs coplanar_overlaps(const Mesh& mesh) {
+    Pairs list;
+    for (const auto& [f, g] :
+         find_self_intersections(mesh, {.limit = std::size_t{1} << 24, .apart = true}).pairs) {
         const Index begin = mesh.face_begin(f);
         bool flat = true;
         for (Index c = mesh.face_begin(g); c < mesh.face_end(g); ++c)
             for (Index k = begin + 1; k + 1 < mesh.face_end(f); ++k)
                 flat = flat && orientation_3d(mesh.point(begin), mesh.point(k), mesh.point(k + 1),
                                               mesh.point(c)) == 0;
-        if (flat) list.push_back(f);
+        if (flat) list.emplace_back(f, g);
     }
     return list;
 }
@@ -130,93 +137,32 @@ std::vector<Index> inward_faces(const Mesh& mesh) {
     return list;
 }
 
-/// Elements of the attributes with that role (or name prefix) for which bad(attribute, element) holds.
-template <class Bad>
-std::optional<double> none_bad(const Mesh& mesh, bool (*chosen)(const Attribute&), Bad&& bad) {
-    bool any = false, good = true;
-    for (const auto& a : mesh.attributes) {
-        if (!chosen(a)) continue;
-        any = true;
-        good = good && parallel_reduce(
-                           a.size(), 0,
-                           [&](std::size_t begin, std::size_t end) {
-                               for (std::size_t i = begin; i < end; ++i)
-                                   if (bad(a, i)) return 1;
-                               return 0;
-                           },
-                           [](int x, int y) { return x + y; }) == 0;
-    }
-    if (!any) return {};
-    return good ? 1 : 0;
-}
-
-bool outside_unit(const Attribute& a, std::size_t i) {
-    for (int c = 0; c < a.components; ++c)
-        if (!(a.value(i, c) >= 0 && a.value(i, c) <= 1)) return true;
-    return false;
-}
-
-bool not_finite(const Attribute& a, std::size_t i) {
-    for (int c = 0; c < a.components; ++c)
-        if (!std::isfinite(a.value(i, c))) return true;
-    return false;
-}
-
-bool not_unit(const Attribute& a, std::size_t i) {
-    double sum = 0;
-    for (int c = 0; c < std::min(3, a.components); ++c) sum += a.value(i, c) * a.value(i, c);
-    return !(std::abs(std::sqrt(sum) - 1) <= 1.0 / 127); // a step of the coarsest type
-}
-
-/// Whether the weights of each element sum to one over all sets, to a step of the coarsest type.
-std::optional<double> weights_sum(const Mesh& mesh) {
-    std::vector<const Attribute*> sets;
-    for (const auto& a : mesh.attributes)
-        if (a.role == Role::weights) sets.push_back(&a);
-    if (sets.empty()) return {};
-    for (std::size_t i = 0; i < sets[0]->size(); ++i) {
-        double sum = 0;
-        for (const auto* a : sets)
-            for (int c = 0; c < a->components; ++c) sum += a->value(i, c);
-        if (!(std::abs(sum - 1) <= 1.0 / 255)) return 0;
-    }
-    return 1;
-}
-
-std::optional<double> joints(const Mesh& mesh) {
-    std::optional<double> most;
-    for (const auto& a : mesh.attributes)
-        if (a.role == Role::joints)
-            for (std::size_t i = 0; i < a.size(); ++i)
-                for (int c = 0; c < a.components; ++c) most = std::max(most.value_or(0), a.value(i, c) + 1);
-    return most;
-}
-
-std::optional<double> count(const std::vector<Index>& list) { return static_cast<double>(list.size()); }
+std::optional<double> count(const Pairs& list) { return static_cast<double>(list.size()); }
 
 constexpr std::array<QualityInfo, quality_count> table{{
-    {"min_angle", Join::least, "The smallest angle of a face, in degrees."},
-    {"max_angle", Join::most, "The largest angle of a face, in degrees."},
+    {"min_angle", Join::least, "The smallest angle of a face, in degrees.", Measure::angle},
+    {"max_angle", Join::most, "The largest angle of a face, in degrees.", Measure::angle},
     {"aspect_ratio", Join::most, "The worst ratio of longest edge to inner radius; 1 for equal sides."},
-    {"shortest_edge", Join::least, "The length of the shortest edge.", true},
-    {"longest_edge", Join::most, "The length of the longest edge.", true},
-    {"planarity", Join::most, "How far a corner lies from the mean plane of its polygon, at most.", true},
-    {"folded_faces", Join::sum, "Pairs of neighbours folded flat onto each other, exactly."},
-    {"t_vertices", Join::sum, "Vertices exactly on an open edge of another face."},
-    {"boundary_length", Join::sum, "The length of all open edges.", true},
-    {"longest_boundary", Join::most, "The length of the longest chain of open edges.", true},
+    {"shortest_edge", Join::least, "The length of the shortest edge.", Measure::length},
+    {"longest_edge", Join::most, "The length of the longest edge.", Measure::length},
+    {"planarity", Join::most, "How far a corner lies from the mean plane of its polygon, at most.",
+     Measure::length},
+    {"folded_faces", Join::sum, "Pairs of neighbours folded flat onto each other, exactly.", Measure::count},
+    {"t_vertices", Join::sum, "Vertices exactly on an open edge of another face.", Measure::count},
+    {"boundary_length", Join::sum, "The length of all open edges.", Measure::length},
+    {"longest_boundary", Join::most, "The length of the longest chain of open edges.", Measure::length},
     {"outward", Join::all, "Every piece has its front outside (cavities: inside), as orient would turn it."},
-    {"coplanar_overlaps", Join::sum, "Pairs of faces that overlap in one plane, exactly."},
+    {"coplanar_overlaps", Join::sum, "Pairs of faces that overlap in one plane, exactly.", Measure::count},
     {"wall_thickness", Join::least, "The least way through the solid, from the middles of faces straight in.",
-     true},
+     Measure::length},
     {"uvs_in_range", Join::all, "All texture coordinates lie within 0 and 1."},
     {"uv_overlaps", Join::sum,
-     "Pairs of faces that overlap in the first set of texture coordinates, exactly."},
+     "Pairs of faces that overlap in the first set of texture coordinates, exactly.", Measure::count},
     {"finite_attributes", Join::all, "No attribute has a number that is not finite."},
     {"unit_normals", Join::all, "All normals and tangents have length 1, to 1/127."},
     {"weights_sum", Join::all, "The joint weights of every wedge sum to 1, to 1/255."},
-    {"joints", Join::most, "Joints that the weights refer to: the highest number and one."},
-    {"extent", Join::most, "The longest side of a part's box.", true},
+    {"joints", Join::most, "Joints that the weights refer to: the highest number and one.", Measure::count},
+    {"extent", Join::most, "The longest side of a part's box.", Measure::length},
 }};
 
 } // namespace
@@ -234,7 +180,7 @@ std::optional<double> measure(const Mesh& mesh, Quality q) {
         if (q == Quality::wall_thickness && best == HUGE_VAL) return {};
         return best;
     }
-    const auto any = [](const Attribute&) { return true; };
+    if (is_of_attributes(q)) return measure_attributes(mesh, q);
     switch (q) {
     case Quality::folded_faces:
         return count(folded_faces(mesh));
@@ -248,19 +194,6 @@ std::optional<double> measure(const Mesh& mesh, Quality q) {
         const auto overlaps = uv_overlaps(mesh);
         return overlaps ? count(*overlaps) : std::nullopt;
     }
-    case Quality::uvs_in_range:
-        return none_bad(
-            mesh, [](const Attribute& a) { return a.role == Role::uv; }, outside_unit);
-    case Quality::finite_attributes:
-        return none_bad(mesh, any, not_finite).value_or(1);
-    case Quality::unit_normals:
-        return none_bad(
-            mesh, [](const Attribute& a) { return a.role == Role::normal || a.role == Role::tangent; },
-            not_unit);
-    case Quality::weights_sum:
-        return weights_sum(mesh);
-    case Quality::joints:
-        return joints(mesh);
     case Quality::extent: {
         const Vec3 e = mesh.bounds().extent();
         return std::max({e.x, e.y, e.z});
@@ -274,12 +207,6 @@ std::optional<double> measure(const Mesh& mesh, Quality q) {
 }
 
 namespace {
-
-Place place_of(const Mesh& mesh, Index f) {
-    Vec3 sum;
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
-    return {f, sum / mesh.face_size(f)};
-}
 
 /// The faces with the worst values, the worst first.
 std::vector<Index> worst_faces(const Mesh& mesh, Quality q, std::size_t limit,
@@ -297,25 +224,60 @@ std::vector<Index> worst_faces(const Mesh& mesh, Quality q, std::size_t limit,
     return order;
 }
 
+/// A face of each piece that looks inward; the piece known by its lowest position.
+std::vector<Place> inward_pieces(const Mesh& mesh, std::size_t limit) {
+    const Components pieces = face_components(mesh, false);
+    const auto keys = keys_of_pieces(mesh, pieces.of_face, pieces.count);
+    std::vector<Place> places;
+    for (const Index f : inward_faces(mesh)) {
+        if (places.size() == limit) break;
+        places.push_back(place_of(mesh, f));
+        places.back().key = keys[pieces.of_face[f]];
+    }
+    return places;
+}
+
+/// The vertices, with the face on whose edge each lies.
+std::vector<Place> t_vertices(const Mesh& mesh, std::size_t limit) {
+    const auto faces = corner_faces(mesh);
+    std::vector<Place> places;
+    for (const auto& i : clean_steps::find_t_vertices(mesh, 0)) {
+        if (places.size() == limit) break;
+        const Vec3& at = mesh.positions[i.vertex];
+        const Index face = faces[i.corner];
+        const Vec3 &from = mesh.point(i.corner), &to = mesh.point(next_corner(mesh, face, i.corner));
+        places.push_back({.face = face, .at = at, .key = hashed(key_of_point(at), key_of_edge(from, to))});
+    }
+    return places;
+}
+
 } // namespace
 
 std::vector<Place> places_against(const Mesh& mesh, Quality q, std::size_t limit,
                                   const std::function<bool(double)>& fails) {
-    std::vector<Index> faces;
-    if (is_by_face(q)) faces = worst_faces(mesh, q, limit, fails);
-    if (q == Quality::folded_faces) faces = folded_faces(mesh);
-    if (q == Quality::coplanar_overlaps) faces = coplanar_overlaps(mesh);
-    if (q == Quality::outward) faces = inward_faces(mesh);
-    if (q == Quality::uv_overlaps) faces = uv_overlaps(mesh).value_or(std::vector<Index>{});
-    if (q == Quality::boundary_length || q == Quality::longest_boundary)
+    if (is_of_attributes(q)) return places_against_attributes(mesh, q, limit, fails);
+    if (is_by_face(q)) {
+        std::vector<Place> places;
+        for (const Index f : worst_faces(mesh, q, limit, fails)) places.push_back(place_of(mesh, f));
+        return places;
+    }
+    switch (q) {
+    case Quality::folded_faces:
+        return places_of_pairs(mesh, folded_faces(mesh), limit);
+    case Quality::coplanar_overlaps:
+        return places_of_pairs(mesh, coplanar_overlaps(mesh), limit);
+    case Quality::uv_overlaps:
+        return places_of_pairs(mesh, uv_overlaps(mesh).value_or(Pairs{}), limit);
+    case Quality::outward:
+        return inward_pieces(mesh, limit);
+    case Quality::t_vertices:
+        return t_vertices(mesh, limit);
+    case Quality::boundary_length:
+    case Quality::longest_boundary:
         return places_against(mesh, "boundary_edges", limit);
-    std::vector<Place> places;
-    if (q == Quality::t_vertices)
-        for (const auto& i : clean_steps::find_t_vertices(mesh, 0))
-            if (places.size() < limit) places.push_back({none, mesh.positions[i.vertex]});
-    for (const Index f : faces)
-        if (places.size() < limit) places.push_back(place_of(mesh, f));
-    return places;
+    default:
+        return {};
+    }
 }
 
 } // namespace facetmill

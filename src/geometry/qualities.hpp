@@ -37,11 +37,14 @@ inline constexpr std::size_t quality_count = 20;
 /// How the values of several parts become one: truths hold for all.
 enum class Join { sum, least, most, all };
 
+/// What a quality that is no truth is measured in.
+enum class Measure { number, length, angle, count };
+
 struct QualityInfo {
     const char* name; ///< as users write it
     Join join;
     const char* help;
-    bool length = false; ///< in scene units
+    Measure measure = Measure::number;
 };
 
 const QualityInfo& info_of(Quality quality);

@@ -49,7 +49,7 @@ std::vector<Flat> triangles_of(const Mesh& mesh, const Attribute& uv) {
 
 } // namespace
 
-std::optional<std::vector<Index>> uv_overlaps(const Mesh& mesh) {
+std::optional<std::vector<std::pair<Index, Index>>> uv_overlaps(const Mesh& mesh) {
     const Attribute* uv = mesh.find("TEXCOORD_0", Domain::wedge);
     if (!uv || uv->components < 2) return {};
     const auto triangles = triangles_of(mesh, *uv);
@@ -77,9 +77,7 @@ std::optional<std::vector<Index>> uv_overlaps(const Mesh& mesh) {
         1024);
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    std::vector<Index> faces;
-    for (const auto& [f, g] : pairs) faces.push_back(f);
-    return faces;
+    return pairs;
 }
 
 } // namespace facetmill

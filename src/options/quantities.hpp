@@ -51,4 +51,11 @@ struct Bound {
     std::optional<bool> truth; ///< for properties that are true or false
 };
 
+/// A bound on an angle, in degrees.
+struct AngleBound : Bound {};
+/// A limit on a count: a bare value is the most that may be.
+struct CountLimit : Bound {};
+/// A limit on a count of bytes, which may have a unit.
+struct ByteLimit : Bound {};
+
 } // namespace facetmill

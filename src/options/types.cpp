@@ -9,25 +9,6 @@ namespace facetmill {
 
 namespace {
 
-bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint = {}) {
-    if (hint.empty() && value.is_scalar() && value.quoted) hint = "leave the quotes out";
-    problems.add(value.mark, "E-TYPE", fmt::format("expected {}, found {}", expected, value.described()),
-                 std::move(hint));
-    return false;
-}
-
-/// "2.5mm" -> 2.5 and "mm"; none when it does not start with a number.
-std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text) {
-    std::size_t split = text.size();
-    while (split > 0 && !(text[split - 1] >= '0' && text[split - 1] <= '9') && text[split - 1] != '.')
-        --split;
-    const auto number = parse_real(text.substr(0, split));
-    if (!number) return {};
-    std::string_view unit = text.substr(split);
-    while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
-    return std::pair{*number, unit};
-}
-
 constexpr std::array<std::pair<std::string_view, double>, 8> length_units{{{"um", 1e-6},
                                                                            {"mm", 1e-3},
                                                                            {"cm", 1e-2},
@@ -40,6 +21,24 @@ constexpr std::array<std::pair<std::string_view, double>, 8> length_units{{{"um"
 constexpr double pi = 3.141592653589793238462643383279502884;
 
 } // namespace
+
+bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint) {
+    if (hint.empty() && value.is_scalar() && value.quoted) hint = "leave the quotes out";
+    problems.add(value.mark, "E-TYPE", fmt::format("expected {}, found {}", expected, value.described()),
+                 std::move(hint));
+    return false;
+}
+
+std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text) {
+    std::size_t split = text.size();
+    while (split > 0 && !(text[split - 1] >= '0' && text[split - 1] <= '9') && text[split - 1] != '.')
+        --split;
+    const auto number = parse_real(text.substr(0, split));
+    if (!number) return {};
+    std::string_view unit = text.substr(split);
+    while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+    return std::pair{*number, unit};
+}
 
 // --- bool, numbers, text
 
@@ -204,65 +203,5 @@ Json OptionType<Vec3>::schema() {
     return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};
 }
 std::optional<double> OptionType<Vec3>::magnitude(const Vec3&) { return {}; }
-
-namespace {
-
-/// A number, an angle in degrees, a percentage as a fraction, or true/false as the truth of a bound.
-bool parse_limit(const Value& value, std::optional<double>& out, Problems& problems) {
-    if (value.deferred) return true;
-    if (const auto number = value.as_real()) return out = *number, true;
-    const auto parts = value.is_scalar() ? number_and_unit(value.text) : std::nullopt;
-    if (parts && (parts->second == "%" || parts->second == "pct")) return out = parts->first / 100, true;
-    if (parts && parts->second == "deg") return out = parts->first, true; // angles are in degrees
-    return wrong_type(value, "a number", problems);
-}
-
-} // namespace
-
-bool OptionType<Bound>::parse(const Value& value, Bound& out, Problems& problems) {
-    out = {};
-    if (value.deferred) return true;
-    if (const auto truth = value.as_bool()) return out.truth = truth, true;
-    if (value.is_map()) {
-        bool good = true;
-        for (const auto& e : value.entries) {
-            if (e.key == "min")
-                good &= parse_limit(e.value, out.min, problems);
-            else if (e.key == "max")
-                good &= parse_limit(e.value, out.max, problems);
-            else {
-                problems.add(e.key_mark, "E-KEY", fmt::format("a bound has no key '{}'", e.key),
-                             "expected min or max");
-                good = false;
-            }
-        }
-        if (out.min && out.max && *out.min > *out.max) {
-            problems.add(
-                value.mark, "E-RANGE",
-                fmt::format("no number is at least {} and at most {}", spelled(*out.min), spelled(*out.max)),
-                "exchange min and max");
-            good = false;
-        }
-        return good && (out.min || out.max || wrong_type(value, "min or max", problems));
-    }
-    if (!value.is_scalar()) return wrong_type(value, "a bound (true, 2, {min: 1, max: 5})", problems);
-    if (!parse_limit(value, out.min, problems)) return false;
-    return out.max = out.min, true;
-}
-std::string OptionType<Bound>::print(const Bound& b) {
-    if (b.truth) return *b.truth ? "true" : "false";
-    if (b.min && b.max && *b.min == *b.max) return spelled(*b.min);
-    if (b.min && b.max) return fmt::format("{{min: {}, max: {}}}", spelled(*b.min), spelled(*b.max));
-    if (b.min) return fmt::format("{{min: {}}}", spelled(*b.min));
-    return b.max ? fmt::format("{{max: {}}}", spelled(*b.max)) : "";
-}
-Json OptionType<Bound>::schema() {
-    const Json limit = {{"type", Json::array({"number", "string"})}};
-    return {{"anyOf", Json::array({{{"type", Json::array({"boolean", "number", "string"})}},
-                                   {{"type", "object"},
-                                    {"additionalProperties", false},
-                                    {"properties", {{"min", limit}, {"max", limit}}}}})}};
-}
-std::optional<double> OptionType<Bound>::magnitude(const Bound&) { return {}; }
 
 } // namespace facetmill

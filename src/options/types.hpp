@@ -22,6 +22,11 @@ struct Range {
     std::string spelled() const; ///< "0 < x <= 1", or empty
 };
 
+/// "2.5mm" -> 2.5 and "mm"; none when it does not start with a number.
+std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_view text);
+/// Adds E-TYPE at the value, "expected ..., found ..."; false.
+bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint = {});
+
 /// Each specialisation has:
 ///   static constexpr const char* name;                      type for people: "integer", "length"
 ///   static constexpr Dimension dimension;
@@ -53,6 +58,9 @@ FACETMILL_OPTION_TYPE(Length, "length", Dimension::length);
 FACETMILL_OPTION_TYPE(Angle, "angle", Dimension::angle);
 FACETMILL_OPTION_TYPE(Vec3, "vector", Dimension::none);
 FACETMILL_OPTION_TYPE(Bound, "bound", Dimension::none);
+FACETMILL_OPTION_TYPE(AngleBound, "bound", Dimension::angle);
+FACETMILL_OPTION_TYPE(CountLimit, "limit", Dimension::count);
+FACETMILL_OPTION_TYPE(ByteLimit, "limit", Dimension::bytes);
 
 /// One value or a list of them.
 template <class T>

@@ -1,5 +1,6 @@
 #include "report/check_text.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::report {
@@ -10,18 +11,60 @@ const char* outcome(const Check& check) {
     return check.severity == Severity::error ? "failed" : "warned";
 }
 
+namespace {
+
+/// "face 7 and 9 of 'part' at 1 2 3"
+std::string place_text(const Json& place) {
+    std::string text;
+    if (place.contains("face")) text += fmt::format("face {} ", place["face"].get<std::size_t>());
+    if (place.contains("with")) text += fmt::format("and {} ", place["with"].get<std::size_t>());
+    if (place.contains("part")) text += fmt::format("of '{}' ", place["part"].get<std::string>());
+    const Json& at = place.at("at");
+    text +=
+        fmt::format("at {:.6g} {:.6g} {:.6g}", at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
+    if (place.contains("attribute")) text += fmt::format(" in {}", place["attribute"].get<std::string>());
+    return text;
+}
+
+/// "part 'wheel' 1200", "image 'wood' 2048 x 1024", "extension 'KHR_a' of 'b.glb'"
+std::string share_text(const Json& entry) {
+    std::string text;
+    for (const char* kind : {"part", "material", "image", "extension"})
+        if (entry.contains(kind)) text += fmt::format("{} '{}'", kind, entry[kind].get<std::string>());
+    if (entry.contains("bytes_of")) text += entry["bytes_of"].get<std::string>() + ",";
+    if (entry.contains("document")) text += fmt::format(" of '{}'", entry["document"].get<std::string>());
+    if (entry.contains("width"))
+        text +=
+            fmt::format(" {} x {}", entry["width"].get<std::size_t>(), entry["height"].get<std::size_t>());
+    else if (entry.contains("amount"))
+        text += fmt::format(" {:.12g}{}", entry["amount"].get<double>(),
+                            entry.contains("bytes_of") ? " bytes" : "");
+    return text;
+}
+
+/// The first of those that are no places.
+std::string shares_text(const Json& evidence) {
+    constexpr std::size_t most = 3;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, evidence.size()); ++i)
+        text += (i == 0 ? "" : ", ") + share_text(evidence[i]);
+    return evidence.size() > most ? text + " ..." : text;
+}
+
+} // namespace
+
 std::string places_text(const Check& check) {
-    if (!check.evidence.is_array() || check.evidence.empty() || !check.evidence[0].contains("at")) return {};
+    if (!check.evidence.is_array() || check.evidence.empty()) return {};
     const Json& first = check.evidence[0];
-    std::string text =
-        check.places ? fmt::format("{} place{}, the first ", *check.places, *check.places == 1 ? "" : "s")
-                     : "first ";
-    if (first.contains("face")) text += fmt::format("face {} ", first["face"].get<std::size_t>());
-    if (first.contains("with")) text += fmt::format("and {} ", first["with"].get<std::size_t>());
-    if (first.contains("part")) text += fmt::format("of '{}' ", first["part"].get<std::string>());
-    const Json& at = first.at("at");
-    return text + fmt::format("at {:.6g} {:.6g} {:.6g}", at[0].get<double>(), at[1].get<double>(),
-                              at[2].get<double>());
+    if (!first.contains("at")) return shares_text(check.evidence);
+    std::string text = "first ";
+    if (check.places)
+        text = fmt::format("{} place{}, the first ", *check.places, *check.places == 1 ? "" : "s");
+    if (check.fresh && *check.fresh > 0)
+        text =
+            (check.places ? fmt::format("{} place{}, ", *check.places, *check.places == 1 ? "" : "s") : "") +
+            fmt::format("{} new, the first ", *check.fresh);
+    return text + place_text(first);
 }
 
 } // namespace facetmill::report

@@ -61,6 +61,7 @@ Json check_json(const Check& check) {
             {"where", text_or_null(facetmill::spelled(check.where))},
             {"waived", check.waived},
             {"places", check.places ? Json(*check.places) : Json()},
+            {"new_places", check.fresh ? Json(*check.fresh) : Json()},
             {"evidence", check.evidence}};
 }
 

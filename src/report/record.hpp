@@ -22,6 +22,7 @@ struct Check {
     std::string part;                    ///< the part it is about; empty: the scene
     Json evidence;                       ///< the first places: [{part, at, face}], or null
     std::optional<std::size_t> places{}; ///< how many speak against it, where that is not what was found
+    std::optional<std::size_t> fresh{};  ///< how many of these a baseline does not know; none without one
     bool waived = false;                 ///< it did not hold, but that is known; passed is true
     Mark where;
 };

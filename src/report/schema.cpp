@@ -115,24 +115,26 @@ Json definitions() {
                                 {"faces", typed("integer")},
                                 {"bounds", bounds()}});
     brief["type"] = Json::array({"object", "null"});
-    return {{"diagnostic", closed_object({{"id", typed("string")},
-                                          {"message", typed("string")},
-                                          {"where", nullable("string")},
-                                          {"hint", nullable("string")}})},
-            {"brief", std::move(brief)},
-            {"stage", stage_schema()},
-            {"check", closed_object({{"name", typed("string", "The property")},
-                                     {"stage", typed("string")},
-                                     {"passed", typed("boolean")},
-                                     {"severity", choice({"error", "warning", "note"})},
-                                     {"expected", typed("string")},
-                                     {"found", typed("string")},
-                                     {"part", nullable("string", "The part it is about; null: the scene")},
-                                     {"where", nullable("string", "Its place in the pipeline")},
-                                     {"waived", typed("boolean", "It failed, and that is known")},
-                                     {"places", nullable("integer", "How many speak against it")},
-                                     {"evidence", nullable("array", "The first places")}})},
-            {"scene", scene_schema()}};
+    return {
+        {"diagnostic", closed_object({{"id", typed("string")},
+                                      {"message", typed("string")},
+                                      {"where", nullable("string")},
+                                      {"hint", nullable("string")}})},
+        {"brief", std::move(brief)},
+        {"stage", stage_schema()},
+        {"check", closed_object({{"name", typed("string", "The property")},
+                                 {"stage", typed("string")},
+                                 {"passed", typed("boolean")},
+                                 {"severity", choice({"error", "warning", "note"})},
+                                 {"expected", typed("string")},
+                                 {"found", typed("string")},
+                                 {"part", nullable("string", "The part it is about; null: the scene")},
+                                 {"where", nullable("string", "Its place in the pipeline")},
+                                 {"waived", typed("boolean", "It failed, and that is known")},
+                                 {"places", nullable("integer", "How many speak against it")},
+                                 {"new_places", nullable("integer", "How many the baseline lacks")},
+                                 {"evidence", nullable("array", "The first places, or what counts most")}})},
+        {"scene", scene_schema()}};
 }
 
 Json run_schema() {

@@ -6,6 +6,7 @@ const std::vector<KnownWarning>& known_warnings() {
     static const std::vector<KnownWarning> all{
         {"W-AMPLITUDE", "crumple moves vertices further than the edges are long: faces run into each other."},
         {"W-ATTRIBUTE", "An attribute of a type that meshes cannot have is not read."},
+        {"W-BASELINE", "Nothing of a baseline fails in the mesh, and other things do."},
         {"W-CAP-OPEN", "clip cannot close a contour that is open; it is named, and the others are capped."},
         {"W-CHECK", "An assertion with severity warn does not hold."},
         {"W-CLEAN", "clean could not do some repairs; the mesh is as it was there."},

@@ -59,7 +59,9 @@ void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner)
         o.name = p.name;
         o.type = p.truth() ? "bool" : p.kind == PropertyKind::word ? "choice" : OptionType<Bound>::name;
         const bool length = p.kind == PropertyKind::length || p.kind == PropertyKind::box;
-        o.dimension = length ? Dimension::length : Dimension::none;
+        o.dimension = length                          ? Dimension::length
+                      : p.kind == PropertyKind::angle ? Dimension::angle
+                                                      : Dimension::none;
         o.choices = word_choices(p);
         o.help = p.help;
         o.schema = schema["properties"][o.name];

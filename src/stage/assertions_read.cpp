@@ -5,6 +5,7 @@
 #include "stage/convention_option.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -23,6 +24,8 @@ const char* wanted(PropertyKind kind) {
         return "true or false";
     case PropertyKind::length:
         return "a length (2mm) or a range ({min: 1mm, max: 5%})";
+    case PropertyKind::angle:
+        return "an angle (30deg) or a range ({min: 5deg, max: 0.5rad})";
     case PropertyKind::box:
         return "a box ({min: [0, 0, 0], max: [20cm, 20cm, 5cm]})";
     default:
@@ -42,9 +45,33 @@ bool read_truth(const Property& property, const Value& value, Assertion& out, Pr
     return out.bound.truth || wrong_kind(property, value, problems);
 }
 
+/// Whether the bound says something that a value of the property can meet.
+bool verify(const Property& property, const Value& value, const Bound& bound, Problems& problems) {
+    const auto refuse = [&](std::string message, std::string hint) {
+        problems.add(value.mark, "E-RANGE", std::move(message), std::move(hint));
+        return false;
+    };
+    const auto broken = [](const std::optional<double>& x) { return x && *x != std::floor(*x); };
+    if (property.kind == PropertyKind::count && (broken(bound.min) || broken(bound.max)))
+        return refuse(fmt::format("'{}' is a count: a whole number", property.name), {});
+    if (bound.max && *bound.max < property.lowest)
+        return refuse(fmt::format("no mesh has a '{}' of at most {}", property.name, spelled(*bound.max)),
+                      fmt::format("the lowest is {}", spelled(property.lowest)));
+    if (bound.min && *bound.min > property.highest)
+        return refuse(fmt::format("no mesh has a '{}' of at least {}", property.name, spelled(*bound.min)),
+                      fmt::format("the highest is {}", spelled(property.highest)));
+    return true;
+}
+
 bool read_number(const Property& property, const Value& value, Assertion& out, Problems& problems) {
-    if (!OptionType<Bound>::parse(value, out.bound, problems)) return false;
-    return !out.bound.truth || wrong_kind(property, value, problems);
+    if (!value.is_map() && !value.is_scalar()) return wrong_kind(property, value, problems);
+    if (value.as_bool()) return wrong_kind(property, value, problems);
+    AngleBound angle;
+    const bool good = property.kind == PropertyKind::angle
+                          ? OptionType<AngleBound>::parse(value, angle, problems)
+                          : OptionType<Bound>::parse(value, out.bound, problems);
+    if (property.kind == PropertyKind::angle) out.bound = angle;
+    return good && verify(property, value, out.bound, problems);
 }
 
 bool read_word(const Property& property, const Value& value, Assertion& out, Problems& problems) {
@@ -87,13 +114,22 @@ bool may_hold(const Assertion& a) {
     return true;
 }
 
+bool verify_length(const Property& property, const Value& value, const Assertion& a, Problems& problems) {
+    if (a.most.empty() || a.most[0].amount >= 0) return true;
+    problems.add(value.mark, "E-RANGE",
+                 fmt::format("no mesh has a '{}' of at most {}", property.name, a.most[0].text),
+                 "the lowest is 0");
+    return false;
+}
+
 bool read_length_range(const Property& property, const Value& value, Assertion& out, Problems& problems) {
     const std::size_t count = property.kind == PropertyKind::box ? 3 : 1;
     if (value.deferred) return true;
     if (!value.is_map()) {
         if (count == 3 || !value.is_scalar() || value.as_bool()) return wrong_kind(property, value, problems);
         const bool good = read_lengths(value, 1, out.least, problems);
-        return out.most = out.least, good;
+        out.most = out.least;
+        return good && verify_length(property, value, out, problems);
     }
     bool good = true;
     for (const auto& e : value.entries) {
@@ -105,6 +141,7 @@ bool read_length_range(const Property& property, const Value& value, Assertion& 
             good &= read_lengths(e.value, count, e.key == "min" ? out.least : out.most, problems);
     }
     if (good && value.entries.empty()) return wrong_kind(property, value, problems);
+    if (good && count == 1 && !verify_length(property, value, out, problems)) return false;
     if (good && !may_hold(out)) {
         problems.add(value.mark, "E-RANGE", "no length is at least min and at most max",
                      "exchange min and max");
@@ -146,6 +183,8 @@ Json schema_of(const Property& property) {
         return {{"anyOf", Json::array({length, range_schema(length)})}};
     case PropertyKind::box:
         return range_schema({{"type", "array"}, {"items", length}, {"minItems", 3}, {"maxItems", 3}});
+    case PropertyKind::angle:
+        return OptionType<AngleBound>::schema();
     default:
         return OptionType<Bound>::schema();
     }

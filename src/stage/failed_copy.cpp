@@ -32,13 +32,19 @@ void paint(Mesh& mesh, const std::vector<std::uint32_t>& flags, Index material) 
     mesh.attributes.push_back({"failed", Domain::face, Role::index, 1, false, flags});
 }
 
+bool is_corner(const Mesh& mesh, const Place& place) {
+    for (Index c = mesh.face_begin(place.face); c < mesh.face_end(place.face); ++c)
+        if (mesh.point(c) == place.at) return true;
+    return false;
+}
+
 } // namespace
 
 void flag_faces_against(const Part& part, const Assertion& assertion, std::vector<std::uint32_t>& flags) {
     const Mesh& mesh = part.mesh;
-    std::set<std::array<double, 3>> points; // of places without a face
-    for (const Place& p : places_against(part, assertion, SIZE_MAX)) {
-        if (p.face == none) points.insert({p.at.x, p.at.y, p.at.z});
+    std::set<std::array<double, 3>> points; // of places that are vertices
+    for (const Place& p : places_against(part, assertion, most_places)) {
+        if (p.face == none || is_corner(mesh, p)) points.insert({p.at.x, p.at.y, p.at.z});
         if (p.face != none) flags[p.face] = 1;
         if (p.with != none) flags[p.with] = 1;
     }

@@ -1,5 +1,6 @@
 #include "stage/judge.hpp"
 
+#include "geometry/place_keys.hpp"
 #include "geometry/solid_pieces.hpp"
 #include "geometry/surgery.hpp"
 #include "mesh/placement.hpp"
@@ -37,13 +38,18 @@ class Judge {
             if (context_.selects(scene.parts[i], scene)) places.push_back(i);
         for (const Part& part : scene.parts) flags_.emplace_back(part.mesh.face_count(), 0);
         s_.assertions = resolved(std::move(s_.assertions), scene, context_);
-        for (auto& check : check_limits(s_.limits, scene)) take(std::move(check));
+        for (auto& limit : check_limits(s_.limits, scene)) {
+            Failure failure = failure_of(limit.check, {}, std::move(limit.keys));
+            const auto verdict = known_.judge(failure);
+            take(std::move(limit.check), std::move(failure), verdict);
+        }
         if (s_.per == Per::scene)
-            with_parts(scene, places, [&](const Scene& all) { judge(all, {"", places, nullptr}); });
+            with_parts(scene, places, [&](const Scene& all) { judge(all, {"", "", "", places, nullptr}); });
         if (s_.per == Per::part)
             for (const std::size_t i : places)
                 with_parts(scene, {&i, 1}, [&](const Scene& one) {
-                    judge(one, {one.parts[0].name, {&i, 1}, nullptr});
+                    const std::string& name = one.parts[0].name;
+                    judge(one, {name, name, "", {&i, 1}, nullptr});
                 });
         if (s_.per == Per::component)
             for (const std::size_t i : places) judge_components(scene, i);
@@ -53,7 +59,8 @@ class Judge {
   private:
     /// What is judged as one, and how its parts and faces are numbered in the scene.
     struct Subject {
-        std::string name;
+        std::string name;        ///< as it is told: a piece has a number
+        std::string part, piece; ///< what it is known by, whatever the numbers
         std::span<const std::size_t> parts;
         const std::vector<Index>* faces; ///< of a piece of the one part; null: as the part has them
         bool shared = false;             ///< the piece is one of several of a solid: the outer, or a cavity
@@ -73,13 +80,32 @@ class Judge {
             report::Check& check = checks[i];
             const Assertion& assertion = s_.assertions.all[i];
             check.part = subject.name;
-            if (!check.passed) {
-                check.evidence = evidence_against(scene, assertion);
-                check.places = count_places(scene, assertion);
-                if (subject.faces) renumber(check.evidence, *subject.faces);
+            if (check.passed) {
+                take(std::move(check), {}, {});
+                continue;
             }
-            if (!take(std::move(check)) && s_.mark) flag(scene, subject, assertion);
+            Failure failure = failure_of(
+                check, subject, s_.baseline ? place_keys(scene, assertion) : std::vector<std::uint64_t>{});
+            const auto verdict = known_.judge(failure);
+            // What is new comes first, of a failure of which some is known.
+            const bool some = verdict.known && !verdict.keys.empty();
+            check.evidence =
+                some ? evidence_among(scene, assertion, verdict.keys) : evidence_against(scene, assertion);
+            check.places = count_places(scene, assertion);
+            if (subject.faces) renumber(check.evidence, *subject.faces);
+            if (!take(std::move(check), std::move(failure), verdict) && s_.mark)
+                flag(scene, subject, assertion);
         }
+    }
+
+    static Failure failure_of(const report::Check& check, const Subject& subject,
+                              std::vector<std::uint64_t> keys) {
+        return {.check = check.name,
+                .part = subject.part,
+                .piece = subject.piece,
+                .expected = check.expected,
+                .found = check.found,
+                .keys = std::move(keys)};
     }
 
     static void renumber(Json& evidence, const std::vector<Index>& faces) {
@@ -105,6 +131,7 @@ class Judge {
         for (Index f = 0; f < part.mesh.face_count(); ++f) faces[pieces.of_face[f]].push_back(f);
         std::vector<std::size_t> of_solid(solids.count, 0);
         for (const auto& piece : faces) ++of_solid[solids.of_face[piece[0]]];
+        const auto keys = keys_of_pieces(part.mesh, pieces.of_face, pieces.count);
         std::size_t number = 0;
         for (Mesh& mesh : separated(part.mesh, pieces.of_face, pieces.count)) {
             Scene one{{}, scene.materials, scene.unit, scene.up, {}};
@@ -112,6 +139,8 @@ class Judge {
             one.parts[0].mesh = std::move(mesh);
             one.parts[0].transform = effective(part);
             judge(one, {fmt::format("{}.{}", part.name, number),
+                        part.name,
+                        fmt::format("{:016x}", keys[number]),
                         {&index, 1},
                         &faces[number],
                         of_solid[solids.of_face[faces[number][0]]] > 1});
@@ -120,13 +149,16 @@ class Judge {
     }
 
     /// Whether it holds, or is known not to.
-    bool take(report::Check check) {
+    bool take(report::Check check, Failure failure, const KnownFailures::Verdict& verdict) {
         check.severity = s_.severity;
         if (!check.passed) {
-            failed_.add(check);
-            check.waived = check.passed = s_.update_baseline || known_.waives(check);
+            if (known_.size() > 0 && failure.places() > 0) check.fresh = verdict.fresh;
+            check.waived = check.passed = s_.update_baseline || verdict.waived;
             waived_ += check.waived;
+            waived_places_ += failure.places() - (s_.update_baseline ? 0 : verdict.fresh);
+            any_known_ = any_known_ || verdict.known;
             any_ = any_ || !check.passed;
+            failed_.add(std::move(failure));
         }
         const bool passed = check.passed;
         context_.check(std::move(check));
@@ -136,20 +168,34 @@ class Judge {
     void finish(const Scene& scene) {
         if (s_.update_baseline) failed_.write(context_.run().outputs, *s_.baseline);
         if (s_.mark && any_) write_failed_copy(scene, flags_, *s_.mark);
-        if (!s_.baseline) return;
-        const std::size_t mended = known_.mended(failed_);
+        if (s_.baseline) tell_of_baseline();
+    }
+
+    void tell_of_baseline() {
+        const auto gone = known_.gone(failed_);
         context_.result()["waived"] = waived_;
-        context_.result()["mended"] = mended;
-        if (mended > 0)
-            context_.say(fmt::format("{} of {} known failures hold now: update_baseline tightens the gate",
-                                     mended, known_.size()));
+        context_.result()["waived_places"] = waived_places_;
+        context_.result()["mended"] = gone.failures;
+        context_.result()["mended_places"] = gone.places;
+        if (known_.size() > 0 && any_ && !any_known_)
+            context_.warn("W-BASELINE",
+                          fmt::format("nothing of what '{}' knows fails here, and other things do",
+                                      s_.baseline->string()),
+                          "is it the baseline of another mesh, or of other parts?");
+        if (gone.failures + gone.places == 0) return;
+        std::string text = fmt::format("{} known failures waived", waived_);
+        if (gone.failures > 0) text += fmt::format(", {} no longer there", gone.failures);
+        if (waived_places_ + gone.places > 0) text += fmt::format("; {} known places waived", waived_places_);
+        if (gone.places > 0) text += fmt::format(", {} no longer there", gone.places);
+        context_.say(text + (any_ ? "" : ": update_baseline tightens the gate")); // it would waive new ones
     }
 
     JudgeSettings s_;
     Context& context_;
     KnownFailures known_, failed_;
-    std::size_t waived_ = 0;
-    bool any_ = false;                              ///< failed and not known
+    std::size_t waived_ = 0, waived_places_ = 0;
+    bool any_ = false;                              ///< failed and not waived
+    bool any_known_ = false;                        ///< failed, and did before
     std::vector<std::vector<std::uint32_t>> flags_; ///< of the parts' faces
 };
 

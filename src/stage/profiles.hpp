@@ -15,7 +15,8 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
         {{"none", Profile::none, "only what is given"},
          {"solid", Profile::solid,
           "closed, manifold, oriented outward; no degenerate, duplicate or folded faces; not empty"},
-         {"printing", Profile::printing, "a solid without self-intersections or isolated vertices"},
+         {"printing", Profile::printing,
+          "a solid without self-intersections or isolated vertices; it may touch itself"},
          {"web", Profile::web,
           "finite attributes, unit normals, weights that sum to 1; no degenerate or duplicate faces, no "
           "isolated "

@@ -170,6 +170,7 @@ TEST_CASE("the table of properties", "[geometry]") {
                                                  "duplicate_faces",
                                                  "isolated_vertices",
                                                  "self_intersections",
+                                                 "touching",
                                                  "area",
                                                  "volume",
                                                  "bounds",

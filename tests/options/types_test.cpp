@@ -100,18 +100,85 @@ TEST_CASE("vectors are three numbers, as a list or with commas", "[options]") {
     CHECK_FALSE(parsed<Vec3>("0,0,nan"));
 }
 
-TEST_CASE("bounds are a truth, a value, or min and max", "[options]") {
-    CHECK(parsed<Bound>("true")->truth == true);
+TEST_CASE("bounds are a value, or min and max", "[options]") {
     CHECK(parsed<Bound>("2")->min == 2);
     CHECK(parsed<Bound>("2")->max == 2);
+    CHECK_FALSE(parsed<Bound>("true"));
+    CHECK_FALSE(parsed<Bound>("25%"));
+    CHECK_FALSE(parsed<Bound>("5deg"));
     const auto between =
-        parsed<Bound>(Value::map({{"min", {}, Value::scalar("25%")}, {"max", {}, Value::scalar("5")}}));
+        parsed<Bound>(Value::map({{"min", {}, Value::scalar("0.25")}, {"max", {}, Value::scalar("5")}}));
     CHECK(between->min == 0.25);
     CHECK(between->max == 5);
     CHECK_FALSE(
         parsed<Bound>(Value::map({{"min", {}, Value::scalar("2")}, {"max", {}, Value::scalar("1")}})));
     CHECK_FALSE(parsed<Bound>(Value::map({{"mid", {}, Value::scalar("1")}})));
     CHECK_FALSE(parsed<Bound>(Value::map({})));
+    CHECK(parsed<AngleBound>("30deg")->max == 30);
+    CHECK(parsed<AngleBound>("30")->min == 30);
+    CHECK(*parsed<AngleBound>("1rad")->min == Approx(57.29577951308232));
+    CHECK_FALSE(parsed<AngleBound>("30mm"));
+}
+
+TEST_CASE("a bare limit is the most that may be", "[options]") {
+    CHECK(parsed<CountLimit>("7")->max == 7);
+    CHECK_FALSE(parsed<CountLimit>("7")->min.has_value());
+    CHECK(parsed<CountLimit>(Value::map({{"min", {}, Value::scalar("3")}}))->min == 3);
+    for (const char* wrong : {"-1", "2.5", "true", "10MB", "many"}) CHECK_FALSE(parsed<CountLimit>(wrong));
+}
+
+TEST_CASE("bytes are counted with decimal and with binary units", "[options]") {
+    for (const auto& [text, bytes] :
+         std::vector<std::pair<const char*, double>>{{"0", 0},
+                                                     {"123", 123},
+                                                     {"1e3", 1000},
+                                                     {"12B", 12},
+                                                     {"500 kB", 500000},
+                                                     {"500KiB", 512000},
+                                                     {"10MB", 10000000},
+                                                     {"1.5MiB", 1572864},
+                                                     {"2GB", 2e9},
+                                                     {"2 GiB", 2147483648.0},
+                                                     {"4.35kB", 4350},
+                                                     {"1TB", 1e12},
+                                                     {"8192TiB", 9007199254740992.0}}) {
+        CAPTURE(text);
+        REQUIRE(parsed<ByteLimit>(text));
+        CHECK(parsed<ByteLimit>(text)->max == bytes);
+        CHECK_FALSE(parsed<ByteLimit>(text)->min.has_value());
+        const std::string printed = OptionType<ByteLimit>::print(*parsed<ByteLimit>(text));
+        CHECK(parsed<ByteLimit>(printed)->max == bytes);
+    }
+    const auto between = parsed<ByteLimit>(
+        Value::map({{"min", {}, Value::scalar("1kB")}, {"max", {}, Value::scalar("1KiB")}}));
+    CHECK(between->min == 1000);
+    CHECK(between->max == 1024);
+}
+
+TEST_CASE("what is no count of bytes is refused with a way out", "[options]") {
+    for (const auto& [text, told] : std::vector<std::pair<const char*, const char*>>{
+             {"10 mb", "10MB (1000000 bytes each) or 10MiB (1048576)?"},
+             {"10M", "10MB (1000000 bytes each) or 10MiB (1048576)?"},
+             {"5KB", "5kB (1000 bytes each) or 5KiB (1024)?"},
+             {"1gib", "1GB (1000000000 bytes each) or 1GiB (1073741824)?"},
+             {"10 bits", "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB"},
+             {"10mm", "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB"},
+             {"-5MB", "bytes are counted from 0"},
+             {"-1", "bytes are counted from 0"},
+             {"0.5", "bytes come whole"},
+             {"0.0001kB", "bytes come whole"},
+             {"8193TiB", "at most 9007199254740992 (8192TiB)"},
+             {"1e300", "at most 9007199254740992 (8192TiB)"},
+             {"1e300TB", "at most 9007199254740992 (8192TiB)"}}) {
+        CAPTURE(text);
+        Problems problems;
+        ByteLimit limit;
+        CHECK_FALSE(OptionType<ByteLimit>::parse(Value::scalar(text), limit, problems));
+        REQUIRE(problems.all().size() == 1);
+        CHECK(problems.all()[0].hint == told);
+    }
+    for (const char* wrong : {"", "MB", "1e999", "nan", "true", "MiB 3"})
+        CHECK_FALSE(parsed<ByteLimit>(wrong));
 }
 
 TEST_CASE("what a type prints reads back as the same", "[options]") {

@@ -1,0 +1,187 @@
+// Bounds and limits, of options/types.hpp: numbers that a value must have or may not pass.
+#include "base/functions.hpp"
+#include "base/numbers.hpp"
+#include "options/types.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using Limit = std::optional<double>;
+
+bool read_number(const Value& value, Limit& out, Problems& problems) {
+    if (value.deferred) return true;
+    out = value.as_real();
+    return out || wrong_type(value, "a number", problems);
+}
+
+bool read_angle(const Value& value, Limit& out, Problems& problems) {
+    if (value.deferred) return true;
+    Angle angle;
+    if (!OptionType<Angle>::parse(value, angle, problems)) return false;
+    // As written when in degrees: a way there and back would round it.
+    const auto parts = number_and_unit(value.text);
+    return out = parts->second == "rad" ? angle.radians * (180 / pi) : parts->first, true;
+}
+
+bool read_count(const Value& value, Limit& out, Problems& problems) {
+    if (value.deferred) return true;
+    const auto number = value.as_real();
+    if (!number || *number != std::floor(*number) || *number < 0)
+        return wrong_type(value, "a count (0, 1, 2 ...)", problems);
+    return out = number, true;
+}
+
+struct ByteUnit {
+    std::string_view name;
+    double bytes;
+};
+constexpr std::array<ByteUnit, 9> byte_units{{{"B", 1},
+                                              {"kB", 1e3},
+                                              {"MB", 1e6},
+                                              {"GB", 1e9},
+                                              {"TB", 1e12},
+                                              {"KiB", 1024.0},
+                                              {"MiB", 1048576.0},
+                                              {"GiB", 1073741824.0},
+                                              {"TiB", 1099511627776.0}}};
+constexpr double most_bytes = 9007199254740992.0; // 2^53: all counts up to here are numbers of their own
+
+constexpr const char* bytes_expected = "a count of bytes (1000000, 10MB, 1.5MiB)";
+
+/// For a unit in the wrong case or cut short, "mb" or "M": the two that may be meant.
+std::string byte_unit_hint(double number, std::string_view unit) {
+    std::string small(unit);
+    for (char& c : small)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const auto at = std::string_view("kmgt").find(small.empty() ? '?' : small[0]);
+    const std::string rest = small.empty() ? "" : small.substr(1);
+    if (at == std::string_view::npos || !(rest.empty() || rest == "b" || rest == "i" || rest == "ib"))
+        return "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB";
+    const ByteUnit &decimal = byte_units[1 + at], &binary = byte_units[5 + at];
+    return fmt::format("{0}{1} ({2:.0f} bytes each) or {0}{3} ({4:.0f})?", spelled(number), decimal.name,
+                       decimal.bytes, binary.name, binary.bytes);
+}
+
+bool read_bytes(const Value& value, Limit& out, Problems& problems) {
+    if (value.deferred) return true;
+    double bytes = 0;
+    if (const auto number = value.as_real())
+        bytes = *number;
+    else {
+        const auto parts = value.is_scalar() ? number_and_unit(value.text) : std::nullopt;
+        if (!parts) return wrong_type(value, bytes_expected, problems);
+        const auto unit = std::find_if(byte_units.begin(), byte_units.end(),
+                                       [&](const ByteUnit& u) { return u.name == parts->second; });
+        if (unit == byte_units.end())
+            return wrong_type(value, bytes_expected, problems,
+                              parts->second.empty() ? "" : byte_unit_hint(parts->first, parts->second));
+        bytes = parts->first * unit->bytes;
+    }
+    const double whole = std::round(bytes); // 4.35kB times 1000 may miss 4350 by the last bit
+    if (bytes < 0 || bytes > most_bytes || std::abs(bytes - whole) > 1e-12 * whole) {
+        problems.add(value.mark, "E-RANGE", fmt::format("'{}' is no count of bytes", value.text),
+                     bytes < 0            ? "bytes are counted from 0"
+                     : bytes > most_bytes ? "at most 9007199254740992 (8192TiB)"
+                                          : "bytes come whole");
+        return false;
+    }
+    return out = whole, true;
+}
+
+using Reader = bool (*)(const Value&, Limit&, Problems&);
+
+bool read_range(const Value& value, Bound& out, Reader read, Problems& problems) {
+    bool good = true;
+    for (const auto& e : value.entries) {
+        if (e.key == "min")
+            good &= read(e.value, out.min, problems);
+        else if (e.key == "max")
+            good &= read(e.value, out.max, problems);
+        else {
+            problems.add(e.key_mark, "E-KEY", fmt::format("a bound has no key '{}'", e.key),
+                         "expected min or max");
+            good = false;
+        }
+    }
+    if (out.min && out.max && *out.min > *out.max) {
+        problems.add(
+            value.mark, "E-RANGE",
+            fmt::format("no number is at least {} and at most {}", spelled(*out.min), spelled(*out.max)),
+            "exchange min and max");
+        good = false;
+    }
+    return good && (!value.entries.empty() || wrong_type(value, "min or max", problems));
+}
+
+/// A bare value is what must be, or, of a limit, the most that may be.
+bool read_bound(const Value& value, Bound& out, Reader read, bool is_limit, Problems& problems) {
+    out = {};
+    if (value.deferred) return true;
+    if (value.is_map()) return read_range(value, out, read, problems);
+    if (!value.is_scalar()) return wrong_type(value, "a bound (2, {min: 1, max: 5})", problems);
+    if (!read(value, out.max, problems)) return false;
+    if (!is_limit) out.min = out.max;
+    return true;
+}
+
+Json bound_schema(const Json& limit) {
+    return {{"anyOf", Json::array({limit,
+                                   {{"type", "object"},
+                                    {"additionalProperties", false},
+                                    {"minProperties", 1},
+                                    {"properties", {{"min", limit}, {"max", limit}}}}})}};
+}
+
+std::string print_limit(const Bound& b) {
+    if (b.max && !b.min) return spelled(*b.max);
+    if (b.min && b.max) return fmt::format("{{min: {}, max: {}}}", spelled(*b.min), spelled(*b.max));
+    return OptionType<Bound>::print(b);
+}
+
+} // namespace
+
+bool OptionType<Bound>::parse(const Value& value, Bound& out, Problems& problems) {
+    return read_bound(value, out, read_number, false, problems);
+}
+std::string OptionType<Bound>::print(const Bound& b) {
+    if (b.truth) return *b.truth ? "true" : "false";
+    if (b.min && b.max && *b.min == *b.max) return spelled(*b.min);
+    if (b.min && b.max) return fmt::format("{{min: {}, max: {}}}", spelled(*b.min), spelled(*b.max));
+    if (b.min) return fmt::format("{{min: {}}}", spelled(*b.min));
+    return b.max ? fmt::format("{{max: {}}}", spelled(*b.max)) : "";
+}
+Json OptionType<Bound>::schema() { return bound_schema({{"type", "number"}}); }
+std::optional<double> OptionType<Bound>::magnitude(const Bound&) { return {}; }
+
+bool OptionType<AngleBound>::parse(const Value& value, AngleBound& out, Problems& problems) {
+    return read_bound(value, out, read_angle, false, problems);
+}
+std::string OptionType<AngleBound>::print(const AngleBound& b) { return OptionType<Bound>::print(b); }
+Json OptionType<AngleBound>::schema() { return bound_schema(OptionType<Angle>::schema()); }
+std::optional<double> OptionType<AngleBound>::magnitude(const AngleBound&) { return {}; }
+
+bool OptionType<CountLimit>::parse(const Value& value, CountLimit& out, Problems& problems) {
+    return read_bound(value, out, read_count, true, problems);
+}
+std::string OptionType<CountLimit>::print(const CountLimit& b) { return print_limit(b); }
+Json OptionType<CountLimit>::schema() { return bound_schema({{"type", "integer"}, {"minimum", 0}}); }
+std::optional<double> OptionType<CountLimit>::magnitude(const CountLimit&) { return {}; }
+
+bool OptionType<ByteLimit>::parse(const Value& value, ByteLimit& out, Problems& problems) {
+    return read_bound(value, out, read_bytes, true, problems);
+}
+std::string OptionType<ByteLimit>::print(const ByteLimit& b) { return print_limit(b); }
+Json OptionType<ByteLimit>::schema() {
+    return bound_schema(
+        {{"anyOf", Json::array({{{"type", "integer"}, {"minimum", 0}},
+                                {{"type", "string"}, {"pattern", "^[0-9.eE+]+ *(B|[kMGT]B|[KMGT]iB)$"}}})}});
+}
+std::optional<double> OptionType<ByteLimit>::magnitude(const ByteLimit&) { return {}; }
+
+} // namespace facetmill

@@ -1,0 +1,44 @@
+#include "report/check_text.hpp"
+#include "support/catch.hpp"
+
+using namespace facetmill;
+using report::places_text;
+
+namespace {
+
+std::string told(Json evidence, std::optional<std::size_t> places = {},
+                 std::optional<std::size_t> fresh = {}) {
+    report::Check check;
+    check.evidence = std::move(evidence);
+    check.places = places, check.fresh = fresh;
+    return places_text(check);
+}
+
+} // namespace
+
+TEST_CASE("what speaks against an assertion, in words", "[report]") {
+    const Json place = {
+        {"part", "a"}, {"at", {1, 2.5, 3}}, {"face", 7}, {"with", 9}, {"attribute", "NORMAL"}};
+    CHECK(told(Json::array({place})) == "first face 7 and 9 of 'a' at 1 2.5 3 in NORMAL");
+    CHECK(told(Json::array({place}), 12).starts_with("12 places, the first face 7"));
+    CHECK(told(Json::array({place}), 1).starts_with("1 place, the first face 7"));
+    CHECK(told(Json::array({place}), 12, 2).starts_with("12 places, 2 new, the first face 7"));
+    CHECK(told(Json::array({place}), {}, 2).starts_with("2 new, the first face 7"));
+    CHECK(told(Json::array({place}), 12, 0).starts_with("12 places, the first face 7"));
+    CHECK(told(Json()) == "");
+    CHECK(told(Json::array()) == "");
+}
+
+TEST_CASE("what counts towards a limit, in words", "[report]") {
+    CHECK(
+        told(Json::array({{{"part", "wheel"}, {"amount", 1200000}}, {{"part", "body"}, {"amount", 0.5}}})) ==
+        "part 'wheel' 1200000, part 'body' 0.5");
+    CHECK(told(Json::array({{{"image", "wood"}, {"width", 2048}, {"height", 1024}, {"amount", 2097152}}})) ==
+          "image 'wood' 2048 x 1024");
+    CHECK(told(Json::array({{{"extension", "KHR_a"}, {"document", "b.glb"}}})) ==
+          "extension 'KHR_a' of 'b.glb'");
+    CHECK(told(Json::array({{{"bytes_of", "b.glb: buffer 0"}, {"amount", 1000}}})) ==
+          "b.glb: buffer 0, 1000 bytes");
+    CHECK(told(Json::array({{{"part", "a"}}, {{"part", "b"}}, {{"part", "c"}}, {{"part", "d"}}})) ==
+          "part 'a', part 'b', part 'c' ...");
+}
