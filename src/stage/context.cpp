@@ -107,6 +107,11 @@ void Context::warn(std::string id, std::string message, std::string hint) {
         {Severity::warning, std::move(id), std::move(message), where_, std::move(hint)});
 }
 
+void Context::output(const std::string& path, io::Span bytes) {
+    const auto& staged = run_.outputs.add(run_.places.output(path), bytes, where_);
+    run_.record.outputs.push_back({staged.target.string(), staged.bytes, staged.sha256, {}});
+}
+
 void Context::ledger(const Part& part, const Fates& fates) {
     for (const auto& fate : fates) record_.ledger.push_back({part.name, fate});
 }

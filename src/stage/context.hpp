@@ -65,6 +65,10 @@ class Context {
         for (const auto& line : lines) say(line);
     }
 
+    /// Stages a file that the stage writes, its path as in the options, and records it among the outputs.
+    /// Throws as io::Outputs::add.
+    void output(const std::string& path, io::Span bytes);
+
     const Places& places() const { return run_.places; }
     RunState& run() { return run_; }
     const Mark& where() const { return where_; }

@@ -68,7 +68,7 @@ Scene run(Scene scene, const MeasureOptions& o, Context& context) {
     context.say(report::measure_summary(context.result()));
     for (const auto& path : o.to) {
         const std::string text = lists_faces(path) ? all.csv : context.result().dump(2) + "\n";
-        context.run().outputs.add(context.places().output(path.text), std::as_bytes(std::span(text)));
+        context.output(path.text, std::as_bytes(std::span(text)));
     }
     return scene;
 }

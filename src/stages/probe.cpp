@@ -65,7 +65,7 @@ Scene run(Scene scene, const ProbeOptions& o, Context& context) {
     }
     for (const auto& path : o.to) {
         const std::string text = is_csv(path) ? csv : result.dump(2) + "\n";
-        context.run().outputs.add(context.places().output(path.text), std::as_bytes(std::span(text)));
+        context.output(path.text, std::as_bytes(std::span(text)));
     }
     Json& list = result["answers"];
     while (list.size() > static_cast<std::size_t>(o.list)) list.erase(list.size() - 1);

@@ -45,7 +45,7 @@ void report(const RenderOptions& o, const Picture& picture, Context& context) {
 Scene run(Scene scene, const RenderOptions& o, Context& context) {
     const Picture picture = taken(o, scene, picture_settings(o, scene, context));
     const io::Bytes bytes = io::png(picture);
-    context.run().outputs.add(context.places().output(o.path.text), bytes, context.where());
+    context.output(o.path.text, bytes);
     report(o, picture, context);
     return scene;
 }

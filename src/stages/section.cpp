@@ -55,7 +55,7 @@ Scene run(Scene scene, const SectionOptions& o, Context& context) {
     report_sections(drawing, scene, stack.spacing, context);
     for (const auto& path : o.to) {
         const std::string text = io::drawing_for(path.text, drawing);
-        context.run().outputs.add(context.places().output(path.text), std::as_bytes(std::span(text)));
+        context.output(path.text, std::as_bytes(std::span(text)));
     }
     return scene;
 }

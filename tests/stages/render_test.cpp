@@ -38,6 +38,10 @@ TEST_CASE("render writes a PNG and passes the scene on", "[stages]") {
     CHECK(run.record.result["width"] == 320);
     CHECK(run.record.result["pixels_per_unit"].get<double>() > 100);
     CHECK(run.warnings().empty());
+    REQUIRE(run.state->record.outputs.size() == 1);
+    CHECK(run.state->record.outputs[0].path == (folder.path() / "a.png").string());
+    CHECK(run.state->record.outputs[0].bytes == bytes.bytes().size());
+    CHECK(run.state->record.outputs[0].sha256.size() == 64);
 }
 
 TEST_CASE("both shadings make a picture of twice the width", "[stages]") {
