@@ -157,9 +157,18 @@ class Parser {
         return key == "join" || (property && property->truth());
     }
 
+    /// Whether true is one of the values that the schema allows.
+    static bool may_be_true(const Json& schema) {
+        const auto any = schema.find("anyOf");
+        return any != schema.end() && std::any_of(any->begin(), any->end(), [](const Json& s) {
+                   return s == OptionType<bool>::schema();
+               });
+    }
+
     /// A key without a value: true, where that may be meant.
     Value flag(const std::string& key, const Option* known, const Mark& where) {
-        if (known && known->type != "group" && known->type != "assertions" && !is_truth(key, known))
+        if (known && known->type != "group" && known->type != "assertions" && !is_truth(key, known) &&
+            !may_be_true(known->schema))
             problems_.add(where, "E-PIPE", fmt::format("'--{}' needs a value", key), known->help);
         return Value::scalar("true", where);
     }

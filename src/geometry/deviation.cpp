@@ -65,15 +65,21 @@ Farthest farthest_of(const FaceTree& tree, const std::vector<Vec3>& points, doub
         [](const Farthest& a, const Farthest& b) { return b.distance > a.distance ? b : a; }, 1024);
 }
 
+/// Samples on triangles are rounded, and so is what is closest to them: a distance that coordinates of that
+/// size cannot tell from 0 (16 units of the last place) is 0, so that a surface is 0 from itself.
+double told_from_zero(double distance, const Vec3& p) {
+    const double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    return distance <= 16 * 2.220446049250313e-16 * size ? 0 : distance;
+}
+
 struct Sums {
     double distances = 0, squares = 0;
 };
 
 /// The maximum, mean and rms of the distances of these points; face_of(i) is where the i-th lies.
 template <class FaceOf>
-void measure_points(DirectedDeviation& d, const std::vector<Vec3>& points, const FaceTree& to,
+void measure_points(DirectedDeviation& d, const std::vector<Vec3>& points, const std::vector<Closest>& found,
                     FaceOf&& face_of) {
-    const auto found = closest_points(to, points);
     for (std::size_t i = 0; i < found.size(); ++i)
         if (found[i].distance > d.maximum) {
             d.maximum = found[i].distance;
@@ -100,7 +106,10 @@ void measure_area(DirectedDeviation& d, const Surface& from, const FaceTree& to,
     std::vector<Vec3> points(samples.size());
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = samples[i].point;
     d.samples = samples.size();
-    measure_points(d, points, to, [&](std::size_t i) { return from.face(samples[i].triangle); });
+    auto found = closest_points(to, points);
+    parallel_for(found.size(),
+                 [&](std::size_t i) { found[i].distance = told_from_zero(found[i].distance, points[i]); });
+    measure_points(d, points, found, [&](std::size_t i) { return from.face(samples[i].triangle); });
 }
 
 } // namespace
@@ -152,7 +161,7 @@ DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const De
     }
     const auto samples = sample_area(from, settings.samples, settings.seed);
     if (samples.empty()) {
-        measure_points(d, vertices, to, [](std::size_t) { return none; });
+        measure_points(d, vertices, closest_points(to, vertices), [](std::size_t) { return none; });
     } else {
         measure_area(d, from, to, samples);
         const Farthest vertex = farthest_of(to, vertices, d.maximum);

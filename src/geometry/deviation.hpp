@@ -21,7 +21,8 @@ struct DeviationSettings {
     std::size_t certify_work = 4000000;
 };
 
-/// From one surface to the other: the distance of each sample to the closest point there.
+/// From one surface to the other: the distance of each sample to the closest point there; 0 where its
+/// coordinates, rounded as they are, cannot tell it from that (16 units of the last place).
 struct DirectedDeviation {
     std::size_t samples = 0;  ///< over the area; mean and rms are over these, without any over the vertices
     std::size_t vertices = 0; ///< that triangles use; where there are samples they enter the maximum only

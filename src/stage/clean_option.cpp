@@ -31,7 +31,8 @@ void declare_components(Declare<CleanComponentOptions>& d) {
         .at_least(0)
         .primary();
     d.option("size", &CleanComponentOptions::size, "Pieces whose box has a shorter diagonal go.").above(0);
-    d.option("area", &CleanComponentOptions::area, "Pieces with a smaller share of the part's area go.");
+    d.option("area", &CleanComponentOptions::area, "Pieces with a smaller share of the part's area go.")
+        .at_most(1);
     d.option("keep", &CleanComponentOptions::keep,
              "Only so many pieces stay, those of largest area (a count); 0: all.")
         .at_least(0);

@@ -119,6 +119,8 @@ TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
     CHECK(yaml("relax ]").starts_with("command line:1:22: error[E-PIPE]: ']' without '['\n"));
     CHECK(yaml("relax --factor 1 --factor 2")
               .starts_with("command line:1:33: error[E-PIPE]: '--factor' is given twice\n"));
+    CHECK(
+        same("clean --self_intersections ! orient", "[{clean: {self_intersections: true}}, {orient: null}]"));
     CHECK(yaml("relax --factor").starts_with("command line:1:22: error[E-PIPE]: '--factor' needs a value\n"));
 }
 
