@@ -65,13 +65,6 @@ Farthest farthest_of(const FaceTree& tree, const std::vector<Vec3>& points, doub
         [](const Farthest& a, const Farthest& b) { return b.distance > a.distance ? b : a; }, 1024);
 }
 
-/// Samples on triangles are rounded, and so is what is closest to them: a distance that coordinates of that
-/// size cannot tell from 0 (16 units of the last place) is 0, so that a surface is 0 from itself.
-double told_from_zero(double distance, const Vec3& p) {
-    const double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    return distance <= 16 * 2.220446049250313e-16 * size ? 0 : distance;
-}
-
 struct Sums {
     double distances = 0, squares = 0;
 };

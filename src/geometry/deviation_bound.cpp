@@ -51,7 +51,8 @@ struct Farthest {
     double distance = -1;
     Index face = none;
     void consider(const Corner& c, Index f) {
-        if (c.closest.distance > distance) *this = {c.at, c.closest.point, c.closest.distance, f};
+        const double apart = told_from_zero(c.closest.distance, c.at);
+        if (apart > distance) *this = {c.at, c.closest.point, apart, f};
     }
 };
 

@@ -53,7 +53,8 @@ struct FileRecord {
     std::string path;
     std::size_t bytes = 0;
     std::string sha256;
-    Json read_back; ///< of meshes among the outputs: properties of the file decoded again, and how far positions moved
+    Json read_back; ///< of meshes among the outputs: properties of the file decoded again, and how far
+                    ///< positions moved
 };
 
 struct RunRecord {
