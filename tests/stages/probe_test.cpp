@@ -123,7 +123,6 @@ TEST_CASE("normals that a part does not have are those of its faces, in the worl
         return probed("{along: NORMAL}", scene)["answers"][0]["hits"][0]["t"].get<double>();
     };
     CHECK(reach() == Approx(10 * std::sqrt(1.25))); // along (-0.5, 0, 1)
-    plate.drop("NORMAL", Domain::vertex);
     scene.parts[0].mesh.drop("NORMAL", Domain::vertex);
     CHECK(reach() == Approx(10 * std::sqrt(1.25)));
 }
