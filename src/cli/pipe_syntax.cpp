@@ -103,6 +103,11 @@ class Parser {
         if (!value.mark.known()) value.mark = where;
     }
 
+    static std::string with_underscores(std::string key) {
+        std::replace(key.begin(), key.end(), '-', '_');
+        return key;
+    }
+
     /// --key value, --key=value, --key, --no-key; dotted keys nest.
     void option(Value& item, const StageInfo* stage) {
         const std::string argument = all_[at_].substr(2);
@@ -111,6 +116,8 @@ class Parser {
         Mark key_mark = mark();
         if (equals != argument.npos) key_mark.length = static_cast<int>(key.size()) + 2;
         const Option* known = stage ? find_dotted(stage->options, key) : nullptr;
+        if (std::string name = with_underscores(key); !known && stage && find_dotted(stage->options, name))
+            key = std::move(name), known = find_dotted(stage->options, key); // as other programs spell them
         const bool negated =
             !known && key.starts_with("no-") && stage && find_dotted(stage->options, key.substr(3));
         if (negated) key = key.substr(3), known = find_dotted(stage->options, key);

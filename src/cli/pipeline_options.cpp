@@ -32,6 +32,8 @@ void add_value_options(CLI::App& app, PipelineOptions& options) {
         ->allow_extra_args(false);
     app.add_option("--set", options.sets, "An option of a stage: --set simplify.ratio=10%.")
         ->allow_extra_args(false);
+    app.add_flag("--update-baseline", options.update_baseline,
+                 "Stages with a baseline write what fails now to it, and pass.");
 }
 
 void add_run_options(CLI::App& app, PipelineOptions& options) {
@@ -85,6 +87,7 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     pipeline::PlanSettings settings;
     settings.defines = split_pairs(options.defines, "-D", line, problems);
     settings.sets = split_pairs(options.sets, "--set", line, problems);
+    settings.update_baselines = options.update_baseline;
     settings.places.output_base = options.output_dir;
     check_strict(options, line, problems);
     settings.working_directory = fs::current_path();

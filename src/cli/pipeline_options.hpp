@@ -11,10 +11,10 @@ struct PipelineOptions {
     std::vector<std::string> reports, strict;
     std::string output_dir, depfile;
     int threads = 0;
-    bool check_invariants = false;
+    bool check_invariants = false, update_baseline = false;
 };
 
-/// -D and --set.
+/// -D, --set and --update-baseline.
 void add_value_options(CLI::App& app, PipelineOptions& options);
 /// -j, --output-dir, --report, --depfile, --strict.
 void add_run_options(CLI::App& app, PipelineOptions& options);

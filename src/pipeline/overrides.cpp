@@ -32,8 +32,9 @@ Value command_line_value(const std::string& text, const Mark& where) {
 
 } // namespace
 
-Overrides::Overrides(const std::vector<std::pair<std::string, std::string>>& sets, Problems& problems) {
-    for (const auto& [key, text] : sets) {
+Overrides::Overrides(const PlanSettings& settings, Problems& problems)
+    : update_baselines_(settings.update_baselines) {
+    for (const auto& [key, text] : settings.sets) {
         const std::string whole = fmt::format("{}={}", key, text);
         const Mark where = command_line_mark("--set", whole);
         std::vector<std::string> path = split(key, '.');
@@ -55,6 +56,11 @@ Overrides::Overrides(const std::vector<std::pair<std::string, std::string>>& set
 
 void Overrides::apply(const std::vector<std::string>& names, const StageInfo& stage, Value& given,
                       Problems& problems) {
+    if (update_baselines_ && stage.options.find("update_baseline") && given.find("baseline")) {
+        const Mark where = command_line_mark("--update-baseline", "");
+        given.set("update_baseline", Value::scalar("true", where), where);
+        any_baseline_ = true;
+    }
     for (auto& change : all_) {
         if (std::find(names.begin(), names.end(), change.target) == names.end()) continue;
         change.used = true;
@@ -86,6 +92,9 @@ void Overrides::apply(const std::vector<std::string>& names, const StageInfo& st
 void Overrides::check_all_used(const std::set<std::string>& names, Problems& problems) const {
     constexpr std::size_t most_listed = 20;
     const std::vector<std::string> all(names.begin(), names.end());
+    if (update_baselines_ && !any_baseline_)
+        problems.add(command_line_mark("--update-baseline", ""), "E-BASELINE",
+                     "no stage of the pipeline has a baseline", "validate: {baseline: known.json}");
     for (const auto& change : all_)
         if (!change.used)
             problems.add(change.where, "E-SET", fmt::format("the pipeline has no stage '{}'", change.target),

@@ -59,6 +59,7 @@ struct PlanSettings {
     std::string name; ///< of the pipeline, for messages and the report
     std::vector<std::pair<std::string, std::string>> defines; ///< -D
     std::vector<std::pair<std::string, std::string>> sets;    ///< --set stage.option=value
+    bool update_baselines = false; ///< --update-baseline: stages with a baseline write it
     Places places;
     std::filesystem::path working_directory; ///< what -D paths are relative to
     std::vector<std::string> extra_reports;  ///< --report

@@ -9,12 +9,12 @@ namespace facetmill::pipeline {
 /// The --set options: each changes every stage of its name.
 class Overrides {
   public:
-    Overrides(const std::vector<std::pair<std::string, std::string>>& sets, Problems& problems);
+    Overrides(const PlanSettings& settings, Problems& problems);
 
     /// Changes the value of a stage that is known by these names. Bare values become maps first.
     void apply(const std::vector<std::string>& names, const StageInfo& stage, Value& given,
                Problems& problems);
-    /// Complains of targets that no stage answered to.
+    /// Complains of targets that no stage answered to, and of baselines to update that no stage has.
     void check_all_used(const std::set<std::string>& names, Problems& problems) const;
 
   private:
@@ -26,6 +26,7 @@ class Overrides {
         bool used = false;
     };
     std::vector<Override> all_;
+    bool update_baselines_, any_baseline_ = false;
 };
 
 /// Where in the pipeline a list of stages stands.
@@ -37,7 +38,7 @@ struct Position {
 class Planner {
   public:
     Planner(const PlanSettings& settings, Problems& problems)
-        : settings_(settings), problems_(problems), overrides_(settings.sets, problems) {}
+        : settings_(settings), problems_(problems), overrides_(settings, problems) {}
 
     /// Plans a list of stages. has_scene: whether a stage before has loaded one; updated.
     Steps steps(const Value& list, const Scope& scope, const Position& position, bool& has_scene);

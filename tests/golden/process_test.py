@@ -271,6 +271,18 @@ class Process(Case):
         self.assertIn("laod", run.stderr)
         self.assertIn("wirte", run.stderr)
 
+    def test_a_gate_is_introduced_by_updating_its_baseline(self):
+        self.write("t.off", TRIANGLE)
+        self.write("p.yaml", "facetmill: 1\nstages: [{load: t.off}, {validate: {closed: true, baseline: k.json}}]\n")
+        self.assertIn("k.json", self.mill("run", "p.yaml", expect=3).stderr)
+        self.mill("run", "p.yaml", "--update-baseline")
+        self.assertTrue((self.dir / "k.json").exists())
+        self.mill("run", "p.yaml")
+        self.mill("pipe", "load", "t.off", "!", "validate", "--closed", "--baseline", "l.json", "--update-baseline")
+        self.assertEqual((self.dir / "k.json").read_bytes(), (self.dir / "l.json").read_bytes())
+        self.write("q.yaml", "facetmill: 1\nstages: [{load: t.off}, {validate: {faces: 1}}]\n")
+        self.assertIn("E-BASELINE", self.mill("run", "q.yaml", "--update-baseline", expect=2).stderr)
+
     def test_a_depfile_is_good_for_make(self):
         self.write("my scan.off", TRIANGLE)
         self.write("p.yaml", 'facetmill: 1\nstages: [{load: "my scan.off"}, {write: out.ply}]\n')
