@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "options", "mesh", "geometry", "io", "report", "stage", "stages", "pipeline", "docs", "cli"]
+LAYERS = ["base", "options", "mesh", "geometry", "io", "report", "diff", "stage", "stages", "pipeline", "docs", "cli"]
 
 # A layer that must not include another although it stands below it.
 FORBIDDEN = {"pipeline": {"stages"}, "docs": {"stages"}, "cli": {"stages"}}
@@ -18,8 +18,8 @@ FORBIDDEN = {"pipeline": {"stages"}, "docs": {"stages"}, "cli": {"stages"}}
 LIBRARIES = {
     "yaml-cpp": ["src/pipeline/document.cpp"],
     "CLI": ["src/cli/"],
-    "tiny_gltf.h": ["src/io/gltf", "src/io/formats/gltf"],
-    "draco": ["src/io/draco/"],
+    "tiny_gltf.h": ["src/io/gltf/"],
+    "draco": ["src/io/gltf/draco/"],
     "CGAL": ["src/geometry/cgal/"],
     "OpenMesh": ["src/geometry/openmesh/"],
     "boost": ["src/geometry/cgal/"],

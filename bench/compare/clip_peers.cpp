@@ -3,8 +3,8 @@
 
 #include "compare/cgal_clip.hpp"
 #include "compare/clock.hpp"
-#include "geometry/clip.hpp"
-#include "geometry/section.hpp"
+#include "geometry/clip/clip.hpp"
+#include "geometry/section/section.hpp"
 #include "io/codec.hpp"
 
 #include <fmt/format.h>

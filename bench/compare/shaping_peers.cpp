@@ -2,8 +2,8 @@
 // library, in this process, and prints as JSON what it took. bench/compare/shaping.py makes a table of it.
 
 #include "compare/clock.hpp"
-#include "geometry/relax.hpp"
-#include "geometry/split.hpp"
+#include "geometry/relax/relax.hpp"
+#include "geometry/split/split.hpp"
 #include "io/codec.hpp"
 #include "support/openmesh.hpp"
 

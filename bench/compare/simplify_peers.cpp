@@ -4,9 +4,9 @@
 // peers.
 
 #include "compare/clock.hpp"
-#include "geometry/deviation.hpp"
-#include "geometry/inspect.hpp"
-#include "geometry/simplify.hpp"
+#include "geometry/deviation/deviation.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "geometry/simplify/simplify.hpp"
 #include "io/codec.hpp"
 #include "io/outputs.hpp"
 

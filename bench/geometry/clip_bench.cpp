@@ -1,7 +1,7 @@
 // Clipping and sectioning a closed scan: an oblique plane through its centre, with cap.
 
-#include "geometry/clip.hpp"
-#include "geometry/section.hpp"
+#include "geometry/clip/clip.hpp"
+#include "geometry/section/section.hpp"
 #include "support/meshes.hpp"
 
 #include <benchmark/benchmark.h>

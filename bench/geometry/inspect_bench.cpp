@@ -1,6 +1,6 @@
 // All properties of a scan but self-intersections.
 
-#include "geometry/inspect.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "support/meshes.hpp"
 
 #include <benchmark/benchmark.h>

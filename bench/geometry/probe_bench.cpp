@@ -2,8 +2,8 @@
 // CGAL.
 
 #include "base/random.hpp"
-#include "geometry/deviation.hpp"
-#include "geometry/probe.hpp"
+#include "geometry/deviation/deviation.hpp"
+#include "geometry/probe/probe.hpp"
 #include "support/cgal_surface.hpp"
 #include "support/meshes.hpp"
 

@@ -1,7 +1,7 @@
 // Ten iterations of relaxation, neighbours found anew each time, beside OpenMesh's Jacobi smoother on a mesh
 // that it has built already; and the cost against the number of faces.
 
-#include "geometry/relax.hpp"
+#include "geometry/relax/relax.hpp"
 #include "support/meshes.hpp"
 #include "support/openmesh.hpp"
 

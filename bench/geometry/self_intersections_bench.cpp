@@ -1,6 +1,6 @@
 // All pairs of faces of a scan that intersect, exactly; beside CGAL.
 
-#include "geometry/self_intersections.hpp"
+#include "geometry/intersect/self_intersections.hpp"
 #include "support/cgal_surface.hpp"
 #include "support/meshes.hpp"
 

@@ -1,6 +1,6 @@
 // Simplification of a closed scan (bench/support/meshes.hpp). bench/compare/simplify.py sets peers beside it.
 
-#include "geometry/simplify.hpp"
+#include "geometry/simplify/simplify.hpp"
 #include "support/meshes.hpp"
 
 #include <benchmark/benchmark.h>

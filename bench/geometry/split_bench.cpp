@@ -1,7 +1,7 @@
 // Midpoint splitting, four faces for one, beside OpenMesh's on a mesh that it has built already; the other
 // methods; and the cost against the number of faces.
 
-#include "geometry/split.hpp"
+#include "geometry/split/split.hpp"
 #include "support/meshes.hpp"
 #include "support/openmesh.hpp"
 

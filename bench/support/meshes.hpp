@@ -1,7 +1,7 @@
 #pragma once
 // What the benchmarks run on: a closed scan, or a closed surface as rough as one.
 
-#include "geometry/crumple.hpp"
+#include "geometry/crumple/crumple.hpp"
 #include "io/codec.hpp"
 #include "mesh/shapes.hpp"
 

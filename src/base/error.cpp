@@ -89,7 +89,7 @@ std::string render(const Diagnostic& d, bool colour) {
                        : d.severity == Severity::warning ? "warning"
                                                          : "note";
     const char* paint = !colour ? "" : d.severity == Severity::error ? "\033[1;31m" : "\033[1;35m";
-    std::string text = d.where.known() ? spelled(d.where) + ": " : "facetmill: ";
+    std::string text = d.where.known() ? to_string(d.where) + ": " : "facetmill: ";
     text += fmt::format("{}{}[{}]{}: {}", paint, word, d.id, colour ? "\033[0m" : "", d.message);
     if (d.where.known() && d.where.line > 0) text += excerpt(d.where);
     if (!d.hint.empty()) text += fmt::format("\n  hint: {}", d.hint);

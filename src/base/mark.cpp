@@ -12,7 +12,7 @@ Mark line_mark(std::string name, int line) {
     return {std::make_shared<const SourceText>(SourceText{std::move(name), {}}), line, 0, 1};
 }
 
-std::string spelled(const Mark& mark) {
+std::string to_string(const Mark& mark) {
     if (!mark.known()) return {};
     if (mark.line == 0) return mark.source->name;
     if (mark.column == 0) return fmt::format("{}:{}", mark.source->name, mark.line);

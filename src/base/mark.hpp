@@ -27,6 +27,6 @@ Mark file_mark(std::string name);
 /// A mark for a line of a file that is not kept in memory.
 Mark line_mark(std::string name, int line);
 /// "file:3:7", "file:3" or "file"; empty when unknown.
-std::string spelled(const Mark& mark);
+std::string to_string(const Mark& mark);
 
 } // namespace facetmill

@@ -16,6 +16,6 @@ std::optional<std::int64_t> parse_integer(std::string_view text);
 /// two of them side by side (seen at -O2 and -O3).
 double as_float32(double x);
 /// The shortest spelling that reads back as the same double.
-std::string spelled(double value);
+std::string to_string(double value);
 
 } // namespace facetmill

@@ -1,6 +1,6 @@
 #pragma once
 // Three doubles and the few operations on them that every algorithm needs. All use + - x / sqrt only, so
-// results do not depend on the processor (see base/functions.hpp for the transcendental ones).
+// results do not depend on the processor (see base/portable_math.hpp for the transcendental ones).
 
 #include <cmath>
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include "io/codec.hpp"
 #include "io/convert.hpp"
 #include "options/types.hpp"
-#include "report/comparison.hpp"
+#include "diff/comparison.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>

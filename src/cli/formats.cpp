@@ -32,8 +32,8 @@ int list_formats(bool json) {
                        {"extensions", c.extensions},
                        {"read", static_cast<bool>(c.read)},
                        {"write", static_cast<bool>(c.write)},
-                       {"unit", spelled(c.unit)},
-                       {"up", spelled(c.up)}});
+                       {"unit", to_string(c.unit)},
+                       {"up", to_string(c.up)}});
         text += fmt::format("{:<6} {}  .{:<14} {}\n", c.name, directions(c), fmt::join(c.extensions, " ."),
                             c.about);
     }

@@ -1,7 +1,7 @@
 #include "cli/pipe_syntax.hpp"
 
 #include "docs/stages.hpp"
-#include "geometry/inspect.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "docs/schema.hpp"
 #include "cli/command.hpp"
-#include "report/comparison.hpp"
+#include "diff/comparison.hpp"
 #include "report/render.hpp"
 
 namespace facetmill::cli {

@@ -20,7 +20,7 @@ std::string type_text(const Option& o) {
     if (o.type == "list" && o.dimension == Dimension::angle) text += " of angles";
     if (o.type == "bound" && o.dimension == Dimension::angle) text += " of an angle";
     if (o.type == "bound" && o.dimension == Dimension::length) text += " of a length";
-    if (const auto range = o.range.spelled(); !range.empty()) text += ", " + range;
+    if (const auto range = o.range.to_string(); !range.empty()) text += ", " + range;
     return text;
 }
 

@@ -1,7 +1,7 @@
 #include "io/codec.hpp"
 
 #include "base/parallel.hpp"
-#include "geometry/power_scale.hpp"
+#include "mesh/power_scale.hpp"
 #include "io/attributes.hpp"
 #include "mesh/invariants.hpp"
 
@@ -35,7 +35,7 @@ const Codec& choose(const Input& input, ReadLog& log) {
     const Codec* perhaps = nullptr;
     const Codec* surely = nullptr;
     for (const auto& codec : codecs()) {
-        const int score = codec.recognises ? codec.recognises(input.bytes()) : 0;
+        const int score = codec.sniff ? codec.sniff(input.bytes()) : 0;
         if (score == 2 && (!surely || &codec == by_name)) surely = &codec;
         if (score == 1 && !perhaps) perhaps = &codec;
     }
@@ -132,14 +132,14 @@ const Codec* codec_named(std::string_view name) {
     return nullptr;
 }
 
-Outline outline_of(const Input& input, const ReadSettings& settings, const Codec* forced) {
+FileHeader file_header(const Input& input, const ReadSettings& settings, const Codec* forced) {
     ReadLog log; // its warnings come again when the file is read
     const Codec& codec = reader_for(input, log, forced);
-    Outline outline{codec.name, settings.unit.value_or(codec.unit), settings.up.value_or(codec.up), {}};
-    if (codec.peek) outline.parts = codec.peek(input);
-    for (auto& name : outline.parts)
+    FileHeader header{codec.name, settings.unit.value_or(codec.unit), settings.up.value_or(codec.up), {}};
+    if (codec.peek) header.parts = codec.peek(input);
+    for (auto& name : header.parts)
         if (name.empty()) name = stem_of(input);
-    return outline;
+    return header;
 }
 
 Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log, const Codec* forced) {

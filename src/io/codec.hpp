@@ -64,7 +64,7 @@ struct Codec {
     UpAxis up = UpAxis::unknown;
     /// Whether the bytes are of this format, whatever the name says; 0 no, 1 perhaps, 2 surely (a magic
     /// number).
-    std::function<int(Span)> recognises;
+    std::function<int(Span)> sniff;
     /// Throws Error malformed with the place (line, or byte offset in the message), also when counts exceed
     /// what the file holds; limit when they exceed what can be held. Sizes and counts from the file are never
     /// trusted before they are checked.
@@ -93,7 +93,7 @@ Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
                  const Codec* forced = nullptr);
 
 /// What is known of a mesh file from its header.
-struct Outline {
+struct FileHeader {
     std::string format;
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
@@ -101,6 +101,6 @@ struct Outline {
 };
 
 /// Recognises a file and reads its header. Throws as read_scene, for what the header shows.
-Outline outline_of(const Input& input, const ReadSettings& settings, const Codec* forced = nullptr);
+FileHeader file_header(const Input& input, const ReadSettings& settings, const Codec* forced = nullptr);
 
 } // namespace facetmill::io

@@ -166,7 +166,7 @@ std::vector<double> read_table(const Input& input, std::size_t columns,
     return Table(input, columns, names).read();
 }
 
-std::string csv_number(double x) { return std::isfinite(x) ? spelled(x) : ""; }
+std::string csv_number(double x) { return std::isfinite(x) ? to_string(x) : ""; }
 
 std::string csv_text(const std::string& text) {
     if (text.find_first_of(",;\"\r\n") == text.npos) return text;

@@ -2,7 +2,7 @@
 // What is claimed is measured: a written file is decoded again and compared with what it was to hold.
 
 #include "base/json.hpp"
-#include "geometry/inspect.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "io/codec.hpp"
 #include "io/why_lost.hpp"
 

@@ -58,11 +58,11 @@ void Attribute::resize(std::size_t count) {
     std::visit([&](auto& v) { v.resize(count * static_cast<std::size_t>(components)); }, data);
 }
 
-const char* spelled(Domain domain) {
+const char* to_string(Domain domain) {
     return domain == Domain::vertex ? "vertex" : domain == Domain::wedge ? "wedge" : "face";
 }
 
-const char* spelled(Fate::Kind kind) {
+const char* to_string(Fate::Kind kind) {
     switch (kind) {
     case Fate::Kind::kept:
         return "kept";

@@ -74,7 +74,7 @@ T as_component(double x) {
 }
 
 /// The name of a domain as users see it.
-const char* spelled(Domain domain);
+const char* to_string(Domain domain);
 
 /// What became of an attribute in a stage: an entry of the report's ledger.
 struct Fate {
@@ -86,7 +86,7 @@ struct Fate {
 
     bool operator==(const Fate&) const = default;
 };
-const char* spelled(Fate::Kind kind);
+const char* to_string(Fate::Kind kind);
 using Fates = std::vector<Fate>;
 
 } // namespace facetmill

@@ -58,13 +58,13 @@ void check_attribute(const Mesh& mesh, const Attribute& a, std::vector<std::stri
     const auto stored = std::visit([](const auto& v) { return v.size(); }, a.data);
     const auto wanted = mesh.count(a.domain) * static_cast<std::size_t>(std::max(a.components, 0));
     if (a.components < 1 || stored != wanted)
-        out.push_back(fmt::format("{} attribute {} holds {} numbers, not {}", spelled(a.domain), a.name,
+        out.push_back(fmt::format("{} attribute {} holds {} numbers, not {}", to_string(a.domain), a.name,
                                   stored, wanted));
     const auto same = [&](const Attribute& b) {
         return &b != &a && b.name == a.name && b.domain == a.domain;
     };
     if (std::any_of(mesh.attributes.begin(), mesh.attributes.end(), same))
-        out.push_back(fmt::format("{} attribute {} is there twice", spelled(a.domain), a.name));
+        out.push_back(fmt::format("{} attribute {} is there twice", to_string(a.domain), a.name));
 }
 
 void check_primitives(const Mesh& mesh, std::vector<std::string>& out) {

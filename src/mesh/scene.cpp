@@ -19,9 +19,9 @@ constexpr UnitEntry units[] = {
 
 double metres(Unit unit) { return units[static_cast<std::size_t>(unit)].metres; }
 
-const char* spelled(Unit unit) { return units[static_cast<std::size_t>(unit)].name; }
+const char* to_string(Unit unit) { return units[static_cast<std::size_t>(unit)].name; }
 
-const char* spelled(UpAxis up) { return up == UpAxis::y ? "y" : up == UpAxis::z ? "z" : "unknown"; }
+const char* to_string(UpAxis up) { return up == UpAxis::y ? "y" : up == UpAxis::z ? "z" : "unknown"; }
 
 std::optional<Unit> unit_named(std::string_view text) {
     for (const auto& u : units)

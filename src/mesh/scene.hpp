@@ -16,8 +16,8 @@ enum class UpAxis { unknown, y, z };
 /// Metres per unit; 0 for unknown.
 double metres(Unit unit);
 /// "mm", "in", "unknown", ...
-const char* spelled(Unit unit);
-const char* spelled(UpAxis up);
+const char* to_string(Unit unit);
+const char* to_string(UpAxis up);
 /// The unit of that spelling, or none.
 std::optional<Unit> unit_named(std::string_view text);
 
@@ -30,7 +30,7 @@ struct Document {
     std::string name;                                    ///< the file's name, for messages
 };
 
-struct CutMemory; // geometry/cut_memory.hpp
+struct CutMemory; // mesh/cut_memory.hpp
 
 struct Material {
     std::string name{};

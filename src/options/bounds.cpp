@@ -1,5 +1,5 @@
 // Bounds and limits, of options/types.hpp: numbers that a value must have or may not pass.
-#include "base/functions.hpp"
+#include "base/portable_math.hpp"
 #include "base/numbers.hpp"
 #include "options/types.hpp"
 
@@ -64,7 +64,7 @@ std::string byte_unit_hint(double number, std::string_view unit) {
     if (at == std::string_view::npos || !(rest.empty() || rest == "b" || rest == "i" || rest == "ib"))
         return "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB";
     const ByteUnit &decimal = byte_units[1 + at], &binary = byte_units[5 + at];
-    return fmt::format("{0}{1} ({2:.0f} bytes each) or {0}{3} ({4:.0f})?", spelled(number), decimal.name,
+    return fmt::format("{0}{1} ({2:.0f} bytes each) or {0}{3} ({4:.0f})?", to_string(number), decimal.name,
                        decimal.bytes, binary.name, binary.bytes);
 }
 
@@ -112,7 +112,7 @@ bool read_range(const Value& value, Bound& out, Reader read, Problems& problems)
     if (out.min && out.max && *out.min > *out.max) {
         problems.add(
             value.mark, "E-RANGE",
-            fmt::format("no number is at least {} and at most {}", spelled(*out.min), spelled(*out.max)),
+            fmt::format("no number is at least {} and at most {}", to_string(*out.min), to_string(*out.max)),
             "exchange min and max");
         good = false;
     }
@@ -139,8 +139,8 @@ Json bound_schema(const Json& limit) {
 }
 
 std::string print_limit(const Bound& b) {
-    if (b.max && !b.min) return spelled(*b.max);
-    if (b.min && b.max) return fmt::format("{{min: {}, max: {}}}", spelled(*b.min), spelled(*b.max));
+    if (b.max && !b.min) return to_string(*b.max);
+    if (b.min && b.max) return fmt::format("{{min: {}, max: {}}}", to_string(*b.min), to_string(*b.max));
     return OptionType<Bound>::print(b);
 }
 
@@ -151,10 +151,10 @@ bool OptionType<Bound>::parse(const Value& value, Bound& out, Problems& problems
 }
 std::string OptionType<Bound>::print(const Bound& b) {
     if (b.truth) return *b.truth ? "true" : "false";
-    if (b.min && b.max && *b.min == *b.max) return spelled(*b.min);
-    if (b.min && b.max) return fmt::format("{{min: {}, max: {}}}", spelled(*b.min), spelled(*b.max));
-    if (b.min) return fmt::format("{{min: {}}}", spelled(*b.min));
-    return b.max ? fmt::format("{{max: {}}}", spelled(*b.max)) : "";
+    if (b.min && b.max && *b.min == *b.max) return to_string(*b.min);
+    if (b.min && b.max) return fmt::format("{{min: {}, max: {}}}", to_string(*b.min), to_string(*b.max));
+    if (b.min) return fmt::format("{{min: {}}}", to_string(*b.min));
+    return b.max ? fmt::format("{{max: {}}}", to_string(*b.max)) : "";
 }
 Json OptionType<Bound>::schema() { return bound_schema({{"type", "number"}}); }
 std::optional<double> OptionType<Bound>::magnitude(const Bound&) { return {}; }

@@ -14,8 +14,8 @@ bool Range::holds(double x) const {
     return true;
 }
 
-std::string Range::spelled() const {
-    const auto number = [](double x) { return facetmill::spelled(x); };
+std::string Range::to_string() const {
+    const auto number = [](double x) { return facetmill::to_string(x); };
     if (min && max)
         return fmt::format("{} {} x {} {}", number(*min),
                            min_open ? "<" : "<=", max_open ? "<" : "<=", number(*max));
@@ -48,7 +48,7 @@ Json Declaration::schema() const {
         Json property = o.schema;
         property["description"] = o.help;
         if (!o.default_text.empty()) property["x-default"] = o.default_text;
-        if (const auto text = o.range.spelled(); !text.empty()) property["x-range"] = text;
+        if (const auto text = o.range.to_string(); !text.empty()) property["x-range"] = text;
         object["properties"][o.name] = std::move(property);
         if (o.required) required.push_back(o.name);
     }
@@ -88,7 +88,7 @@ bool parse_option(const Option& option, const Value& value, void* target, Proble
     const auto magnitude = option.magnitude ? option.magnitude(target) : std::nullopt;
     if (value.deferred || !magnitude || option.range.holds(*magnitude)) return true;
     problems.add(value.mark, "E-RANGE",
-                 fmt::format("'{}' must be in the range {}, found {}", option.name, option.range.spelled(),
+                 fmt::format("'{}' must be in the range {}, found {}", option.name, option.range.to_string(),
                              value.described()));
     return false;
 }

@@ -70,7 +70,7 @@ bool OptionType<double>::parse(const Value& value, double& out, Problems& proble
     if (!number) return wrong_type(value, "a finite number", problems);
     return out = *number, true;
 }
-std::string OptionType<double>::print(const double& value) { return spelled(value); }
+std::string OptionType<double>::print(const double& value) { return to_string(value); }
 Json OptionType<double>::schema() { return {{"type", "number"}}; }
 std::optional<double> OptionType<double>::magnitude(const double& value) { return value; }
 
@@ -114,17 +114,17 @@ bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems
     out.value = percent ? parts->first / 100 : parts->first;
     return true;
 }
-std::string OptionType<Ratio>::print(const Ratio& value) { return spelled(value.value * 100) + "%"; }
+std::string OptionType<Ratio>::print(const Ratio& value) { return to_string(value.value * 100) + "%"; }
 Json OptionType<Ratio>::schema() {
     return {{"anyOf", Json::array({{{"type", "number"}, {"minimum", 0}, {"maximum", 1}},
                                    {{"type", "string"}, {"pattern", "^[0-9.eE+-]+ *(%|pct)$"}}})}};
 }
 std::optional<double> OptionType<Ratio>::magnitude(const Ratio& value) { return value.value; }
 
-Length Length::scene(double amount) { return {amount, Kind::scene, Of::stage, spelled(amount)}; }
+Length Length::scene(double amount) { return {amount, Kind::scene, Of::stage, to_string(amount)}; }
 Length Length::percent(double amount, Of of) {
     const char* basis = of == Of::part ? " of part" : of == Of::load ? " of load" : "";
-    return {amount, Kind::percent, of, spelled(amount) + "%" + basis};
+    return {amount, Kind::percent, of, to_string(amount) + "%" + basis};
 }
 
 bool OptionType<Length>::parse(const Value& value, Length& out, Problems& problems) {
@@ -159,7 +159,7 @@ Json OptionType<Length>::schema() {
 }
 std::optional<double> OptionType<Length>::magnitude(const Length& value) { return value.amount; }
 
-Angle Angle::degrees(double d) { return {d * (pi / 180), spelled(d) + "deg"}; }
+Angle Angle::degrees(double d) { return {d * (pi / 180), to_string(d) + "deg"}; }
 
 bool OptionType<Angle>::parse(const Value& value, Angle& out, Problems& problems) {
     if (value.deferred) return true;
@@ -197,7 +197,7 @@ bool OptionType<Vec3>::parse(const Value& value, Vec3& out, Problems& problems) 
     return good;
 }
 std::string OptionType<Vec3>::print(const Vec3& v) {
-    return fmt::format("[{}, {}, {}]", spelled(v.x), spelled(v.y), spelled(v.z));
+    return fmt::format("[{}, {}, {}]", to_string(v.x), to_string(v.y), to_string(v.z));
 }
 Json OptionType<Vec3>::schema() {
     return {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}};

@@ -19,7 +19,7 @@ struct Range {
     bool min_open = false, max_open = false;
 
     bool holds(double x) const;
-    std::string spelled() const; ///< "0 < x <= 1", or empty
+    std::string to_string() const; ///< "0 < x <= 1", or empty
 };
 
 /// "2.5mm" -> 2.5 and "mm"; none when it does not start with a number.

@@ -16,7 +16,7 @@ struct Axis {
     bool over_parts = false;
 };
 
-std::string spelled(const Value& value) { return value.is_scalar() ? value.text : value.described(); }
+std::string to_string(const Value& value) { return value.is_scalar() ? value.text : value.described(); }
 
 /// Calls body with the index of each axis' value, the last axis running fastest.
 template <class Body>
@@ -94,7 +94,7 @@ std::vector<Arm> Planner::foreach_arms(const Value& variables, const Value& body
             inner.push_back({axes[a].name, value, static_cast<std::int64_t>(at[a]), axes[a].over_parts});
             arm.variables.emplace_back(axes[a].name, value);
             if (axes[a].over_parts && parts) arm.part = at[a];
-            const std::string shown = axes[a].over_parts && parts ? safe_name(value.text) : spelled(value);
+            const std::string shown = axes[a].over_parts && parts ? safe_name(value.text) : to_string(value);
             arm.name += fmt::format("{}{}={}", arm.name.empty() ? "" : ",", axes[a].name, shown);
         }
         bool arm_has_scene = has_scene;

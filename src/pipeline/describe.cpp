@@ -16,14 +16,14 @@ std::string list_of(const std::vector<std::string>& texts) {
 std::string assertions_text(const Assertions& assertions) {
     std::string out;
     for (const auto& a : assertions.all)
-        out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", a.property, spelled(a));
+        out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", a.property, to_string(a));
     return out;
 }
 
 std::string contract_text(const Contract& contract) {
     std::string out = assertions_text(contract.assertions);
     if (contract.deviation)
-        out += fmt::format("{}deviation: {}", out.empty() ? "" : ", ", spelled(*contract.deviation));
+        out += fmt::format("{}deviation: {}", out.empty() ? "" : ", ", to_string(*contract.deviation));
     return out;
 }
 
@@ -73,13 +73,13 @@ void describe(const Steps& steps, const Headers& headers, std::size_t indent, st
 
 Json assertions_json(const Assertions& assertions) {
     Json out = Json::object();
-    for (const auto& a : assertions.all) out[a.property] = spelled(a);
+    for (const auto& a : assertions.all) out[a.property] = to_string(a);
     return out;
 }
 
 Json contract_json(const Contract& contract) {
     Json out = assertions_json(contract.assertions);
-    if (contract.deviation) out["deviation"] = spelled(*contract.deviation);
+    if (contract.deviation) out["deviation"] = to_string(*contract.deviation);
     return out;
 }
 
@@ -148,28 +148,28 @@ const InputHeader* header_of(const Headers& headers, const std::filesystem::path
 
 /// "  (glb, in m, y up; parts: hull, mast)".
 std::string header_text(const Headers& headers, const std::filesystem::path& path) {
-    const InputHeader* header = header_of(headers, path);
-    if (!header) return "";
-    const io::Outline& outline = header->outline;
-    std::string text = outline.format;
-    text += outline.unit == Unit::unknown ? ", no unit" : fmt::format(", in {}", spelled(outline.unit));
-    if (outline.up != UpAxis::unknown) text += fmt::format(", {} up", spelled(outline.up));
+    const InputHeader* input = header_of(headers, path);
+    if (!input) return "";
+    const io::FileHeader& header = input->header;
+    std::string text = header.format;
+    text += header.unit == Unit::unknown ? ", no unit" : fmt::format(", in {}", to_string(header.unit));
+    if (header.up != UpAxis::unknown) text += fmt::format(", {} up", to_string(header.up));
     constexpr std::size_t most = 8;
-    const std::vector<std::string> named(outline.parts.begin(),
-                                         outline.parts.begin() + std::min(most, outline.parts.size()));
+    const std::vector<std::string> named(header.parts.begin(),
+                                         header.parts.begin() + std::min(most, header.parts.size()));
     if (!named.empty()) text += "; parts: " + list_of(named);
-    if (outline.parts.size() > most) text += fmt::format(" and {} more", outline.parts.size() - most);
+    if (header.parts.size() > most) text += fmt::format(" and {} more", header.parts.size() - most);
     return fmt::format("  ({})", text);
 }
 
 Json headers_json(const Headers& headers) {
     Json all = Json::array();
-    for (const auto& [path, outline] : headers.inputs)
+    for (const auto& [path, header] : headers.inputs)
         all.push_back({{"path", path.string()},
-                       {"format", outline.format},
-                       {"unit", spelled(outline.unit)},
-                       {"up", spelled(outline.up)},
-                       {"parts", outline.parts}});
+                       {"format", header.format},
+                       {"unit", to_string(header.unit)},
+                       {"up", to_string(header.up)},
+                       {"parts", header.parts}});
     return all;
 }
 

@@ -236,7 +236,7 @@ class Builder : public YAML::EventHandler {
             return;
         }
         problems_.add(key.mark, "E-DUPLICATE", fmt::format("the key '{}' is there twice", key.text),
-                      fmt::format("the first is at {}", spelled(frame.value.entries[at->second].key_mark)));
+                      fmt::format("the first is at {}", to_string(frame.value.entries[at->second].key_mark)));
     }
 
     /// YAML's merge key: what the map says itself wins, then the earlier of several.

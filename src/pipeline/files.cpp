@@ -98,7 +98,7 @@ void check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
         const auto [first, is_new] = inputs.emplace(identity(file.path), &file);
         if (!is_new && file.path == "-")
             problems.add(file.where, "E-TWICE", "standard input can be read only once",
-                         fmt::format("the first is at {}", spelled(first->second->where)));
+                         fmt::format("the first is at {}", to_string(first->second->where)));
     }
     for (const auto& file : files) {
         if (!file.written) continue;
@@ -107,7 +107,7 @@ void check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
             problems.add(
                 file.where, "E-OVERWRITE", fmt::format("'{}' would overwrite an input", file.path.string()),
                 input->second->where.known() ? fmt::format("it is read at {}; give the output another name",
-                                                           spelled(input->second->where))
+                                                           to_string(input->second->where))
                                              : "it is the pipeline itself; give the output another name");
         const auto [first, is_new] = outputs.emplace(lower_case(path), &file);
         if (is_new) continue;
@@ -116,7 +116,7 @@ void check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
                      same ? fmt::format("'{}' is written twice", file.path.string())
                           : fmt::format("'{}' and '{}' are one file where case does not count",
                                         first->second->path.string(), file.path.string()),
-                     fmt::format("the first is at {}", spelled(first->second->where)));
+                     fmt::format("the first is at {}", to_string(first->second->where)));
     }
 }
 

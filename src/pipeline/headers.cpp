@@ -58,14 +58,14 @@ class Walk {
             if (step.when && step.when->known == false) continue;
             for (const auto& arm : step.arms) steps(*arm.steps, unit);
             if (!step.stage || !step.options) continue;
-            if (step.stage->outline)
+            if (step.stage->header)
                 load(step, unit);
             else if (unit == Unit::unknown)
                 refuse_units(step);
             else if (unit)
                 resolve_lengths(step, *unit);
             // A stage that says what the numbers mean ends what is known here.
-            const bool says = !step.stage->outline && !step.stage->checks;
+            const bool says = !step.stage->header && !step.stage->checks;
             if (says && step.given.is_map() && step.given.find("unit")) unit.reset();
             if (step.ensure && unit == Unit::unknown) contract(*step.ensure);
         }
@@ -81,11 +81,11 @@ class Walk {
                 continue;
             }
             try {
-                const io::Outline outline = step.stage->outline(step.options.get(), file.path);
-                if (std::exchange(first, false)) unit = outline.unit;
+                const io::FileHeader header = step.stage->header(step.options.get(), file.path);
+                if (std::exchange(first, false)) unit = header.unit;
                 const auto same = [&](const InputHeader& h) { return h.path == file.path; };
                 if (std::none_of(headers.inputs.begin(), headers.inputs.end(), same))
-                    headers.inputs.push_back({file.path, outline});
+                    headers.inputs.push_back({file.path, header});
             } catch (Error& error) {
                 headers.errors.push_back(error.at(file.where));
                 first = false;
@@ -101,7 +101,7 @@ class Walk {
             Length length;
             OptionType<Length>::parse(*value, length, ignored);
             headers.lengths[step.path][option] = {
-                {"given", value->text}, {"is", length.amount / metres(unit)}, {"unit", spelled(unit)}};
+                {"given", value->text}, {"is", length.amount / metres(unit)}, {"unit", to_string(unit)}};
         }
     }
 

@@ -97,7 +97,7 @@ std::vector<Diagnostic> missing_inputs(const Plan& plan);
 /// An input and what its header says.
 struct InputHeader {
     std::filesystem::path path;
-    io::Outline outline;
+    io::FileHeader header;
 };
 
 struct Headers {

@@ -2,9 +2,9 @@
 
 #include "base/parallel.hpp"
 #include "base/point_json.hpp"
-#include "geometry/inspect.hpp"
-#include "geometry/loose_points.hpp"
-#include "geometry/power_scale.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "mesh/unreferenced.hpp"
+#include "mesh/power_scale.hpp"
 #include "io/png.hpp"
 #include "mesh/invariants.hpp"
 #include "pipeline/failures.hpp"

@@ -2,7 +2,7 @@
 // A measured deviation as reports have it.
 
 #include "base/json.hpp"
-#include "geometry/deviation.hpp"
+#include "geometry/deviation/deviation.hpp"
 
 namespace facetmill::report {
 

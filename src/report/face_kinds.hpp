@@ -2,7 +2,7 @@
 // What kinds of face a mesh has, for info and the stages that tell.
 
 #include "base/json.hpp"
-#include "geometry/triangulate.hpp"
+#include "geometry/triangulate/triangulate.hpp"
 
 namespace facetmill::report {
 

@@ -53,7 +53,7 @@ std::string diagnostics(const std::vector<Diagnostic>& all, const char* kind) {
     for (const auto& d : all)
         rows += fmt::format("<tr>{}{}{}{}</tr>\n",
                             cell(fmt::format("<span class=\"{}\">{}</span>", kind, escaped(d.id))),
-                            cell(escaped(d.message)), cell(code(spelled(d.where))), cell(escaped(d.hint)));
+                            cell(escaped(d.message)), cell(code(to_string(d.where))), cell(escaped(d.hint)));
     return rows;
 }
 
@@ -110,9 +110,9 @@ std::string ledger_rows(const RunRecord& record) {
         for (const auto& [part, fate] : s.ledger)
             rows += fmt::format(
                 "<tr>{}{}{}{}{}{}</tr>\n", cell(escaped(s.name)), cell(escaped(part)),
-                cell(code(fate.attribute)), cell(spelled(fate.domain)),
+                cell(code(fate.attribute)), cell(to_string(fate.domain)),
                 cell(fmt::format("<span class=\"{}\">{}</span>",
-                                 fate.kind == Fate::Kind::dropped ? "warn" : "", spelled(fate.kind))),
+                                 fate.kind == Fate::Kind::dropped ? "warn" : "", to_string(fate.kind))),
                 cell(escaped(fate.why)));
     return rows;
 }

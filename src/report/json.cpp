@@ -6,7 +6,7 @@ namespace {
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
-const char* spelled(Severity severity) {
+const char* to_string(Severity severity) {
     return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
 }
 
@@ -15,7 +15,7 @@ Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
     for (const auto& d : diagnostics)
         all.push_back({{"id", d.id},
                        {"message", d.message},
-                       {"where", text_or_null(facetmill::spelled(d.where))},
+                       {"where", text_or_null(facetmill::to_string(d.where))},
                        {"hint", text_or_null(d.hint)}});
     return all;
 }
@@ -35,8 +35,8 @@ Json stage_json(const StageRecord& stage) {
     for (const auto& [part, fate] : stage.ledger)
         ledger.push_back({{"part", part},
                           {"attribute", fate.attribute},
-                          {"domain", spelled(fate.domain)},
-                          {"fate", spelled(fate.kind)},
+                          {"domain", to_string(fate.domain)},
+                          {"fate", to_string(fate.kind)},
                           {"why", text_or_null(fate.why)}});
     return {{"name", stage.name},
             {"stage", stage.stage},
@@ -54,11 +54,11 @@ Json check_json(const Check& check) {
     return {{"name", check.name},
             {"stage", check.stage},
             {"passed", check.passed},
-            {"severity", spelled(check.severity)},
+            {"severity", to_string(check.severity)},
             {"expected", check.expected},
             {"found", check.found},
             {"part", text_or_null(check.part)},
-            {"where", text_or_null(facetmill::spelled(check.where))},
+            {"where", text_or_null(facetmill::to_string(check.where))},
             {"waived", check.waived},
             {"places", check.places ? Json(*check.places) : Json()},
             {"new_places", check.fresh ? Json(*check.fresh) : Json()},

@@ -21,7 +21,7 @@ std::string check_case(const Check& check) {
     if (check.severity != Severity::error)
         return fmt::format("{}>\n      <system-out>warning: {}</system-out>\n    </testcase>\n", head, said);
     return fmt::format("{}>\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n", head, said,
-                       escaped(spelled(check.where)));
+                       escaped(to_string(check.where)));
 }
 
 } // namespace
@@ -38,7 +38,7 @@ std::string to_junit(const RunRecord& record) {
         if (d.id == "E-CHECK") continue; // a case of its own already
         cases += fmt::format("    <testcase classname=\"run\" name=\"{}\">\n      <error "
                              "message=\"{}\">{}</error>\n    </testcase>\n",
-                             escaped(d.id), escaped(d.message), escaped(spelled(d.where)));
+                             escaped(d.id), escaped(d.message), escaped(to_string(d.where)));
         ++tests;
         ++errors;
     }

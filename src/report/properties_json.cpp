@@ -19,7 +19,7 @@ Json attributes_json(const Scene& scene) {
         for (const auto& a : part.mesh.attributes) {
             if (a.name == primitive_attribute && a.domain == Domain::face) continue;
             Json entry = {{"name", a.name},
-                          {"domain", spelled(a.domain)},
+                          {"domain", to_string(a.domain)},
                           {"type", a.type()},
                           {"components", a.components}};
             if (std::find(all.begin(), all.end(), entry) == all.end()) all.push_back(std::move(entry));
@@ -50,8 +50,8 @@ Json properties_json(const Properties& properties) {
 
 Json scene_json(const Scene& scene, const Properties& properties) {
     Json json = properties_json(properties);
-    json["unit"] = spelled(scene.unit);
-    json["up"] = spelled(scene.up);
+    json["unit"] = to_string(scene.unit);
+    json["up"] = to_string(scene.up);
     json["attributes"] = attributes_json(scene);
     json["materials"] = Json::array();
     for (const auto& m : scene.materials) json["materials"].push_back(m.name);

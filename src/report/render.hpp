@@ -1,7 +1,7 @@
 #pragma once
 // Renderers of a run's record.
 
-#include "geometry/inspect.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "report/record.hpp"
 
 namespace facetmill::report {

@@ -1,4 +1,4 @@
-#include "geometry/polygon.hpp"
+#include "geometry/polygon/polygon.hpp"
 #include "report/render.hpp"
 
 namespace facetmill::report {
@@ -182,7 +182,7 @@ Json info_schema() {
     Json scene = scene_schema();
     Json kinds = Json::object();
     for (int k = 0; k < polygon::kinds; ++k)
-        kinds[polygon::spelled(static_cast<polygon::Kind>(k))] = typed("integer");
+        kinds[polygon::to_string(static_cast<polygon::Kind>(k))] = typed("integer");
     kinds["non_planar"] =
         typed("integer", "Faces farther from their plane than float32 coordinates would put them");
     kinds["deviation"] = typed("number", "The farthest that a corner is from its face's plane");

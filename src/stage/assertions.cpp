@@ -63,7 +63,7 @@ std::string finding(const Property& property, const Properties& properties) {
     if (property.truth()) return *value != 0 ? "true" : "false";
     if (property.kind == PropertyKind::word)
         return std::string(property.words[static_cast<std::size_t>(*value)]);
-    return spelled(*value);
+    return to_string(*value);
 }
 
 bool lies_within(const Box& inner, const Box& outer) {
@@ -76,10 +76,10 @@ bool lies_within(const Box& inner, const Box& outer) {
 
 std::string expectation(const Bound& bound) {
     if (bound.truth) return *bound.truth ? "true" : "false";
-    if (bound.min && bound.max && *bound.min == *bound.max) return spelled(*bound.min);
-    if (bound.min && bound.max) return fmt::format("{} to {}", spelled(*bound.min), spelled(*bound.max));
-    return bound.min ? fmt::format("at least {}", spelled(*bound.min))
-                     : fmt::format("at most {}", spelled(bound.max.value_or(0)));
+    if (bound.min && bound.max && *bound.min == *bound.max) return to_string(*bound.min);
+    if (bound.min && bound.max) return fmt::format("{} to {}", to_string(*bound.min), to_string(*bound.max));
+    return bound.min ? fmt::format("at least {}", to_string(*bound.min))
+                     : fmt::format("at most {}", to_string(bound.max.value_or(0)));
 }
 
 bool holds(const Bound& bound, double value) {
@@ -87,7 +87,7 @@ bool holds(const Bound& bound, double value) {
     return (!bound.min || value >= *bound.min) && (!bound.max || value <= *bound.max);
 }
 
-std::string spelled(const Assertion& a) {
+std::string to_string(const Assertion& a) {
     const Property& property = *property_named(a.property);
     if (property.kind == PropertyKind::word) return a.bound.min ? expectation(property, a) : "";
     if (a.least.empty() && a.most.empty()) return OptionType<Bound>::print(a.bound);

@@ -1,7 +1,7 @@
 #pragma once
 // Assertions on properties: what `validate`, `ensure` (stage and common key) and `when` have in common.
 
-#include "geometry/inspect.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "options/declaration.hpp"
 #include "report/record.hpp"
 
@@ -24,7 +24,7 @@ struct Assertion {
 std::string expectation(const Bound& bound);
 bool holds(const Bound& bound, double value);
 /// As it could be written: "true", "mm", "{max: 5mm}".
-std::string spelled(const Assertion& assertion);
+std::string to_string(const Assertion& assertion);
 
 /// A map from property names to bounds, {closed: true, euler: 2, faces: {max: 5000}}; in the order written.
 struct Assertions {

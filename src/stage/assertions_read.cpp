@@ -2,7 +2,7 @@
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
 #include "stage/assertions.hpp"
-#include "stage/convention_option.hpp"
+#include "stage/options/convention.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,11 +55,11 @@ bool verify(const Property& property, const Value& value, const Bound& bound, Pr
     if (property.kind == PropertyKind::count && (broken(bound.min) || broken(bound.max)))
         return refuse(fmt::format("'{}' is a count: a whole number", property.name), {});
     if (bound.max && *bound.max < property.lowest)
-        return refuse(fmt::format("no mesh has a '{}' of at most {}", property.name, spelled(*bound.max)),
-                      fmt::format("the lowest is {}", spelled(property.lowest)));
+        return refuse(fmt::format("no mesh has a '{}' of at most {}", property.name, to_string(*bound.max)),
+                      fmt::format("the lowest is {}", to_string(property.lowest)));
     if (bound.min && *bound.min > property.highest)
-        return refuse(fmt::format("no mesh has a '{}' of at least {}", property.name, spelled(*bound.min)),
-                      fmt::format("the highest is {}", spelled(property.highest)));
+        return refuse(fmt::format("no mesh has a '{}' of at least {}", property.name, to_string(*bound.min)),
+                      fmt::format("the highest is {}", to_string(property.highest)));
     return true;
 }
 
@@ -234,8 +234,8 @@ std::vector<Choice> word_choices(const Property& property) {
     const auto add = [&](const auto& named) {
         for (const auto& c : named) choices.push_back({c.name, c.help});
     };
-    if (property.name == "unit") add(unit_choices(spelled(Unit::unknown), "nobody said"));
-    if (property.name == "up") add(up_choices(spelled(UpAxis::unknown), "nobody said"));
+    if (property.name == "unit") add(unit_choices(to_string(Unit::unknown), "nobody said"));
+    if (property.name == "up") add(up_choices(to_string(UpAxis::unknown), "nobody said"));
     return choices;
 }
 

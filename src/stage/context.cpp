@@ -2,7 +2,7 @@
 
 #include "base/glob.hpp"
 #include "base/parallel.hpp"
-#include "geometry/power_scale.hpp"
+#include "mesh/power_scale.hpp"
 #include "mesh/placement.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 // What a stage gets besides its options and the scene: lengths resolved, warnings, the ledger, files.
 
-#include "geometry/surface.hpp"
+#include "mesh/surface.hpp"
 #include "io/outputs.hpp"
 #include "mesh/scene.hpp"
 #include "options/quantities.hpp"

@@ -1,7 +1,7 @@
 #include "stage/contract.hpp"
 
 #include "base/numbers.hpp"
-#include "geometry/loose_points.hpp"
+#include "mesh/unreferenced.hpp"
 #include "report/deviation_json.hpp"
 
 #include <fmt/format.h>
@@ -89,7 +89,7 @@ Json contract_schema() {
     return schema;
 }
 
-std::string spelled(const DeviationLimits& limits) {
+std::string to_string(const DeviationLimits& limits) {
     std::string text;
     const auto add = [&](const char* name, const std::optional<Length>& limit) {
         if (limit) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, limit->text);

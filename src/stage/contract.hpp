@@ -2,7 +2,7 @@
 // What the common key `ensure` takes: assertions on properties, and a limit on the deviation from what
 // entered.
 
-#include "geometry/deviation.hpp"
+#include "geometry/deviation/deviation.hpp"
 #include "stage/assertions.hpp"
 #include "stage/context.hpp"
 
@@ -30,7 +30,7 @@ struct Contract {
 bool parse_contract(const Value& value, Contract& out, Problems& problems);
 Json contract_schema();
 /// "max 0.5%, rms 0.1%", for plans.
-std::string spelled(const DeviationLimits& limits);
+std::string to_string(const DeviationLimits& limits);
 
 /// Measures how far the scene is from `before` and makes a check of every limit, with the place of the
 /// maximum as evidence. The whole measurement goes into the stage's result under "deviation".

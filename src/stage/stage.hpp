@@ -33,7 +33,7 @@ struct StageInfo {
     std::function<StageFiles(const void* options)> files = {}; ///< may be empty
     /// What the header of a file says that this stage would add to the scene; throws as its run. May be
     /// empty.
-    std::function<io::Outline(const void* options, const std::filesystem::path&)> outline = {};
+    std::function<io::FileHeader(const void* options, const std::filesystem::path&)> header = {};
     /// Legality that a declaration cannot say; adds problems at the value's marks. May be empty.
     std::function<void(const void* options, const Value& given, Problems&)> verify = {};
 };
@@ -51,7 +51,7 @@ template <class Options>
 struct StageHooks {
     std::function<StageFiles(const Options&)> files = {};
     std::function<void(const Options&, const Value&, Problems&)> verify = {};
-    std::function<io::Outline(const Options&, const std::filesystem::path&)> outline = {};
+    std::function<io::FileHeader(const Options&, const std::filesystem::path&)> header = {};
 };
 
 template <class Options, class DeclareFunction>
@@ -68,8 +68,8 @@ StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene
         info.files = [f = hooks.files](const void* options) {
             return f(*static_cast<const Options*>(options));
         };
-    if (hooks.outline)
-        info.outline = [f = hooks.outline](const void* options, const std::filesystem::path& path) {
+    if (hooks.header)
+        info.header = [f = hooks.header](const void* options, const std::filesystem::path& path) {
             return f(*static_cast<const Options*>(options), path);
         };
     if (hooks.verify)

@@ -24,7 +24,7 @@ TEST_CASE("the command line is a text that marks point into", "[cli]") {
     CHECK(render({Severity::error, "E-X", "no", line.mark(1), {}}) == "command line:1:15: error[E-X]: no\n"
                                                                       "  facetmill run 'a b.yaml' --x=1\n"
                                                                       "                ^~~~~~~~~~");
-    CHECK(spelled(line.find("--x")) == "command line:1:26");
+    CHECK(to_string(line.find("--x")) == "command line:1:26");
 }
 
 TEST_CASE("an unknown command is answered with the nearest one", "[cli]") {

@@ -44,7 +44,7 @@ Trip trip(const Scene& scene, const char* format, io::WriteSettings settings = {
 std::string fates(const io::Written& written) {
     std::string text;
     for (const auto& f : written.fates)
-        text += fmt::format("{} {} {}: {}\n", spelled(f.domain), f.attribute, spelled(f.kind), f.why);
+        text += fmt::format("{} {} {}: {}\n", to_string(f.domain), f.attribute, to_string(f.kind), f.why);
     return text;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // What OpenMesh says: its own subdividers on its own mesh, as a second opinion.
 
-#include "geometry/split.hpp"
+#include "geometry/split/split.hpp"
 
 namespace facetmill::test {
 

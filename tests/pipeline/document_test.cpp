@@ -46,7 +46,7 @@ std::string shown(const Value& value) {
 
 std::string place(const Value* value) {
     REQUIRE(value);
-    return spelled(value->mark) + "+" + std::to_string(value->mark.length);
+    return to_string(value->mark) + "+" + std::to_string(value->mark.length);
 }
 
 } // namespace
@@ -78,7 +78,7 @@ TEST_CASE("an alias has its own place and its content's", "[pipeline]") {
     const Value v = parsed("x: &cut {cap: true}\ny: *cut\n");
     CHECK(shown(v) == "{x: {cap: true}, y: {cap: true}}");
     CHECK(place(v.find("y")) == "p.yaml:2:4+4");
-    CHECK(spelled(v.find("y")->anchor) == "p.yaml:1:9");
+    CHECK(to_string(v.find("y")->anchor) == "p.yaml:1:9");
     CHECK_FALSE(v.find("x")->anchor.known());
 }
 

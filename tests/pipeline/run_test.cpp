@@ -199,7 +199,7 @@ TEST_CASE("a missing input is found before anything runs", "[pipeline]") {
     CHECK(record.stages.empty());
     REQUIRE(record.errors.size() == 1);
     CHECK(record.errors[0].hint == "did you mean 'a.ply'?");
-    CHECK(spelled(record.errors[0].where) == "p.yaml:3:16");
+    CHECK(to_string(record.errors[0].where) == "p.yaml:3:16");
 }
 
 TEST_CASE("warnings are forwarded, and strict makes them fail", "[pipeline]") {

@@ -2,9 +2,9 @@
 #include "support/catch.hpp"
 #include "support/corpus.hpp"
 
-#include "geometry/clean.hpp"
-#include "geometry/inspect.hpp"
-#include "geometry/orient.hpp"
+#include "geometry/clean/clean.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "geometry/orient/orient.hpp"
 
 #include <cmath>
 #include <cstdio>

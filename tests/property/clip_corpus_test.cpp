@@ -1,8 +1,8 @@
 // The laws of clip over real and hard meshes, when FACETMILL_CORPUS names a folder of them.
 #include "base/random.hpp"
-#include "geometry/clip.hpp"
-#include "geometry/inspect.hpp"
-#include "geometry/section.hpp"
+#include "geometry/clip/clip.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "geometry/section/section.hpp"
 #include "io/codec.hpp"
 #include "mesh/invariants.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
 // Laws of clip: the two sides add up, closed stays closed, whatever the plane.
-#include "geometry/clip.hpp"
+#include "geometry/clip/clip.hpp"
 
 #include "base/random.hpp"
 #include "mesh/invariants.hpp"

@@ -1,10 +1,10 @@
 // The law of capped crops: closed stays closed, and the two sides add up. Over built meshes, and over real
 // and hard ones when FACETMILL_CORPUS names a folder of them.
-#include "base/functions.hpp"
+#include "base/portable_math.hpp"
 #include "base/random.hpp"
-#include "geometry/clip_cut.hpp"
-#include "geometry/crop.hpp"
-#include "geometry/inspect.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/crop/crop.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"

@@ -3,9 +3,9 @@
 #include "support/meshes.hpp"
 
 #include "base/parallel.hpp"
-#include "geometry/evidence.hpp"
-#include "geometry/inspect.hpp"
-#include "geometry/self_intersections.hpp"
+#include "geometry/inspect/evidence.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "geometry/intersect/self_intersections.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/topology.hpp"
 

@@ -1,7 +1,7 @@
 // Laws of the shaping stages, over many surfaces: closed ones of several genera, open ones, broken ones.
-#include "geometry/crumple.hpp"
-#include "geometry/relax.hpp"
-#include "geometry/simplify.hpp"
+#include "geometry/crumple/crumple.hpp"
+#include "geometry/relax/relax.hpp"
+#include "geometry/simplify/simplify.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"

@@ -2,8 +2,8 @@
 #include "support/catch.hpp"
 #include "support/corpus.hpp"
 
-#include "geometry/inspect.hpp"
-#include "geometry/simplify.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "geometry/simplify/simplify.hpp"
 #include "io/codec.hpp"
 #include "mesh/invariants.hpp"
 

@@ -48,7 +48,7 @@ std::vector<report::Check> judged(const Value& deviation, double lift = 0.05) {
 TEST_CASE("a bare deviation limits the maximum", "[stage]") {
     CHECK(limits(Value::scalar("0.5%")).max->text == "0.5%");
     CHECK_FALSE(limits(Value::scalar("2")).rms.has_value());
-    CHECK(spelled(limits(map("rms", Value::scalar("1mm")))) == "rms 1mm");
+    CHECK(to_string(limits(map("rms", Value::scalar("1mm")))) == "rms 1mm");
 }
 
 TEST_CASE("a deviation without a limit, or with an unknown key, is refused", "[stage]") {

@@ -1,4 +1,4 @@
-#include "geometry/inspect.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"

@@ -1,5 +1,5 @@
 // The stages that shape: what they pass on to geometry, and what they report.
-#include "geometry/self_intersections.hpp"
+#include "geometry/intersect/self_intersections.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"

@@ -1,5 +1,5 @@
-#include "geometry/crumple.hpp"
-#include "geometry/surgery.hpp"
+#include "geometry/crumple/crumple.hpp"
+#include "geometry/edit/surgery.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"

@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 
-#include "geometry/inspect.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "mesh/shapes.hpp"
 #include "support/meshes.hpp"
 #include "support/run_stage.hpp"

@@ -5,10 +5,10 @@
 #include "support/run_stage.hpp"
 #include "support/temporary.hpp"
 
-#include "geometry/inspect.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "mesh/shapes.hpp"
-#include "stage/evidence_json.hpp"
-#include "stage/known_failures.hpp"
+#include "stages/validate/evidence_json.hpp"
+#include "stages/validate/known_failures.hpp"
 
 #include <fstream>
 #include <numeric>

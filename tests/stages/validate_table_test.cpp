@@ -1,5 +1,5 @@
 // Every assertion of validate: one mesh on which it fails, with evidence, and one on which it holds.
-#include "geometry/inspect.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "support/catch.hpp"
 #include "support/temporary.hpp"
 

@@ -1,4 +1,4 @@
-#include "geometry/qualities.hpp"
+#include "geometry/inspect/qualities.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/temporary.hpp"

@@ -1,8 +1,8 @@
 #pragma once
 // What clean promises for any mesh, checked in the plainest way.
 
-#include "geometry/clean.hpp"
-#include "geometry/evidence.hpp"
+#include "geometry/clean/clean.hpp"
+#include "geometry/inspect/evidence.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/topology.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Random meshes for property tests: the same for the same seed, on every machine.
 
-#include "base/functions.hpp"
+#include "base/portable_math.hpp"
 #include "base/random.hpp"
 #include "mesh/lineage.hpp"
 #include "mesh/shapes.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Small named polygons for tests.
 
-#include "geometry/triangulate_rings.hpp"
+#include "geometry/polygon/triangulate_rings.hpp"
 
 #include <algorithm>
 #include <deque>

@@ -1,6 +1,6 @@
 #include "geometry/cgal/arrangement.hpp"
 
-#include "geometry/box_tree.hpp"
+#include "geometry/spatial/box_tree.hpp"
 #include "geometry/cgal/plane_cut.hpp"
 #include "mesh/topology.hpp"
 

@@ -2,7 +2,7 @@
 // Fills closed contours in the plane: any number of them, nested, touching, crossing or running along each
 // other. Free of CGAL, which does the work behind it.
 
-#include "geometry/polygon.hpp"
+#include "geometry/polygon/polygon.hpp"
 
 #include <array>
 

@@ -3,7 +3,7 @@
 // other methods.
 
 #include "base/error.hpp"
-#include "geometry/simplify_work.hpp"
+#include "geometry/simplify/work.hpp"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>

@@ -1,0 +1,52 @@
+#include "diff/lines.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+namespace {
+
+void compare_properties(const Comparing& with) {
+    const Properties a = inspect(with.a), b = inspect(with.b);
+    static const std::set<std::string_view> counts{"vertices", "wedges", "edges", "faces", "triangles"};
+    const auto value = [](const Property& p, const Properties& of) -> Json {
+        const auto x = p.get(of);
+        if (!x) return nullptr;
+        return p.truth() ? Json(*x != 0) : Json(static_cast<std::int64_t>(*x));
+    };
+    for (const auto& p : property_table()) {
+        const bool counted = p.kind == PropertyKind::count || p.truth();
+        if (!counted || p.costly || p.of_scene || p.quality) continue;
+        with.add(counts.contains(p.name) ? "counts" : "topology", std::string(p.name), value(p, a),
+                 value(p, b));
+    }
+}
+
+} // namespace
+
+bool Comparison::differs() const {
+    return std::any_of(lines.begin(), lines.end(),
+                       [&](const Difference& d) { return !d.same && !ignored.contains(d.section); });
+}
+
+bool Comparison::complete() const {
+    return left_out.empty() && std::all_of(lines.begin(), lines.end(), [&](const Difference& d) {
+               return d.compared || ignored.contains(d.section);
+           });
+}
+
+Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings) {
+    Comparison result;
+    const Comparing with{a, b, settings, result};
+    compare_properties(with);
+    if (!settings.ignored.contains("geometry")) compare_geometry(with);
+    compare_attributes(with);
+    compare_materials(with);
+    compare_names(with, "parts", a.parts, b.parts);
+    compare_documents(with);
+    result.ignored = settings.ignored;
+    return result;
+}
+
+} // namespace facetmill::report

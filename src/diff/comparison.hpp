@@ -1,0 +1,71 @@
+#pragma once
+// Two scenes side by side: what `facetmill diff` finds.
+
+#include "geometry/deviation/deviation.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "report/record.hpp"
+
+#include <set>
+
+namespace facetmill::report {
+
+/// The sections of a comparison, in the order they are shown.
+inline constexpr const char* comparison_sections[] = {"counts",    "topology", "geometry", "attributes",
+                                                      "materials", "parts",    "document"};
+
+struct ComparisonSettings {
+    std::set<std::string> ignored; ///< sections that are shown but do not decide
+    DeviationSettings deviation;
+    /// How far the surfaces may be apart, in units of the first scene, or in percent of its diagonal. Without
+    /// any limit the maximum may be a ten-thousandth of a percent: what float32 coordinates lose.
+    struct Limit {
+        double amount = 0;
+        bool percent = false;
+    };
+    std::optional<Limit> maximum, rms, mean;
+    double attribute_limit = 1e-6; ///< how far attribute values may be apart
+};
+
+/// One line of the comparison.
+struct Difference {
+    std::string section, name;
+    Json a, b;
+    bool same = true;
+    std::string note;     ///< "at most 0.5 %", "largest difference 0.2 at vertex 7"
+    bool compared = true; ///< false: it could not be, and the note says why
+};
+
+/// Something of a file that was not read, so that nothing is known of it.
+struct LeftOut {
+    bool of_a = false; ///< of the first file, else of the second
+    std::string what;
+};
+
+struct Comparison {
+    std::vector<Difference> lines;                               ///< equal ones too
+    std::optional<DeviationResult> deviation;                    ///< none when geometry is ignored
+    const char *geometry_a = "nothing", *geometry_b = "nothing"; ///< what it is of: surface, points, nothing
+    std::vector<LeftOut> left_out;
+    std::set<std::string> ignored;
+
+    /// Whether a line that decides differs.
+    bool differs() const;
+    /// Whether nothing was left out, and no line that decides could not be compared.
+    bool complete() const;
+};
+
+/// The properties of section 7 of the design one by one; the deviation both ways, of the surfaces, or of the
+/// points where a scene has no faces; attributes by name, domain and type, and by value where both have as
+/// many elements; materials by name, look and the faces they are on; parts by name; of glTF documents what is
+/// beside meshes. In world space, both scenes in the same convention.
+Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings = {});
+
+/// {a, b, same, complete, left_out, sections: {counts: {same, decides, lines: [{name, a, b, same, compared,
+/// note}]}, ...}, geometry_of: {a, b}, deviation}.
+Json to_json(const Comparison& comparison, const std::string& name_a, const std::string& name_b);
+/// A table; lines that are equal only with `all`.
+std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
+                    bool all);
+Json comparison_schema();
+
+} // namespace facetmill::report

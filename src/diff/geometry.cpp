@@ -1,0 +1,96 @@
+#include "diff/lines.hpp"
+
+#include "mesh/unreferenced.hpp"
+#include "diff/sides.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+namespace {
+
+/// Says that one file tells its unit or its up axis and the other does not.
+void compare_frames(const Comparing& with) {
+    const auto say = [&](const char* name, const char* a, const char* b) {
+        if (std::string_view(a) != b) with.add("geometry", name, a, b, true, "numbers are taken as they are");
+    };
+    say("unit", to_string(with.a.unit), to_string(with.b.unit));
+    say("up", to_string(with.a.up), to_string(with.b.up));
+}
+
+/// What a scene's distances are of.
+struct Shape {
+    Surface surface, points; ///< its faces, and the vertices that none of them uses
+    explicit Shape(const Scene& scene) : surface(surface_of(scene)), points(unreferenced_points_of(scene)) {}
+    bool has_faces() const { return surface.size() > 0; }
+    /// The faces, or the points of a cloud.
+    const Surface& main() const { return has_faces() ? surface : points; }
+    const char* kind() const { return has_faces() ? "surface" : points.size() > 0 ? "points" : "nothing"; }
+};
+
+/// Lines of distances there and back, held against a limit.
+class Distances {
+  public:
+    Distances(const Comparing& with, const DeviationResult& d) : with_(with), d_(d) {}
+
+    void line(const char* name, double forward, double backward, const std::optional<Limit>& limit,
+              const std::string& more = {}) const {
+        const double value = std::max(forward, backward);
+        const double most = !limit           ? HUGE_VAL
+                            : limit->percent ? limit->amount / 100 * d_.diagonal
+                                             : limit->amount;
+        std::string note = std::isfinite(value) ? fmt::format("{:.4g} % of the diagonal", d_.percent(value))
+                                                : "nothing to compare with";
+        if (limit)
+            note += limit->percent ? fmt::format(", at most {:g} %", limit->amount)
+                                   : fmt::format(", at most {:g}", limit->amount);
+        with_.add("geometry", name, finite_or_null(forward), finite_or_null(backward), value <= most,
+                  note + more);
+    }
+
+  private:
+    const Comparing& with_;
+    const DeviationResult& d_;
+};
+
+/// Points beside faces: from each of them to the nearest point of all that the other scene holds.
+void compare_loose(const Comparing& with, const Shape& a, const Shape& b, const Distances& distances) {
+    const auto loose = [](const Shape& s) { return s.has_faces() ? s.points.size() : 0; };
+    if (loose(a) + loose(b) == 0) return;
+    const auto farthest = [&](const Shape& from, const Shape& to) {
+        return loose(from) == 0 ? DirectedDeviation{}
+                                : deviation_to(from.points, FaceTree(joined(to.surface, to.points)));
+    };
+    const DirectedDeviation f = farthest(a, b), g = farthest(b, a);
+    const auto& worst = f.maximum >= g.maximum ? f : g;
+    std::string more = fmt::format(", {} and {} vertices without faces", loose(a), loose(b));
+    if (worst.maximum > 0 && std::isfinite(worst.maximum))
+        more += fmt::format(", farthest {:.6g} {:.6g} {:.6g}", worst.from.x, worst.from.y, worst.from.z);
+    distances.line("loose points maximum", f.maximum, g.maximum, maximum_of(with.settings), more);
+}
+
+} // namespace
+
+std::optional<Limit> maximum_of(const ComparisonSettings& s) {
+    return s.maximum || s.rms || s.mean ? s.maximum : Limit{1e-4, true};
+}
+
+void compare_geometry(const Comparing& with) {
+    const auto& settings = with.settings;
+    compare_frames(with);
+    const Turned turned = turned_round(with.a, with.b);
+    with.add("geometry", "turned round", false, turned.round, !turned.round, turned.note);
+    const Shape a(with.a), b(with.b);
+    with.result.geometry_a = a.kind(), with.result.geometry_b = b.kind();
+    const auto d = with.result.deviation = deviation(a.main(), b.main(), settings.deviation);
+    const Distances distances(with, *d);
+    const auto &f = d->forward, &g = d->backward;
+    distances.line("deviation maximum", f.maximum, g.maximum, maximum_of(settings));
+    distances.line("deviation rms", f.rms, g.rms, settings.rms);
+    distances.line("deviation mean", f.mean, g.mean, settings.mean);
+    if (f.bound && g.bound) distances.line("deviation bound", *f.bound, *g.bound, settings.maximum);
+    compare_loose(with, a, b, distances);
+}
+
+} // namespace facetmill::report

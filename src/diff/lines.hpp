@@ -1,0 +1,53 @@
+#pragma once
+// The sections of a comparison, each in a file of its own.
+
+#include "diff/comparison.hpp"
+
+namespace facetmill::report {
+
+/// What a section is compared with, and where its lines go.
+struct Comparing {
+    const Scene &a, &b;
+    const ComparisonSettings& settings;
+    Comparison& result;
+
+    void add(const char* section, std::string name, Json x, Json y, bool same, std::string note = {}) const {
+        result.lines.push_back({section, std::move(name), std::move(x), std::move(y), same, std::move(note)});
+    }
+    void add(const char* section, std::string name, const Json& x, const Json& y) const {
+        add(section, std::move(name), x, y, x == y);
+    }
+    /// A line that tells nothing, and why.
+    void leave(const char* section, std::string name, Json x, Json y, std::string why) const {
+        result.lines.push_back(
+            {section, std::move(name), std::move(x), std::move(y), true, "not compared: " + why, false});
+    }
+};
+
+using Limit = ComparisonSettings::Limit;
+
+/// What JSON has no number for is null.
+inline Json finite_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+/// How far surfaces may be apart at most: as given, or, without any limit, what float32 loses.
+std::optional<Limit> maximum_of(const ComparisonSettings& settings);
+
+/// How many there are, and their names in order.
+template <class List>
+void compare_names(const Comparing& with, const char* section, const List& a, const List& b) {
+    with.add(section, "number", a.size(), b.size());
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
+        with.add(section, std::to_string(i), i < a.size() ? Json(a[i].name) : Json(nullptr),
+                 i < b.size() ? Json(b[i].name) : Json(nullptr));
+}
+
+/// Which way the surfaces look, and how far they are apart.
+void compare_geometry(const Comparing& with);
+/// Attributes by name, domain and type, and by value.
+void compare_attributes(const Comparing& with);
+/// Materials by number: name, look, and where the faces are that have them.
+void compare_materials(const Comparing& with);
+/// What a glTF holds beside meshes.
+void compare_documents(const Comparing& with);
+
+} // namespace facetmill::report

@@ -1,0 +1,149 @@
+#include "mesh/surface.hpp"
+#include "io/gltf/contents.hpp"
+#include "diff/lines.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+
+namespace facetmill::report {
+
+namespace {
+
+Json colour_of(const Material& m) {
+    const double* c = m.base_colour;
+    return fmt::format("{:.6g} {:.6g} {:.6g} {:.6g}", c[0], c[1], c[2], c[3]);
+}
+
+/// Entries of two descriptions that differ, by their paths in them.
+std::map<std::string, std::pair<Json, Json>> different_entries(const Json& a, const Json& b) {
+    std::map<std::string, std::pair<Json, Json>> entries;
+    const auto flat = [](const Json& json) { return json.empty() ? Json::object() : json.flatten(); };
+    const Json x = flat(a), y = flat(b);
+    for (const auto& [path, value] : x.items()) entries[path].first = value;
+    for (const auto& [path, value] : y.items()) entries[path].second = value;
+    std::erase_if(entries, [](const auto& entry) { return entry.second.first == entry.second.second; });
+    return entries;
+}
+
+/// A value as one word, whatever it is.
+Json in_short(const Json& value) { return value.is_structured() ? Json(value.dump()) : value; }
+
+/// What is told elsewhere, or means no more than leaving it out.
+Json beside_basics(Json material) {
+    for (const char* key : {"name", "doubleSided"}) material.erase(key);
+    if (const auto pbr = material.find("pbrMetallicRoughness"); pbr != material.end()) {
+        pbr->erase("baseColorFactor");
+        if (pbr->empty()) material.erase("pbrMetallicRoughness");
+    }
+    return material;
+}
+
+/// Whether nothing else is told; without metal is what a material of other formats is written as.
+bool is_plain(const Json& material) {
+    const Json left = beside_basics(material);
+    return left.empty() || left == Json{{"pbrMetallicRoughness", {{"metallicFactor", 0}}}};
+}
+
+/// All that only glTF says of a material.
+void compare_contents(const Comparing& with, std::size_t i) {
+    const std::string name = fmt::format("{}", i);
+    try {
+        const Json a = io::material_contents(with.a, with.a.materials[i]);
+        const Json b = io::material_contents(with.b, with.b.materials[i]);
+        if (a.is_null() != b.is_null()) {
+            if (!is_plain(a.is_null() ? b : a))
+                with.leave("materials", name + " as glTF", !a.is_null(), !b.is_null(),
+                           "only one is of a glTF");
+            return;
+        }
+        if (a.is_null()) return;
+        const auto entries = different_entries(beside_basics(a), beside_basics(b));
+        for (const auto& [path, values] : entries)
+            with.add("materials", name + path, in_short(values.first), in_short(values.second), false);
+        if (entries.empty()) with.add("materials", name + " as glTF", true, true);
+    } catch (const Error& e) {
+        with.leave("materials", name + " as glTF", nullptr, nullptr, e.what());
+    }
+}
+
+/// The material of every face, in the order of parts and faces.
+std::vector<Index> materials_of_faces(const Scene& scene) {
+    std::vector<Index> all;
+    for (const Part& part : scene.parts)
+        for (Index f = 0; f < part.mesh.face_count(); ++f) {
+            const Index p = part.mesh.primitive_of(f);
+            all.push_back(p < part.mesh.primitives.size() ? part.mesh.primitives[p].material : none);
+        }
+    return all;
+}
+
+/// The part of a surface that is of one material.
+Surface of_material(const Surface& surface, const std::vector<Index>& materials, Index material) {
+    Surface out;
+    out.positions = surface.positions;
+    for (std::size_t t = 0; t < surface.size(); ++t)
+        if (materials[surface.face(t)] == material) {
+            out.corners.insert(out.corners.end(),
+                               surface.corners.begin() + static_cast<std::ptrdiff_t>(3 * t),
+                               surface.corners.begin() + static_cast<std::ptrdiff_t>(3 * t + 3));
+            out.faces.push_back(surface.face(t));
+        }
+    return out;
+}
+
+/// Which faces each material is on: by number where the faces are the same ones, else by where they are.
+void compare_places(const Comparing& with) {
+    const auto a = materials_of_faces(with.a), b = materials_of_faces(with.b);
+    if (a == b) return;
+    std::set<Index> all(a.begin(), a.end());
+    all.insert(b.begin(), b.end());
+    if (all.size() < 2 || a.empty() || b.empty()) return;
+    const Surface x = surface_of(with.a), y = surface_of(with.b);
+    const auto limit = maximum_of(with.settings);
+    const double most = !limit           ? std::numeric_limits<double>::max()
+                        : limit->percent ? limit->amount / 100 * x.bounds().diagonal()
+                                         : limit->amount;
+    DeviationSettings settings = with.settings.deviation; // the work is shared among the materials
+    settings.samples = settings.samples / all.size() + 1;
+    settings.certify = false;
+    for (const Index material : all) {
+        const auto d = deviation(of_material(x, a, material), of_material(y, b, material), settings);
+        with.add("materials", material == none ? "faces of none" : fmt::format("{} faces", material),
+                 finite_or_null(d.forward.maximum), finite_or_null(d.backward.maximum), d.maximum() <= most,
+                 "how far its faces are from those of the other file");
+    }
+}
+
+} // namespace
+
+void compare_materials(const Comparing& with) {
+    const auto &a = with.a.materials, &b = with.b.materials;
+    compare_names(with, "materials", a, b);
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+        const std::string name = fmt::format("{}", i);
+        with.add("materials", name + " base_colour", colour_of(a[i]), colour_of(b[i]));
+        with.add("materials", name + " double_sided", a[i].double_sided, b[i].double_sided);
+        compare_contents(with, i);
+    }
+    if (!with.settings.ignored.contains("materials")) compare_places(with);
+}
+
+void compare_documents(const Comparing& with) {
+    try {
+        const Json a = io::document_contents(with.a), b = io::document_contents(with.b);
+        for (const char* list : {"animations", "skins", "cameras", "lights"}) {
+            const Json x = a.is_null() ? Json::array() : a[list], y = b.is_null() ? Json::array() : b[list];
+            with.add("document", list, x.size(), y.size());
+            for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+                for (const auto& [path, values] : different_entries(x[i], y[i]))
+                    with.add("document", fmt::format("{} {}{}", list, i, path), in_short(values.first),
+                             in_short(values.second), false);
+        }
+    } catch (const Error& e) {
+        with.leave("document", "contents", nullptr, nullptr, e.what());
+    }
+}
+
+} // namespace facetmill::report

@@ -1,0 +1,167 @@
+#include "diff/comparison.hpp"
+#include "report/deviation_json.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+namespace {
+
+std::string text_of(const Json& value) {
+    if (value.is_null()) return "-";
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    return value.dump();
+}
+
+std::vector<const Difference*> of_section(const Comparison& comparison, const std::string& section) {
+    std::vector<const Difference*> lines;
+    for (const auto& d : comparison.lines)
+        if (d.section == section) lines.push_back(&d);
+    return lines;
+}
+
+/// "maximum 0.2 (0.05 % of the diagonal) from [1, 2, 3] of the first surface".
+std::string place_text(const DeviationResult& d) {
+    const bool forward = d.forward.maximum >= d.backward.maximum;
+    const auto& way = forward ? d.forward : d.backward;
+    if (!(way.maximum > 0) || !std::isfinite(way.maximum)) return {};
+    const Vec3 &p = way.from, &q = way.to;
+    return fmt::format("    farthest: {:.6g} {:.6g} {:.6g} of {}, nearest there {:.6g} {:.6g} {:.6g}\n", p.x,
+                       p.y, p.z, forward ? "the first" : "the second", q.x, q.y, q.z);
+}
+
+std::string measured_text(const Comparison& comparison) {
+    const DeviationResult& d = *comparison.deviation;
+    std::string text = fmt::format(
+        "    {} and {} samples, seed {}, and all {} and {} vertices; percentages of {:.6g}\n",
+        d.forward.samples, d.backward.samples, d.seed, d.forward.vertices, d.backward.vertices, d.diagonal);
+    const std::string a = comparison.geometry_a, b = comparison.geometry_b;
+    if (a != "surface" || b != "surface")
+        text += fmt::format("    of {} and {}; mean and rms of points are over all of them\n", a, b);
+    return text;
+}
+
+std::string verdict(const Comparison& comparison) {
+    if (comparison.differs()) return "differ";
+    if (!comparison.complete()) return "agree in what was compared";
+    return comparison.ignored.empty() ? "agree" : "agree in what was asked";
+}
+
+} // namespace
+
+std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
+                    bool all) {
+    std::string text = fmt::format("{} and {} {}\n", name_a, name_b, verdict(comparison));
+    for (const auto& left : comparison.left_out)
+        text += fmt::format("  not compared: {}: {}\n", left.of_a ? name_a : name_b, left.what);
+    for (const char* section : comparison_sections) {
+        const auto lines = of_section(comparison, section);
+        if (lines.empty()) continue;
+        const auto different = std::count_if(lines.begin(), lines.end(), [](auto* d) { return !d->same; });
+        text += fmt::format("  {}: {}{}\n", section,
+                            different == 0 ? "same" : fmt::format("{} different", different),
+                            comparison.ignored.contains(section) ? " (ignored)" : "");
+        for (const auto* d : lines)
+            if (all || !d->same || !d->compared || d->section == "geometry")
+                text += fmt::format("    {:<23} {:<15} {:<15} {}{}\n", d->name, text_of(d->a), text_of(d->b),
+                                    d->same ? "" : "differs ", d->note);
+        if (section == std::string_view("geometry") && comparison.deviation)
+            text += place_text(*comparison.deviation) + measured_text(comparison);
+    }
+    return text;
+}
+
+Json to_json(const Comparison& comparison, const std::string& name_a, const std::string& name_b) {
+    Json sections = Json::object();
+    for (const char* section : comparison_sections) {
+        const auto lines = of_section(comparison, section);
+        if (lines.empty()) continue;
+        Json list = Json::array();
+        bool same = true;
+        for (const auto* d : lines) {
+            same &= d->same;
+            list.push_back({{"name", d->name},
+                            {"a", d->a},
+                            {"b", d->b},
+                            {"same", d->same},
+                            {"compared", d->compared},
+                            {"note", d->note.empty() ? Json(nullptr) : Json(d->note)}});
+        }
+        sections[section] = {
+            {"same", same}, {"decides", !comparison.ignored.contains(section)}, {"lines", std::move(list)}};
+    }
+    Json left_out = Json::array();
+    for (const auto& left : comparison.left_out)
+        left_out.push_back({{"file", left.of_a ? "a" : "b"}, {"what", left.what}});
+    return {{"a", name_a},
+            {"b", name_b},
+            {"same", !comparison.differs()},
+            {"complete", comparison.complete()},
+            {"left_out", std::move(left_out)},
+            {"geometry_of", comparison.deviation
+                                ? Json{{"a", comparison.geometry_a}, {"b", comparison.geometry_b}}
+                                : Json(nullptr)},
+            {"sections", std::move(sections)},
+            {"deviation", comparison.deviation ? deviation_json(*comparison.deviation) : Json(nullptr)}};
+}
+
+namespace {
+
+Json typed(const char* type, const char* about = nullptr) {
+    Json schema = {{"type", type}};
+    if (about) schema["description"] = about;
+    return schema;
+}
+
+Json closed_object(Json properties) {
+    Json required = Json::array();
+    for (const auto& [key, value] : properties.items()) required.push_back(key);
+    return {{"type", "object"},
+            {"required", std::move(required)},
+            {"additionalProperties", false},
+            {"properties", std::move(properties)}};
+}
+
+} // namespace
+
+Json comparison_schema() {
+    const Json value = {{"type", Json::array({"null", "boolean", "number", "string"})}};
+    const Json line =
+        closed_object({{"name", typed("string")},
+                       {"a", value},
+                       {"b", value},
+                       {"same", typed("boolean")},
+                       {"compared", typed("boolean", "False when it could not be: the note says why")},
+                       {"note", {{"type", Json::array({"string", "null"})}}}});
+    const Json section = closed_object({{"same", typed("boolean")},
+                                        {"decides", typed("boolean", "False when ignored")},
+                                        {"lines", {{"type", "array"}, {"items", line}}}});
+    Json sections =
+        typed("object", "By section: counts, topology, geometry, attributes, materials, parts, document");
+    sections["additionalProperties"] = section;
+    const Json left_out =
+        closed_object({{"file", {{"enum", Json::array({"a", "b"})}}}, {"what", typed("string")}});
+    const Json kind = {{"enum", Json::array({"surface", "points", "nothing"})}};
+    Json geometry_of = closed_object({{"a", kind}, {"b", kind}});
+    geometry_of["type"] = Json::array({"object", "null"});
+    geometry_of["description"] = "What the deviation is of; null when ignored";
+    Json schema = closed_object(
+        {{"a", typed("string", "The first file")},
+         {"b", typed("string", "The second file")},
+         {"same", typed("boolean", "Nothing that decides differs: the exit code is 0")},
+         {"complete", typed("boolean", "Nothing was left out, and all that decides could be compared")},
+         {"left_out",
+          {{"type", "array"}, {"items", left_out}, {"description", "What was not read of a file"}}},
+         {"geometry_of", geometry_of},
+         {"sections", std::move(sections)},
+         {"deviation",
+          {{"type", Json::array({"object", "null"})}, {"description", "As in reports; null when ignored"}}}});
+    Json out = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "facetmill diff"}};
+    out.update(schema);
+    return out;
+}
+
+} // namespace facetmill::report

@@ -1,0 +1,95 @@
+#include "geometry/clean/clean.hpp"
+
+#include "geometry/clean/solids.hpp"
+#include "geometry/clean/steps.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using namespace clean_steps;
+
+bool untangle(Work& work, const CleanSettings& s) {
+    if (s.self_intersections == Untangle::off || work.untangled) return false;
+    SelfIntersections found = crossings(work.mesh);
+    const bool unites = s.self_intersections != Untangle::local;
+    const auto overlaps = unites ? overlaps_at_edges(work.mesh) : std::vector<std::pair<Index, Index>>{};
+    work.untangled = found.count == 0 && overlaps.empty();
+    if (work.untangled) return false;
+    if (found.count > found.pairs.size()) {
+        work.not_done.push_back({"self_intersections",
+                                 fmt::format("{} pairs of faces intersect, and more than {} are not tried",
+                                             found.count, most_pairs),
+                                 middle_of_face(work.mesh, found.pairs[0].first)});
+        return false;
+    }
+    bool changed = unites && unite_solids(work, found, overlaps, s);
+    if (s.self_intersections == Untangle::unite || work.untangled) return changed;
+    if (changed) found = crossings(work.mesh);
+    return resolve_self_intersections(work, std::move(found)) || changed;
+}
+
+bool one_round(Work& work, const CleanSettings& s) {
+    work.not_done.clear();
+    bool changed = false;
+    const auto did = [&](bool any) {
+        changed |= any;
+        if (any) work.untangled = false;
+    };
+    // What a patch runs into is united with it in the next round, or told there.
+    const bool may_cross = s.self_intersections == Untangle::unite || s.self_intersections == Untangle::all;
+    if (s.weld != Nearness::off) did(weld_equal(work, s.non_manifold));
+    if (s.weld == Nearness::near) did(weld_near(work, s.within));
+    if (s.degenerate) did(remove_degenerate(work));
+    if (s.duplicates) did(remove_duplicates(work));
+    if (s.t_vertices != Nearness::off)
+        did(resolve_t_vertices(work, s.t_vertices == Nearness::near ? s.within : 0));
+    if (s.stitch != Nearness::off) did(stitch(work, s.stitch == Nearness::near ? s.within : 0));
+    if (s.holes && s.non_manifold) { // holes that touch at a vertex would be one hole once it is split
+        const std::size_t told = work.not_done.size();
+        did(fill_holes(work, *s.holes, nullptr, may_cross));
+        work.not_done.resize(told); // those that stay are told below
+    }
+    if (s.non_manifold) did(split_non_manifold(work));
+    changed |= untangle(work, s);
+    if (s.holes) did(fill_holes(work, *s.holes, nullptr, may_cross));
+    if (s.components) did(remove_components(work, *s.components));
+    if (s.shells) did(remove_inner_shells(work));
+    if (s.isolated) did(remove_isolated(work));
+    return changed;
+}
+
+/// What became of the attributes: dropped faces and vertices change none that stay.
+Fates fates_of(const Mesh& mesh, const Fates& mixed) {
+    if (!mixed.empty()) return mixed;
+    Fates fates;
+    for (const auto& a : mesh.attributes) fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
+    return fates;
+}
+
+} // namespace
+
+std::size_t CleanCounts::total() const {
+    return welded_vertices + stitched_edges + t_vertices + repeated_corners + degenerate_faces +
+           duplicate_faces + split_vertices + split_edges + filled_holes + components + shells +
+           isolated_vertices + intersecting_faces + united_pieces;
+}
+
+CleanResult clean(Mesh mesh, const CleanSettings& settings) {
+    constexpr int most_rounds = 32;
+    Work work;
+    work.mesh = std::move(mesh);
+    CleanResult result;
+    for (bool changed = true; changed && result.rounds < most_rounds; ++result.rounds)
+        changed = one_round(work, settings);
+    result.fates = fates_of(work.mesh, work.fates);
+    result.mesh = std::move(work.mesh);
+    result.counts = work.counts;
+    result.not_done = std::move(work.not_done);
+    return result;
+}
+
+} // namespace facetmill

@@ -1,0 +1,262 @@
+// Steps of clean that remove faces and vertices.
+#include "base/parallel.hpp"
+#include "geometry/clean/steps.hpp"
+#include "geometry/inspect/evidence.hpp"
+#include "geometry/edit/surgery.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <map>
+#include <span>
+
+namespace facetmill::clean_steps {
+
+namespace {
+
+/// Takes out corners that repeat the vertex before them; faces that are left with fewer than three are
+/// flagged.
+std::size_t drop_repeated_corners(Mesh& mesh, std::vector<std::uint8_t>& gone) {
+    if (mesh.all_triangles()) return 0; // a triangle that repeats a vertex has no area
+    std::vector<Index> corners, offsets{0};
+    std::size_t dropped = 0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+        const std::size_t first = corners.size();
+        for (Index c = begin; c < end; ++c)
+            if (mesh.vertex(c) != mesh.vertex(c == begin ? end - 1 : c - 1))
+                corners.push_back(mesh.corners[c]);
+        if (corners.size() - first < 3) { // without area: it goes as a whole, and stays whole until then
+            corners.resize(first);
+            corners.insert(corners.end(), mesh.corners.begin() + begin, mesh.corners.begin() + end);
+            gone[f] = 1;
+        } else {
+            dropped += end - begin - (corners.size() - first);
+        }
+        offsets.push_back(static_cast<Index>(corners.size()));
+    }
+    mesh.corners = std::move(corners), mesh.face_offsets = std::move(offsets);
+    normalise_offsets(mesh);
+    return dropped;
+}
+
+std::vector<Index> sorted_vertices(const Mesh& mesh, Index f) {
+    std::vector<Index> set;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) set.push_back(mesh.vertex(c));
+    std::sort(set.begin(), set.end());
+    return set;
+}
+
+/// Whether g runs around its vertices the way f does. Both have the same set of vertices.
+bool same_way(const Mesh& mesh, Index f, Index g) {
+    const Index a = mesh.vertex(mesh.face_begin(f)), b = mesh.vertex(mesh.face_begin(f) + 1);
+    for (Index c = mesh.face_begin(g); c < mesh.face_end(g); ++c)
+        if (mesh.vertex(c) == a) return mesh.vertex(next_corner(mesh, g, c)) == b;
+    return false;
+}
+
+/// The faces of every set of two and more with the same vertices, by lowest face.
+std::vector<std::vector<Index>> groups_of_duplicates(const Mesh& mesh) {
+    std::vector<std::uint8_t> listed(mesh.face_count(), 0);
+    std::map<std::vector<Index>, std::vector<Index>> groups;
+    for (const Index f : duplicate_faces(mesh)) groups[sorted_vertices(mesh, f)].push_back(f), listed[f] = 1;
+    if (groups.empty()) return {};
+    for (Index f = 0; f < mesh.face_count(); ++f) { // the first of each set
+        if (listed[f]) continue;
+        const auto at = groups.find(sorted_vertices(mesh, f));
+        if (at != groups.end()) at->second.push_back(f);
+    }
+    std::vector<std::vector<Index>> lists;
+    for (auto& [set, faces] : groups) {
+        std::sort(faces.begin(), faces.end());
+        lists.push_back(std::move(faces));
+    }
+    std::sort(lists.begin(), lists.end());
+    return lists;
+}
+
+/// How often each edge is run along from low to high, less how often back.
+std::vector<int> balances(const Mesh& mesh, const EdgeTable& edges) {
+    std::vector<int> balance(edges.size(), 0);
+    for (Index e = 0; e < edges.size(); ++e)
+        for (const Index c : edges.corners_of(e)) balance[e] += mesh.vertex(c) == edges.edges[e].low ? 1 : -1;
+    return balance;
+}
+
+/// For each face that cancels with another (flagged): whether its patch of such faces stands on others; of a
+/// closed surface, if only with a corner: there one side alone would be a border.
+std::vector<std::uint8_t> stands_on_others(const Mesh& mesh, const EdgeTable& edges, bool closed,
+                                           const std::vector<std::uint8_t>& cancels) {
+    const auto faces = corner_faces(mesh);
+    DisjointSets patches(mesh.face_count());
+    std::vector<std::uint8_t> touches(mesh.face_count(), 0);
+    const auto look_at = [&](std::span<const Index> corners) {
+        Index first = none;
+        bool others = false;
+        for (const Index c : corners) {
+            if (!cancels[faces[c]])
+                others = true;
+            else if (first == none)
+                first = faces[c];
+            else
+                patches.join(first, faces[c]);
+        }
+        if (first != none && others) touches[first] = 1;
+    };
+    for (Index e = 0; e < edges.size(); ++e) look_at(edges.corners_of(e));
+    const auto at_vertices = corners_at_vertices(mesh);
+    for (Index v = 0; closed && v < mesh.vertex_count(); ++v) look_at(at_vertices.of(v));
+    std::vector<std::uint8_t> stands(mesh.face_count(), 0);
+    for (Index f = 0; f < touches.size(); ++f)
+        if (touches[f]) stands[patches.find(f)] = 1;
+    for (Index f = 0; f < stands.size(); ++f) stands[f] = cancels[f] && stands[patches.find(f)];
+    return stands;
+}
+
+/// Faces with the same vertices, and how many more run the way of the first than the other way.
+struct Doubles {
+    std::vector<Index> faces;
+    int ways = 0;
+};
+
+/// Whether all that is left of each set after cancelling stays, rather than one face: where the faces around
+/// are there as often and one alone would leave open edges. Decided for patches of such sets as a whole.
+std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, const std::vector<int>& balance,
+                                    const std::vector<Doubles>& all) {
+    DisjointSets patches(all.size());
+    std::map<Index, std::pair<std::size_t, int>> excess; // of an edge: a set there, what goes with one alone
+    for (std::size_t g = 0; g < all.size(); ++g) {
+        if (std::abs(all[g].ways) < 2) continue;
+        const int more = all[g].ways > 0 ? all[g].ways - 1 : all[g].ways + 1;
+        const Index f = all[g].faces[0];
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+            const Index e = edges.corner_edge[c];
+            if (e == none) continue;
+            const auto [at, fresh] = excess.try_emplace(e, g, 0);
+            if (!fresh) patches.join(static_cast<Index>(at->second.first), static_cast<Index>(g));
+            at->second.second += mesh.vertex(c) == edges.edges[e].low ? more : -more;
+        }
+    }
+    std::vector<int> better(all.size(), 0); // of patches: open edges with one alone, less those with all
+    for (const auto& [e, x] : excess)
+        better[patches.find(static_cast<Index>(x.first))] += (balance[e] != x.second) - (balance[e] != 0);
+    std::vector<std::uint8_t> many(all.size());
+    for (std::size_t g = 0; g < all.size(); ++g)
+        many[g] = std::abs(all[g].ways) > 1 && better[patches.find(static_cast<Index>(g))] > 0;
+    return many;
+}
+
+double area_of(const Mesh& mesh, Index f) {
+    Vec3 twice;
+    const Index begin = mesh.face_begin(f);
+    for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
+        twice += cross(mesh.point(c) - mesh.point(begin), mesh.point(c + 1) - mesh.point(begin));
+    return length(twice) / 2;
+}
+
+} // namespace
+
+bool remove_degenerate(Work& work) {
+    std::vector<std::uint8_t> gone(work.mesh.face_count(), 0);
+    const std::size_t repeated = drop_repeated_corners(work.mesh, gone);
+    parallel_for(gone.size(), [&](std::size_t f) {
+        if (is_degenerate(work.mesh, static_cast<Index>(f))) gone[f] = 1;
+    });
+    const auto kept = faces_without(gone);
+    const std::size_t count = gone.size() - kept.size();
+    work.counts.repeated_corners += repeated;
+    work.counts.degenerate_faces += count;
+    if (count > 0) {
+        work.mesh = keep_faces(work.mesh, kept);
+        const std::size_t before = work.counts.t_vertices;
+        resolve_t_vertices(work, 0);
+        work.counts.t_vertices = before;
+    }
+    return repeated + count > 0;
+}
+
+bool remove_duplicates(Work& work) {
+    const Mesh& mesh = work.mesh;
+    std::vector<Doubles> all;
+    for (auto& group : groups_of_duplicates(mesh)) all.push_back({std::move(group)});
+    if (all.empty()) return false;
+    const auto edges = build_edges(mesh);
+    const auto balance = balances(mesh, edges);
+    const bool closed = std::all_of(balance.begin(), balance.end(), [](int b) { return b == 0; });
+    std::vector<std::uint8_t> cancels(mesh.face_count(), 0), gone(mesh.face_count(), 0);
+    for (Doubles& d : all) {
+        for (const Index f : d.faces) d.ways += same_way(mesh, d.faces[0], f) ? 1 : -1;
+        for (const Index f : d.faces) cancels[f] = d.ways == 0;
+    }
+    const auto stands = stands_on_others(mesh, edges, closed, cancels);
+    const auto many = stay_many(mesh, edges, balance, all);
+    const bool beside = closed && std::count(cancels.begin(), cancels.end(), 0) > 0;
+    std::size_t count = 0;
+    for (std::size_t g = 0; g < all.size(); ++g) {
+        const Index first = all[g].faces[0];
+        const bool sheet = cancels[first] && !stands[first];
+        int left[2]; // that stay of those that run the other way than the first, and of those that run its
+                     // way
+        left[all[g].ways >= 0] = sheet || !cancels[first] ? (many[g] ? std::abs(all[g].ways) : 1) : 0;
+        left[all[g].ways < 0] = sheet && beside ? 1 : 0;
+        for (const Index f : all[g].faces) gone[f] = left[same_way(mesh, first, f)]-- <= 0, count += gone[f];
+        if (sheet && beside)
+            work.not_done.push_back({"duplicates",
+                                     "both sides of a sheet of its own beside closed pieces stay: one alone "
+                                     "would be open; components removes small ones",
+                                     mesh.point(mesh.face_begin(first))});
+    }
+    if (count == 0) return false;
+    work.counts.duplicate_faces += count;
+    work.mesh = keep_faces(mesh, faces_without(gone));
+    return true;
+}
+
+bool remove_components(Work& work, const ComponentSettings& s) {
+    const Mesh& mesh = work.mesh;
+    const Components pieces = face_components(mesh, false);
+    struct Piece {
+        std::size_t faces = 0;
+        double area = 0;
+        Box box;
+        bool goes = false;
+    };
+    std::vector<Piece> all(pieces.count);
+    double whole = 0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        Piece& p = all[pieces.of_face[f]];
+        const double area = area_of(mesh, f);
+        ++p.faces, p.area += area, whole += area;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) p.box.add(mesh.point(c));
+    }
+    for (Piece& p : all)
+        p.goes = p.faces < s.fewest_faces || p.box.diagonal() < s.smallest || p.area < s.least_area * whole;
+    if (s.keep > 0 && all.size() > s.keep) {
+        std::vector<std::size_t> order(all.size());
+        for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return all[a].area > all[b].area; });
+        for (std::size_t i = s.keep; i < order.size(); ++i) all[order[i]].goes = true;
+    }
+    std::vector<std::uint8_t> gone(mesh.face_count());
+    for (Index f = 0; f < gone.size(); ++f) gone[f] = all[pieces.of_face[f]].goes;
+    const auto count = static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [](const Piece& p) { return p.goes; }));
+    if (count == 0) return false;
+    const auto kept = faces_without(gone);
+    work.counts.components += count;
+    work.counts.component_faces += gone.size() - kept.size();
+    work.mesh = keep_faces(mesh, kept);
+    return true;
+}
+
+bool remove_isolated(Work& work) {
+    std::vector<std::uint8_t> used(work.mesh.vertex_count(), 0);
+    for (Index c = 0; c < work.mesh.corner_count(); ++c) used[work.mesh.vertex(c)] = 1;
+    const auto isolated = static_cast<std::size_t>(std::count(used.begin(), used.end(), 0));
+    if (isolated == 0) return false;
+    work.counts.isolated_vertices += isolated;
+    drop_unused(work.mesh);
+    return true;
+}
+
+} // namespace facetmill::clean_steps

@@ -1,0 +1,277 @@
+// The step of clean that fills holes.
+#include "base/predicates.hpp"
+#include "geometry/cgal/fair_patch.hpp"
+#include "geometry/clean/occupied.hpp"
+#include "geometry/clean/hole_outlines.hpp"
+#include "geometry/clean/span_outline.hpp"
+#include "geometry/edit/surgery.hpp"
+#include "geometry/triangulate/triangulate.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace facetmill::clean_steps {
+
+namespace {
+
+class Filler {
+  public:
+    Filler(Work& work, const HoleSettings& settings, const EdgeList* other_than)
+        : work_(work), mesh_(work.mesh), settings_(settings), other_than_(other_than), occupied_(work.mesh),
+          corners_(corners_at_vertices(work.mesh)), face_of_(corner_faces(work.mesh)) {}
+
+    /// The outlines, by their order, whose patches run into faces.
+    std::set<std::size_t> crossing() const {
+        std::set<std::size_t> into;
+        if (filled_ == 0) return into;
+        const Mesh trial = with_patches(mesh_, patches_);
+        std::vector<std::uint8_t> among(trial.face_count(), 0);
+        std::fill(among.begin() + static_cast<std::ptrdiff_t>(mesh_.face_count()), among.end(), 1);
+        const auto found = crossings(trial, std::move(among));
+        const auto outline = [&](Index f) { return outline_of_face_[f - mesh_.face_count()]; };
+        for (const auto& [low, high] : found.pairs)
+            if (low < mesh_.face_count()) into.insert(outline(high));
+        for (const auto& [low, high] : found.pairs) // of two that run into each other the first may stay
+            if (low >= mesh_.face_count() && !into.contains(outline(low))) into.insert(outline(high));
+        return into;
+    }
+
+    bool run(const std::set<std::size_t>& left) {
+        left_ = &left;
+        Outlines(mesh_).each([&](const Outline& o) { fill(o), ++outline_; },
+                             [&](Index c) {
+                                 refuse(
+                                     "neighbouring faces disagree about the outside, or the edge belongs to "
+                                     "more than two faces; orient first",
+                                     mesh_.point(c));
+                             });
+        return filled_ > 0;
+    }
+
+    void accept() {
+        work_.counts.filled_holes += filled_;
+        work_.counts.hole_faces += patches_.sources.size();
+        work_.mesh = with_patches(mesh_, patches_, patches_.points.empty() ? nullptr : &work_.fates);
+    }
+
+  private:
+    void refuse(std::string why, const Vec3& at) { work_.not_done.push_back({"holes", std::move(why), at}); }
+
+    /// Whether an edge of the outline is one that is to stay open.
+    bool is_excepted(const Outline& o) const {
+        const auto n = static_cast<Index>(o.wedges.size());
+        for (Index i = 0; other_than_ && i < n; ++i) {
+            const std::pair<Index, Index> ends = std::minmax({vertex(o, i), vertex(o, (i + 1) % n)});
+            if (std::binary_search(other_than_->begin(), other_than_->end(), ends)) return true;
+        }
+        return false;
+    }
+
+    void fill(const Outline& o) {
+        if (is_excepted(o)) return;
+        const std::size_t n = o.wedges.size();
+        std::vector<Vec3> ring;
+        double around = 0;
+        for (const Index w : o.wedges) ring.push_back(mesh_.positions[mesh_.vertex_of_wedge(w)]);
+        for (std::size_t i = 0; i < n; ++i) around += length(ring[(i + 1) % n] - ring[i]);
+        if (n < 3) return refuse("its outline has fewer than three edges", ring[0]);
+        if (settings_.most_edges > 0 && n > settings_.most_edges)
+            return refuse(fmt::format("its outline has {} edges, more than {}", n, settings_.most_edges),
+                          ring[0]);
+        if (settings_.longest > 0 && around > settings_.longest)
+            return refuse(
+                fmt::format("its outline is {:.6g} long, more than {:.6g}", around, settings_.longest),
+                ring[0]);
+        if (std::all_of(o.faces.begin(), o.faces.end(), [&](Index f) { return f == o.faces[0]; }))
+            return refuse("it is the outline of a single face", ring[0]);
+        std::string why;
+        HolePatch patch = patch_for(o, ring, why);
+        if (patch.triangles.empty()) return refuse(why, ring[0]);
+        if (collides(o, patch) || lacks_area(ring, patch)) patch = fan_around_middle(ring);
+        if (lacks_area(ring, patch)) return refuse("no patch has area everywhere", ring[0]);
+        if (collides(o, patch))
+            return refuse("a patch would double a face or make an edge of more than two", ring[0]);
+        if (left_->contains(outline_)) return refuse("a patch would run into other faces", ring[0]);
+        add(o, ring, patch);
+    }
+
+    HolePatch patch_for(const Outline& o, const std::vector<Vec3>& ring, std::string& why) const {
+        if (settings_.method == HoleFill::planar) return planar(ring, why);
+        std::vector<Vec3> across;
+        for (const Index f : o.faces) across.push_back(area_vector(f));
+        HolePatch patch{span_outline(ring, across), {}};
+        return settings_.method == HoleFill::smooth ? fair_patch(ring, patch.triangles, surroundings(o))
+                                                    : patch;
+    }
+
+    Vec3 area_vector(Index f) const {
+        Vec3 sum;
+        const Index begin = mesh_.face_begin(f);
+        for (Index c = begin + 1; c + 1 < mesh_.face_end(f); ++c)
+            sum += cross(mesh_.point(c) - mesh_.point(begin), mesh_.point(c + 1) - mesh_.point(begin));
+        return sum;
+    }
+
+    /// The triangles of two rings of faces around the outline.
+    HolePatch surroundings(const Outline& o) const {
+        std::map<Index, Index> number; // of vertices
+        for (Index i = 0; i < o.wedges.size(); ++i) number.try_emplace(vertex(o, i), i);
+        std::set<Index> faces, seen;
+        for (const auto& [v, i] : number) seen.insert(v);
+        std::vector<Index> reached(seen.begin(), seen.end());
+        for (int ring = 0; ring < 2; ++ring) {
+            std::vector<Index> next;
+            for (const Index v : reached)
+                for (const Index c : corners_.of(v)) {
+                    const Index f = face_of_[c];
+                    if (!faces.insert(f).second) continue;
+                    for (Index d = mesh_.face_begin(f); d < mesh_.face_end(f); ++d)
+                        if (seen.insert(mesh_.vertex(d)).second) next.push_back(mesh_.vertex(d));
+                }
+            reached = std::move(next);
+        }
+        HolePatch around;
+        const auto numbered = [&](Index v) {
+            const auto [at, fresh] =
+                number.try_emplace(v, static_cast<Index>(o.wedges.size() + around.points.size()));
+            if (fresh) around.points.push_back(mesh_.positions[v]);
+            return at->second;
+        };
+        for (const Index f : faces)
+            for (Index c = mesh_.face_begin(f) + 1; c + 1 < mesh_.face_end(f); ++c)
+                around.triangles.push_back({numbered(mesh_.vertex(mesh_.face_begin(f))),
+                                            numbered(mesh_.vertex(c)), numbered(mesh_.vertex(c + 1))});
+        return around;
+    }
+
+    /// The outline as a polygon, cut into triangles.
+    static HolePatch planar(const std::vector<Vec3>& ring, std::string& why) {
+        Mesh polygon;
+        polygon.positions = ring;
+        std::vector<Index> wedges(ring.size());
+        for (Index i = 0; i < wedges.size(); ++i) wedges[i] = i;
+        add_face(polygon, wedges);
+        TriangulateResult cut = triangulate(polygon);
+        HolePatch patch;
+        double largest = 0;
+        for (const Vec3& p : ring)
+            for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, std::abs(p[i]));
+        const double rounding = 0x1p-21 * largest; // of files with coordinates of 32 bits
+        if (cut.kinds.non_planar > 0 && cut.kinds.deviation > rounding) {
+            why = fmt::format("its outline is not planar, by {:.6g}", cut.kinds.deviation);
+            return patch;
+        }
+        if (cut.fans > 0) {
+            why = "its outline crosses itself or has no area";
+            return patch;
+        }
+        for (Index c = 0; c < cut.mesh.corner_count(); c += 3)
+            patch.triangles.push_back(
+                {cut.mesh.corners[c], cut.mesh.corners[c + 1], cut.mesh.corners[c + 2]});
+        return patch;
+    }
+
+    static HolePatch fan_around_middle(const std::vector<Vec3>& ring) {
+        HolePatch patch;
+        Vec3 middle;
+        const auto n = static_cast<Index>(ring.size());
+        for (const Vec3& p : ring) middle += p;
+        patch.points.push_back(middle / n);
+        for (Index i = 0; i < n; ++i) patch.triangles.push_back({i, (i + 1) % n, n});
+        return patch;
+    }
+
+    /// Whether a triangle of the patch has exactly zero area: it would be removed again.
+    static bool lacks_area(const std::vector<Vec3>& ring, const HolePatch& patch) {
+        const auto at = [&](Index i) { return i < ring.size() ? ring[i] : patch.points[i - ring.size()]; };
+        return std::any_of(patch.triangles.begin(), patch.triangles.end(),
+                           [&](const auto& t) { return collinear(at(t[0]), at(t[1]), at(t[2])); });
+    }
+
+    /// Whether an inner edge of the patch, or one of its triangles, is there already.
+    bool collides(const Outline& o, const HolePatch& patch) const {
+        const auto n = static_cast<Index>(o.wedges.size());
+        for (const auto& t : patch.triangles) {
+            if (t[0] < n && t[1] < n && t[2] < n &&
+                occupied_.has_triangle({vertex(o, t[0]), vertex(o, t[1]), vertex(o, t[2])}))
+                return true;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index i = t[k], j = t[(k + 1) % 3];
+                if (i >= n || j >= n || (i + 1) % n == j || (j + 1) % n == i) continue;
+                if (occupied_.has_edge(vertex(o, i), vertex(o, j))) return true;
+            }
+        }
+        return false;
+    }
+    Index vertex(const Outline& o, Index i) const { return mesh_.vertex_of_wedge(o.wedges[i]); }
+
+    void add(const Outline& o, const std::vector<Vec3>& ring, const HolePatch& patch) {
+        const auto n = static_cast<Index>(o.wedges.size());
+        const auto first = static_cast<Index>(mesh_.wedge_count() + patches_.points.size());
+        for (const Vec3& p : patch.points) add_point(o, ring, p);
+        for (const auto& t : patch.triangles) {
+            std::array<Index, 3> wedges;
+            Index source = o.faces[0];
+            for (std::size_t k = 0; k < 3; ++k) {
+                wedges[k] = t[k] < n ? o.wedges[t[k]] : first + (t[k] - n);
+                const Index i = t[k], j = t[(k + 1) % 3];
+                if (i < n && j < n && (i + 1) % n == j) source = o.faces[i];
+                if (i < n && j < n) occupied_.add_edge(vertex(o, i), vertex(o, j));
+            }
+            if (t[0] < n && t[1] < n && t[2] < n)
+                occupied_.add_triangle({vertex(o, t[0]), vertex(o, t[1]), vertex(o, t[2])});
+            patches_.add_face(wedges, source);
+            outline_of_face_.push_back(outline_);
+        }
+        ++filled_;
+    }
+
+    /// A new point's attributes come from the outline, the nearer the more.
+    void add_point(const Outline& o, const std::vector<Vec3>& ring, const Vec3& p) {
+        std::vector<double> weights;
+        double sum = 0;
+        for (const Vec3& q : ring) {
+            const double d = dot(q - p, q - p);
+            weights.push_back(1 / std::max(d, 1e-300));
+            sum += weights.back();
+        }
+        patches_.points.push_back(p);
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            patches_.mix_wedges.push_back(o.wedges[i]);
+            patches_.mix_weights.push_back(weights[i] / sum);
+        }
+        patches_.mix_offsets.push_back(static_cast<Index>(patches_.mix_wedges.size()));
+    }
+
+    Work& work_;
+    const Mesh& mesh_;
+    const HoleSettings& settings_;
+    const EdgeList* other_than_;
+    Occupied occupied_;
+    VertexLists corners_;
+    std::vector<Index> face_of_;
+    Patches patches_;
+    std::vector<std::size_t> outline_of_face_; ///< of the patches
+    const std::set<std::size_t>* left_ = nullptr;
+    std::size_t filled_ = 0, outline_ = 0;
+};
+
+} // namespace
+
+bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross) {
+    const std::size_t told = work.not_done.size();
+    for (std::set<std::size_t> left;;) {
+        Filler filler(work, settings, other_than);
+        if (!filler.run(left)) return false;
+        const auto more = may_cross ? std::set<std::size_t>{} : filler.crossing();
+        if (more.empty()) return filler.accept(), true;
+        left.insert(more.begin(), more.end());
+        work.not_done.resize(told);
+    }
+}
+
+} // namespace facetmill::clean_steps

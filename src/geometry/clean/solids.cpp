@@ -1,0 +1,137 @@
+#include "geometry/clean/solids.hpp"
+
+#include "base/parallel.hpp"
+#include "geometry/inspect/evidence.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+namespace facetmill::clean_steps {
+
+namespace {
+
+enum class Fitness : std::uint8_t { fit, open, disagreeing, flat };
+
+const char* reason(Fitness f) {
+    switch (f) {
+    case Fitness::fit:
+        break;
+    case Fitness::open:
+        return "is open (only closed pieces can be united; holes closes them)";
+    case Fitness::disagreeing:
+        return "has faces that disagree about the outside (orient first)";
+    case Fitness::flat:
+        return "has faces without area (see degenerate), or of no finite size";
+    }
+    return "";
+}
+
+std::vector<Fitness> fitness_of(const Mesh& mesh, const Components& pieces) {
+    std::vector<Fitness> fitness(pieces.count, Fitness::fit);
+    const auto edges = build_edges(mesh);
+    const auto faces = corner_faces(mesh);
+    for (Index e = 0; e < edges.size(); ++e) {
+        int balance = 0;
+        for (const Index c : edges.corners_of(e)) balance += mesh.vertex(c) == edges.edges[e].low ? 1 : -1;
+        if (balance == 0) continue;
+        Fitness& f = fitness[pieces.of_face[faces[edges.corners_of(e)[0]]]];
+        if (edges.corners_of(e).size() % 2 == 1) f = Fitness::open;
+        if (f == Fitness::fit) f = Fitness::disagreeing;
+    }
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (is_degenerate(mesh, f) || !is_finite(middle_of_face(mesh, f)))
+            fitness[pieces.of_face[f]] = Fitness::flat;
+    return fitness;
+}
+
+/// Six times the volume of each piece, from its first point.
+std::vector<double> volumes_of(const Mesh& mesh, const Components& pieces) {
+    std::vector<double> volumes(pieces.count, 0);
+    std::vector<Index> first(pieces.count, none);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const Index piece = pieces.of_face[f], begin = mesh.face_begin(f);
+        if (mesh.face_size(f) < 3) continue;
+        if (first[piece] == none) first[piece] = begin;
+        const Vec3 o = mesh.point(first[piece]), a = mesh.point(begin) - o;
+        for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
+            volumes[piece] += dot(a, cross(mesh.point(c) - o, mesh.point(c + 1) - o));
+    }
+    return volumes;
+}
+
+/// Of the pieces that are not fit, one entry for each that intersects something.
+std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& pieces,
+                                  const std::vector<Fitness>& fitness, const SelfIntersections& found) {
+    struct Place {
+        std::size_t pairs = 0;
+        Index face = none;
+    };
+    std::map<Index, Place> places;
+    for (const auto& [f, g] : found.pairs) {
+        const Index a = pieces.of_face[f], b = pieces.of_face[g];
+        const bool first = fitness[a] != Fitness::fit;
+        if (!first && fitness[b] == Fitness::fit) continue;
+        Place& place = places[first ? a : b];
+        if (place.pairs++ == 0) place.face = first ? f : g;
+    }
+    std::vector<NotDone> all;
+    for (const auto& [piece, place] : places)
+        all.push_back({"self_intersections",
+                       fmt::format("{} pairs of faces intersect on a piece that {}", place.pairs,
+                                   reason(fitness[piece])),
+                       middle_of_face(mesh, place.face)});
+    return all;
+}
+
+} // namespace
+
+Vec3 middle_of_face(const Mesh& mesh, Index f) {
+    Vec3 sum;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c) / mesh.face_size(f);
+    return sum;
+}
+
+SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among) {
+    Mesh plain;
+    plain.positions = mesh.positions, plain.corners = mesh.corners, plain.face_offsets = mesh.face_offsets;
+    const auto place = lowest_at_place(mesh);
+    for (Index w = 0; w < mesh.wedge_count(); ++w)
+        plain.wedge_vertex.push_back(place[mesh.vertex_of_wedge(w)]);
+    return find_self_intersections(plain, {.limit = most_pairs, .among = std::move(among)});
+}
+
+Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {
+    Solids s;
+    s.pieces = face_components(mesh, false);
+    const auto fitness = fitness_of(mesh, s.pieces);
+    const auto volumes = volumes_of(mesh, s.pieces);
+    for (Index p = 0; p < s.pieces.count; ++p) {
+        s.closed.push_back(fitness[p] == Fitness::fit);
+        s.inward.push_back(volumes[p] < 0);
+    }
+    s.unfit = unfit_places(mesh, s.pieces, fitness, found);
+    DisjointSets sets(s.pieces.count);
+    const auto both_fit = [&](Index f, Index g) {
+        return s.closed[s.pieces.of_face[f]] && s.closed[s.pieces.of_face[g]];
+    };
+    for (const auto& [f, g] : found.pairs)
+        if (both_fit(f, g)) sets.join(s.pieces.of_face[f], s.pieces.of_face[g]);
+    std::map<Index, Index> numbers; // of sets, by their first pair
+    for (const auto& [f, g] : found.pairs)
+        if (both_fit(f, g) &&
+            numbers.try_emplace(sets.find(s.pieces.of_face[f]), static_cast<Index>(s.at.size())).second)
+            s.at.push_back(middle_of_face(mesh, f));
+    for (Index p = 0; p < s.pieces.count; ++p) {
+        const auto at = s.closed[p] ? numbers.find(sets.find(p)) : numbers.end();
+        s.cluster.push_back(at == numbers.end() ? none : at->second);
+    }
+    s.meets_unfit.assign(s.clusters(), 0);
+    for (const auto& [f, g] : found.pairs)
+        if (!both_fit(f, g))
+            for (const Index face : {f, g})
+                if (s.cluster_of_face(face) != none) s.meets_unfit[s.cluster_of_face(face)] = 1;
+    return s;
+}
+
+} // namespace facetmill::clean_steps

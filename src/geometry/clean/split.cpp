@@ -1,0 +1,139 @@
+// The step of clean that takes edges and vertices apart where the surface is not a manifold.
+#include "base/parallel.hpp"
+#include "geometry/edit/around_edge.hpp"
+#include "geometry/clean/steps.hpp"
+#include "geometry/edit/surgery.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace facetmill::clean_steps {
+
+namespace {
+
+/// Pairs of corners that stay together along a crowded edge: those that have the inside between them. A
+/// forward face has the inside before it around the edge, a backward one behind it.
+std::vector<std::pair<Index, Index>> pairs_along(std::vector<EdgeLeaf> leaves) {
+    std::vector<std::pair<Index, Index>> pairs;
+    for (bool found = true; found && leaves.size() > 1;) {
+        found = false;
+        for (std::size_t i = 0; i < leaves.size() && !found; ++i) {
+            const std::size_t next = (i + 1) % leaves.size();
+            if (leaves[i].forward || !leaves[next].forward) continue;
+            pairs.emplace_back(leaves[i].corner, leaves[next].corner);
+            const std::size_t low = std::min(i, next), high = std::max(i, next);
+            leaves.erase(leaves.begin() + static_cast<std::ptrdiff_t>(high));
+            leaves.erase(leaves.begin() + static_cast<std::ptrdiff_t>(low));
+            found = true;
+        }
+    }
+    return pairs;
+}
+
+/// The faces that are joined along each edge, as pairs of corners.
+class Joints {
+  public:
+    Joints(const Mesh& mesh, const EdgeTable& edges, const std::vector<Index>& faces)
+        : mesh_(mesh), edges_(edges), faces_(faces) {}
+
+    std::vector<std::pair<Index, Index>> at(Index e) const {
+        const auto corners = edges_.corners_of(e);
+        if (corners.size() < 2) return {};
+        if (corners.size() == 2) return {{corners[0], corners[1]}};
+        std::vector<EdgeLeaf> leaves;
+        const auto& [low, high] = edges_.edges[e];
+        for (const Index c : corners)
+            leaves.push_back({c, beside_edge(mesh_, faces_[c], c), mesh_.vertex(c) == low});
+        sort_around_edge(mesh_.positions[low], mesh_.positions[high], leaves);
+        return pairs_along(leaves);
+    }
+
+  private:
+    const Mesh& mesh_;
+    const EdgeTable& edges_;
+    const std::vector<Index>& faces_;
+};
+
+bool has_crowded_edges(const EdgeTable& edges) {
+    for (Index e = 0; e < edges.size(); ++e)
+        if (edges.corners_of(e).size() > 2) return true;
+    return false;
+}
+
+/// Puts a point in the middle of crowded edges that no vertex could take apart, for every pair but the first
+/// and every face left over.
+bool divide_crowded_edges(Work& work) {
+    const Mesh& mesh = work.mesh;
+    const auto edges = build_edges(mesh);
+    if (!has_crowded_edges(edges)) return false;
+    const auto faces = corner_faces(mesh);
+    const Joints joints(mesh, edges, faces);
+    std::vector<Insertion> insertions;
+    std::vector<Lineage::Edge> added;
+    for (Index e = 0; e < edges.size(); ++e) {
+        const auto corners = edges.corners_of(e);
+        if (corners.size() <= 2) continue;
+        auto groups = joints.at(e);
+        std::vector<std::uint8_t> paired(corners.size(), 0);
+        for (const auto& [a, b] : groups)
+            for (std::size_t i = 0; i < corners.size(); ++i) paired[i] |= corners[i] == a || corners[i] == b;
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            if (!paired[i]) groups.emplace_back(corners[i], corners[i]);
+        for (std::size_t g = 1; g < groups.size(); ++g) {
+            const auto v = static_cast<Index>(mesh.vertex_count() + added.size());
+            added.push_back({edges.edges[e].low, edges.edges[e].high, 0.5});
+            insertions.push_back({groups[g].first, 0.5, v});
+            if (groups[g].second != groups[g].first) insertions.push_back({groups[g].second, 0.5, v});
+        }
+        ++work.counts.split_edges;
+    }
+    work.mesh = insert_on_edges(mesh, std::move(insertions), added, &work.fates);
+    return true;
+}
+
+} // namespace
+
+Fans fans_apart(const Mesh& mesh) {
+    const auto edges = build_edges(mesh);
+    const auto faces = corner_faces(mesh);
+    const Joints joints(mesh, edges, faces);
+    // Corners at a vertex are of one fan when a joint at that vertex links them.
+    DisjointSets fans(mesh.corner_count());
+    parallel_for(edges.size(), [&](std::size_t e) {
+        for (const auto& [a, b] : joints.at(static_cast<Index>(e))) {
+            const Index a_end = next_corner(mesh, faces[a], a), b_end = next_corner(mesh, faces[b], b);
+            const bool same = mesh.vertex(a) == mesh.vertex(b);
+            fans.join(a, same ? b : b_end);
+            fans.join(a_end, same ? b_end : b);
+        }
+    });
+    Fans result;
+    result.vertex_of_corner.resize(mesh.corner_count());
+    std::vector<Index> first_fan(mesh.vertex_count(), none), vertex_of_fan(mesh.corner_count(), none);
+    for (Index c = 0; c < mesh.corner_count(); ++c) {
+        const Index v = mesh.vertex(c), fan = fans.find(c);
+        if (vertex_of_fan[fan] == none) {
+            if (first_fan[v] == none) {
+                first_fan[v] = fan, vertex_of_fan[fan] = v;
+            } else {
+                vertex_of_fan[fan] = static_cast<Index>(mesh.vertex_count() + result.copies.size());
+                result.copies.push_back(v);
+            }
+        }
+        result.vertex_of_corner[c] = vertex_of_fan[fan];
+    }
+    return result;
+}
+
+bool split_non_manifold(Work& work) {
+    const Fans fans = fans_apart(work.mesh);
+    const bool parted = !fans.copies.empty();
+    if (parted) {
+        work.counts.split_vertices += fans.copies.size();
+        work.mesh = part_corners(work.mesh, fans.vertex_of_corner, fans.copies);
+    }
+    return divide_crowded_edges(work) || parted;
+}
+
+} // namespace facetmill::clean_steps

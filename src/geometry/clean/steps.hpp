@@ -1,0 +1,88 @@
+#pragma once
+// The steps of clean, one function each. Each changes the mesh in place, adds to the counts and tells by its
+// return value whether it changed anything.
+
+#include "geometry/clean/clean.hpp"
+#include "geometry/intersect/self_intersections.hpp"
+#include "geometry/edit/surgery.hpp"
+
+namespace facetmill::clean_steps {
+
+/// The mesh being cleaned and what is told of it.
+struct Work {
+    Mesh mesh;
+    CleanCounts counts;
+    std::vector<NotDone> not_done;
+    Fates fates;            ///< of the step that mixed attributes last
+    bool untangled = false; ///< the mesh is known to have no crossings
+};
+
+/// Vertices at one place become the lowest of them. Where the faces that meet there would only come apart
+/// again (non_manifold, see split_non_manifold), they are left as they are.
+bool weld_equal(Work& work, bool comes_apart);
+/// In index order each end of an open edge becomes the nearest one kept so far within the length. Vertices of
+/// one face are never merged, so that no face loses its area; vertices inside the surface are left alone.
+bool weld_near(Work& work, double within);
+/// Open edges that run against each other and whose ends are within the length become one, the nearest pairs
+/// first; their ends become the lower vertices.
+bool stitch(Work& work, double within);
+/// Corners that repeat the vertex before them go, then faces without area (exact). Where that opens the
+/// surface, the vertices on the line are put on the edges that face it, so that what was closed stays closed.
+bool remove_degenerate(Work& work);
+/// Of faces with the same vertices one stays, with the orientation that they have more often; as many as are
+/// left after cancelling where the faces around are there as often, so that what was closed stays closed.
+/// Faces that cancel (as often one way as the other) all go when they are a wall or a fin on other faces (of
+/// a closed surface also when they touch it with a corner), and one of each stays when they are a sheet of
+/// their own.
+bool remove_duplicates(Work& work);
+/// A vertex on (near: within the length of) an open edge of another face, with an open edge of its own along
+/// that one, is put on it.
+bool resolve_t_vertices(Work& work, double within);
+/// What it would put where.
+std::vector<Insertion> find_t_vertices(const Mesh& mesh, double within);
+/// At an edge of more than two faces those stay together that have the inside of the surface between them, by
+/// the exact order around the edge; each fan of faces around a vertex gets a vertex of its own. Where both
+/// ends of such an edge are held together by other faces, the second pair gets a point in the middle of the
+/// edge.
+bool split_non_manifold(Work& work);
+/// Edges as (low vertex, high vertex), ascending.
+using EdgeList = std::vector<std::pair<Index, Index>>;
+/// Fills the loops of open edges as the settings say; holes that touch at a vertex each for itself. Loops
+/// with an edge of other_than stay, and so do those whose patch would run into other faces, unless it may.
+bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross);
+bool remove_components(Work& work, const ComponentSettings& settings);
+/// Closed pieces that lie inside other closed pieces and touch none go.
+bool remove_inner_shells(Work& work);
+bool remove_isolated(Work& work);
+/// The pairs of faces that intersect, for the two steps below; vertices at one place count as one, so that
+/// faces which only an edge or vertex parts (split_non_manifold) are none. At most most_pairs are listed.
+SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {});
+inline constexpr std::size_t most_pairs = std::size_t{1} << 22;
+/// Pairs of faces, lower one first, ascending, that link all faces at edges around which the surface winds
+/// more than once: there solids overlap without any crossing, as grids do that pass through each other along
+/// their lines.
+std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
+/// Closed pieces that pass through each other, or through themselves, become one solid: the union, by winding
+/// numbers (see unite). `found` are the crossings of the mesh, `overlaps` those at edges. What is closed
+/// stays closed; what intersects does not any more, but with pieces that are not closed: those, and solids
+/// that cannot be united, are told and left exactly as they were. Faces that intersect nothing and lie
+/// outside of all other pieces are left alone.
+bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pair<Index, Index>>& overlaps,
+                  const CleanSettings& settings);
+/// Place by place: removes the faces that intersect others, if need be with up to four rings around them, and
+/// fills what that opens. A place is left as it was when that would leave an intersection or an open edge
+/// that was not there, change the topology, or take half of a piece along. Faces that touch only where
+/// vertices of theirs are at one place do not count.
+bool resolve_self_intersections(Work& work, SelfIntersections found);
+
+/// For each vertex the lowest one at the same place.
+std::vector<Index> lowest_at_place(const Mesh& mesh);
+
+/// The vertex each corner goes to, and what the new vertices are copies of: the plan of split_non_manifold.
+struct Fans {
+    std::vector<Index> vertex_of_corner;
+    std::vector<Index> copies;
+};
+Fans fans_apart(const Mesh& mesh);
+
+} // namespace facetmill::clean_steps

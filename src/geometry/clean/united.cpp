@@ -1,0 +1,304 @@
+#include "geometry/clean/united.hpp"
+
+#include "base/memory.hpp"
+#include "geometry/clean/united_mesh.hpp"
+#include "geometry/inspect/evidence.hpp"
+#include "mesh/surface.hpp"
+#include "geometry/edit/surgery.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace facetmill::clean_steps {
+
+namespace {
+
+constexpr const char* inside_out = "a piece is inside out and no cavity of a solid around it: which side is "
+                                   "inside must be said first (orient)";
+constexpr const char* too_many = "more than a million pairs of triangles meet, or the lines where they do "
+                                 "could cross more than two million "
+                                 "times: more than can be united in reasonable time";
+
+constexpr const char* no_memory = "there is not enough memory to unite so many faces that intersect";
+
+/// The winding number on the two sides of a patch, by what turns outward and what turns inward.
+struct Sides {
+    int outward = 0, inward = 0;
+    int all() const { return outward + inward; }
+    bool operator==(const Sides&) const = default;
+};
+
+/// A face that was not cut, or a piece of cut ones; more of its sources turn as it does than the other way.
+struct Leaf {
+    std::array<Index, 3> nodes;
+    std::vector<Index> triangles; ///< its sources; the first turns as it does, unless they cancel
+    Index face = none;            ///< not cut
+    Index cluster = none;
+    Sides turns; ///< how many of the sources turn as it does, less those that turn the other way
+    bool of_inward = false;
+    Index patch = 0; ///< the lowest leaf of its patch
+};
+
+class Uniting {
+  public:
+    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within)
+        : mesh_(mesh), solids_(solids), found_(found), within_(within) {}
+
+    United run() {
+        mark_cut_faces();
+        merge_where_cut();
+        gather();
+        TriangleSoup soup = triangle_soup();
+        if (refuse_for_memory(soup)) return std::move(result_);
+        Arrangement arrangement(std::move(soup));
+        if (const auto full = arrangement.overfull()) {
+            refuse(cluster_of(*full), too_many);
+            return std::move(result_);
+        }
+        make_leaves(arrangement);
+        find_patches(arrangement);
+        judge_patches(arrangement);
+        if (result_.refused.empty()) assemble(arrangement);
+        return std::move(result_);
+    }
+
+  private:
+    Index piece_of(Index triangle) const { return solids_.pieces.of_face[triangles_.face[triangle]]; }
+    Index cluster_of(Index triangle) const { return solids_.cluster[piece_of(triangle)]; }
+
+    void refuse(Index cluster, const char* why) {
+        for (const auto& r : result_.refused)
+            if (r.cluster == cluster) return;
+        result_.refused.push_back({cluster, why});
+    }
+
+    bool refuse_for_memory(const TriangleSoup& soup) {
+        constexpr double bytes_a_pair = 3000, bytes_a_triangle = 200; // measured
+        const auto available = available_memory();
+        const double needed = bytes_a_pair * static_cast<double>(soup.pairs.size()) +
+                              bytes_a_triangle * static_cast<double>(soup.triangles.size());
+        if (!available || needed < static_cast<double>(*available)) return false;
+        for (Index c = 0; c < solids_.clusters(); ++c) refuse(c, no_memory);
+        return true;
+    }
+
+    void mark_cut_faces() {
+        cut_.assign(mesh_.face_count(), 0);
+        for (const auto& [f, g] : found_.pairs) {
+            if (solids_.cluster_of_face(f) == none || solids_.cluster_of_face(g) == none) continue;
+            pairs_.emplace_back(f, g);
+            cut_[f] = cut_[g] = 1;
+        }
+    }
+
+    void merge_where_cut() {
+        auto target = lowest_at_place(mesh_);
+        std::vector<std::uint8_t> touched(mesh_.vertex_count(), 0);
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            for (Index c = mesh_.face_begin(f); cut_[f] && c < mesh_.face_end(f); ++c)
+                touched[target[mesh_.vertex(c)]] = 1;
+        for (Index v = 0; v < target.size(); ++v)
+            if (!touched[target[v]]) target[v] = v;
+        merge_vertices(mesh_, target);
+    }
+
+    /// The triangles of all closed pieces.
+    void gather() {
+        surface_ = surface_of(mesh_);
+        first_.assign(mesh_.face_count() + 1, 0);
+        std::vector<std::array<Index, 3>> unused;
+        for (std::size_t t = 0; t < surface_.size(); ++t) {
+            const Index f = surface_.face(t);
+            if (!solids_.closed[solids_.pieces.of_face[f]]) continue;
+            ++first_[f + 1];
+            std::array<Index, 3> corners{};
+            for (std::size_t i = 0; i < 3; ++i)
+                for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c)
+                    if (mesh_.vertex(c) == surface_.corners[3 * t + i]) corners[i] = c;
+            triangles_.face.push_back(f), triangles_.corners.push_back(corners);
+        }
+        for (std::size_t f = 0; f < mesh_.face_count(); ++f) first_[f + 1] += first_[f];
+    }
+
+    std::array<Index, 3> nodes_of(Index t) const {
+        const auto& c = triangles_.corners[t];
+        return {mesh_.vertex(c[0]), mesh_.vertex(c[1]), mesh_.vertex(c[2])};
+    }
+    bool has_area(Index t) const {
+        const auto n = nodes_of(t);
+        return !is_degenerate(mesh_.positions[n[0]], mesh_.positions[n[1]], mesh_.positions[n[2]]);
+    }
+
+    TriangleSoup triangle_soup() const {
+        TriangleSoup soup;
+        soup.points = mesh_.positions;
+        for (Index t = 0; t < triangles_.face.size(); ++t) {
+            soup.triangles.push_back(nodes_of(t));
+            if (cut_[triangles_.face[t]]) soup.cut.push_back(t);
+        }
+        const auto box = [&](Index t) {
+            Box b;
+            for (const Index v : soup.triangles[t]) b.add(mesh_.positions[v]);
+            return b;
+        };
+        const auto meet = [](const Box& a, const Box& b) {
+            return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
+                   a.min.z <= b.max.z && b.min.z <= a.max.z;
+        };
+        for (const auto& [f, g] : pairs_)
+            for (Index s = first_[f]; s < first_[f + 1]; ++s)
+                for (Index t = first_[g]; t < first_[g + 1]; ++t)
+                    if (meet(box(s), box(t))) soup.pairs.emplace_back(s, t);
+        for (Index f = 0; f < cut_.size(); ++f) // where a polygon has a triangle without area
+            for (Index s = first_[f]; cut_[f] && s < first_[f + 1]; ++s)
+                for (Index t = first_[f]; !has_area(s) && t < first_[f + 1]; ++t)
+                    if (s != t) soup.pairs.emplace_back(s, t);
+        return soup;
+    }
+
+    void make_leaves(const Arrangement& arrangement) {
+        for (Index f = 0; f < mesh_.face_count(); ++f) {
+            if (cut_[f] || solids_.cluster_of_face(f) == none) continue;
+            Index t = first_[f];
+            while (t + 1 < first_[f + 1] && !has_area(t)) ++t;
+            add_leaf(nodes_of(t), std::array{Arrangement::Source{t, 1}});
+            leaves_.back().face = f;
+        }
+        for (const auto& piece : arrangement.pieces()) add_leaf(piece.nodes, piece.sources);
+    }
+
+    void add_leaf(std::array<Index, 3> nodes, std::span<const Arrangement::Source> sources) {
+        int sum = 0;
+        for (const auto& s : sources) sum += s.sign;
+        const int flip = sum < 0 ? -1 : 1;
+        if (sum < 0) std::swap(nodes[1], nodes[2]);
+        Leaf leaf;
+        leaf.nodes = nodes, leaf.cluster = cluster_of(sources[0].triangle);
+        for (const auto& [t, sign] : sources) {
+            const bool inward = solids_.inward[piece_of(t)];
+            leaf.of_inward |= inward;
+            (inward ? leaf.turns.inward : leaf.turns.outward) += flip * sign;
+            leaf.triangles.push_back(t);
+            if (flip * sign > 0 && flip * sources[0].sign < 0 && leaf.triangles[0] == sources[0].triangle)
+                std::swap(leaf.triangles[0], leaf.triangles.back());
+        }
+        leaves_.push_back(std::move(leaf));
+    }
+
+    /// Leaves that hang together where no other leaf does have the same on their sides.
+    void find_patches(const Arrangement& arrangement) {
+        Mesh leaves;
+        leaves.positions.resize(arrangement.node_count());
+        leaves.face_offsets.push_back(0);
+        for (const Leaf& leaf : leaves_) {
+            if (leaf.face == none)
+                leaves.corners.insert(leaves.corners.end(), leaf.nodes.begin(), leaf.nodes.end());
+            else
+                for (Index c = mesh_.face_begin(leaf.face); c < mesh_.face_end(leaf.face); ++c)
+                    leaves.corners.push_back(mesh_.vertex(c));
+            leaves.face_offsets.push_back(static_cast<Index>(leaves.corners.size()));
+        }
+        const auto edges = build_edges(leaves);
+        const auto faces = corner_faces(leaves);
+        DisjointSets sets(leaves_.size());
+        for (Index e = 0; e < edges.size(); ++e) {
+            const auto at = edges.corners_of(e);
+            if (at.size() != 2 || leaves.corners[at[0]] == leaves.corners[at[1]]) continue;
+            const Leaf &a = leaves_[faces[at[0]]], &b = leaves_[faces[at[1]]];
+            if (a.turns == b.turns && a.of_inward == b.of_inward) sets.join(faces[at[0]], faces[at[1]]);
+        }
+        for (Index i = 0; i < leaves_.size(); ++i) leaves_[i].patch = sets.find(i);
+    }
+
+    /// The winding number in front of a leaf; without the pieces that the cluster does not hold, unless
+    /// there is a cavity in them.
+    Sides front_of(const Arrangement& arrangement, const Leaf& leaf) {
+        Sides ahead;
+        int around = 0;
+        const int way = arrangement.look_ahead(leaf.nodes, leaf.triangles, [&](Index t, int turn) {
+            if (cluster_of(t) != leaf.cluster)
+                around += turn;
+            else
+                (solids_.inward[piece_of(t)] ? ahead.inward : ahead.outward) += turn;
+        });
+        if (way < 0) ahead.outward -= leaf.turns.outward, ahead.inward -= leaf.turns.inward;
+        if (has_cavity_[leaf.cluster] && around > 0) ++ahead.outward;
+        return ahead;
+    }
+
+    void judge_patches(const Arrangement& arrangement) {
+        has_cavity_.assign(solids_.clusters(), 0);
+        for (Index p = 0; p < solids_.pieces.count; ++p)
+            if (solids_.cluster[p] != none && solids_.inward[p]) has_cavity_[solids_.cluster[p]] = 1;
+        outside_.assign(leaves_.size(), 0);
+        for (Index i = 0; i < leaves_.size(); ++i) {
+            const Leaf& leaf = leaves_[i];
+            if (leaf.patch != i) {
+                outside_[i] = outside_[leaf.patch];
+                continue;
+            }
+            const Sides front = front_of(arrangement, leaf);
+            const Sides back{front.outward + leaf.turns.outward, front.inward + leaf.turns.inward};
+            if (leaf.of_inward && std::min(front.outward, back.outward) < 1) refuse(leaf.cluster, inside_out);
+            outside_[i] = front.all() <= 0 && back.all() >= 1;
+        }
+        find_filled_cavities(arrangement);
+    }
+
+    /// Cavities that no face of a cluster crosses go where another solid of it fills them.
+    void find_filled_cavities(const Arrangement& arrangement) {
+        filled_.assign(solids_.pieces.count, 0);
+        std::vector<std::uint8_t> asked(solids_.pieces.count, 0);
+        for (Index t = 0; t < triangles_.face.size(); ++t) {
+            const Index p = piece_of(t);
+            if (asked[p] || solids_.cluster[p] != none || !solids_.inward[p] || !has_area(t)) continue;
+            asked[p] = 1;
+            std::vector<int> winding(solids_.clusters(), 0);
+            arrangement.look_ahead(nodes_of(t), std::array{t}, [&](Index hit, int turn) {
+                if (cluster_of(hit) != none) winding[cluster_of(hit)] += turn;
+            });
+            for (const int w : winding) filled_[p] |= w >= 2;
+        }
+    }
+
+    void assemble(const Arrangement& arrangement) {
+        std::vector<std::uint8_t> goes = cut_;
+        for (Index f = 0; f < goes.size(); ++f)
+            if (filled_[solids_.pieces.of_face[f]]) goes[f] = 1, ++result_.covered_faces;
+        std::vector<OuterPiece> pieces;
+        for (Index i = 0; i < leaves_.size(); ++i) {
+            const Leaf& leaf = leaves_[i];
+            if (leaf.face != none && !outside_[i]) goes[leaf.face] = 1, ++result_.covered_faces;
+            if (leaf.face == none && outside_[i]) pieces.push_back({leaf.nodes, leaf.triangles[0]});
+        }
+        std::stable_sort(pieces.begin(), pieces.end(),
+                         [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
+        result_.cut_faces = static_cast<std::size_t>(std::count(cut_.begin(), cut_.end(), 1));
+        const auto uncut = faces_without(goes);
+        result_.uncut_faces = uncut.size();
+        result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, within_, result_.fates);
+    }
+
+    Mesh mesh_; ///< vertices merged where faces are cut
+    const Solids& solids_;
+    const SelfIntersections& found_;
+    double within_;
+    std::vector<std::uint8_t> cut_;              ///< [faces]
+    std::vector<std::pair<Index, Index>> pairs_; ///< of faces that are cut
+    Surface surface_;
+    TriangleFaces triangles_;  ///< of closed pieces
+    std::vector<Index> first_; ///< [faces + 1] into triangles_
+    std::vector<Leaf> leaves_;
+    std::vector<std::uint8_t> has_cavity_; ///< [clusters] or an inward piece at least
+    std::vector<std::uint8_t> outside_;    ///< [leaves]
+    std::vector<std::uint8_t> filled_;     ///< [pieces]
+    United result_;
+};
+
+} // namespace
+
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within) {
+    return Uniting(mesh, solids, found, within).run();
+}
+
+} // namespace facetmill::clean_steps

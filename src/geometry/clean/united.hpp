@@ -1,0 +1,34 @@
+#pragma once
+// One pass of uniting solids: what lies on the outside of all is kept, what lies within goes.
+
+#include "geometry/clean/solids.hpp"
+
+namespace facetmill::clean_steps {
+
+struct United {
+    Mesh mesh;
+    Fates fates;
+    std::size_t uncut_faces = 0;   ///< of the result; the pieces of cut faces come after them
+    std::size_t cut_faces = 0;     ///< replaced by their pieces on the outside
+    std::size_t covered_faces = 0; ///< uncut faces that went
+    struct Refused {
+        Index cluster;
+        const char* why;
+    };
+    std::vector<Refused> refused; ///< when there are any, the rest is not filled
+};
+
+/// Cuts the faces of the clusters that intersect along each other, asks for the winding number on both sides
+/// of every patch between cuts (Zhou et al. 2016), and keeps what has at most 0 on one side and at least 1 on
+/// the other, facing out. Faces that are not cut stay polygons and keep their order; the pieces of cut ones
+/// are triangles and come last. Vertices at one place where faces are cut become one. Attributes of new
+/// corners are mixed within the face that they are part of, those on an edge between its ends only, so that
+/// seams stay seams. Coordinates are rounded, and new vertices within a distance of others become them: the
+/// result may intersect again.
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within);
+
+/// Takes triangles of exactly no area out of a closed surface without opening it: the vertex between the two
+/// others is put on the edge of the face across. Those for which there is none are left.
+void take_out_flat(Work& work);
+
+} // namespace facetmill::clean_steps

@@ -1,0 +1,197 @@
+// Steps of clean that merge vertices.
+#include "geometry/spatial/box_tree.hpp"
+#include "geometry/clean/steps.hpp"
+#include "geometry/edit/surgery.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace facetmill::clean_steps {
+
+namespace {
+
+/// Clears the merges of places whose faces would come apart again just as they are.
+void spare_apart(const Mesh& mesh, std::vector<Index>& target) {
+    Mesh merged;
+    merged.positions = mesh.positions;
+    merged.face_offsets = mesh.face_offsets;
+    merged.corners.resize(mesh.corner_count());
+    for (Index c = 0; c < mesh.corner_count(); ++c) merged.corners[c] = target[mesh.vertex(c)];
+    const Fans fans = fans_apart(merged);
+    // The parts are the same when old and new vertices of the corners at a place match one to one.
+    std::vector<Index> new_of_old(mesh.vertex_count(), none),
+        old_of_new(mesh.vertex_count() + fans.copies.size(), none);
+    std::vector<std::uint8_t> differs(mesh.vertex_count(), 0);
+    for (Index c = 0; c < mesh.corner_count(); ++c) {
+        const Index v = mesh.vertex(c), w = fans.vertex_of_corner[c];
+        if (new_of_old[v] == none) new_of_old[v] = w;
+        if (old_of_new[w] == none) old_of_new[w] = v;
+        if (new_of_old[v] != w || old_of_new[w] != v) differs[target[v]] = 1;
+    }
+    for (Index v = 0; v < target.size(); ++v) // isolated vertices merge in any case
+        if (!differs[target[v]] && new_of_old[v] != none) target[v] = v;
+    for (Index v = 0; v < target.size(); ++v)
+        while (target[target[v]] != target[v]) target[v] = target[target[v]];
+}
+
+bool merge(Work& work, const std::vector<Index>& target, std::size_t CleanCounts::*count) {
+    const std::size_t merged = merge_vertices(work.mesh, target);
+    if (count) work.counts.*count += merged;
+    return merged > 0;
+}
+
+/// Vertices by lists of their faces' vertices: whether two are in one face.
+class SharedFaces {
+  public:
+    explicit SharedFaces(const Mesh& mesh)
+        : mesh_(mesh), corners_(corners_at_vertices(mesh)), faces_(corner_faces(mesh)) {}
+    bool share(Index v, Index w) const {
+        for (const Index c : corners_.of(v))
+            for (Index d = mesh_.face_begin(faces_[c]); d < mesh_.face_end(faces_[c]); ++d)
+                if (mesh_.vertex(d) == w) return true;
+        return false;
+    }
+
+  private:
+    const Mesh& mesh_;
+    VertexLists corners_;
+    std::vector<Index> faces_;
+};
+
+double squared(const Vec3& a) { return dot(a, a); }
+
+Box around(const Vec3& p, double r) { return {p - Vec3{r, r, r}, p + Vec3{r, r, r}}; }
+
+Index root(const std::vector<Index>& target, Index v) {
+    while (target[v] != v) v = target[v];
+    return v;
+}
+
+struct OpenEdge {
+    Index from, to;
+};
+
+std::vector<OpenEdge> open_edges(const Mesh& mesh) {
+    const auto edges = build_edges(mesh);
+    const auto faces = corner_faces(mesh);
+    std::vector<OpenEdge> open;
+    for (Index e = 0; e < edges.size(); ++e) {
+        const auto corners = edges.corners_of(e);
+        if (corners.size() == 1)
+            open.push_back(
+                {mesh.vertex(corners[0]), mesh.vertex(next_corner(mesh, faces[corners[0]], corners[0]))});
+    }
+    return open;
+}
+
+} // namespace
+
+std::vector<Index> lowest_at_place(const Mesh& mesh) {
+    const auto& p = mesh.positions;
+    Mesh points; // welding keeps first occurrences in order, so its numbers lead back to the lowest vertices
+    points.positions = p;
+    points.corners.resize(p.size());
+    for (Index v = 0; v < p.size(); ++v) points.corners[v] = v;
+    std::vector<Index> lowest(p.size());
+    for (Index v = 0; v < p.size(); ++v) lowest[v] = v;
+    if (weld_exact(points) == 0) return lowest;
+    std::vector<Index> first(points.vertex_count(), none);
+    for (Index v = 0; v < p.size(); ++v) {
+        Index& f = first[points.corners[v]];
+        if (f == none) f = v;
+        lowest[v] = f;
+    }
+    return lowest;
+}
+
+bool weld_equal(Work& work, bool comes_apart) {
+    auto target = lowest_at_place(work.mesh);
+    bool any = false;
+    for (Index v = 0; v < target.size() && !any; ++v) any = target[v] != v;
+    if (!any) return false;
+    if (comes_apart) spare_apart(work.mesh, target);
+    return merge(work, target, &CleanCounts::welded_vertices);
+}
+
+bool weld_near(Work& work, double within) {
+    const Mesh& mesh = work.mesh;
+    const auto& p = mesh.positions;
+    std::vector<Box> boxes(p.size()); // of the ends of open edges: others are sound
+    for (const OpenEdge& e : open_edges(mesh)) boxes[e.from].add(p[e.from]), boxes[e.to].add(p[e.to]);
+    const BoxTree tree(boxes);
+    const SharedFaces faces(mesh);
+    std::vector<Index> target(p.size());
+    for (Index v = 0; v < p.size(); ++v) {
+        target[v] = v;
+        if (boxes[v].empty()) continue;
+        double nearest = within * within;
+        tree.visit(around(p[v], within), [&](Index w) {
+            const double d = squared(p[w] - p[v]);
+            if (w >= v || target[w] != w || d > nearest || (d == nearest && w > target[v])) return;
+            if (!(d > 0) || faces.share(v, w)) return; // equal places are weld_equal's
+            nearest = d, target[v] = w;
+        });
+    }
+    // Two that share no face with a third may share one with each other: then the later stays.
+    std::vector<std::vector<Index>> members(p.size());
+    for (Index v = 0; v < p.size(); ++v) {
+        if (target[v] == v) continue;
+        auto& mine = members[target[v]];
+        if (std::any_of(mine.begin(), mine.end(), [&](Index w) { return faces.share(v, w); }))
+            target[v] = v;
+        else
+            mine.push_back(v);
+    }
+    for (Index v = 0; v < p.size(); ++v) target[v] = root(target, v);
+    return merge(work, target, &CleanCounts::welded_vertices);
+}
+
+bool stitch(Work& work, double within) {
+    const Mesh& mesh = work.mesh;
+    const auto& p = mesh.positions;
+    const auto open = open_edges(mesh);
+    std::vector<Box> boxes(open.size());
+    for (std::size_t i = 0; i < open.size(); ++i) boxes[i].add(p[open[i].from]);
+    const BoxTree tree(boxes);
+    struct Pair {
+        double distance;
+        Index a, b;
+    };
+    std::vector<Pair> pairs;
+    const double limit = within * within;
+    for (Index i = 0; i < open.size(); ++i)
+        tree.visit(around(p[open[i].to], within), [&](Index j) {
+            const double d = squared(p[open[i].to] - p[open[j].from]),
+                         e = squared(p[open[i].from] - p[open[j].to]);
+            if (i < j && d <= limit && e <= limit) pairs.push_back({d + e, i, j});
+        });
+    std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+        return std::tie(x.distance, x.a, x.b) < std::tie(y.distance, y.a, y.b);
+    });
+    const SharedFaces faces(mesh);
+    std::vector<Index> target(p.size());
+    for (Index v = 0; v < p.size(); ++v) target[v] = v;
+    std::vector<std::uint8_t> done(open.size(), 0);
+    std::size_t count = 0;
+    for (const Pair& pair : pairs) {
+        if (done[pair.a] || done[pair.b]) continue;
+        const Index ends[2][2] = {{root(target, open[pair.a].from), root(target, open[pair.b].to)},
+                                  {root(target, open[pair.a].to), root(target, open[pair.b].from)}};
+        bool fits = true;
+        for (const auto& [v, w] : ends) fits = fits && (v == w || !faces.share(v, w));
+        if (!fits) continue;
+        for (const auto& [v, w] : ends)
+            if (root(target, v) != root(target, w))
+                target[std::max(root(target, v), root(target, w))] =
+                    std::min(root(target, v), root(target, w));
+        done[pair.a] = done[pair.b] = 1;
+        ++count;
+    }
+    for (Index v = 0; v < p.size(); ++v) target[v] = root(target, v);
+    if (!merge(work, target, nullptr)) return false;
+    work.counts.stitched_edges += count;
+    return true;
+}
+
+} // namespace facetmill::clean_steps

@@ -1,0 +1,19 @@
+#pragma once
+// Puts one side of a cut together: kept faces, pieces, cap, attributes. For clip only.
+
+#include "geometry/clip/cap.hpp"
+#include "geometry/cut/cap_paint.hpp"
+#include "geometry/clip/clip.hpp"
+
+namespace facetmill {
+
+struct ClippedSide {
+    Mesh mesh;
+    Fates fates;
+};
+
+/// side: 1 front, -1 back. Expects flat faces settled.
+ClippedSide assemble(const PlaneCut& cut, int side, const Pieces& pieces, const Cap& cap,
+                     const CapPaint& paint);
+
+} // namespace facetmill

@@ -1,0 +1,192 @@
+#include "geometry/clip/cap.hpp"
+
+#include "geometry/clip/cap_section.hpp"
+#include "geometry/cut/fill_disjoint.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace facetmill {
+
+namespace {
+
+/// Makes the cap of one section.
+class Capper {
+  public:
+    Capper(PlaneCut& cut, int side, Pieces& pieces) : cut_(cut), side_(side), pieces_(pieces) {}
+
+    Cap run() {
+        section_ = find_section(cut_, side_, pieces_);
+        cap_.open = drop_open_contours(section_, cut_);
+        if (section_.edges.empty()) return std::move(cap_);
+        make_contours();
+        filling_ = fill_apart(contours_);
+        add_points();
+        insert_into_walls();
+        for (const auto& t : filling_.triangles)
+            for (const Index i : t) cap_.corners.push_back(vertex(i));
+        find_cap_wedges();
+        return std::move(cap_);
+    }
+
+  private:
+    void make_contours() {
+        const Vec3& n = cut_.plane.normal;
+        const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
+        dropped_ = z >= x && z >= y ? 2 : y >= x ? 1 : 0;
+        first_ = (dropped_ + 1) % 3, second_ = (dropped_ + 2) % 3;
+        for (const auto& e : section_.edges) local_.push_back(e.low), local_.push_back(e.high);
+        std::sort(local_.begin(), local_.end());
+        local_.erase(std::unique(local_.begin(), local_.end()), local_.end());
+        for (const Index v : local_) {
+            const Vec3& p = cut_.point(v);
+            contours_.points.push_back({p[first_], p[second_]});
+        }
+        // The cap has the section for boundary, the other way round.
+        for (const auto& e : section_.edges)
+            contours_.edges.push_back({local(e.low), local(e.high), -e.count});
+    }
+    Index local(Index vertex) const {
+        return static_cast<Index>(std::lower_bound(local_.begin(), local_.end(), vertex) - local_.begin());
+    }
+    /// The vertex of a point of the filling.
+    Index vertex(Index i) const {
+        return i < local_.size() ? local_[i]
+                                 : static_cast<Index>(cut_.first_extra_vertex() + i - local_.size());
+    }
+    Vec3 place(Index i) const {
+        return i < local_.size() ? cut_.point(local_[i]) : cap_.extra.points[i - local_.size()];
+    }
+
+    /// Appends to a mix what a wedge or vertex of the cut is made of.
+    static void add_sources(Lineage& mixes, Index id, std::size_t old,
+                            const std::vector<Lineage::Edge>& fresh, double weight) {
+        if (id < old) {
+            mixes.mix_sources.push_back(id), mixes.mix_weights.push_back(weight);
+            return;
+        }
+        const auto& e = fresh[id - old];
+        mixes.mix_sources.insert(mixes.mix_sources.end(), {e.a, e.b});
+        mixes.mix_weights.insert(mixes.mix_weights.end(), {weight * (1 - e.t), weight * e.t});
+    }
+
+    /// The vertices where contours cross.
+    void add_points() {
+        Lineage& mixes = cap_.extra.vertices;
+        for (const auto& a : filling_.added) {
+            const auto& e = section_.edges[a.edge];
+            Vec3 p = mix(cut_.point(e.low), cut_.point(e.high), a.t);
+            p[first_] = a.at.x, p[second_] = a.at.y;
+            cap_.extra.points.push_back(p);
+            add_sources(mixes, e.low, cut_.mesh->vertex_count(), cut_.vertices, 1 - a.t);
+            add_sources(mixes, e.high, cut_.mesh->vertex_count(), cut_.vertices, a.t);
+            mixes.mix_offsets.push_back(static_cast<Index>(mixes.mix_sources.size()));
+        }
+    }
+
+    /// The points inside section edge e, by its number; from its low vertex to its high one.
+    std::span<const Index> path(std::size_t e) const {
+        return {filling_.path.data() + filling_.path_offsets[e],
+                filling_.path.data() + filling_.path_offsets[e + 1]};
+    }
+    std::span<const Index> path_between(Index a, Index b) const {
+        const auto e = section_.number(std::min(a, b), std::max(a, b));
+        return e == none ? std::span<const Index>{} : path(e);
+    }
+
+    /// Gives the faces at divided section edges the points there too, so that no T-vertex is left.
+    void insert_into_walls() {
+        if (filling_.path.empty()) return;
+        Pieces whole;
+        for (const auto* list : {&cut_.touching, &cut_.flat})
+            for (const Index f : *list)
+                if (cut_.stays(f, side_) && divided(cut_.mesh->face_wedges(f))) {
+                    cut_.classes[f] |= face_class::replaced;
+                    whole.add(f, cut_.mesh->face_wedges(f));
+                }
+        const Pieces before = std::move(pieces_);
+        std::vector<std::pair<Index, std::span<const Index>>> all;
+        for (const Pieces* p : {&before, static_cast<const Pieces*>(&whole)})
+            for (std::size_t i = 0; i < p->size(); ++i) all.emplace_back(p->source[i], p->of(i));
+        std::stable_sort(all.begin(), all.end(),
+                         [](const auto& a, const auto& b) { return a.first < b.first; });
+        pieces_ = {};
+        std::vector<Index> polygon;
+        for (const auto& [face, wedges] : all) {
+            polygon.clear();
+            for_polygon_edges(wedges, [&](Index a, Index b) {
+                polygon.push_back(a);
+                append_inserted(polygon, a, b);
+            });
+            pieces_.add(face, polygon);
+        }
+    }
+    bool divided(std::span<const Index> polygon) const {
+        bool any = false;
+        for_polygon_edges(polygon, [&](Index a, Index b) {
+            any |= !path_between(cut_.vertex_of(a), cut_.vertex_of(b)).empty();
+        });
+        return any;
+    }
+    void append_inserted(std::vector<Index>& polygon, Index a, Index b) {
+        const Index va = cut_.vertex_of(a), vb = cut_.vertex_of(b);
+        const auto points = path_between(va, vb);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Index point = va < vb ? points[i] : points[points.size() - 1 - i];
+            polygon.push_back(va < vb ? wedge_on(a, b, point) : wedge_on(b, a, point));
+        }
+    }
+
+    /// The wedge of a point inside the section edge between two wedges, the one at the lower vertex first.
+    Index wedge_on(Index low, Index high, Index point) {
+        if (!cut_.mesh->has_seams()) return vertex(point);
+        const auto [at, fresh] = wedges_.try_emplace({low, high, point});
+        if (!fresh) return at->second;
+        ExtraPoints& extra = cap_.extra;
+        at->second = static_cast<Index>(cut_.first_extra_wedge() + extra.wedge_vertex.size());
+        const Vec3 a = cut_.point(cut_.vertex_of(low)), b = cut_.point(cut_.vertex_of(high)),
+                   p = place(point);
+        const double length_squared = dot(b - a, b - a);
+        const double t = length_squared > 0 ? std::clamp(dot(p - a, b - a) / length_squared, 0.0, 1.0) : 0.0;
+        add_sources(extra.wedges, low, cut_.mesh->wedge_count(), cut_.wedges, 1 - t);
+        add_sources(extra.wedges, high, cut_.mesh->wedge_count(), cut_.wedges, t);
+        extra.wedges.mix_offsets.push_back(static_cast<Index>(extra.wedges.mix_sources.size()));
+        extra.wedge_vertex.push_back(vertex(point));
+        return at->second;
+    }
+
+    /// A wall wedge for every vertex of the cap: the lowest there.
+    void find_cap_wedges() {
+        cap_.vertices = cap_.corners;
+        std::sort(cap_.vertices.begin(), cap_.vertices.end());
+        cap_.vertices.erase(std::unique(cap_.vertices.begin(), cap_.vertices.end()), cap_.vertices.end());
+        cap_.wedges = cap_.vertices;
+        if (!cut_.mesh->has_seams()) return;
+        std::map<Index, Index> lowest;
+        const auto offer = [&](Index v, Index w) {
+            const auto [at, fresh] = lowest.try_emplace(v, w);
+            if (!fresh) at->second = std::min(at->second, w);
+        };
+        for (const auto& e : section_.edges) offer(e.low, e.low_wedge), offer(e.high, e.high_wedge);
+        for (std::size_t i = 0; i < cap_.extra.wedge_vertex.size(); ++i)
+            offer(cap_.extra.wedge_vertex[i], static_cast<Index>(cut_.first_extra_wedge() + i));
+        for (std::size_t i = 0; i < cap_.vertices.size(); ++i) cap_.wedges[i] = lowest.at(cap_.vertices[i]);
+    }
+
+    PlaneCut& cut_;
+    int side_;
+    Pieces& pieces_;
+    CutSection section_;
+    std::size_t dropped_ = 2, first_ = 0, second_ = 1; ///< axes: not seen, and those of the contours' plane
+    std::vector<Index> local_;                         ///< [points of the contours] -> vertex, ascending
+    Contours contours_;
+    Filling filling_;
+    std::map<std::array<Index, 3>, Index> wedges_; ///< (low wedge, high wedge, point) -> extra wedge
+    Cap cap_;
+};
+
+} // namespace
+
+Cap make_cap(PlaneCut& cut, int side, Pieces& pieces) { return Capper(cut, side, pieces).run(); }
+
+} // namespace facetmill

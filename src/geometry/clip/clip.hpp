@@ -1,0 +1,86 @@
+#pragma once
+// Clips a mesh by planes, with caps.
+
+#include "mesh/cut_memory.hpp"
+#include "mesh/lineage.hpp"
+
+namespace facetmill {
+
+enum class Keep {
+    front, ///< the side of the plane's normal
+    back,  ///< the other side
+    both,  ///< both sides, each as a mesh of its own
+};
+
+/// What becomes of faces that lie in the plane with all their vertices, when the mesh is open.
+enum class Coplanar { keep, drop };
+
+struct ClipSettings {
+    std::vector<Plane> planes; ///< in the mesh's own space; one after the other
+    Keep keep = Keep::front;   ///< both takes one plane, or a convex body
+    /// The planes bound a convex body and look into it: the back is all that is not in front of every one,
+    /// rather than what is behind each.
+    bool convex = false;
+    bool cap = false;         ///< close what the cut opens
+    bool triangulate = false; ///< leave triangles only, also of faces that were not cut
+    Coplanar coplanar = Coplanar::keep;
+    /// What cap faces belong to; appended to the mesh's primitives unless an equal one is there. None:
+    /// primitive 0.
+    std::optional<Primitive> cap_primitive;
+    /// Number cap faces, plane by plane, in the face attributes cut_id (0: no cap) and group; both go on from
+    /// the largest number that is there.
+    bool cap_numbers = false;
+    /// Take float32 positions (all three coordinates) within one float32 ulp of the mesh's bounds as on the
+    /// plane.
+    bool snap = false;
+    CutMemory memory = {}; ///< points known to be on planes
+};
+
+/// A contour of the cut that could not be capped, because it does not close.
+struct OpenContour {
+    std::size_t plane = 0; ///< which of the planes
+    std::size_t edges = 0; ///< how many edges it has
+    Vec3 at;               ///< where it ends (one of its ends), in the mesh's own space
+};
+
+struct ClipResult {
+    Mesh front, back; ///< what was kept; a side that was not asked for stays empty
+    Fates fates;
+    std::size_t cut_faces = 0;               ///< that a plane passed through
+    std::size_t on_plane = 0;                ///< vertices that count as on a plane
+    std::size_t snapped = 0, remembered = 0; ///< among them, by snap and by memory
+    std::size_t cap_faces = 0;
+    bool changed = false;          ///< false: no plane met the mesh and all of it was kept
+    std::vector<OpenContour> open; ///< not capped; empty unless cap
+    CutMemory memory;              ///< what is known now
+};
+
+/// Every vertex is classified once per plane, by the exact sign of side(plane, p), so neighbours always
+/// agree. Points that were built on a plane count as on it when it comes again (see CutMemory), so that the
+/// cuts of repeated and adjoining planes meet without slivers. A face with vertices strictly on both sides is
+/// cut: triangles, quads and n-gons (convex or not) directly. Each cut edge gets one new vertex, shared by
+/// all faces at it, and one new wedge per pair of wedges there, computed with the edge's ends in index order;
+/// for an axis-aligned plane its coordinate is exactly the plane's. A face that only touches the plane stays
+/// or goes whole. Faces in the plane: of a closed mesh (and with Keep::both) each stays on the side that its
+/// normal points away from; of an open one settings.coplanar decides.
+///
+/// Caps: the edges in the plane at which the directions of the kept faces do not cancel are closed contours
+/// for a closed mesh. They are filled, projected along the normal's dominant axis, by a constrained Delaunay
+/// triangulation that emits each triangle as often as the contours turn around it: islands and holes nest,
+/// and contours that cross still close. Points where contours cross are put into the wall faces too. So a
+/// closed mesh stays closed, for every closed mesh; edge-manifold too unless the plane passes exactly through
+/// a vertex or an edge, or its parts touch in the plane. Open contours are reported and left.
+///
+/// Attributes: kept elements keep theirs; new vertices and wedges are interpolated; pieces copy their face's.
+/// Cap faces have zeros in face attributes other than "primitive"; when the mesh has NORMAL or TEXCOORD_0,
+/// caps get wedges of their own with the plane's normal and planar coordinates (the cap's larger extent is
+/// 1), the rest interpolated as on the walls. Vertices that no kept face uses go, unless they are isolated on
+/// the kept side. Order: kept faces and pieces in the order of their faces, then the cap. Throws usage
+/// (E-PLANE) for a plane that is none, and for Keep::both with several planes that are no convex body.
+/// Source: "Clipping facets by a plane" (notes, 1997).
+ClipResult clip(Mesh mesh, const ClipSettings& settings);
+
+/// Adds what became of attributes in one more cut: one that was ever mixed was mixed.
+void merge_fates(Fates& all, const Fates& more);
+
+} // namespace facetmill

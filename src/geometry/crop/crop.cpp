@@ -1,0 +1,253 @@
+#include "geometry/crop/crop.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "geometry/cut/cap_paint.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/crop/cut.hpp"
+#include "geometry/crop/walls.hpp"
+#include "geometry/crop/outline_walls.hpp"
+#include "geometry/crop/trace.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace facetmill {
+
+namespace {
+
+using polygon::Place;
+
+class Cropper {
+  public:
+    Cropper(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings)
+        : mesh_(mesh), footprint_(footprint), settings_(settings), view_(footprint, settings) {}
+
+    CropResult run() {
+        result_.memory = settings_.memory;
+        look();
+        if (settings_.by == CropBy::cut)
+            cut();
+        else
+            keep_whole();
+        if (settings_.cap && settings_.by == CropBy::cut) close();
+        return std::move(result_);
+    }
+
+  private:
+    void look() {
+        places_.resize(mesh_.vertex_count());
+        parallel_for(
+            places_.size(), [&](std::size_t v) { places_[v] = view_.place(view_.seen(mesh_.positions[v])); },
+            1024);
+        if (settings_.snap) snap();
+        meets_.resize(mesh_.face_count());
+        parallel_chunks(
+            mesh_.face_count(),
+            [&](std::size_t begin, std::size_t end) {
+                std::vector<Vec2> face;
+                for (std::size_t f = begin; f < end; ++f) meets_[f] = meeting_of(static_cast<Index>(f), face);
+            },
+            1024);
+    }
+    /// Such vertices are on the outline, and known to be on the planes of its segments there.
+    void snap() {
+        double scale = 0;
+        for (const auto& row : settings_.to_world.m)
+            scale += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
+        view_.snap = float32_ulp(mesh_.bounds()) * std::sqrt(scale / 3);
+        for (const auto& e : footprint_.tree().edges())
+            if (length(e.b - e.a) <= 4 * view_.snap) return view_.snap = 0, void(); // finer than floats are
+        const double rounding = std::ldexp(view_.snap, -27); // 4 units of the last place
+        std::map<Index, std::vector<Vec3>> found;            // by segment
+        for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+            if (!is_float32(mesh_.positions[v])) continue;
+            const Vec2 p = view_.seen(mesh_.positions[v]);
+            bool off = false;
+            footprint_.near(p, view_.snap, [&](Index segment) {
+                const auto& e = footprint_.tree().edges()[segment];
+                off |= std::fabs(cross(e.b - e.a, p - e.a)) > rounding * length(e.b - e.a);
+                found[segment].push_back(mesh_.positions[v]);
+                if (places_[v] <= Place::inside) places_[v] = Place::on_edge;
+                return true;
+            });
+            result_.snapped += off;
+        }
+        for (auto& [segment, points] : found) remember(segment, std::move(points));
+    }
+    void remember(Index segment, std::vector<Vec3> points) {
+        const auto& e = footprint_.tree().edges()[segment];
+        result_.memory.add(pulled_back(upright_plane(settings_.axis, e.a, e.b), settings_.to_world),
+                           std::move(points));
+    }
+    OutlineMeeting meeting_of(Index f, std::vector<Vec2>& face) const {
+        view_.gather(mesh_, f, face);
+        OutlineMeeting most = OutlineMeeting::apart;
+        view_.meetings(face, [&](Index, OutlineMeeting meets) {
+            most = std::max(most, meets);
+            return most != OutlineMeeting::crossing;
+        });
+        return most;
+    }
+
+    // --- by whole faces
+
+    bool stays(Index f, std::vector<Vec2>& face) const {
+        if (settings_.by == CropBy::centre) {
+            view_.gather(mesh_, f, face);
+            Vec2 sum;
+            for (const Vec2& p : face) sum = sum + (p - face[0]);
+            const Place place = view_.place(face[0] + sum * (1 / static_cast<double>(face.size())));
+            return view_.kept(place == Place::outside ? place : Place::inside);
+        }
+        bool any = false, all = true; // corners on the outline are on either side
+        for (const Index w : mesh_.face_wedges(f)) {
+            const Place place = places_[mesh_.vertex_of_wedge(w)];
+            const bool on = place > Place::inside;
+            any |= !on && view_.kept(place), all &= on || view_.kept(place);
+        }
+        if (settings_.by == CropBy::whole && (!all || meets_[f] == OutlineMeeting::crossing)) return false;
+        if (settings_.by == CropBy::touching && (any || meets_[f] == OutlineMeeting::crossing)) return true;
+        return any || (all && view_.kept(view_.middle(mesh_, f)));
+    }
+
+    void keep_whole() {
+        std::vector<std::uint8_t> stay(mesh_.face_count());
+        parallel_chunks(
+            mesh_.face_count(),
+            [&](std::size_t begin, std::size_t end) {
+                std::vector<Vec2> face;
+                for (std::size_t f = begin; f < end; ++f) stay[f] = stays(static_cast<Index>(f), face);
+            },
+            1024);
+        std::vector<Index> faces;
+        for (Index f = 0; f < stay.size(); ++f)
+            if (stay[f]) faces.push_back(f);
+        keep(faces);
+    }
+    /// These faces and no others, as they are.
+    void keep(const std::vector<Index>& faces) {
+        result_.kept_faces = faces.size();
+        result_.changed = faces.size() < mesh_.face_count();
+        keep_attributes();
+        result_.mesh = select_faces(mesh_, faces);
+    }
+    void keep_attributes() {
+        for (const Attribute& a : mesh_.attributes)
+            result_.fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
+    }
+
+    // --- cut at the outline
+
+    void cut() {
+        std::vector<std::uint8_t> near(mesh_.vertex_count());
+        std::vector<Index> whole, beside;
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            if (meets_[f] == OutlineMeeting::crossing)
+                for (const Index w : mesh_.face_wedges(f)) near[mesh_.vertex_of_wedge(w)] = 1;
+        for (Index f = 0; f < mesh_.face_count(); ++f) {
+            bool any = false;
+            for (const Index w : mesh_.face_wedges(f)) any |= near[mesh_.vertex_of_wedge(w)] != 0;
+            if (any)
+                beside.push_back(f);
+            else if (stays_whole(f))
+                whole.push_back(f);
+        }
+        if (beside.empty()) return keep(whole);
+        result_.kept_faces = whole.size();
+        result_.changed = true;
+        Mesh traced = mesh_;
+        trace(traced);
+        OutlineCut pieces = cut_at_outline(select_faces(traced, beside), view_, result_.memory);
+        std::vector<Index> kept;
+        for (Index f = 0; f < pieces.stays.size(); ++f)
+            if (pieces.stays[f]) kept.push_back(f);
+        result_.cut_faces = pieces.cut_faces;
+        result_.fates = std::move(pieces.fates);
+        if (result_.fates.empty()) keep_attributes();
+        result_.mesh = join_traced(select_faces(traced, whole), select_faces(pieces.mesh, kept));
+        untrace(result_.mesh);
+        std::erase_if(result_.fates, [](const Fate& f) { return f.attribute == trace_attribute; });
+    }
+    /// Of a face that no segment enters: any corner off the outline tells.
+    bool stays_whole(Index f) const {
+        for (const Index w : mesh_.face_wedges(f)) {
+            const Place place = places_[mesh_.vertex_of_wedge(w)];
+            if (place <= Place::inside) return view_.kept(place);
+        }
+        return view_.kept(view_.middle(mesh_, f));
+    }
+
+    // --- walls
+
+    void close() {
+        WallSettings walls;
+        walls.axis = settings_.axis, walls.to_world = settings_.to_world;
+        walls.primitive = settings_.cap_primitive;
+        walls.closed = is_closed(mesh_);
+        for (const Vec3& p : mesh_.positions) {
+            const Vec2 at = view_.seen(p);
+            walls.reach = std::max({walls.reach, std::fabs(at.x), std::fabs(at.y)});
+        }
+        if (settings_.cap_numbers) {
+            walls.last_cut = largest_number(mesh_, cut_id_attribute);
+            walls.last_group = largest_number(mesh_, group_attribute);
+        }
+        WalledCrop closed = close_crop(std::move(result_.mesh), footprint_, walls);
+        result_.mesh = std::move(closed.mesh);
+        result_.cap_faces = closed.wall_faces;
+        result_.open = std::move(closed.open);
+        merge_fates(result_.fates, closed.fates);
+        std::map<Index, std::vector<Vec3>> made; // by segment
+        for (const auto& [wall, point] : closed.made) made[wall].push_back(point);
+        for (auto& [wall, points] : made) remember(wall, std::move(points));
+    }
+
+    const Mesh& mesh_;
+    const Footprint& footprint_;
+    const CropSettings& settings_;
+    CropView view_;
+    std::vector<Place> places_;         ///< [vertices]
+    std::vector<OutlineMeeting> meets_; ///< [faces] with any segment
+    CropResult result_;
+};
+
+} // namespace
+
+Vec2 seen_along(std::size_t axis, const Vec3& p) { return {axis == 0 ? p.y : p.x, axis == 2 ? p.y : p.z}; }
+
+namespace {
+
+/// Once for each side, all with snap or all without.
+std::vector<CropResult> crop_sides(const Mesh& mesh, const Footprint& footprint, CropSettings settings,
+                                   std::span<const polygon::Keep> sides) {
+    const auto run = [&] {
+        std::vector<CropResult> results;
+        for (const auto side : sides) {
+            settings.keep = side;
+            results.push_back(Cropper(mesh, footprint, settings).run());
+        }
+        return results;
+    };
+    try {
+        return run();
+    } catch (const Error& error) { // needles of an outline may be finer than snap; pure, they can be closed
+        if (!settings.snap || error.diagnostics().front().id != "E-CROP-CAP") throw;
+    }
+    settings.snap = false;
+    return run();
+}
+
+} // namespace
+
+CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings) {
+    return std::move(crop_sides(mesh, footprint, settings, std::array{settings.keep}).front());
+}
+
+std::vector<CropResult> crop_both(const Mesh& mesh, const Footprint& footprint,
+                                  const CropSettings& settings) {
+    return crop_sides(mesh, footprint, settings, std::array{polygon::Keep::inside, polygon::Keep::outside});
+}
+
+} // namespace facetmill

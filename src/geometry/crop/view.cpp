@@ -1,0 +1,113 @@
+#include "geometry/crop/view.hpp"
+
+#include "base/error.hpp"
+#include "base/predicates.hpp"
+#include "geometry/cut/cut.hpp"
+#include "geometry/polygon/triangulate_rings.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+using polygon::Place;
+
+Inside::Inside(const Footprint& footprint, InsideBy by)
+    : footprint_(footprint), by_(by), spans_(footprint.spans()) {
+    if (by != InsideBy::half_planes && by != InsideBy::angles_3d) return;
+    if (spans_.size() != 1 || !polygon::is_convex(spans_[0]))
+        throw Error(ErrorKind::usage, "E-FOOTPRINT",
+                    "this rule for points inside needs a footprint of one convex ring",
+                    "take inside_by: crossings, which takes any");
+    for (const Vec2& p : spans_[0]) flat_.push_back({p.x, p.y, 0});
+}
+
+Place Inside::operator()(const Vec2& p) const {
+    const Place place = footprint_.locate(p); // on the outline, all rules would depend on rounding
+    if (by_ == InsideBy::crossings || place > Place::inside) return place;
+    if (by_ == InsideBy::half_planes) return polygon::locate_convex(p, spans_[0]);
+    const bool inside = by_ == InsideBy::angles ? polygon::inside_by_angles(p, spans_)
+                                                : polygon::inside_by_angles({p.x, p.y, 0}, flat_);
+    return inside ? Place::inside : Place::outside;
+}
+
+void CropView::gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const {
+    face.clear();
+    for (const Index w : mesh.face_wedges(f)) face.push_back(seen(mesh.positions[mesh.vertex_of_wedge(w)]));
+}
+
+Place CropView::middle(const Mesh& mesh, Index f) const {
+    std::vector<Vec2> face;
+    gather(mesh, f, face);
+    const polygon::Ring ring = face;
+    Vec2 sum;
+    if (face.size() > 3 && !polygon::is_convex(ring) && polygon::orientation(ring) != 0) {
+        const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));
+        double most = -1;
+        for (const auto& abc : t.triangles) {
+            if (*std::max_element(abc.begin(), abc.end()) >= face.size()) continue; // rounded crossings
+            const double area = cross(face[abc[1]] - face[abc[0]], face[abc[2]] - face[abc[0]]);
+            if (area > most) most = area, sum = face[abc[0]] + face[abc[1]] + face[abc[2]];
+        }
+        if (most >= 0) return settle(inside_(sum * (1.0 / 3)), mesh, f);
+    }
+    sum = {};
+    for (const Vec2& p : face) sum = sum + (p - face[0]);
+    const Vec2 mean = face[0] + sum * (1 / static_cast<double>(face.size()));
+    return settle(is_on_outline(mesh, f, mean, face) ? Place::on_edge : inside_(mean), mesh, f);
+}
+
+/// Exactly, all of it, and seen edge-on.
+bool CropView::is_on_segment(const std::vector<Vec2>& face) const {
+    bool found = false;
+    footprint_.tree().query({face[0].x, face[0].y, face[0].x, face[0].y}, [&](Index i) {
+        const auto& e = footprint_.tree().edges()[i];
+        const auto bounds = polygon::RingTree::bounds(e);
+        found = std::all_of(face.begin(), face.end(), [&](const Vec2& p) {
+            return bounds.meets({p.x, p.y, p.x, p.y}) &&
+                   orientation_2d(e.a.x, e.a.y, e.b.x, e.b.y, p.x, p.y) == 0;
+        });
+        return !found;
+    });
+    return found;
+}
+
+/// But for the rounding of floats, of corners that are floats; a face that only reaches from segment to
+/// segment is not.
+bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
+                             const std::vector<Vec2>& face) const {
+    if (is_on_segment(face)) return true;
+    if (!(snap > 0)) return false;
+    const auto on = [&](const Vec2& p, double distance) {
+        bool found = false;
+        footprint_.near(p, distance, [&](Index) { return found = true, false; });
+        return found;
+    };
+    if (!on(mean, snap)) return false;
+    // Points of the cut, and what stands in doubles: 64 units in their last place.
+    const double rounding = std::ldexp(snap, -23);
+    const auto corners = mesh.face_wedges(f);
+    for (std::size_t i = 0; i < face.size(); ++i)
+        if (!on(face[i], is_float32(mesh.positions[mesh.vertex_of_wedge(corners[i])]) ? snap : rounding))
+            return false;
+    return true;
+}
+
+Place CropView::settle(Place place, const Mesh& mesh, Index f) const {
+    if (place <= Place::inside) return place;
+    std::vector<Vec3> corners;
+    for (const Index w : mesh.face_wedges(f))
+        corners.push_back(settings_.to_world.point(mesh.positions[mesh.vertex_of_wedge(w)]));
+    const Vec3 n = polygon::area_vector(corners);
+    const Vec2 out = seen_along(settings_.axis, n), at = seen_along(settings_.axis, corners[0]);
+    double nearest = HUGE_VAL;
+    bool inside = true;
+    for (const auto& e : footprint_.tree().edges()) { // rare: walls that stand on the outline
+        const Vec2 d = e.b - e.a;
+        const double t = std::clamp(dot(at - e.a, d) / dot(d, d), 0.0, 1.0), far = length(e.a + d * t - at);
+        const double along = std::fabs(dot(d, out)) / (length(d) * length(out));
+        if (far + along < nearest) nearest = far + along, inside = cross(d, out) < 0;
+    }
+    return inside ? Place::inside : Place::outside;
+}
+
+} // namespace facetmill

@@ -1,0 +1,64 @@
+#pragma once
+// A mesh as a footprint sees it. For crop only.
+
+#include "geometry/crop/crop.hpp"
+
+namespace facetmill {
+
+/// Says where points are, by the rule asked for.
+class Inside {
+  public:
+    /// Throws usage (E-FOOTPRINT) when the rule needs one convex ring and there is none such.
+    Inside(const Footprint& footprint, InsideBy by);
+    polygon::Place operator()(const Vec2& p) const;
+
+  private:
+    const Footprint& footprint_;
+    InsideBy by_;
+    std::vector<polygon::Ring> spans_;
+    std::vector<Vec3> flat_;
+};
+
+class CropView {
+  public:
+    CropView(const Footprint& footprint, const CropSettings& settings)
+        : footprint_(footprint), settings_(settings), inside_(footprint, settings.inside_by) {}
+
+    /// Points so far from the outline that snap takes them as on it.
+    double snap = 0;
+
+    const Footprint& footprint() const { return footprint_; }
+    const CropSettings& settings() const { return settings_; }
+    Vec2 seen(const Vec3& p) const { return seen_along(settings_.axis, settings_.to_world.point(p)); }
+    polygon::Place place(const Vec2& p) const { return inside_(p); }
+    bool kept(polygon::Place place) const {
+        return (place == polygon::Place::inside) == (settings_.keep == polygon::Keep::inside);
+    }
+
+    /// The corners of a face.
+    void gather(const Mesh& mesh, Index f, std::vector<Vec2>& face) const;
+    /// The place of a point in the middle of a face: of a concave one in its largest triangle. A face along
+    /// the outline, seen edge-on, bounds the side that it looks away from.
+    polygon::Place middle(const Mesh& mesh, Index f) const;
+    /// Calls visit(segment, meeting) for the segments near a face until it returns false.
+    template <class Visit>
+    void meetings(const std::vector<Vec2>& face, Visit&& visit) const {
+        polygon::RingTree::Bounds box;
+        for (const Vec2& p : face) box.add(p);
+        footprint_.tree().query(box, [&](Index i) {
+            const auto& e = footprint_.tree().edges()[i];
+            return visit(i, meeting(face, e.a, e.b));
+        });
+    }
+
+  private:
+    bool is_on_segment(const std::vector<Vec2>& face) const;
+    bool is_on_outline(const Mesh& mesh, Index f, const Vec2& mean, const std::vector<Vec2>& face) const;
+    polygon::Place settle(polygon::Place place, const Mesh& mesh, Index f) const;
+
+    const Footprint& footprint_;
+    const CropSettings& settings_;
+    Inside inside_;
+};
+
+} // namespace facetmill

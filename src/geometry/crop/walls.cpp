@@ -1,0 +1,243 @@
+#include "geometry/crop/walls.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "geometry/crop/crop.hpp"
+#include "geometry/edit/surgery.hpp"
+#include "geometry/crop/wall_faces.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+[[noreturn]] void refuse(const Walls& walls, Index wall) {
+    const auto& e = walls.edges()[wall];
+    throw Error(
+        ErrorKind::stage, "E-CROP-CAP",
+        fmt::format("the cut along the outline from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) cannot be closed",
+                    e.a.x, e.a.y, e.b.x, e.b.y),
+        "crop without cap, or move the outline a little");
+}
+
+class Closer {
+  public:
+    Closer(Mesh kept, const Footprint& footprint, const WallSettings& settings)
+        : mesh_(std::move(kept)), settings_(settings),
+          walls_(footprint, rounding_of(footprint, settings)), view_{walls_, {}, {}, {}, {}} {}
+
+    WalledCrop run() {
+        find_boundary();
+        if (split_at_posts()) find_boundary();
+        if (!settings_.closed) drop_open();
+        make_panels();
+        insert_points();
+        add_walls();
+        result_.mesh = std::move(mesh_);
+        return std::move(result_);
+    }
+
+  private:
+    /// 64 units in the last place of the largest coordinate across the axis.
+    static double rounding_of(const Footprint& footprint, const WallSettings& settings) {
+        double largest = settings.reach;
+        for (const auto& e : footprint.tree().edges())
+            largest = std::max({largest, std::fabs(e.a.x), std::fabs(e.a.y)});
+        return std::max(64 * 2.220446049250313e-16 * largest, 1e-300);
+    }
+
+    void look() {
+        view_.seen.resize(mesh_.vertex_count()), view_.heights.resize(mesh_.vertex_count());
+        parallel_for(mesh_.vertex_count(), [&](std::size_t v) {
+            const Vec3 p = settings_.to_world.point(mesh_.positions[v]);
+            view_.seen[v] = seen_along(settings_.axis, p), view_.heights[v] = p[settings_.axis];
+        });
+    }
+
+    /// The edges at which the directions of the kept faces do not cancel, by wall.
+    void find_boundary() {
+        look();
+        edges_.clear();
+        table_ = build_edges(mesh_);
+        for (Index e = 0; e < table_.size(); ++e) {
+            const auto [low, high] = table_.edges[e];
+            int count = 0;
+            for (const Index c : table_.corners_of(e)) count += mesh_.vertex(c) == low ? 1 : -1;
+            if (count == 0) continue;
+            const Vec2 &p = view_.seen[low], &q = view_.seen[high];
+            const Index wall = walls_.nearest(p, q);
+            if (settings_.closed || walls_.is_on(wall, p, q)) edges_.push_back({low, high, e, count, wall});
+        }
+        std::stable_sort(edges_.begin(), edges_.end(),
+                         [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.wall < b.wall; });
+    }
+
+    /// Puts a vertex on edges that pass a corner of the outline: where it runs straight on, or almost, faces
+    /// were cut along it once. Whether there were any.
+    bool split_at_posts() {
+        std::vector<Insertion> insertions;
+        std::vector<Lineage::Edge> added;
+        const double rounding = walls_.rounding();
+        for (const BoundaryEdge& e : edges_) {
+            const double a = walls_.along(e.wall, view_.seen[e.low]),
+                         b = walls_.along(e.wall, view_.seen[e.high]);
+            for (const auto& stand : walls_.stands(e.wall)) {
+                if (!(stand.at > std::min(a, b) + rounding && stand.at < std::max(a, b) - rounding)) continue;
+                const auto vertex = static_cast<Index>(mesh_.vertex_count() + added.size());
+                added.push_back(a < b ? Lineage::Edge{e.low, e.high, (stand.at - a) / (b - a)}
+                                      : Lineage::Edge{e.high, e.low, (stand.at - b) / (a - b)});
+                insert(insertions, e, added.back(), vertex);
+                made(e.wall, added.back());
+            }
+        }
+        if (added.empty()) return false;
+        insert_all(std::move(insertions), added);
+        return true;
+    }
+    /// Puts a vertex on an edge of the boundary, at the place that at tells.
+    void insert(std::vector<Insertion>& insertions, const BoundaryEdge& e, const Lineage::Edge& at,
+                Index vertex) const {
+        for (const Index c : table_.corners_of(e.edge))
+            insertions.push_back({c, mesh_.vertex(c) == at.a ? at.t : 1 - at.t, vertex});
+    }
+    void made(Index wall, const Lineage::Edge& at) {
+        result_.made.emplace_back(wall, mix(mesh_.positions[at.a], mesh_.positions[at.b], at.t));
+    }
+    void insert_all(std::vector<Insertion> insertions, const std::vector<Lineage::Edge>& added) {
+        Fates fates;
+        mesh_ = insert_on_edges(mesh_, std::move(insertions), added, &fates);
+        merge_fates(result_.fates, fates);
+    }
+
+    /// Of a mesh that was open: contours that do not close, and what is on a post that they leave unbalanced.
+    void drop_open() {
+        DisjointSets contours(mesh_.vertex_count());
+        for (const BoundaryEdge& e : edges_) contours.join(e.low, e.high);
+        std::set<Index> open;
+        for (bool more = true; more;) {
+            const std::size_t before = open.size();
+            find_open(contours, open);
+            more = open.size() > before;
+        }
+        std::map<Index, OpenContour> found;
+        for (const BoundaryEdge& e : edges_) {
+            const Index root = contours.find(e.low);
+            if (!open.contains(root)) continue;
+            const auto [at, fresh] = found.try_emplace(root, OpenContour{e.wall, 0, mesh_.positions[e.low]});
+            ++at->second.edges;
+        }
+        for (const auto& [root, contour] : found) result_.open.push_back(contour);
+        std::erase_if(edges_, [&](const BoundaryEdge& e) { return open.contains(contours.find(e.low)); });
+    }
+    void find_open(DisjointSets& contours, std::set<Index>& open) const {
+        std::map<Index, int> balance;                                            // by vertex
+        std::map<std::pair<Index, Index>, std::pair<int, std::set<Index>>> post; // by wall and post
+        for (const BoundaryEdge& e : edges_) {
+            if (open.contains(contours.find(e.low))) continue;
+            balance[e.low] += e.count, balance[e.high] -= e.count;
+        }
+        for (const auto& [v, count] : balance)
+            if (count != 0) open.insert(contours.find(v));
+        for (const WallPanel& panel : panels_of_wall()) {
+            for (const auto& [v, count] : panel.balance()) {
+                if (open.contains(contours.find(v))) continue;
+                const auto& stand = walls_.nearest_stand(panel.wall(), view_.seen[v]);
+                auto& [sum, roots] = post[{panel.wall(), stand.post}];
+                sum += count, roots.insert(contours.find(v));
+            }
+        }
+        for (const auto& [key, at] : post)
+            if (at.first != 0) open.insert(at.second.begin(), at.second.end());
+    }
+
+    std::vector<WallPanel> panels_of_wall() const {
+        std::vector<WallPanel> panels;
+        for (std::size_t i = 0; i < edges_.size();) {
+            std::size_t end = i;
+            while (end < edges_.size() && edges_[end].wall == edges_[i].wall) ++end;
+            panels.emplace_back(edges_[i].wall, std::span(edges_).subspan(i, end - i));
+            i = end;
+        }
+        return panels;
+    }
+
+    /// Panels whose upright edges meet: a vertex that turns out to lie on one is put at its post, and all is
+    /// done again.
+    void make_panels() {
+        panels_ = panels_of_wall();
+        for (const WallPanel& panel : panels_) panel.stand_at_posts(view_);
+        for (bool again = true; again;) {
+            again = false;
+            std::vector<std::uint8_t> good(panels_.size());
+            parallel_for(
+                panels_.size(), [&](std::size_t i) { good[i] = panels_[i].complete(view_); }, 1);
+            for (std::size_t i = 0; i < panels_.size(); ++i) {
+                if (!good[i]) refuse(walls_, panels_[i].wall());
+                for (const auto& [post, vertex] : panels_[i].missed())
+                    again |= view_.at_post[post].insert(vertex).second;
+                if (!again && !panels_[i].missed().empty()) refuse(walls_, panels_[i].wall());
+            }
+        }
+        std::map<std::pair<Index, Index>, int> upright;
+        for (const WallPanel& panel : panels_)
+            for (const auto& [ends, count] : panel.upright()) upright[ends] += count;
+        for (const auto& [ends, count] : upright)
+            if (count != 0) refuse(walls_, walls_.nearest(view_.seen[ends.first], view_.seen[ends.second]));
+    }
+
+    /// Gives the kept faces the points that the walls have on their edges. New ones are numbered from
+    /// first_added_ on, panel by panel.
+    void insert_points() {
+        first_added_ = static_cast<Index>(mesh_.vertex_count());
+        std::vector<Insertion> insertions;
+        std::vector<Lineage::Edge> added;
+        std::size_t edge = 0; // of the panel's first
+        for (const WallPanel& panel : panels_) {
+            const auto points = static_cast<Index>(panel.points().size());
+            const std::size_t first = added.size();
+            added.resize(first + panel.filling().added.size());
+            for (const auto& on : panel.on_edges()) {
+                const BoundaryEdge& e = edges_[edge + on.edge];
+                const Lineage::Edge at{on.from, on.from == e.low ? e.high : e.low, on.t};
+                if (on.point < points) {
+                    insert(insertions, e, at, panel.points()[on.point]);
+                    continue;
+                }
+                const std::size_t i = first + on.point - points;
+                if (added[i].a == added[i].b) added[i] = at; // the first edge through it places it
+                insert(insertions, e, at, static_cast<Index>(first_added_ + i));
+            }
+            for (std::size_t i = first; i < added.size(); ++i) made(panel.wall(), added[i]);
+            while (edge < edges_.size() && edges_[edge].wall == panel.wall()) ++edge;
+        }
+        if (!insertions.empty()) insert_all(std::move(insertions), added);
+    }
+
+    void add_walls() {
+        const std::size_t faces = mesh_.face_count();
+        if (panels_.empty()) return;
+        merge_fates(result_.fates, append_walls(mesh_, {panels_, walls_, settings_, first_added_}));
+        result_.wall_faces = mesh_.face_count() - faces;
+    }
+
+    Mesh mesh_;
+    const WallSettings& settings_;
+    Walls walls_;
+    PostView view_;
+    EdgeTable table_;
+    std::vector<BoundaryEdge> edges_; ///< by wall
+    std::vector<WallPanel> panels_;
+    Index first_added_ = 0;
+    WalledCrop result_;
+};
+
+} // namespace
+
+WalledCrop close_crop(Mesh kept, const Footprint& footprint, const WallSettings& settings) {
+    return Closer(std::move(kept), footprint, settings).run();
+}
+
+} // namespace facetmill

@@ -1,0 +1,215 @@
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "base/parallel.hpp"
+#include "base/random.hpp"
+#include "geometry/crumple/places.hpp"
+#include "geometry/inspect/evidence.hpp"
+#include "geometry/intersect/self_intersections.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+constexpr std::uint8_t last_level = 9; ///< no move at all
+constexpr int patient_rounds = 8;      ///< after these, the places around are lowered too
+
+double share_of(std::uint8_t level) { return level == last_level ? 0 : 1.0 / (1 << level); }
+
+Vec3 rounded(const Vec3& p) { return {as_float32(p.x), as_float32(p.y), as_float32(p.z)}; }
+
+/// A sheet as it is tested: vertices at one place are one.
+class TestSheet {
+  public:
+    TestSheet(const CrumpleSheet& sheet, const std::vector<Index>& places, std::size_t most_pairs)
+        : sheet_(sheet), places_(places), most_pairs_(most_pairs) {
+        const Mesh& from = *sheet.mesh;
+        const std::size_t n = from.vertex_count();
+        before_.resize(n);
+        parallel_for(n, [&](std::size_t v) { before_[v] = rounded(from.positions[v]); });
+        weld();
+        mesh_.face_offsets = from.face_offsets;
+        mesh_.corners.resize(from.corner_count());
+        parallel_for(from.corner_count(),
+                     [&](std::size_t c) { mesh_.corners[c] = first_[from.vertex(static_cast<Index>(c))]; });
+        mesh_.positions = before_;
+        remember_exempt();
+        flat_.resize(mesh_.face_count());
+        parallel_for(flat_.size(), [&](std::size_t f) { flat_[f] = is_flat(static_cast<Index>(f)); });
+    }
+
+    std::size_t exempt() const { return exempt_.size(); }
+    const Mesh& mesh() const { return mesh_; }
+
+    /// Puts the vertices whose level has changed where they belong now, and remembers their faces.
+    void place(const std::vector<std::uint8_t>& levels, const std::vector<std::uint8_t>& changed) {
+        const auto& moves = sheet_.moves.moves;
+        parallel_for(mesh_.positions.size(), [&](std::size_t v) {
+            const Index from = first_[v];
+            if (!changed.empty() && !changed[places_[from]]) return;
+            const Vec3& start = sheet_.mesh->positions[from];
+            const double share = share_of(levels[places_[from]]);
+            mesh_.positions[v] = share == 0 ? before_[from] : rounded(start + moves[from] * share);
+        });
+        touched_.assign(mesh_.face_count(), changed.empty());
+        parallel_for(changed.empty() ? 0 : touched_.size(), [&](std::size_t f) {
+            for (const Index v : mesh_.face_wedges(static_cast<Index>(f)))
+                if (changed[places_[v]]) touched_[f] = 1;
+        });
+    }
+
+    /// The new pairs among faces that were touched, as many as are listed; a face that lost its area is a
+    /// pair with itself.
+    std::vector<std::pair<Index, Index>> new_pairs() const {
+        // With so many listed, one new pair at least is among them when there is any.
+        auto pairs = find(touched_, exempt_.size() + most_pairs_).pairs;
+        std::erase_if(pairs,
+                      [&](const auto& p) { return std::binary_search(exempt_.begin(), exempt_.end(), p); });
+        for (Index f = 0; f < touched_.size(); ++f)
+            if (touched_[f] && !flat_[f] && is_flat(f)) pairs.emplace_back(f, f);
+        return pairs;
+    }
+
+    /// [faces] Those of all new pairs among faces that were touched.
+    std::vector<std::uint8_t> in_trouble() const {
+        auto faces = self_intersecting_faces(mesh_, touched_, exempt_);
+        parallel_for(faces.size(), [&](std::size_t f) {
+            if (touched_[f] && !flat_[f] && is_flat(static_cast<Index>(f))) faces[f] = 1;
+        });
+        return faces;
+    }
+
+    /// Marks the places of the faces; with around, of all faces that touch these. Whether there are any.
+    bool mark(const std::vector<std::uint8_t>& faces, bool around, std::vector<std::uint8_t>& marked) const {
+        std::vector<std::uint8_t> mine(mesh_.positions.size());
+        const auto mark_face = [&](Index f) {
+            for (const Index v : mesh_.face_wedges(f)) mine[v] = 1;
+        };
+        bool any = false;
+        for (Index f = 0; f < faces.size(); ++f)
+            if (faces[f]) mark_face(f), any = true;
+        if (!any) return false;
+        if (around) {
+            const std::vector<std::uint8_t> inner = mine;
+            for (Index f = 0; f < mesh_.face_count(); ++f)
+                for (const Index v : mesh_.face_wedges(f))
+                    if (inner[v]) {
+                        mark_face(f);
+                        break;
+                    }
+        }
+        for (std::size_t v = 0; v < mine.size(); ++v)
+            if (mine[v]) marked[places_[v]] = 1;
+        return true;
+    }
+
+    const Vec3& position(std::size_t vertex) const { return mesh_.positions[first_[vertex]]; }
+
+  private:
+    /// first_[v]: the first vertex at the place of v that starts at the same point.
+    void weld() {
+        const std::size_t n = before_.size();
+        std::vector<Index> order(n);
+        for (std::size_t v = 0; v < n; ++v) order[v] = static_cast<Index>(v);
+        radix_sort(
+            order, [&](Index v) { return places_[v]; }, 32);
+        first_.resize(n);
+        for (std::size_t i = 0, j = 0; i < n; i = j) {
+            for (; j < n && places_[order[j]] == places_[order[i]]; ++j) {
+                std::size_t k = i;
+                while (!(before_[order[k]] == before_[order[j]])) ++k;
+                first_[order[j]] = order[k];
+            }
+        }
+    }
+
+    bool is_flat(Index f) const { return is_degenerate(mesh_, f); }
+
+    void remember_exempt() {
+        const auto found = find({}, most_pairs_);
+        if (found.count > found.pairs.size())
+            throw Error(
+                ErrorKind::limit, "E-LIMIT",
+                fmt::format("crumple: {} pairs of faces meet already, at most {} can be told from new "
+                            "ones",
+                            found.count, most_pairs_),
+                "clean takes doubled faces away; self_intersections: allow looks at none");
+        exempt_ = found.pairs;
+    }
+
+    SelfIntersections find(const std::vector<std::uint8_t>& among, std::size_t limit) const {
+        SelfIntersectionSettings settings;
+        settings.limit = limit;
+        settings.among = among;
+        auto found = find_self_intersections(mesh_, settings);
+        std::sort(found.pairs.begin(), found.pairs.end());
+        return found;
+    }
+
+    const CrumpleSheet& sheet_;
+    const std::vector<Index>& places_;
+    std::size_t most_pairs_;
+    std::vector<Vec3> before_;                    ///< [vertices] rounded
+    std::vector<Index> first_;                    ///< [vertices]
+    Mesh mesh_;                                   ///< corners go to the first of equal vertices
+    std::vector<std::pair<Index, Index>> exempt_; ///< ascending
+    std::vector<std::uint8_t> flat_, touched_;    ///< [faces]
+};
+
+/// Lowers the marked places by one level; whether any was still above the last.
+bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& levels) {
+    bool any = false;
+    for (std::size_t p = 0; p < marked.size(); ++p)
+        if (marked[p] && levels[p] < last_level) ++levels[p], any = true;
+    return any;
+}
+
+/// What the full moves would make.
+void look(const std::vector<TestSheet>& tests, AvoidResult& result) {
+    for (std::size_t s = 0; s < tests.size(); ++s) {
+        const auto pairs = tests[s].new_pairs();
+        if (result.found == 0 && !pairs.empty()) result.first = pairs.front(), result.first_sheet = s;
+        result.found += pairs.size();
+    }
+}
+
+} // namespace
+
+double move_apart_memory(double triangles) { return 300 * triangles; }
+
+AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look, std::size_t most_pairs) {
+    AvoidResult result;
+    const CrumplePlaces places(sheets);
+    std::vector<std::uint8_t> levels(places.count);
+    std::vector<TestSheet> tests;
+    tests.reserve(sheets.size());
+    for (std::size_t s = 0; s < sheets.size(); ++s) {
+        tests.emplace_back(sheets[s], places.of_vertex[s], most_pairs);
+        result.exempt += tests.back().exempt();
+        tests.back().place(levels, {});
+    }
+    look(tests, result);
+    result.left = only_look ? result.found : 0;
+    while (!only_look && result.found > 0) {
+        std::vector<std::uint8_t> marked(levels.size());
+        bool more = false;
+        for (const TestSheet& test : tests)
+            more |= test.mark(test.in_trouble(), result.rounds >= patient_rounds, marked);
+        if (!more) break;
+        ++result.rounds;
+        if (!lower(marked, levels)) // where nothing moves, all pairs were there before
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that stay where they are came to meet");
+        for (auto& test : tests) test.place(levels, marked);
+    }
+    for (std::size_t s = 0; s < sheets.size(); ++s) {
+        auto& positions = sheets[s].mesh->positions;
+        for (std::size_t v = 0; v < positions.size(); ++v) ++result.shares[levels[places.of_vertex[s][v]]];
+        parallel_for(positions.size(), [&](std::size_t v) { positions[v] = tests[s].position(v); });
+    }
+    return result;
+}
+
+} // namespace facetmill

@@ -1,0 +1,114 @@
+#pragma once
+// Crumpling: every vertex is displaced once by a Gaussian amount, and faces that share it move with it.
+
+#include "geometry/crumple/noise.hpp"
+#include "mesh/mesh.hpp"
+
+#include <array>
+#include <span>
+
+namespace facetmill {
+
+struct CrumpleSettings {
+    enum class Direction {
+        free,   ///< three independent amounts along x, y and z of the world
+        normal, ///< one amount along the vertex normal (area-weighted, world space)
+    };
+    enum class Boundary {
+        free,  ///< boundary vertices move as all others
+        fixed, ///< they stay
+    };
+    double amplitude = 0; ///< standard deviation of each amount, world units, >= 0
+    Direction direction = Direction::free;
+    Boundary boundary = Boundary::free;
+    std::uint64_t seed = 0;
+    double truncate = 3;     ///< no amount exceeds this many standard deviations: at least 0.1
+    Transform to_world = {}; ///< part space -> world; the displacement is made there
+    double frequency = 0;    ///< of correlated noise, per world unit; 0: every place for itself
+    int octaves = 1;         ///< of correlated noise, 1 to 32
+    double roughness = 0.5;  ///< of correlated noise: amount of each octave beside the one before, 0 to 1
+    std::vector<double> mask = {}; ///< [vertices] 0 to 1: share of the move; empty: all of it
+};
+
+/// How the vertices of a mesh are to move, before any has.
+struct CrumpleMoves {
+    std::vector<std::uint64_t> keys; ///< [vertices] of the places: equal keys move together
+    std::vector<Vec3> moves;         ///< [vertices] in part space, as if nothing were held or masked
+    std::vector<double> shares; ///< [vertices] 0 to 1: how much of it the vertex itself allows, because of
+                                ///< the boundary and the mask; empty: all
+    std::size_t held = 0;       ///< boundary vertices that were held
+};
+
+struct CrumpleResult {
+    Mesh mesh;
+    Fates fates;
+    double largest_move = 0;     ///< world units
+    double root_mean_square = 0; ///< of the moves of all vertices, world units
+    std::size_t moved = 0;
+    std::size_t held = 0; ///< boundary vertices that were held
+};
+
+/// Displaces each vertex of the mesh once. Topology, wedges and faces stay; NORMAL is recomputed, TANGENT
+/// made perpendicular to it, all else kept.
+///
+/// The noise at a vertex is a pure function of the seed and of the world position rounded to float32 (-0 is
+/// 0). So vertices at one place move together, across seams, unwelded duplicates, parts and files, and
+/// neither the order of the vertices nor the number of threads matters. Boundary and mask are of places too:
+/// a boundary edge is one between two places with one face there, and a place moves by the least share of its
+/// vertices. With `direction: normal` the normal
+/// is that of all faces of this mesh that meet at the place. Amounts follow the normal distribution cut off
+/// at `truncate` (drawn again, never clamped, so nothing heaps up at the limit); with a frequency, vertices
+/// that are near each other move alike (see CorrelatedNoise). Throws usage (E-RANGE) for a setting out of
+/// range, stage (E-TRANSFORM) when to_world is singular, (E-RANGE) when a vertex would leave the numbers that
+/// float32 has. Source: the note 'Geometric crumpling' (1994).
+CrumpleResult crumple(Mesh mesh, const CrumpleSettings& settings);
+
+/// The first half of crumple: nothing moves yet.
+CrumpleMoves crumple_moves(const Mesh& mesh, const CrumpleSettings& settings);
+
+/// The second half: positions before and after are compared, attributes settled.
+CrumpleResult crumple_settled(Mesh mesh, const std::vector<Vec3>& before, const Transform& to_world);
+
+/// A mesh and how it is to move; several move together where they have keys in common.
+struct CrumpleSheet {
+    Mesh* mesh = nullptr;
+    CrumpleMoves moves;
+};
+
+/// Takes the shares into the moves: each place, over all sheets, takes the least that its vertices allow. To
+/// be called once, before anything moves.
+void hold_together(std::span<CrumpleSheet> sheets);
+
+struct AvoidResult {
+    std::size_t exempt = 0; ///< pairs of faces that met before
+    std::size_t found = 0;  ///< new pairs that the full moves would make (most_pairs at most), and faces that
+                            ///< lose their area
+    std::size_t left = 0;   ///< new pairs in the result: 0, but with `only_look`
+    std::pair<Index, Index> first{}; ///< of the pairs found, faces of sheet first_sheet
+    std::size_t first_sheet = 0;
+    int rounds = 0; ///< of lowering
+    /// Vertices by the share of their move: 1, 1/2 ... 1/256, 0.
+    std::array<std::size_t, 10> shares{};
+};
+
+/// Moves the vertices of all sheets, as far as faces of a sheet do not come to meet: every place has a share
+/// 1, 1/2 ... 1/256, 0 of its move. In each round all new pairs of faces that meet (find_self_intersections,
+/// folded neighbours included) and all faces that have lost their area are found, and every place of them
+/// takes the next lower share, all at once, until there are none. After eight rounds the places around those
+/// are lowered too. Shares only fall and places without a move are where they were, so it ends. Pairs that
+/// met before the move are exempt. Sharing is by place: unwelded copies of a vertex are one.
+///
+/// Positions are rounded to float32 in part space, before and after: what is decided, exactly, is what files
+/// hold. Polygons stand for their triangles as triangulated() cuts them. With only_look nothing is lowered.
+/// The same for any number of threads. Every round lowers a place at least, so there are at most nine for
+/// each place.
+///
+/// Only faces of one sheet are kept apart. Throws limit (E-LIMIT) when more than most_pairs pairs of a sheet
+/// meet before: they could not all be exempt.
+AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look = false,
+                       std::size_t most_pairs = std::size_t{8} << 20);
+
+/// About the bytes that move_apart takes for a mesh of so many triangles, besides the mesh.
+double move_apart_memory(double triangles);
+
+} // namespace facetmill

@@ -1,0 +1,38 @@
+#pragma once
+// The attributes that caps have of their own. For the stages that cap only.
+
+#include "mesh/plane.hpp"
+#include "mesh/mesh.hpp"
+
+namespace facetmill {
+
+/// The face attributes that number caps.
+inline constexpr std::string_view cut_id_attribute = "cut_id", group_attribute = "group";
+
+/// What the faces of a cap get.
+struct CapPaint {
+    std::optional<Primitive> primitive; ///< none: primitive 0
+    Index cut_id = 0, group = 0;        ///< 0: these attributes are not made
+};
+
+/// The largest number in a face attribute; 0 without it.
+Index largest_number(const Mesh& mesh, std::string_view name);
+
+/// Whether a cap has wedges of its own: when there are normals, tangents or texture coordinates.
+bool caps_have_own_wedges(const Mesh& mesh);
+
+/// The sum of the area vectors of the triangles.
+Vec3 area_of_triangles(const Mesh& mesh, Index first_corner, Index last_corner);
+
+/// Faces from first to last, without last.
+struct FaceRange {
+    std::size_t first = 0, last = 0;
+};
+
+/// Sets the attributes that a cap has of its own: the face attributes of the faces, and the normals, tangents
+/// and first texture coordinates of wedges (empty: the cap shares the walls'). The plane's normal looks out;
+/// texture coordinates are planar, the cap's larger extent being 1.
+void paint_cap(Mesh& mesh, FaceRange faces, std::span<const Index> wedges, const Plane& plane,
+               const CapPaint& paint);
+
+} // namespace facetmill

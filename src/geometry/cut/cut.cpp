@@ -1,0 +1,288 @@
+#include "geometry/cut/cut.hpp"
+
+#include "base/parallel.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace facetmill {
+
+namespace {
+
+struct Tally {
+    std::size_t above = 0, below = 0, on = 0, snapped = 0, remembered = 0;
+};
+
+Tally operator+(const Tally& a, const Tally& b) {
+    return {a.above + b.above, a.below + b.below, a.on + b.on, a.snapped + b.snapped,
+            a.remembered + b.remembered};
+}
+
+bool is_float32(double x) {
+    return std::fabs(x) <= std::numeric_limits<float>::max() && x == static_cast<float>(x);
+}
+
+/// The length of the plane's normal, which may be tiny or huge.
+double normal_length(const Plane& plane) {
+    const Vec3& n = plane.normal;
+    const double largest = std::max({std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)});
+    return largest * length(n / largest);
+}
+
+void classify_vertices(PlaneCut& cut, const OnPlane& on) {
+    const auto& positions = cut.mesh->positions;
+    const CutMemory::Entry* known = on.memory ? on.memory->find(cut.plane) : nullptr;
+    const double reach = on.snap > 0 ? on.snap * normal_length(cut.plane) : 0;
+    const double snap = std::isfinite(reach) ? reach : 0;
+    const auto classify = [&](const Vec3& p, Tally& t) -> std::int8_t {
+        const double s = side(cut.plane, p);
+        if (s == 0) return ++t.on, 0;
+        if (std::fabs(s) <= snap && is_float32(p)) return ++t.on, ++t.snapped, 0;
+        if (known && known->has(p, known->plane == cut.plane ? s : side(known->plane, p)))
+            return ++t.on, ++t.remembered, 0;
+        return s > 0 ? (++t.above, 1) : (++t.below, -1);
+    };
+    cut.signs.resize(positions.size());
+    const Tally tally = parallel_reduce(
+        positions.size(), Tally{},
+        [&](std::size_t begin, std::size_t end) {
+            Tally t;
+            for (std::size_t v = begin; v < end; ++v) cut.signs[v] = classify(positions[v], t);
+            return t;
+        },
+        [](const Tally& a, const Tally& b) { return a + b; });
+    cut.above_count = tally.above, cut.below_count = tally.below, cut.on_count = tally.on;
+    cut.snapped_count = tally.snapped, cut.remembered_count = tally.remembered;
+}
+
+constexpr std::uint8_t class_of_sign[3] = {face_class::below, face_class::touches, face_class::above};
+
+void classify_faces(PlaneCut& cut) {
+    const Mesh& mesh = *cut.mesh;
+    cut.classes.resize(mesh.face_count());
+    parallel_chunks(mesh.face_count(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f) {
+            std::uint8_t bits = 0;
+            for (const Index w : mesh.face_wedges(static_cast<Index>(f)))
+                bits |= class_of_sign[cut.signs[mesh.vertex_of_wedge(w)] + 1];
+            cut.classes[f] = bits;
+        }
+    });
+}
+
+/// The faces whose class the predicate likes, ascending.
+template <class Predicate>
+std::vector<Index> faces_where(const PlaneCut& cut, Predicate&& likes) {
+    constexpr std::size_t chunk = 65536;
+    const std::size_t n = cut.classes.size();
+    std::vector<std::vector<Index>> lists((n + chunk - 1) / chunk);
+    parallel_chunks(
+        n,
+        [&](std::size_t begin, std::size_t end) {
+            for (std::size_t f = begin; f < end; ++f)
+                if (likes(cut.classes[f])) lists[begin / chunk].push_back(static_cast<Index>(f));
+        },
+        chunk);
+    std::vector<Index> all;
+    for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+    return all;
+}
+
+/// A corner whose edge the plane crosses: its wedges, that at the lower vertex first, and where the answer
+/// goes.
+struct Crossing {
+    Index low, high; ///< wedges
+    Index slot;      ///< into PlaneCut::crossings
+};
+
+std::vector<Crossing> find_crossings(PlaneCut& cut) {
+    const Mesh& mesh = *cut.mesh;
+    std::vector<Crossing> found;
+    cut.crossing_offsets.push_back(0);
+    for (const Index f : cut.cut_faces) {
+        for_polygon_edges(mesh.face_wedges(f), [&](Index a, Index b) {
+            const Index va = mesh.vertex_of_wedge(a), vb = mesh.vertex_of_wedge(b);
+            if (cut.signs[va] * cut.signs[vb] < 0)
+                found.push_back({va < vb ? a : b, va < vb ? b : a, static_cast<Index>(found.size())});
+        });
+        cut.crossing_offsets.push_back(static_cast<Index>(found.size()));
+    }
+    return found;
+}
+
+double parameter_at(const PlaneCut& cut, Index low, Index high) {
+    const double a = side(cut.plane, cut.mesh->positions[low]),
+                 b = side(cut.plane, cut.mesh->positions[high]);
+    const double t = a / (a - b);      // the signs differ and neither is 0
+    return t >= 0 && t <= 1 ? t : 0.5; // overflow only
+}
+
+std::uint64_t edge_key(Index low, Index high) { return std::uint64_t{low} << 32 | high; }
+
+/// Appends the crossings of faces that stay whole at the edges where others are cut.
+void add_passing(PlaneCut& cut, const std::vector<Index>& whole, std::vector<Crossing>& found, Index& slots) {
+    const Mesh& mesh = *cut.mesh;
+    std::vector<std::uint64_t> edges;
+    for (const Crossing& c : found)
+        edges.push_back(edge_key(mesh.vertex_of_wedge(c.low), mesh.vertex_of_wedge(c.high)));
+    std::sort(edges.begin(), edges.end());
+    for (const Index f : whole) {
+        Index slot = slots;
+        bool any = false;
+        for_polygon_edges(mesh.face_wedges(f), [&](Index a, Index b) {
+            const Index va = mesh.vertex_of_wedge(a), vb = mesh.vertex_of_wedge(b);
+            if (cut.signs[va] * cut.signs[vb] >= 0) return;
+            if (std::binary_search(edges.begin(), edges.end(),
+                                   edge_key(std::min(va, vb), std::max(va, vb)))) {
+                found.push_back({va < vb ? a : b, va < vb ? b : a, slot});
+                any = true;
+            }
+            ++slot;
+        });
+        if (!any) continue;
+        cut.passing.push_back(f);
+        cut.crossing_offsets.push_back(slots = slot);
+    }
+}
+
+/// One wedge per pair of wedges.
+void make_wedges(PlaneCut& cut, std::vector<Crossing> crossings, Index slots) {
+    const std::size_t wedges = cut.mesh->wedge_count();
+    const int bits = static_cast<int>(std::bit_width(wedges));
+    radix_sort(
+        crossings, [&](const Crossing& c) { return static_cast<std::uint64_t>(c.low) << bits | c.high; },
+        2 * bits);
+    cut.crossings.assign(slots, none);
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+        const Crossing& c = crossings[i];
+        if (i == 0 || c.low != crossings[i - 1].low || c.high != crossings[i - 1].high)
+            cut.wedges.push_back({c.low, c.high, 0});
+        cut.crossings[c.slot] = static_cast<Index>(wedges + cut.wedges.size() - 1);
+    }
+    parallel_for(cut.wedges.size(), [&](std::size_t i) {
+        auto& e = cut.wedges[i];
+        e.t = parameter_at(cut, cut.mesh->vertex_of_wedge(e.a), cut.mesh->vertex_of_wedge(e.b));
+    });
+}
+
+/// One vertex per edge: the new wedges again, but by vertices.
+void make_vertices(PlaneCut& cut) {
+    const Mesh& mesh = *cut.mesh;
+    if (!mesh.has_seams()) {
+        cut.vertices = cut.wedges;
+        return;
+    }
+    struct Item {
+        Index low, high, wedge;
+    };
+    std::vector<Item> items(cut.wedges.size());
+    for (std::size_t i = 0; i < items.size(); ++i)
+        items[i] = {mesh.vertex_of_wedge(cut.wedges[i].a), mesh.vertex_of_wedge(cut.wedges[i].b),
+                    static_cast<Index>(i)};
+    const int bits = static_cast<int>(std::bit_width(mesh.vertex_count()));
+    radix_sort(
+        items, [&](const Item& e) { return static_cast<std::uint64_t>(e.low) << bits | e.high; }, 2 * bits);
+    cut.wedge_vertex.resize(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (i == 0 || items[i].low != items[i - 1].low || items[i].high != items[i - 1].high)
+            cut.vertices.push_back({items[i].low, items[i].high, cut.wedges[items[i].wedge].t});
+        cut.wedge_vertex[items[i].wedge] = static_cast<Index>(mesh.vertex_count() + cut.vertices.size() - 1);
+    }
+}
+
+/// mix, but a coordinate that both ends have stays what it is: planes along axes are not left by rounding.
+Vec3 between(const Vec3& a, const Vec3& b, double t) {
+    Vec3 p = mix(a, b, t);
+    for (std::size_t i = 0; i < 3; ++i)
+        if (a[i] == b[i]) p[i] = a[i];
+    return p;
+}
+
+void place_vertices(PlaneCut& cut) {
+    const int axis = axis_of(cut.plane);
+    const auto i = static_cast<std::size_t>(std::max(axis, 0));
+    const double level = cut.plane.through[i] - (axis >= 0 ? cut.plane.offset / cut.plane.normal[i] : 0);
+    cut.points.resize(cut.vertices.size());
+    parallel_for(cut.points.size(), [&](std::size_t v) {
+        const auto& e = cut.vertices[v];
+        cut.points[v] = between(cut.mesh->positions[e.a], cut.mesh->positions[e.b], e.t);
+        if (axis >= 0) cut.points[v][i] = level;
+    });
+}
+
+} // namespace
+
+bool is_float32(const Vec3& p) { return is_float32(p.x) && is_float32(p.y) && is_float32(p.z); }
+
+/// At every edge the directions of the faces cancel.
+bool is_closed(const Mesh& mesh) {
+    const EdgeTable table = build_edges(mesh);
+    for (Index e = 0; e < table.size(); ++e) {
+        int balance = 0;
+        for (const Index c : table.corners_of(e)) balance += mesh.vertex(c) == table.edges[e].low ? 1 : -1;
+        if (balance != 0) return false;
+    }
+    return true;
+}
+
+double float32_ulp(const Box& bounds) {
+    if (bounds.empty()) return 0;
+    double largest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        largest = std::max({largest, std::fabs(bounds.min[i]), std::fabs(bounds.max[i])});
+    return largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 23) : 0;
+}
+
+PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on,
+                      std::span<const std::uint8_t> faces) {
+    PlaneCut cut;
+    cut.mesh = &mesh;
+    cut.plane = plane;
+    classify_vertices(cut, on);
+    if (!cut.meets()) return cut;
+    classify_faces(cut);
+    using namespace face_class;
+    cut.cut_faces = faces_where(cut, [](std::uint8_t c) { return (c & (above | below)) == (above | below); });
+    std::vector<Index> whole;
+    if (!faces.empty()) {
+        std::copy_if(cut.cut_faces.begin(), cut.cut_faces.end(), std::back_inserter(whole),
+                     [&](Index f) { return faces[f] == 0; });
+        std::erase_if(cut.cut_faces, [&](Index f) { return faces[f] == 0; });
+    }
+    if (cut.on_count > 0) {
+        cut.touching =
+            faces_where(cut, [](std::uint8_t c) { return c == (above | touches) || c == (below | touches); });
+        cut.flat = faces_where(cut, [](std::uint8_t c) { return c == touches; });
+    }
+    auto crossings = find_crossings(cut);
+    auto slots = static_cast<Index>(crossings.size());
+    add_passing(cut, whole, crossings, slots);
+    make_wedges(cut, std::move(crossings), slots);
+    make_vertices(cut);
+    place_vertices(cut);
+    return cut;
+}
+
+void remember(CutMemory& memory, const PlaneCut& cut, std::span<const Vec3> more) {
+    const auto& positions = cut.mesh->positions;
+    std::vector<Vec3> points;
+    for (std::size_t e = 0; e < memory.entries.size(); ++e) {
+        const auto& entry = memory.entries[e];
+        points.clear();
+        for (std::size_t i = 0; i < cut.points.size(); ++i)
+            if (entry.counts_as_on(positions[cut.vertices[i].a]) &&
+                entry.counts_as_on(positions[cut.vertices[i].b]))
+                points.push_back(cut.points[i]);
+        if (!points.empty() && !same_plane(entry.plane, cut.plane)) memory.add(entry.plane, points);
+    }
+    points = cut.points;
+    points.insert(points.end(), more.begin(), more.end());
+    if (cut.snapped_count > 0)
+        for (std::size_t v = 0; v < positions.size(); ++v)
+            if (cut.signs[v] == 0) points.push_back(positions[v]);
+    memory.add(cut.plane, std::move(points));
+}
+
+} // namespace facetmill

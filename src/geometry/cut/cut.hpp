@@ -1,0 +1,124 @@
+#pragma once
+// What a plane does to a mesh, before a side is chosen: classes of vertices and faces, and the points of the
+// cut. For clip only.
+
+#include "mesh/cut_memory.hpp"
+#include "mesh/lineage.hpp"
+
+namespace facetmill {
+
+/// A face's class, as bits.
+namespace face_class {
+// The lowest three bits say where its vertices are.
+inline constexpr std::uint8_t above = 1;       ///< has a vertex in front of the plane
+inline constexpr std::uint8_t below = 2;       ///< has a vertex behind it
+inline constexpr std::uint8_t touches = 4;     ///< has a vertex exactly on it
+inline constexpr std::uint8_t flat_above = 8;  ///< lies in the plane and stays with the front
+inline constexpr std::uint8_t flat_below = 16; ///< ... with the back
+inline constexpr std::uint8_t replaced = 32;   ///< stays, but as a polygon with points inserted
+} // namespace face_class
+
+/// Elements are numbered on: the mesh's own wedges and vertices first, then those of the cut, then those that
+/// a cap adds. So without seams a wedge's number is its vertex's.
+struct PlaneCut {
+    const Mesh* mesh = nullptr;
+    Plane plane;
+    std::vector<std::int8_t> signs;                             ///< [vertices] -1, 0, 1
+    std::vector<std::uint8_t> classes;                          ///< [faces]
+    std::size_t above_count = 0, below_count = 0, on_count = 0; ///< vertices
+    std::size_t snapped_count = 0, remembered_count = 0; ///< among on_count, those not exactly on the plane
+    std::vector<Index> cut_faces;                        ///< faces with vertices on both sides, ascending
+    std::vector<Index> touching;         ///< faces with vertices on the plane and on one side, ascending
+    std::vector<Index> flat;             ///< faces in the plane, ascending
+    std::vector<Index> crossings;        ///< new wedge at each crossed corner's edge, by cut face and corner
+    std::vector<Index> crossing_offsets; ///< [cut_faces + passing + 1] into crossings
+    /// Faces that are not to be cut but have an edge that a cut face is cut at, ascending. Their crossings
+    /// are one for each edge between vertices on both sides, none for those where no face is cut.
+    std::vector<Index> passing;
+    std::vector<Lineage::Edge> wedges, vertices; ///< the new ones: on which edge, and where
+    std::vector<Index> wedge_vertex;             ///< [new wedges] -> vertex; empty without seams
+    std::vector<Vec3> points;                    ///< [new vertices]
+
+    std::size_t first_extra_vertex() const { return mesh->vertex_count() + vertices.size(); }
+    std::size_t first_extra_wedge() const { return mesh->wedge_count() + wedges.size(); }
+    Index vertex_of(Index wedge) const {
+        if (wedge < mesh->wedge_count()) return mesh->vertex_of_wedge(wedge);
+        return wedge_vertex.empty() ? wedge : wedge_vertex[wedge - mesh->wedge_count()];
+    }
+    const Vec3& point(Index vertex) const {
+        return vertex < mesh->vertex_count() ? mesh->positions[vertex]
+                                             : points[vertex - mesh->vertex_count()];
+    }
+    int sign_of(Index wedge) const {
+        return wedge < mesh->wedge_count() ? signs[mesh->vertex_of_wedge(wedge)] : 0;
+    }
+    /// Whether face f stays whole on that side (1 front, -1 back).
+    bool stays(Index f, int side) const {
+        using namespace face_class;
+        const std::uint8_t c = classes[f];
+        if (c & replaced) return false;
+        return (c & (above | below)) == (side > 0 ? above : below) ||
+               (c & (side > 0 ? flat_above : flat_below));
+    }
+    bool meets() const { return on_count > 0 || (above_count > 0 && below_count > 0); }
+};
+
+/// What counts as on a plane besides what is exactly on it.
+struct OnPlane {
+    /// Float32 positions at most this far away (mesh units) count as on the plane; 0: none.
+    double snap = 0;
+    /// Points that it says were built on the plane count as on it. None: nothing is known.
+    const CutMemory* memory = nullptr;
+};
+
+/// Whether all three coordinates are 32-bit floats.
+bool is_float32(const Vec3& p);
+/// One float32 ulp of the largest coordinate of the bounds; 0 for an empty box.
+double float32_ulp(const Box& bounds);
+
+/// Classifies everything and makes the points of the cut. Flat faces get no side yet. faces: 1 for those that
+/// may be cut; empty: all.
+PlaneCut cut_by_plane(const Mesh& mesh, const Plane& plane, const OnPlane& on = {},
+                      std::span<const std::uint8_t> faces = {});
+
+/// At every edge the directions of the faces cancel.
+bool is_closed(const Mesh& mesh);
+
+/// Adds the points of a cut to what is known: new ones are on the cut's plane and on every known plane that
+/// both ends of their edge are on; snapped ones are on the cut's plane. more: other points made on it.
+void remember(CutMemory& memory, const PlaneCut& cut, std::span<const Vec3> more = {});
+
+/// Gives each flat face the side that its normal points away from; those without area to the back, so that
+/// the boundaries of the two sides are each other's.
+void settle_flat_by_normal(PlaneCut& cut);
+/// Gives all flat faces to one side, or none (0).
+void settle_flat(PlaneCut& cut, int side);
+
+/// Polygons that take the place of faces, by ascending face, in the numbering of PlaneCut.
+struct Pieces {
+    std::vector<Index> source;     ///< the face that each replaces
+    std::vector<Index> offsets{0}; ///< [pieces + 1] into wedges
+    std::vector<Index> wedges;
+
+    std::size_t size() const { return source.size(); }
+    std::span<const Index> of(std::size_t i) const {
+        return {wedges.data() + offsets[i], wedges.data() + offsets[i + 1]};
+    }
+    void add(Index face, std::span<const Index> polygon) {
+        source.push_back(face);
+        wedges.insert(wedges.end(), polygon.begin(), polygon.end());
+        offsets.push_back(static_cast<Index>(wedges.size()));
+    }
+};
+
+/// The parts of the cut faces on a side.
+Pieces pieces_on_side(const PlaneCut& cut, int side);
+
+/// Calls body(wedge, next wedge) for the edges of a polygon.
+template <class Body>
+void for_polygon_edges(std::span<const Index> polygon, Body&& body) {
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        body(polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1]);
+}
+
+} // namespace facetmill

@@ -1,0 +1,212 @@
+#include "geometry/deviation/bound.hpp"
+
+#include "base/parallel.hpp"
+#include "geometry/spatial/closest_point.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace facetmill {
+
+namespace {
+
+/// A corner, how far it is from the other surface, and from which triangle there.
+struct Corner {
+    Vec3 at;
+    Closest closest;
+};
+
+/// A triangle of the surface, or a part of one, and a distance that none of its points exceeds.
+struct Piece {
+    std::array<Corner, 3> corners;
+    double bound = HUGE_VAL;
+    Index face = none;
+};
+
+/// The greatest distance of the corners, and so of the whole piece, to one triangle.
+double distance_to(const FaceTree& tree, Index triangle, const Piece& piece) {
+    double most = 0;
+    for (const auto& c : piece.corners)
+        most = std::max(most, c.closest.triangle == triangle ? c.closest.distance
+                                                             : closest_on(tree, triangle, c.at).distance);
+    return most;
+}
+
+/// What the corners alone say of the piece; `enough` saves the rest of the work.
+double bound_of(const FaceTree& tree, const Piece& piece, double enough) {
+    const auto& [a, b, c] = piece.corners;
+    const double longest = std::max({length(b.at - a.at), length(c.at - b.at), length(a.at - c.at)});
+    const double most = std::max({a.closest.distance, b.closest.distance, c.closest.distance});
+    constexpr double reach =
+        0.5773502691896258; // 1/sqrt(3): no point is farther from a corner, in longest edges
+    double bound = most + longest * reach;
+    for (std::size_t i = 0; i < 3 && bound > enough; ++i)
+        bound = std::min(bound, distance_to(tree, piece.corners[i].closest.triangle, piece));
+    return bound;
+}
+
+struct Farthest {
+    Vec3 from, to;
+    double distance = -1;
+    Index face = none;
+    void consider(const Corner& c, Index f) {
+        const double apart = told_from_zero(c.closest.distance, c.at);
+        if (apart > distance) *this = {c.at, c.closest.point, apart, f};
+    }
+};
+
+/// What became of a piece in a round.
+struct Outcome {
+    std::array<Piece, 4> left; ///< parts that may still hold a farther point
+    std::size_t left_count = 0;
+    double settled = 0; ///< what the rest is bounded by
+    Farthest farthest;
+    std::size_t looked_up = 0;
+};
+
+class Bound {
+  public:
+    Bound(DirectedDeviation& d, const Surface& from, const FaceTree& to, const DeviationSettings& settings)
+        : d_(d), from_(from), tree_(to), settings_(settings), slack_(from.bounds().diagonal() * 1e-6) {}
+
+    void run() {
+        start();
+        std::size_t work = settings_.certify_work;
+        while (!pieces_.empty() && work >= per_piece) {
+            std::vector<Piece> later = keep_worst(work / per_piece);
+            work -= round(later);
+            pieces_ = std::move(later);
+        }
+        for (const auto& piece : pieces_) settled_ = std::max(settled_, piece.bound);
+        d_.bound = std::max(settled_, d_.maximum);
+    }
+
+  private:
+    static constexpr std::size_t per_piece =
+        4; ///< points looked up for a piece: its middle, and of its edges
+
+    double target() const { return d_.maximum * (1 + settings_.certify_to) + slack_; }
+
+    Corner corner_at(const Vec3& p, Index hint) const { return {p, closest_point(tree_, p, hint)}; }
+
+    Piece whole(std::size_t t, const std::vector<Closest>& closest) const {
+        Piece piece;
+        piece.face = from_.face(t);
+        for (std::size_t i = 0; i < 3; ++i)
+            piece.corners[i] = {from_.point(t, i), closest[from_.corners[3 * t + i]]};
+        return piece;
+    }
+
+    static bool is_finite(const Piece& piece) {
+        return std::all_of(piece.corners.begin(), piece.corners.end(),
+                           [](const Corner& c) { return facetmill::is_finite(c.at); });
+    }
+
+    /// Whole triangles: most are settled by their corners.
+    void start() {
+        const std::vector<Closest> closest = closest_points(tree_, from_.positions);
+        const double target = this->target();
+        std::vector<double> bounds(from_.size());
+        parallel_for(
+            bounds.size(),
+            [&](std::size_t t) {
+                const Piece piece = whole(t, closest);
+                if (is_finite(piece)) bounds[t] = bound_of(tree_, piece, target);
+            },
+            1024);
+        for (std::size_t t = 0; t < bounds.size(); ++t) {
+            if (bounds[t] <= target) {
+                settled_ = std::max(settled_, bounds[t]);
+                continue;
+            }
+            pieces_.push_back(whole(t, closest));
+            pieces_.back().bound = bounds[t];
+        }
+    }
+
+    /// Leaves the `most` pieces with the largest bounds and returns the others.
+    std::vector<Piece> keep_worst(std::size_t most) {
+        if (pieces_.size() <= most) return {};
+        std::vector<std::size_t> order(pieces_.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+            return pieces_[a].bound != pieces_[b].bound ? pieces_[a].bound > pieces_[b].bound : a < b;
+        });
+        std::vector<Piece> worst, others;
+        for (std::size_t i = 0; i < order.size(); ++i)
+            (i < most ? worst : others).push_back(pieces_[order[i]]);
+        pieces_ = std::move(worst);
+        return others;
+    }
+
+    /// Settles or cuts every piece; what is left joins `later`. Returns how many points were looked up.
+    std::size_t round(std::vector<Piece>& later) {
+        const double target = this->target();
+        std::size_t looked_up = 0;
+        constexpr std::size_t batch = 16384; // outcomes are large
+        for (std::size_t begin = 0; begin < pieces_.size(); begin += batch) {
+            std::vector<Outcome> outcomes(std::min(batch, pieces_.size() - begin));
+            parallel_for(
+                outcomes.size(), [&](std::size_t i) { outcomes[i] = refined(pieces_[begin + i], target); },
+                64);
+            for (const auto& o : outcomes) {
+                later.insert(later.end(), o.left.begin(), o.left.begin() + static_cast<int>(o.left_count));
+                settled_ = std::max(settled_, o.settled);
+                looked_up += o.looked_up;
+                if (o.farthest.distance > d_.maximum) {
+                    d_.maximum = o.farthest.distance;
+                    d_.from = o.farthest.from, d_.to = o.farthest.to, d_.face = o.farthest.face;
+                }
+            }
+        }
+        d_.looked_up += looked_up;
+        return looked_up;
+    }
+
+    Outcome refined(const Piece& piece, double target) const {
+        Outcome o;
+        const auto& [a, b, c] = piece.corners;
+        const Corner middle = corner_at((a.at + b.at + c.at) / 3, a.closest.triangle);
+        o.farthest.consider(middle, piece.face);
+        o.looked_up = 1;
+        const double bound = std::min(piece.bound, distance_to(tree_, middle.closest.triangle, piece));
+        if (bound <= target) {
+            o.settled = bound;
+            return o;
+        }
+        const Corner ab = corner_at((a.at + b.at) * 0.5, a.closest.triangle);
+        const Corner bc = corner_at((b.at + c.at) * 0.5, b.closest.triangle);
+        const Corner ca = corner_at((c.at + a.at) * 0.5, c.closest.triangle);
+        o.looked_up = per_piece;
+        for (const auto& corner : {ab, bc, ca}) o.farthest.consider(corner, piece.face);
+        const std::array<std::array<Corner, 3>, 4> parts{
+            {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}};
+        for (const auto& corners : parts) {
+            Piece part{corners, bound, piece.face};
+            part.bound = std::min(bound, bound_of(tree_, part, target));
+            if (part.bound > target)
+                o.left[o.left_count++] = part;
+            else
+                o.settled = std::max(o.settled, part.bound);
+        }
+        return o;
+    }
+
+    DirectedDeviation& d_;
+    const Surface& from_;
+    const FaceTree& tree_;
+    const DeviationSettings& settings_;
+    double slack_; ///< so that equal surfaces come to an end
+    std::vector<Piece> pieces_;
+    double settled_ = 0;
+};
+
+} // namespace
+
+void bound_deviation(DirectedDeviation& d, const Surface& from, const FaceTree& to,
+                     const DeviationSettings& settings) {
+    Bound(d, from, to, settings).run();
+}
+
+} // namespace facetmill

@@ -1,0 +1,27 @@
+#pragma once
+// The guaranteed part of geometry/deviation/deviation.hpp.
+
+#include "geometry/deviation/deviation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace facetmill {
+
+/// Samples on triangles are rounded, and so is what is closest to them: a distance that coordinates of that
+/// size cannot tell from 0 (16 units of the last place) is 0, so that a surface is 0 from itself.
+inline double told_from_zero(double distance, const Vec3& p) {
+    const double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    return distance <= 16 * 2.220446049250313e-16 * size ? 0 : distance;
+}
+
+/// Sets d.bound, and raises d.maximum where a point found on the way is farther. d holds what the samples
+/// said. Over a triangle the distance to a convex set is greatest at a corner, so the greatest distance of
+/// its corners to one triangle of the other surface bounds it; so does the distance of a corner plus the
+/// longest way to it. Triangles whose bound exceeds the maximum are cut in four, again and again, until none
+/// exceeds it by more than certify_to, or the work is spent. After M. Tang, M. Lee and Y. Kim, "Interactive
+/// Hausdorff distance computation for general polygonal models" (2009).
+void bound_deviation(DirectedDeviation& d, const Surface& from, const FaceTree& to,
+                     const DeviationSettings& settings);
+
+} // namespace facetmill

@@ -1,0 +1,72 @@
+#pragma once
+// How far two surfaces are apart, both ways: by samples, and, when asked, with a guaranteed upper bound.
+// After P. Cignoni, C. Rocchini and R. Scopigno, "Metro: measuring error on simplified surfaces" (1998).
+
+#include "geometry/spatial/face_tree.hpp"
+
+#include <optional>
+
+namespace facetmill {
+
+struct DeviationSettings {
+    std::size_t samples =
+        100000; ///< each way, spread evenly over the area; besides, every vertex is a sample
+    std::uint64_t seed = 1;
+    bool certify = false; ///< also compute DirectedDeviation::bound
+    /// Stop when the bound exceeds the maximum by no more than this part of it, and a millionth of the
+    /// diagonal.
+    double certify_to = 0.01;
+    /// Closest points that certify may look up, each way: work, not time, so that the result does not depend
+    /// on the machine.
+    std::size_t certify_work = 4000000;
+};
+
+/// From one surface to the other: the distance of each sample to the closest point there; 0 where its
+/// coordinates, rounded as they are, cannot tell it from that (16 units of the last place).
+struct DirectedDeviation {
+    std::size_t samples = 0;  ///< over the area; mean and rms are over these, without any over the vertices
+    std::size_t vertices = 0; ///< that triangles use; where there are samples they enter the maximum only
+    double maximum = 0, rms = 0, mean = 0;
+    Vec3 from, to;     ///< the farthest sample and the point closest to it
+    Index face = none; ///< a face of the surface measured from, at the farthest sample; none for a vertex
+    /// No point of the surface is farther than this, up to the rounding of coordinates. At least `maximum`.
+    std::optional<double> bound;
+    std::size_t looked_up = 0; ///< closest points that certify looked up; they enter the maximum
+};
+
+/// In the units of the surfaces. All are infinite when one surface is empty and the other is not.
+struct DeviationResult {
+    DirectedDeviation forward;  ///< from the first surface to the second
+    DirectedDeviation backward; ///< from the second to the first
+    double diagonal = 0;        ///< of the box of the first surface: what percentages are of
+    std::uint64_t seed = 0;
+
+    double maximum() const { return std::max(forward.maximum, backward.maximum); }
+    double rms() const { return std::max(forward.rms, backward.rms); }
+    double mean() const { return std::max(forward.mean, backward.mean); }
+    /// The larger of both bounds, when there are both.
+    std::optional<double> bound() const;
+    /// In percent of the diagonal; 0 for 0, infinity when the diagonal is 0.
+    double percent(double length) const;
+};
+
+/// Two-sided deviation. The samples depend on the surface and the seed only: the k-th lies in the k-th of
+/// equal parts of the area, taken face by face. The same for any number of threads. Triangles with
+/// coordinates that are not finite are left out. O((samples + vertices) log n).
+DeviationResult deviation(const Surface& first, const Surface& second,
+                          const DeviationSettings& settings = {});
+/// In the meshes' own spaces, which must be the same.
+DeviationResult deviation(const Mesh& first, const Mesh& second, const DeviationSettings& settings = {});
+/// With trees at hand, one way only; `bound` needs certify.
+DirectedDeviation deviation_to(const Surface& from, const FaceTree& to,
+                               const DeviationSettings& settings = {});
+
+/// A point of a surface.
+struct SurfaceSample {
+    Vec3 point;
+    Index triangle = none; ///< of the surface
+};
+/// So many points spread over the area as described above; none when there is no area.
+std::vector<SurfaceSample> sample_area(const Surface& surface, std::size_t count, std::uint64_t seed);
+
+} // namespace facetmill

@@ -1,0 +1,87 @@
+#include "base/parallel.hpp"
+#include "base/random.hpp"
+#include "geometry/edit/moved.hpp"
+#include "mesh/power_scale.hpp"
+
+namespace facetmill {
+
+namespace {
+
+struct Sums {
+    double area = 0, volume = 0;
+    std::uint64_t boundary = 0; ///< each directed edge once, its reverse as the negative
+};
+
+/// place(corner): where it is, seen from a point near the surface.
+template <class Place>
+void add_face(Sums& sums, const Mesh& mesh, Index f, Place&& place) {
+    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+    const Vec3 first = place(begin);
+    for (Index c = begin + 1; c + 1 < end; ++c) {
+        const Vec3 a = place(c), b = place(c + 1), normal = cross(a - first, b - first);
+        sums.area += safe_length(normal) / 2;
+        sums.volume += dot(first, normal) / 6;
+    }
+}
+
+void add_boundary(Sums& sums, const Mesh& mesh, Index f) {
+    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+    for (Index c = begin, last = end - 1; c < end; last = c++) {
+        const std::uint64_t from = mesh.vertex(last), to = mesh.vertex(c);
+        const std::uint64_t edge = hashed(std::min(from, to), std::max(from, to));
+        sums.boundary += from < to ? edge : from > to ? -edge : 0;
+    }
+}
+
+template <class Place>
+Sums sums_of(const Mesh& mesh, bool with_boundary, Place&& place) {
+    return parallel_reduce(
+        mesh.face_count(), Sums{},
+        [&](std::size_t begin, std::size_t end) {
+            Sums s;
+            for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                add_face(s, mesh, f, place);
+                if (with_boundary) add_boundary(s, mesh, f);
+            }
+            return s;
+        },
+        [](Sums a, const Sums& b) {
+            return Sums{a.area + b.area, a.volume + b.volume, a.boundary + b.boundary};
+        });
+}
+
+Sums far_sums_of(const Mesh& mesh, bool with_boundary, const Transform& to_world, const PowerScale& scale,
+                 const Vec3& origin) {
+    const Vec3 from = scale(origin);
+    return sums_of(mesh, with_boundary, [&](Index c) { return scale(to_world.point(mesh.point(c))) - from; });
+}
+
+/// A box that holds the other one's corners, and so everything within it, after a transform.
+Box box_after(const Box& box, const Transform& to_world) {
+    Box all;
+    if (box.empty()) return all;
+    for (const double x : {box.min.x, box.max.x})
+        for (const double y : {box.min.y, box.max.y})
+            for (const double z : {box.min.z, box.max.z}) all.add(to_world.point({x, y, z}));
+    return all;
+}
+
+} // namespace
+
+SurfaceSize surface_size(const Mesh& mesh, const Transform& to_world, std::optional<bool> closed) {
+    const Box box = box_of(mesh.positions), world = box_after(box, to_world);
+    const PowerScale even = even_scale(world), axes = axis_scale(world);
+    const Vec3 centre = to_world.point(box.centre()), origin = is_finite(centre) ? centre : Vec3{};
+    Sums sums = even.none()
+                    ? sums_of(mesh, !closed, [&](Index c) { return to_world.point(mesh.point(c)) - origin; })
+                    : far_sums_of(mesh, !closed, to_world, even, origin);
+    if (!even.none()) sums.area = unscaled(sums.area, 2 * even.powers[0]);
+    if (!axes.none())
+        sums.volume = unscaled(far_sums_of(mesh, false, to_world, axes, origin).volume, axes.volume());
+    SurfaceSize size{sums.area, {}};
+    if (closed.value_or(sums.boundary == 0) && mesh.face_count() > 0)
+        size.volume = to_world.determinant() < 0 ? -sums.volume : sums.volume;
+    return size;
+}
+
+} // namespace facetmill

@@ -1,0 +1,299 @@
+#include "geometry/generate/generate.hpp"
+
+#include "base/error.hpp"
+#include "base/portable_math.hpp"
+#include "base/memory.hpp"
+#include "base/numbers.hpp"
+#include "geometry/crumple/crumple.hpp"
+#include "geometry/generate/lattice.hpp"
+#include "mesh/shapes.hpp"
+
+#include <fmt/format.h>
+#include <tuple>
+
+namespace facetmill {
+
+namespace {
+
+using Settings = GenerateSettings;
+
+void need(bool holds, std::string_view what, const std::string& found, std::string hint = {}) {
+    if (!holds)
+        throw Error(ErrorKind::usage, "E-RANGE", fmt::format("generate: {}, not {}", what, found),
+                    std::move(hint));
+}
+void need_length(double x, std::string_view name) {
+    constexpr double most = 1e37; // a diagonal of that is still a float32
+    need(x > 0, fmt::format("{} is above 0", name), to_string(x));
+    need(x <= most, fmt::format("{} is at most 1e+37, because files hold float32", name), to_string(x),
+         "use a smaller length, or a larger unit");
+}
+void need_count(std::int64_t n, std::int64_t least, std::string_view name) {
+    need(n >= least, fmt::format("{} is at least {}", name, least), std::to_string(n));
+}
+
+void refuse_giants(const Settings& s) {
+    const double faces = generate_face_estimate(s);
+    if (3 * faces > 2147483648.0)
+        throw Error(
+            ErrorKind::limit, "E-LIMIT",
+            fmt::format("generate: the shape would have about {:.3g} faces, at most {:.3g} are possible",
+                        faces, 2147483648.0 / 3),
+            "ask for fewer faces, cells or levels");
+    // Per triangle: three corners and half a vertex, twice while quads are cut, and what sorting takes.
+    require_memory(100 * faces, fmt::format("generate: a shape of {:.3g} faces", faces),
+                   "ask for fewer faces, cells or levels");
+}
+
+/// Points in rows of `around`, row r and place i of a row by at(r, i).
+struct Rows {
+    Index around, first = 0;
+    Index at(Index row, Index i) const { return first + row * around + i % around; }
+};
+
+void add_quad(Mesh& mesh, Index a, Index b, Index c, Index d) {
+    const Index quad[] = {a, b, c, d};
+    add_face(mesh, quad);
+}
+void add_triangle(Mesh& mesh, Index a, Index b, Index c) {
+    const Index triangle[] = {a, b, c};
+    add_face(mesh, triangle);
+}
+
+struct Direction {
+    double cosine, sine;
+};
+/// The n directions around a circle, computed once for all rows.
+std::vector<Direction> circle(std::int64_t n) {
+    std::vector<Direction> all(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const double a = 2 * pi * static_cast<double>(i) / static_cast<double>(n);
+        all[i] = {cosine(a), sine(a)};
+    }
+    return all;
+}
+
+void add_ring(Mesh& mesh, const std::vector<Direction>& directions, double radius, double z) {
+    for (const auto& d : directions) mesh.positions.push_back({radius * d.cosine, radius * d.sine, z});
+}
+
+/// Quads between row and the row above it.
+void add_band(Mesh& mesh, const Rows& rows, Index below, Index above) {
+    for (Index i = 0; i < rows.around; ++i)
+        add_quad(mesh, rows.at(below, i), rows.at(below, i + 1), rows.at(above, i + 1), rows.at(above, i));
+}
+/// Triangles from a row to a point: above it (up) or below it.
+void add_fan(Mesh& mesh, const Rows& rows, Index row, Index apex, bool up) {
+    for (Index i = 0; i < rows.around; ++i)
+        up ? add_triangle(mesh, rows.at(row, i), rows.at(row, i + 1), apex)
+           : add_triangle(mesh, rows.at(row, i + 1), rows.at(row, i), apex);
+}
+
+Mesh sphere(const Settings& s) {
+    Mesh mesh;
+    const auto directions = circle(s.around);
+    const Index bands = static_cast<Index>(s.across), rings = bands - 1;
+    for (Index r = 1; r <= rings; ++r) {
+        const double a = pi * r / bands;
+        add_ring(mesh, directions, s.radius * sine(a), -s.radius * cosine(a));
+    }
+    mesh.positions.push_back({0, 0, -s.radius});
+    mesh.positions.push_back({0, 0, s.radius});
+    const Rows rows{static_cast<Index>(s.around)};
+    const auto south = static_cast<Index>(mesh.positions.size() - 2);
+    add_fan(mesh, rows, 0, south, false);
+    for (Index r = 0; r + 1 < rings; ++r) add_band(mesh, rows, r, r + 1);
+    add_fan(mesh, rows, rings - 1, south + 1, true);
+    return mesh;
+}
+
+Mesh torus(const Settings& s) {
+    Mesh mesh;
+    const auto directions = circle(s.around);
+    for (const auto& tube : circle(s.across))
+        add_ring(mesh, directions, s.radius + s.tube * tube.cosine, s.tube * tube.sine);
+    const Rows rows{static_cast<Index>(s.around)};
+    const auto across = static_cast<Index>(s.across);
+    for (Index r = 0; r < across; ++r) add_band(mesh, rows, r, (r + 1) % across);
+    return mesh;
+}
+
+Mesh cylinder(const Settings& s) {
+    Mesh mesh;
+    const auto directions = circle(s.around);
+    const auto across = static_cast<Index>(s.across);
+    for (Index r = 0; r <= across; ++r)
+        add_ring(mesh, directions, s.radius, s.height * (static_cast<double>(r) / across - 0.5));
+    const Rows rows{static_cast<Index>(s.around)};
+    for (Index r = 0; r < across; ++r) add_band(mesh, rows, r, r + 1);
+    if (!s.caps) return mesh;
+    const auto centre = static_cast<Index>(mesh.positions.size());
+    mesh.positions.push_back({0, 0, -s.height / 2});
+    mesh.positions.push_back({0, 0, s.height / 2});
+    add_fan(mesh, rows, 0, centre, false);
+    add_fan(mesh, rows, across, centre + 1, true);
+    return mesh;
+}
+
+Mesh cone(const Settings& s) {
+    Mesh mesh;
+    const auto directions = circle(s.around);
+    const auto across = static_cast<Index>(s.across);
+    for (Index r = 0; r < across; ++r) {
+        const double t = static_cast<double>(r) / across;
+        add_ring(mesh, directions, s.radius * (1 - t), s.height * (t - 0.5));
+    }
+    mesh.positions.push_back({0, 0, s.height / 2});
+    const Rows rows{static_cast<Index>(s.around)};
+    const auto apex = static_cast<Index>(mesh.positions.size() - 1);
+    for (Index r = 0; r + 1 < across; ++r) add_band(mesh, rows, r, r + 1);
+    add_fan(mesh, rows, across - 1, apex, true);
+    if (!s.caps) return mesh;
+    mesh.positions.push_back({0, 0, -s.height / 2});
+    add_fan(mesh, rows, 0, apex + 1, false);
+    return mesh;
+}
+
+/// A square of cells x cells quads around the origin, at the height that height(x, y) says.
+template <class Height>
+Mesh field(const Settings& s, Height&& height) {
+    Mesh mesh;
+    const auto n = static_cast<Index>(s.cells);
+    const auto place = [&](Index i) { return s.size * ((2.0 * i - n) / (2.0 * n)); };
+    for (Index j = 0; j <= n; ++j)
+        for (Index i = 0; i <= n; ++i)
+            mesh.positions.push_back({place(i), place(j), height(place(i), place(j))});
+    for (Index j = 0; j < n; ++j)
+        for (Index i = 0; i < n; ++i) {
+            const Index a = j * (n + 1) + i, b = a + n + 1;
+            add_quad(mesh, a, a + 1, b + 1, b);
+        }
+    return mesh;
+}
+
+Mesh scaled(Mesh mesh, double size) {
+    for (auto& p : mesh.positions) p *= size;
+    return mesh;
+}
+
+Mesh shaped(const Settings& s) {
+    switch (s.shape) {
+    case Shape::sphere:
+        return sphere(s);
+    case Shape::icosphere:
+        return scaled(shapes::icosphere(static_cast<int>(s.level)), s.radius);
+    case Shape::cube:
+        return scaled(lattice_cube(s.cells), s.size);
+    case Shape::grid:
+        return field(s, [](double, double) { return 0.0; });
+    case Shape::torus:
+        return torus(s);
+    case Shape::cylinder:
+        return cylinder(s);
+    case Shape::cone:
+        return cone(s);
+    case Shape::gaussian:
+        return field(s, [&](double x, double y) {
+            return s.height * exponential(-(x * x + y * y) / (2 * s.spread * s.spread));
+        });
+    case Shape::menger:
+        return scaled(lattice_sponge(static_cast<int>(s.level)), s.size);
+    }
+    throw Error(ErrorKind::bug, "E-BUG", "generate: unknown shape");
+}
+
+} // namespace
+
+double generate_face_estimate(const Settings& s) {
+    const double around = static_cast<double>(s.around), across = static_cast<double>(s.across),
+                 cells = static_cast<double>(s.cells);
+    const auto power = [&](double base) {
+        double x = 1;
+        for (std::int64_t i = 0; i < s.level && x < 1e18; ++i) x *= base;
+        return x;
+    };
+    switch (s.shape) {
+    case Shape::sphere:
+        return 2 * around * (across - 1);
+    case Shape::icosphere:
+        return 20 * power(4);
+    case Shape::cube:
+        return 12 * cells * cells;
+    case Shape::torus:
+        return 2 * around * across;
+    case Shape::cylinder:
+        return 2 * around * (across + s.caps);
+    case Shape::cone:
+        return around * (2 * across - 1 + s.caps);
+    case Shape::grid:
+    case Shape::gaussian:
+        return 2 * cells * cells;
+    case Shape::menger:
+        return 4 * power(20) + 8 * power(8);
+    }
+    return 0;
+}
+
+void check_generate_settings(const Settings& s) {
+    const bool square = s.shape == Shape::cube || s.shape == Shape::grid || s.shape == Shape::gaussian;
+    const bool tall = s.shape == Shape::cylinder || s.shape == Shape::cone;
+    need(s.noise >= 0 && s.noise <= 1e37, "noise is at least 0 and at most 1e+37", to_string(s.noise));
+    if (square || s.shape == Shape::menger)
+        need_length(s.size, "size");
+    else
+        need_length(s.radius, "radius");
+    if (square) need_count(s.cells, 1, "cells");
+    if (tall || s.shape == Shape::gaussian) need_length(s.height, "height");
+    if (s.shape == Shape::gaussian) need_length(s.spread, "spread");
+    if (s.shape == Shape::torus) {
+        need_length(s.tube, "tube");
+        need(s.tube < s.radius, fmt::format("tube is below the radius {}", to_string(s.radius)),
+             to_string(s.tube), "use a thinner tube or a larger radius");
+    }
+    const bool round = tall || s.shape == Shape::sphere || s.shape == Shape::torus;
+    if (round) need_count(s.around, 3, "around");
+    if (round) need_count(s.across, s.shape == Shape::torus ? 3 : s.shape == Shape::sphere ? 2 : 1, "across");
+    if (s.shape == Shape::menger)
+        need(s.level >= 1 && s.level <= 4, "level is 1 to 4", std::to_string(s.level));
+    if (s.shape == Shape::icosphere)
+        need(s.level >= 0 && s.level <= 12, "level is 0 to 12", std::to_string(s.level));
+}
+
+SphereBands sphere_bands(std::int64_t faces) {
+    const std::int64_t half = std::max<std::int64_t>(faces, 6) / 2; // around * (across - 1)
+    SphereBands best;
+    std::int64_t best_miss = 0, best_count = 0;
+    double best_skew = 0;
+    const auto consider = [&](std::int64_t around, std::int64_t across) {
+        if (across < 2 || around < across || around > 4 * across) return;
+        const std::int64_t count = 2 * around * (across - 1), miss = std::abs(count - faces);
+        const double ratio = static_cast<double>(around) / (2 * static_cast<double>(across)),
+                     skew = std::max(ratio, 1 / ratio);
+        const auto rank = std::tuple(miss, count, skew);
+        if (best.around > 0 && !(rank < std::tuple(best_miss, best_count, best_skew))) return;
+        best = {around, across}, best_miss = miss, best_count = count, best_skew = skew;
+    };
+    // Wider than 4 across it cannot be, and across - 1 is half / around or the next.
+    for (std::int64_t around = 3; around <= 12 || around * around <= 16 * half; ++around)
+        for (std::int64_t across = half / around + 1; across <= half / around + 2; ++across)
+            consider(around, across);
+    return best;
+}
+
+Mesh with_noise(Mesh mesh, double deviation, std::uint64_t seed) {
+    if (deviation == 0) return mesh;
+    CrumpleSettings noise;
+    noise.amplitude = deviation;
+    noise.seed = seed;
+    return std::move(crumple(std::move(mesh), noise).mesh);
+}
+
+Mesh generate(const Settings& settings) {
+    check_generate_settings(settings);
+    refuse_giants(settings);
+    Mesh mesh = shaped(settings);
+    if (!settings.quads) mesh = triangulated(mesh);
+    return with_noise(std::move(mesh), settings.noise, settings.seed);
+}
+
+} // namespace facetmill

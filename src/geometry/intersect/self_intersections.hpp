@@ -1,0 +1,45 @@
+#pragma once
+// Which faces of a mesh run into each other.
+
+#include "mesh/mesh.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace facetmill {
+
+struct SelfIntersectionSettings {
+    std::size_t limit = 10;               ///< how many pairs are listed; all are counted
+    std::vector<std::uint8_t> among = {}; ///< [faces] only pairs with a face that is set; empty: all pairs
+    bool apart = false;                   ///< pairs that only touch are counted and listed apart
+};
+
+struct SelfIntersections {
+    std::size_t count = 0; ///< pairs of faces
+    std::vector<std::pair<Index, Index>>
+        pairs;                ///< the first by (lower, higher face), as many as the limit allows
+    std::size_t touching = 0; ///< with `apart`: pairs that only touch, which `count` and `pairs` leave out
+    std::vector<std::pair<Index, Index>> touching_pairs; ///< the first of them, likewise
+};
+
+/// Finds the pairs of faces that meet elsewhere than in the vertices and edges they share, decided exactly
+/// (CGAL's exact predicates) on the positions as they are. Sharing is by vertex index: faces that touch at
+/// equal positions of different vertices do meet elsewhere; on request pairs that only touch there
+/// (geometry/intersect/contacts.hpp) are told apart. Neighbours that fold over each other in one plane
+/// count. Faces without area take no part (Properties::degenerate_faces counts them), nor do those with
+/// coordinates that are not finite. Polygons stand for their triangles (mesh/triangulated), which do not
+/// count among themselves. A tree of boxes is walked against itself: O(n log n) and the pairs there
+/// are. Parallel; the same for any number of threads.
+SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings = {});
+
+/// [faces] 1 for the faces of the pairs that find_self_intersections would find, the exempt ones (lower face
+/// first, ascending) left out. Where a face is in many pairs this is much faster: a pair of faces that are
+/// known both is not looked at. Which pair tells of a face depends on the threads, whether one does, does
+/// not.
+std::vector<std::uint8_t> self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
+                                                  std::span<const std::pair<Index, Index>> exempt);
+
+} // namespace facetmill

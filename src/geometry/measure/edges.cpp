@@ -1,0 +1,205 @@
+// Edges, corners and curvature of geometry/measure/measure.hpp.
+#include "base/portable_math.hpp"
+#include "base/parallel.hpp"
+#include "geometry/measure/measure.hpp"
+#include "mesh/power_scale.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace facetmill {
+
+namespace {
+
+constexpr double none_there = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<Vec3> area_vectors(const Mesh& mesh) {
+    std::vector<Vec3> areas(mesh.face_count());
+    parallel_chunks(areas.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<Vec3> corners;
+        for (std::size_t f = begin; f < end; ++f) {
+            const auto i = static_cast<Index>(f);
+            corners.clear();
+            for (Index c = mesh.face_begin(i); c < mesh.face_end(i); ++c) corners.push_back(mesh.point(c));
+            areas[f] = polygon::area_vector(corners);
+        }
+    });
+    return areas;
+}
+
+double angle_between(const Vec3& a, const Vec3& b) { return arc_tangent(length(cross(a, b)), dot(a, b)); }
+
+/// How the surface turns at an edge with two faces that run along it in opposite directions; nan at others.
+struct Turns {
+    EdgeTable edges;
+    std::vector<double> turn;
+};
+
+Turns turns_of(const Mesh& mesh, const std::vector<Vec3>& areas) {
+    Turns t{build_edges(mesh), {}};
+    const std::vector<Index> face_of = corner_faces(mesh);
+    t.turn.assign(t.edges.size(), none_there);
+    parallel_for(t.edges.size(), [&](std::size_t e) {
+        const auto corners = t.edges.corners_of(static_cast<Index>(e));
+        if (corners.size() != 2 || mesh.vertex(corners[0]) == mesh.vertex(corners[1])) return;
+        const Vec3 &m = areas[face_of[corners[0]]], &n = areas[face_of[corners[1]]];
+        if (!(dot(m, m) > 0) || !(dot(n, n) > 0)) return;
+        const Index c = corners[0];
+        const Vec3 along =
+            mesh.point(next_corner(mesh, face_of[c], c)) - mesh.point(c); // anticlockwise around m's face
+        const double angle = angle_between(m, n);
+        t.turn[e] = dot(cross(m, n), along) < 0 ? -angle : angle;
+    });
+    return t;
+}
+
+double length_of(const Mesh& mesh, const EdgeTable::Edge& e) {
+    return length(mesh.positions[e.high] - mesh.positions[e.low]);
+}
+
+/// The inner angle of a face at a corner; normal tells which side is inside.
+double angle_at(const Vec3& before, const Vec3& at, const Vec3& after, const Vec3& normal) {
+    const Vec3 a = after - at, b = before - at;
+    if (!(dot(a, a) > 0) || !(dot(b, b) > 0)) return none_there;
+    const double angle = angle_between(a, b);
+    return dot(cross(a, b), normal) < 0 ? 2 * pi - angle : angle;
+}
+
+/// Longest edge over the height on it, so that an equilateral triangle has 1.
+double aspect_of(const Vec3& a, const Vec3& b, const Vec3& c, double area) {
+    const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+    return area > 0 ? longest * longest / (2 * area) * 0.8660254037844386 : none_there;
+}
+
+// Of meshes whose boxes are not far from 1 in size.
+
+EdgeResult edges_of(const Mesh& mesh, const SharpSettings& settings) {
+    const Turns t = turns_of(mesh, area_vectors(mesh));
+    EdgeResult r;
+    std::vector<double> lengths(t.edges.size());
+    parallel_for(lengths.size(), [&](std::size_t e) { lengths[e] = length_of(mesh, t.edges.edges[e]); });
+    for (std::size_t e = 0; e < t.edges.size(); ++e) {
+        const std::size_t faces = t.edges.corners_of(static_cast<Index>(e)).size();
+        r.boundary += faces == 1;
+        r.non_manifold += faces > 2;
+        const double turn = t.turn[e];
+        if (!(turn == turn)) continue;
+        r.sharp += std::abs(turn) > settings.sharp;
+        if (std::abs(turn) <= settings.flat)
+            ++r.flat;
+        else
+            ++(turn > 0 ? r.convex : r.concave);
+    }
+    r.length = statistics(std::move(lengths));
+    r.turn = statistics(t.turn);
+    return r;
+}
+
+FaceResult faces_of(const Mesh& mesh) {
+    FaceResult r;
+    r.kinds = face_kinds(mesh);
+    const std::vector<Vec3> areas = area_vectors(mesh);
+    r.areas.resize(areas.size());
+    std::vector<double> angles(mesh.corner_count()), aspects(areas.size(), none_there);
+    parallel_for(areas.size(), [&](std::size_t i) {
+        const auto f = static_cast<Index>(i);
+        r.areas[i] = safe_length(areas[i]);
+        const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+        for (Index c = begin; c < end; ++c)
+            angles[c] = angle_at(mesh.point(c == begin ? end - 1 : c - 1), mesh.point(c),
+                                 mesh.point(c + 1 == end ? begin : c + 1), areas[i]);
+        if (end - begin == 3)
+            aspects[i] =
+                aspect_of(mesh.point(begin), mesh.point(begin + 1), mesh.point(begin + 2), r.areas[i]);
+    });
+    r.area = statistics(r.areas);
+    r.angle = statistics(std::move(angles));
+    r.aspect = statistics(std::move(aspects));
+    return r;
+}
+
+CurvatureResult curvature_of(const Mesh& given) {
+    const Mesh mesh = triangulated(given);
+    const std::vector<Vec3> areas = area_vectors(mesh);
+    const Turns t = turns_of(mesh, areas);
+    const VertexLists corners = corners_at_vertices(mesh);
+    std::vector<double> bends(mesh.vertex_count()), missing(mesh.vertex_count());
+    std::vector<std::uint8_t> open(mesh.vertex_count());
+    for (std::size_t e = 0; e < t.edges.size(); ++e) {
+        const auto [low, high] = t.edges.edges[e];
+        const std::size_t faces = t.edges.corners_of(static_cast<Index>(e)).size();
+        // 1: a boundary; 2: no manifold, or a face without a normal.
+        if (faces == 1) open[low] |= 1, open[high] |= 1;
+        if (faces == 1) continue;
+        if (!(t.turn[e] == t.turn[e])) {
+            open[low] |= 2, open[high] |= 2;
+            continue;
+        }
+        const double bend = length_of(mesh, t.edges.edges[e]) * t.turn[e];
+        bends[low] += bend, bends[high] += bend;
+    }
+    CurvatureResult r;
+    r.gaussian.assign(mesh.vertex_count(), none_there);
+    r.mean = r.gaussian;
+    parallel_for(mesh.vertex_count(), [&](std::size_t v) {
+        double angle = 0, area = 0;
+        for (const Index c : corners.of(static_cast<Index>(v))) {
+            const Index f = c / 3;
+            const Vec3& at = mesh.point(c);
+            const double corner =
+                angle_at(mesh.point(3 * f + (c + 2) % 3), at, mesh.point(3 * f + (c + 1) % 3), areas[f]);
+            if (corner == corner) angle += corner;
+            area += length(areas[f]);
+        }
+        if (corners.of(static_cast<Index>(v)).empty()) return;
+        missing[v] = ((open[v] & 1) ? pi : 2 * pi) - angle;
+        if (open[v] || !(area > 0)) return;
+        r.gaussian[v] = missing[v] / (area / 3);
+        r.mean[v] = bends[v] / 4 / (area / 3);
+    });
+    for (const double m : missing) r.total += m;
+    r.of_gaussian = statistics(r.gaussian);
+    r.of_mean = statistics(r.mean);
+    return r;
+}
+
+/// What was measured in scaled coordinates, and is a length to that power.
+void unscale(Statistics& s, int power) {
+    for (double* x : {&s.minimum, &s.maximum, &s.mean, &s.deviation, &s.median, &s.sum})
+        *x = unscaled(*x, power);
+}
+
+void unscale(std::vector<double>& numbers, int power) {
+    for (double& x : numbers) x = unscaled(x, power);
+}
+
+} // namespace
+
+EdgeResult measure_edges(const Mesh& mesh, const SharpSettings& settings) {
+    const PowerScale scale = even_scale(mesh.bounds());
+    if (scale.none()) return edges_of(mesh, settings);
+    EdgeResult r = edges_of(scale(mesh), settings);
+    unscale(r.length, scale.powers[0]);
+    return r;
+}
+
+FaceResult measure_faces(const Mesh& mesh) {
+    const PowerScale scale = even_scale(mesh.bounds());
+    if (scale.none()) return faces_of(mesh);
+    FaceResult r = faces_of(scale(mesh));
+    unscale(r.area, 2 * scale.powers[0]), unscale(r.areas, 2 * scale.powers[0]);
+    r.kinds.deviation = unscaled(r.kinds.deviation, scale.powers[0]);
+    return r;
+}
+
+CurvatureResult measure_curvature(const Mesh& mesh) {
+    const PowerScale scale = even_scale(mesh.bounds());
+    if (scale.none()) return curvature_of(mesh);
+    CurvatureResult r = curvature_of(scale(mesh));
+    unscale(r.gaussian, -2 * scale.powers[0]), unscale(r.mean, -scale.powers[0]);
+    unscale(r.of_gaussian, -2 * scale.powers[0]), unscale(r.of_mean, -scale.powers[0]);
+    return r;
+}
+
+} // namespace facetmill

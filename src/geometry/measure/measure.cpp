@@ -1,0 +1,195 @@
+#include "geometry/measure/measure.hpp"
+
+#include "base/portable_math.hpp"
+#include "base/parallel.hpp"
+#include "geometry/inspect/inspect.hpp"
+#include "mesh/power_scale.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+namespace {
+
+/// Sums over triangles as seen from a point near them, the common factors left out.
+struct Sums {
+    double area = 0, volume = 0; ///< twice, six times
+    Vec3 shell, solid;           ///< six times area times centroid; 24 times volume times centroid
+    Symmetric spread;            ///< 120 times
+
+    void add(const Sums& b) {
+        area += b.area, volume += b.volume, shell += b.shell, solid += b.solid;
+        auto& s = spread;
+        const auto& t = b.spread;
+        s.xx += t.xx, s.xy += t.xy, s.xz += t.xz, s.yy += t.yy, s.yz += t.yz, s.zz += t.zz;
+    }
+};
+
+void add_square(Symmetric& s, const Vec3& v, double weight) {
+    s.xx += weight * v.x * v.x, s.xy += weight * v.x * v.y, s.xz += weight * v.x * v.z;
+    s.yy += weight * v.y * v.y, s.yz += weight * v.y * v.z, s.zz += weight * v.z * v.z;
+}
+
+/// The tetrahedron from the origin over a triangle.
+void add_tetrahedron(Sums& sums, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double volume = dot(a, cross(b, c));
+    const Vec3 sum = a + b + c;
+    sums.volume += volume;
+    sums.solid += sum * volume;
+    for (const Vec3& v : {a, b, c, sum}) add_square(sums.spread, v, volume);
+}
+
+void add_face(Sums& sums, const Mesh& mesh, Index f, const Vec3& from, std::vector<Vec3>& p) {
+    p.clear();
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) p.push_back(mesh.point(c) - from);
+    const Vec3 twice = polygon::area_vector(p) * 2;
+    const double area = safe_length(twice);
+    const Vec3 normal = normalised(twice);
+    sums.area += area;
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+        const double part = p.size() == 3 ? area : dot(cross(p[i] - p[0], p[i + 1] - p[0]), normal);
+        sums.shell += (p[0] + p[i] + p[i + 1]) * part;
+        add_tetrahedron(sums, p[0], p[i], p[i + 1]);
+    }
+}
+
+Sums sums_of(const Mesh& mesh, const Vec3& from) {
+    return parallel_reduce(
+        mesh.face_count(), Sums{},
+        [&](std::size_t begin, std::size_t end) {
+            Sums sums;
+            std::vector<Vec3> corners;
+            for (std::size_t f = begin; f < end; ++f)
+                add_face(sums, mesh, static_cast<Index>(f), from, corners);
+            return sums;
+        },
+        [](Sums a, const Sums& b) { return a.add(b), a; });
+}
+
+Symmetric operator*(const Symmetric& s, double x) {
+    return {s.xx * x, s.xy * x, s.xz * x, s.yy * x, s.yz * x, s.zz * x};
+}
+
+/// Turns rows and columns p and q so that their common element vanishes.
+void rotate(double (&m)[3][3], double (&axes)[3][3], int p, int q) {
+    if (m[p][q] == 0) return;
+    const double theta = (m[q][q] - m[p][p]) / (2 * m[p][q]);
+    const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+    const double c = 1 / std::sqrt(t * t + 1), s = t * c;
+    for (int k = 0; k < 3; ++k) {
+        const double kp = m[k][p], kq = m[k][q];
+        m[k][p] = c * kp - s * kq, m[k][q] = s * kp + c * kq;
+    }
+    for (int k = 0; k < 3; ++k) {
+        const double pk = m[p][k], qk = m[q][k];
+        m[p][k] = c * pk - s * qk, m[q][k] = s * pk + c * qk;
+    }
+    m[p][q] = m[q][p] = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double kp = axes[k][p], kq = axes[k][q];
+        axes[k][p] = c * kp - s * kq, axes[k][q] = s * kp + c * kq;
+    }
+}
+
+/// Of a mesh whose box is not far from 1 in size.
+MassResult mass_of(const Mesh& mesh, bool closed) {
+    const Box box = mesh.bounds();
+    const Vec3 from = box.empty() ? Vec3{} : box.centre();
+    const Sums sums = sums_of(mesh, from);
+    MassResult result;
+    result.shell.area = sums.area / 2;
+    if (sums.area > 0) result.shell.centroid = from + sums.shell / (3 * sums.area);
+    if (mesh.face_count() == 0 || !closed) return result;
+    SolidMass& solid = result.solid.emplace();
+    const double area = result.shell.area, ball = area * std::sqrt(area / (36 * pi));
+    if (!(std::abs(sums.volume / 6) > 1e-12 * ball)) return result;
+    solid.volume = sums.volume / 6;
+    const Vec3 centroid = sums.solid / (4 * sums.volume);
+    solid.centroid = from + centroid;
+    solid.spread = sums.spread * (1.0 / 120);
+    add_square(solid.spread, centroid, -solid.volume);
+    return result;
+}
+
+/// What was measured in scaled coordinates, as it is in the given ones.
+ShellMass taken_back(const ShellMass& shell, const PowerScale& scale) {
+    return {unscaled(shell.area, 2 * scale.powers[0]), scale.inverse()(shell.centroid)};
+}
+
+SolidMass taken_back(const SolidMass& solid, const PowerScale& scale) {
+    const auto moment = [&](double x, std::size_t i, std::size_t j) {
+        return unscaled(x, scale.volume() + scale.powers[i] + scale.powers[j]);
+    };
+    const Symmetric& s = solid.spread;
+    return {unscaled(solid.volume, scale.volume()),
+            scale.inverse()(solid.centroid),
+            {moment(s.xx, 0, 0), moment(s.xy, 0, 1), moment(s.xz, 0, 2), moment(s.yy, 1, 1),
+             moment(s.yz, 1, 2), moment(s.zz, 2, 2)}};
+}
+
+Vec3 with_largest_positive(const Vec3& v) {
+    std::size_t largest = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::abs(v[i]) > std::abs(v[largest])) largest = i;
+    return v[largest] < 0 ? -v : v;
+}
+
+} // namespace
+
+Eigen3 eigen(const Symmetric& matrix) {
+    double m[3][3] = {{matrix.xx, matrix.xy, matrix.xz},
+                      {matrix.xy, matrix.yy, matrix.yz},
+                      {matrix.xz, matrix.yz, matrix.zz}};
+    double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int sweep = 0; sweep < 16; ++sweep) // converges quadratically: seven are enough
+        rotate(m, axes, 0, 1), rotate(m, axes, 0, 2), rotate(m, axes, 1, 2);
+    std::array<int, 3> order{0, 1, 2};
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return m[a][a] < m[b][b]; });
+    Eigen3 e;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const int k = order[i];
+        e.values[i] = m[k][k];
+        e.vectors[i] = with_largest_positive(normalised({axes[0][k], axes[1][k], axes[2][k]}));
+    }
+    e.vectors[2] = cross(e.vectors[0], e.vectors[1]);
+    return e;
+}
+
+Symmetric SolidMass::inertia() const {
+    const auto& s = spread;
+    return {s.yy + s.zz, -s.xy, -s.xz, s.xx + s.zz, -s.yz, s.xx + s.yy};
+}
+
+ShellMass joined(const ShellMass& a, const ShellMass& b) {
+    if (a.area == 0) return b;
+    if (b.area == 0) return a;
+    const double area = a.area + b.area;
+    return {area, area > 0 ? (a.centroid * a.area + b.centroid * b.area) / area : Vec3{}};
+}
+
+SolidMass joined(const SolidMass& a, const SolidMass& b) {
+    if (a.volume == 0) return b;
+    if (b.volume == 0) return a;
+    SolidMass sum{a.volume + b.volume, {}, a.spread};
+    if (sum.volume == 0) return {};
+    // From a, so that solids far from the origin lose nothing.
+    const Vec3 apart = b.centroid - a.centroid;
+    sum.centroid = a.centroid + apart * (b.volume / sum.volume);
+    auto& s = sum.spread;
+    s.xx += b.spread.xx, s.xy += b.spread.xy, s.xz += b.spread.xz;
+    s.yy += b.spread.yy, s.yz += b.spread.yz, s.zz += b.spread.zz;
+    add_square(s, apart, a.volume * (b.volume / sum.volume));
+    return sum;
+}
+
+MassResult measure_mass(const Mesh& mesh) {
+    const bool closed = mesh.face_count() > 0 && inspect(mesh).closed;
+    const PowerScale even = even_scale(mesh.bounds()), axes = axis_scale(mesh.bounds());
+    if (even.none() && axes.none()) return mass_of(mesh, closed);
+    MassResult result;
+    result.shell = taken_back(mass_of(even(mesh), false).shell, even);
+    if (closed) result.solid = taken_back(*mass_of(axes(mesh), true).solid, axes);
+    return result;
+}
+
+} // namespace facetmill

@@ -1,0 +1,101 @@
+#pragma once
+// Areas, centroids, volume and inertia; edges, angles and curvature. After Bourke's notes "Area of a 3D
+// polygon" (2000) and "Centroid of a surface" (the area-weighted centroid of a shell); the solid after D.
+// Eberly, "Polyhedral mass properties (revisited)" (2002), by tetrahedra from the middle of the box.
+
+#include "geometry/measure/statistics.hpp"
+#include "geometry/triangulate/triangulate.hpp"
+
+#include <optional>
+
+namespace facetmill {
+
+/// A symmetric 3 x 3 matrix.
+struct Symmetric {
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+    Vec3 operator*(const Vec3& v) const {
+        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+                xz * v.x + yz * v.y + zz * v.z};
+    }
+};
+
+/// Eigenvalues ascending, and their unit eigenvectors: a right-handed frame, the largest component of the
+/// first two not negative.
+struct Eigen3 {
+    std::array<double, 3> values{};
+    std::array<Vec3, 3> vectors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+};
+/// By Jacobi's rotations.
+Eigen3 eigen(const Symmetric& m);
+
+/// Of a surface without thickness.
+struct ShellMass {
+    double area = 0;
+    Vec3 centroid; ///< of the area; the origin when there is none
+};
+
+/// Of the inside of a closed surface, filled with density 1. All negative for a surface that is inside out.
+struct SolidMass {
+    double volume = 0;
+    Vec3 centroid;
+    /// The integral of (p - centroid) (p - centroid)^T over the inside.
+    Symmetric spread;
+
+    /// About the centroid: the integral of |r|^2 I - r r^T.
+    Symmetric inertia() const;
+};
+
+/// Of several together.
+ShellMass joined(const ShellMass& a, const ShellMass& b);
+SolidMass joined(const SolidMass& a, const SolidMass& b);
+
+struct MassResult {
+    ShellMass shell;
+    /// When every edge's faces cancel (closed); all zero when the volume is rounding only, as of a surface
+    /// that is doubled on itself: no more than 1e-12 of a ball's of that area.
+    std::optional<SolidMass> solid;
+};
+/// Sums over faces in parallel. The area of a face is the length of polygon::area_vector, its centroid and
+/// its volume those of the fan from its first corner, exact for planar faces, concave ones too.
+MassResult measure_mass(const Mesh& mesh);
+
+/// Angles in radians.
+struct EdgeResult {
+    Statistics length; ///< of all edges
+    Statistics
+        turn; ///< of edges with two faces that agree: the angle between normals, negative where concave
+    std::size_t convex = 0, concave = 0,
+                flat = 0;                       ///< among them; flat: within the angle of SharpSettings::flat
+    std::size_t sharp = 0;                      ///< turn beyond SharpSettings::sharp either way
+    std::size_t boundary = 0, non_manifold = 0; ///< edges with one face; with three or more
+};
+struct SharpSettings {
+    double sharp = 0.5235987755982988; ///< 30 degrees
+    double flat = 1e-6;
+};
+EdgeResult measure_edges(const Mesh& mesh, const SharpSettings& settings = {});
+
+/// Inner angles at the corners of faces, and areas.
+struct FaceResult {
+    Statistics area, angle; ///< angle: 0 to 2 pi, beyond pi at concave corners
+    Statistics
+        aspect; ///< of triangles: longest edge over the height on it, times sqrt(3)/2: 1 is equilateral
+    FaceKinds kinds;
+    std::vector<double> areas; ///< per face
+};
+FaceResult measure_faces(const Mesh& mesh);
+
+/// Discrete curvature at vertices, after M. Meyer et al., "Discrete differential-geometry operators for
+/// triangulated 2-manifolds" (2003): what is missing of the full angle, and the turn of the edges, over a
+/// third of the area of the triangles around. Vertices on a boundary or where the surface is no manifold have
+/// none (nan).
+struct CurvatureResult {
+    std::vector<double> gaussian, mean; ///< per vertex; mean is positive where the surface bulges outward
+    Statistics of_gaussian, of_mean;
+    /// The sum of missing angles over all vertices (those on a boundary miss up to half a turn): 2 pi times
+    /// Euler's number of a manifold, whatever its shape.
+    double total = 0;
+};
+CurvatureResult measure_curvature(const Mesh& mesh);
+
+} // namespace facetmill

@@ -1,0 +1,200 @@
+#include "geometry/normals/give_normals.hpp"
+
+#include "base/portable_math.hpp"
+#include "base/parallel.hpp"
+#include "geometry/edit/moved.hpp"
+#include "geometry/normals/normal_seams.hpp"
+#include "geometry/normals/one_ring.hpp"
+#include "mesh/surface_normal.hpp"
+
+#include <numeric>
+#include <tuple>
+
+namespace facetmill {
+
+namespace {
+
+double angle_at(const Mesh& mesh, Index f, Index c) {
+    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+    const Vec3 to = normalised(mesh.point(c + 1 == end ? begin : c + 1) - mesh.point(c));
+    const Vec3 from = normalised(mesh.point(c == begin ? end - 1 : c - 1) - mesh.point(c));
+    return arc_tangent(length(cross(to, from)), dot(to, from));
+}
+
+/// Which corners of a vertex share a normal, and which of those a wedge.
+class SmoothFan {
+  public:
+    SmoothFan(const Mesh& mesh, const std::vector<Index>& face_of, const std::vector<Vec3>& normals,
+              double least_cosine)
+        : mesh_(mesh), face_of_(face_of), normals_(normals), least_cosine_(least_cosine) {}
+
+    /// Numbers the wedges to be from 0 and says which of them each corner gets. Returns how many there are.
+    Index number(std::span<const Index> corners, std::vector<Index>& wedge_of_corner) {
+        join(corners);
+        keys_.clear();
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            keys_.push_back({root(i), mesh_.corners[corners[i]], corners[i]});
+        std::sort(keys_.begin(), keys_.end(), [](const Key& a, const Key& b) {
+            return std::tie(a.root, a.wedge, a.corner) < std::tie(b.root, b.wedge, b.corner);
+        });
+        Index count = 0;
+        for (std::size_t i = 0; i < keys_.size(); ++i) {
+            if (i == 0 || keys_[i].root != keys_[i - 1].root || keys_[i].wedge != keys_[i - 1].wedge) ++count;
+            wedge_of_corner[keys_[i].corner] = count - 1;
+        }
+        return count;
+    }
+
+    /// The normal of each corner, in order; join() has been called by number().
+    void sum(std::span<const Index> corners, std::vector<Vec3>& of_corner) {
+        join(corners);
+        of_corner.assign(corners.size(), {});
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const Index c = corners[i], f = face_of_[c];
+            if (dot(normals_[f], normals_[f]) > 0) of_corner[root(i)] += normals_[f] * angle_at(mesh_, f, c);
+        }
+        for (std::size_t i = corners.size(); i-- > 0;) of_corner[i] = normalised(of_corner[root(i)]);
+    }
+
+  private:
+    struct Key {
+        std::size_t root;
+        Index wedge, corner;
+    };
+
+    std::size_t root(std::size_t i) {
+        while (roots_[i] != i) i = roots_[i] = roots_[roots_[i]];
+        return i;
+    }
+
+    void join(std::span<const Index> corners) {
+        roots_.resize(corners.size());
+        std::iota(roots_.begin(), roots_.end(), std::size_t{0});
+        const auto place = [&](Index c) {
+            return static_cast<std::size_t>(std::lower_bound(corners.begin(), corners.end(), c) -
+                                            corners.begin());
+        };
+        spokes_.pairs(mesh_, face_of_, corners, [&](Index c, Index d, bool agree) {
+            if (!agree || bends_more(dot(normals_[face_of_[c]], normals_[face_of_[d]]), least_cosine_))
+                return;
+            const std::size_t a = root(place(c)), b = root(place(d));
+            roots_[std::max(a, b)] = std::min(a, b);
+        });
+    }
+
+    const Mesh& mesh_;
+    const std::vector<Index>& face_of_;
+    const std::vector<Vec3>& normals_;
+    double least_cosine_;
+    OneRing spokes_;
+    std::vector<std::size_t> roots_; ///< by place among the vertex' corners
+    std::vector<Key> keys_;
+};
+
+/// Lays out the new wedges vertex by vertex; attributes follow. With as many wedges as vertices, the mesh is
+/// without seams.
+void set_wedges(Mesh& mesh, const std::vector<Index>& wedge_of_corner, const std::vector<Index>& first,
+                Index wedges, const VertexLists& corners_at) {
+    std::vector<Index> source(wedges), vertex_of(wedges);
+    parallel_for(mesh.vertex_count(), [&](std::size_t v) {
+        for (const Index c : corners_at.of(static_cast<Index>(v))) {
+            const Index w = first[v] + wedge_of_corner[c];
+            source[w] = mesh.corners[c], vertex_of[w] = static_cast<Index>(v);
+        }
+    });
+    parallel_for(mesh.vertex_count(), [&](std::size_t v) {
+        for (const Index c : corners_at.of(static_cast<Index>(v)))
+            mesh.corners[c] = first[v] + wedge_of_corner[c];
+    });
+    for (auto& a : mesh.attributes)
+        if (a.domain == Domain::wedge) a.select(source);
+    mesh.wedge_vertex = std::move(vertex_of);
+}
+
+void set_smooth_normals(Mesh& mesh, double crease) {
+    std::vector<Vec3> normals(mesh.face_count());
+    parallel_for(normals.size(),
+                 [&](std::size_t f) { normals[f] = normalised(area_vector(mesh, static_cast<Index>(f))); });
+    const auto face_of = corner_faces(mesh);
+    const auto corners_at = corners_at_vertices(mesh);
+    const double least_cosine = crease >= pi ? -2 : cosine(crease);
+    std::vector<Index> wedge_of_corner(mesh.corner_count()), first(mesh.vertex_count());
+    parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
+        SmoothFan fan(mesh, face_of, normals, least_cosine);
+        for (std::size_t v = begin; v < end; ++v)
+            first[v] = fan.number(corners_at.of(static_cast<Index>(v)), wedge_of_corner);
+    });
+    const bool apart =
+        mesh.has_seams() || std::any_of(first.begin(), first.end(), [](Index count) { return count > 1; });
+    if (apart) {
+        const Index wedges = exclusive_scan(first);
+        set_wedges(mesh, wedge_of_corner, first, wedges, corners_at);
+    }
+    std::vector<float> values(3 * mesh.wedge_count());
+    parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
+        SmoothFan fan(mesh, face_of, normals, least_cosine);
+        std::vector<Vec3> of_corner;
+        for (std::size_t v = begin; v < end; ++v) {
+            const auto corners = corners_at.of(static_cast<Index>(v));
+            fan.sum(corners, of_corner);
+            for (std::size_t i = 0; i < corners.size(); ++i)
+                for (std::size_t k = 0; k < 3; ++k)
+                    values[3 * std::size_t{mesh.corners[corners[i]]} + k] =
+                        static_cast<float>(of_corner[i][k]);
+        }
+    });
+    mesh.attributes.push_back({"NORMAL", Domain::wedge, Role::normal, 3, false, std::move(values)});
+}
+
+/// Whether it is nothing without normals: tangents, and how a morph target changes normals and tangents.
+bool needs_normals(std::string_view name) {
+    return name == "TANGENT" ||
+           (name.starts_with("TARGET_") && (name.ends_with("_NORMAL") || name.ends_with("_TANGENT")));
+}
+
+/// The primitives that list their attributes list NORMAL too, or nothing that needs it.
+void list_normals(Mesh& mesh, bool there) {
+    for (Primitive& p : mesh.primitives) {
+        if (p.attributes.empty()) continue;
+        std::erase(p.attributes, "NORMAL");
+        if (there) p.attributes.insert(p.attributes.begin(), "NORMAL");
+        if (!there) std::erase_if(p.attributes, needs_normals);
+    }
+}
+
+Fates without_normals(Mesh& mesh, bool had) {
+    Fates fates;
+    if (had) fates.push_back({"NORMAL", Domain::wedge, Fate::Kind::dropped, "asked for"});
+    std::erase_if(mesh.attributes, [&](const Attribute& a) {
+        if (a.domain != Domain::wedge || !needs_normals(a.name)) return false;
+        fates.push_back({a.name, a.domain, Fate::Kind::dropped, "without normals it means nothing"});
+        return true;
+    });
+    list_normals(mesh, false);
+    return fates;
+}
+
+} // namespace
+
+Fates give_normals(Mesh& mesh, NormalKind kind, double crease) {
+    if (kind == NormalKind::keep) return {};
+    const bool had = mesh.find("NORMAL", Domain::wedge) != nullptr;
+    forget_normals(mesh);
+    if (kind == NormalKind::none) return without_normals(mesh, had);
+    list_normals(mesh, true);
+    if (kind == NormalKind::flat) {
+        mesh.attributes.push_back(
+            {"NORMAL", Domain::wedge, Role::normal, 3, false, std::vector<float>(3 * mesh.wedge_count())});
+        set_facet_normals(mesh);
+    } else
+        set_smooth_normals(mesh, crease);
+    Fates fates{
+        {"NORMAL", Domain::wedge, Fate::Kind::recomputed,
+         kind == NormalKind::flat ? "those of the faces" : "the mean of the faces around, by angles"}};
+    if (straighten_tangents(mesh))
+        fates.push_back(
+            {"TANGENT", Domain::wedge, Fate::Kind::recomputed, "perpendicular to the new normals"});
+    return fates;
+}
+
+} // namespace facetmill

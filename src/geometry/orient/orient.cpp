@@ -1,0 +1,282 @@
+#include "geometry/orient/orient.hpp"
+
+#include "base/parallel.hpp"
+#include "mesh/power_scale.hpp"
+#include "geometry/spatial/rays.hpp"
+#include "geometry/intersect/self_intersections.hpp"
+#include "mesh/surface_normal.hpp"
+#include "mesh/bare.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace facetmill {
+
+namespace {
+
+/// Pieces and, within each, which faces have to turn for neighbours to agree.
+struct Spread {
+    std::vector<OrientedPiece> pieces;
+    std::vector<Index> piece_of;
+    std::vector<std::uint8_t> flips;
+};
+
+/// Breadth first over edges of two faces, from the lowest face of each piece.
+class Spreader {
+  public:
+    explicit Spreader(const Mesh& mesh) : mesh_(mesh), edges_(build_edges(mesh)), faces_(corner_faces(mesh)) {
+        for (Index e = 0; e < edges_.size(); ++e)
+            if (edges_.corners_of(e).size() > 2) look_past_spikes(e);
+    }
+
+    Spread run() {
+        out_.piece_of.assign(mesh_.face_count(), none);
+        out_.flips.assign(mesh_.face_count(), 0);
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            if (out_.piece_of[f] == none) spread_from(f);
+        return std::move(out_);
+    }
+
+  private:
+    /// A face that runs along an edge to and fro (a corner is repeated there) ends at none of its sides: what
+    /// is across the edge for the two others, when there are just two.
+    void look_past_spikes(Index e) {
+        std::vector<Index> others;
+        for (const Index c : edges_.corners_of(e)) {
+            const auto back = std::find_if(others.begin(), others.end(), [&](Index d) {
+                return faces_[c] == faces_[d] && mesh_.vertex(c) != mesh_.vertex(d);
+            });
+            if (back == others.end())
+                others.push_back(c);
+            else
+                others.erase(back);
+        }
+        if (others.size() == 2) across_[others[0]] = others[1], across_[others[1]] = others[0];
+        for (const Index c : edges_.corners_of(e))
+            if (std::find(others.begin(), others.end(), c) == others.end()) across_[c] = none;
+    }
+
+    void spread_from(Index first) {
+        OrientedPiece piece;
+        piece.first_face = first, piece.closed = true;
+        std::vector<Index> queue{first};
+        out_.piece_of[first] = static_cast<Index>(out_.pieces.size());
+        for (std::size_t at = 0; at < queue.size(); ++at) visit(queue[at], piece, queue);
+        piece.faces = queue.size();
+        const auto turned = static_cast<std::size_t>(
+            std::count_if(queue.begin(), queue.end(), [&](Index f) { return out_.flips[f] != 0; }));
+        // The front is what most faces had as front; a piece without one stays as it was.
+        const bool other = 2 * turned > queue.size();
+        for (const Index f : queue) out_.flips[f] = piece.orientable && (out_.flips[f] != 0) != other;
+        out_.pieces.push_back(piece);
+    }
+
+    void visit(Index f, OrientedPiece& piece, std::vector<Index>& queue) {
+        for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
+            const Index e = edges_.corner_edge[c];
+            if (e == none) continue;
+            const auto corners = edges_.corners_of(e);
+            Index other = corners[0] == c ? corners.back() : corners[0];
+            if (corners.size() != 2) {
+                const auto found = across_.find(c);
+                piece.closed &= found != across_.end();
+                if (found == across_.end() || found->second == none) continue;
+                other = found->second;
+            }
+            const Index g = faces_[other];
+            const bool turns = (mesh_.vertex(other) == mesh_.vertex(c)) != (out_.flips[f] != 0);
+            if (out_.piece_of[g] == none) {
+                out_.piece_of[g] = out_.piece_of[f], out_.flips[g] = turns;
+                queue.push_back(g);
+            } else if ((out_.flips[g] != 0) != turns && piece.orientable) {
+                piece.orientable = false;
+                piece.conflict = mix(mesh_.point(c), mesh_.point(next_corner(mesh_, f, c)), 0.5);
+            }
+        }
+    }
+
+    const Mesh& mesh_;
+    EdgeTable edges_;
+    std::vector<Index> faces_;
+    std::map<Index, Index> across_; ///< of corners at crowded edges: see look_past_spikes
+    Spread out_;
+};
+
+/// Which pieces of a consistent mesh have to turn for their front to be outside.
+class Outside {
+  public:
+    Outside(const Mesh& mesh, Spread& spread, Nested nested)
+        : mesh_(mesh), spread_(spread), nested_(nested), rays_(surface_of(mesh), FaceTree::Use::rays),
+          faces_(spread.pieces.size()), scale_(even_scale(mesh.bounds())) {
+        for (Index f = 0; f < mesh.face_count(); ++f) faces_[spread.piece_of[f]].push_back(f);
+    }
+
+    std::vector<std::uint8_t> run() {
+        find_depths();
+        std::vector<std::uint8_t> turns(spread_.pieces.size(), 0);
+        parallel_for(
+            turns.size(),
+            [&](std::size_t p) {
+                OrientedPiece& piece = spread_.pieces[p];
+                if (!piece.orientable) return;
+                const bool cavity = nested_ == Nested::cavities && piece.depth % 2 == 1;
+                const double out = piece.closed ? volume(p) : votes(p);
+                piece.undecided = !(out > 0 || out < 0) && has_sides(p);
+                turns[p] = cavity ? out > 0 : out < 0;
+            },
+            1);
+        return turns;
+    }
+
+  private:
+    Vec3 middle(Index f) const {
+        Vec3 sum;
+        for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) sum += mesh_.point(c);
+        return sum / mesh_.face_size(f);
+    }
+
+    /// Whether some face of the piece has a front at all: three corners apart.
+    bool has_sides(std::size_t p) const {
+        return std::any_of(faces_[p].begin(), faces_[p].end(), [&](Index f) {
+            std::set<Index> vertices;
+            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) vertices.insert(mesh_.vertex(c));
+            return vertices.size() > 2;
+        });
+    }
+
+    /// Six times the volume of a closed piece; only its sign counts.
+    double volume(std::size_t p) const {
+        const double plain = volume(p, [](const Vec3& v) { return v; });
+        if (std::abs(plain) > 1e-200 && std::isfinite(plain)) return plain;
+        Box box;
+        for (const Index f : faces_[p])
+            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) box.add(mesh_.point(c));
+        return volume(p, axis_scale(box));
+    }
+
+    template <class Scale>
+    double volume(std::size_t p, const Scale& scale) const {
+        const Vec3 origin = scale(mesh_.point(mesh_.face_begin(faces_[p][0])));
+        const auto at = [&](Index c) { return scale(mesh_.point(c)) - origin; };
+        return parallel_reduce(
+            faces_[p].size(), 0.0,
+            [&](std::size_t begin, std::size_t end) {
+                double six = 0;
+                for (std::size_t i = begin; i < end; ++i) {
+                    const Index f = faces_[p][i], first = mesh_.face_begin(f);
+                    for (Index c = first + 1; c + 1 < mesh_.face_end(f); ++c)
+                        six += dot(at(first), cross(at(c), at(c + 1)));
+                }
+                return six;
+            },
+            [](double a, double b) { return a + b; });
+    }
+
+    /// In how many other closed pieces each closed piece lies. One that touches or crosses another is not
+    /// nested in it: overlapping solids are no cavities of each other.
+    void find_depths() {
+        std::vector<std::vector<Index>> around(spread_.pieces.size());
+        parallel_for(
+            around.size(),
+            [&](std::size_t p) {
+                if (spread_.pieces[p].orientable && spread_.pieces[p].closed) around[p] = pieces_around(p);
+            },
+            1);
+        if (std::all_of(around.begin(), around.end(), [](const auto& a) { return a.empty(); })) return;
+        const auto meeting = meeting_pieces(around);
+        for (Index p = 0; p < around.size(); ++p)
+            for (const Index q : around[p])
+                spread_.pieces[p].depth += !meeting.contains({std::min(p, q), std::max(p, q)});
+    }
+
+    /// The other closed pieces that have a point of this one inside, ascending.
+    std::vector<Index> pieces_around(std::size_t p) const {
+        std::map<Index, int> turns; // of each piece around the point
+        visit_along_axis(rays_, mesh_.point(mesh_.face_begin(faces_[p][0])), 0, true, [&](Index g, int way) {
+            const Index q = spread_.piece_of[g];
+            if (q != p && spread_.pieces[q].closed && spread_.pieces[q].orientable) turns[q] += way;
+        });
+        std::vector<Index> pieces;
+        for (const auto& [q, n] : turns)
+            if (n != 0) pieces.push_back(q);
+        return pieces;
+    }
+
+    /// The pairs of pieces, of those that may be nested, whose faces meet.
+    std::set<std::pair<Index, Index>> meeting_pieces(const std::vector<std::vector<Index>>& around) const {
+        constexpr std::size_t most_pairs = std::size_t{1} << 24;
+        SelfIntersectionSettings settings{.limit = most_pairs};
+        settings.among.resize(mesh_.face_count());
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            settings.among[f] = !around[spread_.piece_of[f]].empty();
+        std::set<std::pair<Index, Index>> meeting;
+        for (const auto& [f, g] : find_self_intersections(mesh_, settings).pairs) {
+            const Index p = spread_.piece_of[f], q = spread_.piece_of[g];
+            if (p != q) meeting.emplace(std::min(p, q), std::max(p, q));
+        }
+        return meeting;
+    }
+
+    /// Rays along the axes from faces spread over the piece: how much of their front sees the outside, less
+    /// how much of their back does. Only the piece itself is in the way.
+    double votes(std::size_t p) const {
+        constexpr std::size_t most = 256;
+        const auto& faces = faces_[p];
+        const std::size_t samples = std::min(most, faces.size());
+        double front = 0;
+        for (std::size_t s = 0; s < samples; ++s) {
+            const Index f = faces[s * faces.size() / samples];
+            const Vec3 area = area_vector_at(mesh_, f, [&](Index c) { return scale_(mesh_.point(c)); }),
+                       from = middle(f);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double weight = std::abs(area[axis]);
+                if (!(weight > 0)) continue;
+                const auto free = [&](bool forward) {
+                    bool escapes = true;
+                    visit_along_axis(rays_, from, axis, forward, [&](Index g, int) {
+                        escapes = escapes && (g == f || spread_.piece_of[g] != p);
+                    });
+                    return escapes;
+                };
+                const bool before = free(area[axis] > 0), behind = free(!(area[axis] > 0));
+                front += weight * (static_cast<double>(before) - static_cast<double>(behind));
+            }
+        }
+        return front;
+    }
+
+    const Mesh& mesh_;
+    Spread& spread_;
+    Nested nested_;
+    FaceTree rays_;
+    std::vector<std::vector<Index>> faces_;
+    PowerScale scale_; ///< of the areas that votes weighs
+};
+
+} // namespace
+
+OrientResult orient(Mesh mesh, const OrientSettings& settings) {
+    OrientResult result;
+    std::vector<std::uint8_t> flips(mesh.face_count(), 1);
+    if (settings.method != OrientMethod::flip) {
+        Spread spread = Spreader(mesh).run();
+        flips = spread.flips;
+        if (settings.method == OrientMethod::outward) {
+            Mesh agreed = bare(mesh); // what outside is asked of
+            flip_faces(agreed, flips);
+            const auto turns = Outside(agreed, spread, settings.nested).run();
+            for (Index f = 0; f < flips.size(); ++f) flips[f] = flips[f] != turns[spread.piece_of[f]];
+        }
+        for (Index f = 0; f < flips.size(); ++f) spread.pieces[spread.piece_of[f]].flipped += flips[f];
+        result.pieces = std::move(spread.pieces);
+    }
+    result.flipped = static_cast<std::size_t>(std::count(flips.begin(), flips.end(), 1));
+    result.fates = flip_faces(mesh, flips);
+    result.mesh = std::move(mesh);
+    return result;
+}
+
+} // namespace facetmill

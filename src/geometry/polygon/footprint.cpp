@@ -1,0 +1,134 @@
+#include "geometry/polygon/footprint.hpp"
+
+#include "base/error.hpp"
+#include "base/predicates.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using polygon::RingTree;
+
+int turn(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y); }
+
+[[noreturn]] void refuse(std::string message, std::string hint = {}) {
+    throw Error(ErrorKind::usage, "E-FOOTPRINT", std::move(message), std::move(hint));
+}
+
+void tidy(std::vector<Vec2>& ring, std::size_t number) {
+    for (const Vec2& p : ring)
+        if (!std::isfinite(p.x) || !std::isfinite(p.y))
+            refuse(fmt::format("ring {} of the footprint has a corner that is not finite", number));
+    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+    while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+    if (ring.size() < 3)
+        refuse(fmt::format("ring {} of the footprint has {} corners, and a ring needs three", number,
+                           ring.size()),
+               "give the corners in order; the last joins the first by itself");
+}
+
+std::vector<std::vector<Vec2>> tidied(std::vector<std::vector<Vec2>> rings) {
+    if (rings.empty()) refuse("the footprint has no rings");
+    for (std::size_t i = 0; i < rings.size(); ++i) tidy(rings[i], i + 1);
+    return rings;
+}
+
+/// Names the first place where two segments cross.
+void refuse_crossings(const RingTree& tree) {
+    const auto& edges = tree.edges();
+    for (Index i = 0; i < edges.size(); ++i)
+        tree.query(RingTree::bounds(edges[i]), [&](Index j) {
+            const auto &e = edges[i], &f = edges[j];
+            const int ea = turn(f.a, f.b, e.a), eb = turn(f.a, f.b, e.b), fa = turn(e.a, e.b, f.a),
+                      fb = turn(e.a, e.b, f.b);
+            if (j <= i || ea * eb >= 0 || fa * fb >= 0) return true;
+            const double a = cross(e.b - e.a, f.a - e.a), b = cross(e.b - e.a, f.b - e.a);
+            const Vec2 at = f.a + (f.b - f.a) * (a / (a - b));
+            refuse(fmt::format("the footprint crosses itself near ({:.6g}, {:.6g}): {} and {}", at.x, at.y,
+                               fmt::format("the segment from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", e.a.x,
+                                           e.a.y, e.b.x, e.b.y),
+                               fmt::format("that from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", f.a.x, f.a.y,
+                                           f.b.x, f.b.y)),
+                   "mend the outline, or crop by its simple parts one after the other");
+        });
+}
+
+std::vector<polygon::Ring> spans_of(const std::vector<std::vector<Vec2>>& rings) {
+    return {rings.begin(), rings.end()};
+}
+
+} // namespace
+
+Footprint::Footprint(std::vector<std::vector<Vec2>> rings)
+    : rings_(tidied(std::move(rings))), tree_(spans_of(rings_)) {
+    refuse_crossings(tree_);
+    for (std::size_t i = 0; i < rings_.size(); ++i) {
+        const int way = polygon::orientation(rings_[i]);
+        if (way == 0)
+            refuse(fmt::format("ring {} of the footprint has no area", i + 1), "its corners lie on one line");
+        int depth = 0;
+        for (std::size_t k = 0; k < rings_.size(); ++k) {
+            if (k == i) continue;
+            auto place = polygon::Place::on_edge; // of the first corner that tells
+            for (std::size_t c = 0; c < rings_[i].size() && place > polygon::Place::inside; ++c)
+                place = polygon::locate(rings_[i][c], rings_[k]);
+            depth += place == polygon::Place::inside;
+        }
+        if ((depth % 2 == 0) != (way > 0)) std::reverse(rings_[i].begin(), rings_[i].end());
+    }
+    tree_ = RingTree(spans());
+}
+
+polygon::Place Footprint::locate(const Vec2& p) const {
+    using polygon::Place;
+    bool inside = false;
+    Place on = Place::outside;
+    tree_.query({-HUGE_VAL, p.y, p.x, p.y}, [&](Index i) {
+        const auto& e = tree_.edges()[i];
+        if (e.a == p) return on = Place::on_vertex, false;
+        const bool a_below = e.a.y <= p.y, b_below = e.b.y <= p.y;
+        if (a_below == b_below) {
+            if (e.a.y == p.y && e.b.y == p.y && (e.a.x <= p.x) != (e.b.x <= p.x)) on = Place::on_edge;
+            return true;
+        }
+        const int side = turn(e.a, e.b, p);
+        if (side == 0) on = Place::on_edge;
+        if ((side > 0) != a_below) inside = !inside;
+        return true;
+    });
+    return on != Place::outside ? on : inside ? Place::inside : Place::outside;
+}
+
+double Footprint::area() const {
+    double sum = 0;
+    for (const auto& ring : rings_) sum += polygon::signed_area(ring);
+    return sum;
+}
+
+OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b) {
+    bool left = false, right = false, on = false;
+    RingTree::Bounds box, stretch;
+    stretch.add(a), stretch.add(b);
+    for (const Vec2& p : face) {
+        box.add(p);
+        const int s = turn(a, b, p);
+        (s > 0 ? left : s < 0 ? right : on) = true;
+    }
+    if (!box.meets(stretch) || (!on && left != right)) return OutlineMeeting::apart;
+    OutlineMeeting most = left && right ? OutlineMeeting::crossing : OutlineMeeting::touching;
+    if (!polygon::is_convex(face)) return most;
+    const int way = polygon::orientation(face);
+    for (std::size_t i = 0; i < face.size(); ++i) {
+        const Vec2 &p = face[i], &q = face[i + 1 == face.size() ? 0 : i + 1];
+        const int sa = turn(p, q, a) * way, sb = turn(p, q, b) * way;
+        if (p == q) continue;
+        if (sa < 0 && sb < 0) return OutlineMeeting::apart;
+        if (sa <= 0 && sb <= 0) most = OutlineMeeting::touching;
+    }
+    return most;
+}
+
+} // namespace facetmill

@@ -1,0 +1,52 @@
+#pragma once
+// A polygon with holes to crop by, checked and ready to be asked.
+
+#include "geometry/polygon/ring_tree.hpp"
+
+namespace facetmill {
+
+/// How a face and a stretch of the outline lie to each other, both seen along the axis.
+enum class OutlineMeeting {
+    apart,
+    touching, ///< they share points, but the stretch does not enter the face
+    crossing, ///< it does; also said of concave faces and of faces seen edge-on whenever it may
+};
+
+class Footprint {
+  public:
+    /// Any number of rings: outlines, holes, islands in holes, in any order and either way round; a last
+    /// corner that repeats the first, and corners that repeat the one before, are left out. What is inside an
+    /// odd number of rings is inside. Throws usage (E-FOOTPRINT) for numbers that are not finite, a ring of
+    /// fewer than three corners or without area, and rings that cross themselves or each other, with the
+    /// place; touching is allowed.
+    explicit Footprint(std::vector<std::vector<Vec2>> rings);
+
+    /// Outlines anticlockwise, holes clockwise: the inside is on the left of every segment.
+    const std::vector<std::vector<Vec2>>& rings() const { return rings_; }
+    std::vector<polygon::Ring> spans() const { return {rings_.begin(), rings_.end()}; }
+    /// Segments of all rings, in order.
+    const polygon::RingTree& tree() const { return tree_; }
+
+    /// As polygon::locate, in logarithmic time.
+    polygon::Place locate(const Vec2& p) const;
+    /// Calls visit(segment) for the segments at most so far from a point, until it returns false.
+    template <class Visit>
+    void near(const Vec2& p, double distance, Visit&& visit) const {
+        tree_.query({p.x - distance, p.y - distance, p.x + distance, p.y + distance}, [&](Index i) {
+            const auto& e = tree_.edges()[i];
+            const Vec2 d = e.b - e.a;
+            const double along = dot(p - e.a, d) / dot(d, d), t = along > 0 ? along < 1 ? along : 1 : 0;
+            return length(e.a + d * t - p) > distance || visit(i);
+        });
+    }
+    double area() const;
+
+  private:
+    std::vector<std::vector<Vec2>> rings_;
+    polygon::RingTree tree_;
+};
+
+/// Exact but for what OutlineMeeting says of concave faces and those seen edge-on.
+OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b);
+
+} // namespace facetmill

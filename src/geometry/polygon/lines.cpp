@@ -1,0 +1,135 @@
+#include "base/error.hpp"
+#include "base/predicates.hpp"
+#include "geometry/polygon/polygon.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill::polygon {
+
+namespace {
+
+struct Crossing {
+    std::int64_t line;
+    double at; ///< along the line
+};
+
+Box bounds_of(Rings rings) {
+    Box box;
+    for (const Ring ring : rings)
+        for (const Vec2& p : ring) box.add(Vec3{p.x, p.y, 0});
+    return box;
+}
+
+/// The first line at or above a height.
+std::int64_t line_above(double height, double spacing) {
+    auto k = static_cast<std::int64_t>(std::ceil(height / spacing));
+    while (static_cast<double>(k) * spacing < height) ++k;
+    while (static_cast<double>(k - 1) * spacing >= height) --k;
+    return k;
+}
+
+/// Crossings of the hatch lines with a ring. A corner's height is computed once and belongs to no two sides,
+/// so every line crosses every ring an even number of times.
+void cross_ring(Ring ring, const HatchSettings& s, std::vector<Crossing>& out) {
+    const Vec2 across{-s.direction.y, s.direction.x};
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Vec2 &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
+        const double ha = dot(a, across), hb = dot(b, across), low = std::min(ha, hb),
+                     high = std::max(ha, hb);
+        if (low == high) continue;
+        const double sa = dot(a, s.direction), sb = dot(b, s.direction);
+        const auto end = line_above(high, s.spacing);
+        for (auto k = line_above(low, s.spacing); k < end; ++k) {
+            const double t = (static_cast<double>(k) * s.spacing - ha) / (hb - ha);
+            out.push_back({k, sa * (1 - t) + sb * t});
+        }
+    }
+}
+
+void check_limit(const Box& box, const HatchSettings& s) {
+    const double lines = box.diagonal() / s.spacing;
+    if (!(lines <= static_cast<double>(s.limit)))
+        throw Error(
+            ErrorKind::limit, "E-HATCH",
+            fmt::format("hatching would take about {:.0f} lines, and at most {} are drawn", lines, s.limit),
+            "choose a larger spacing");
+}
+
+} // namespace
+
+std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep keep) {
+    const Vec2 d = b - a;
+    std::vector<double> at;
+    for (const Ring ring : rings)
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            Vec2 p = ring[i], q = ring[i + 1 == ring.size() ? 0 : i + 1];
+            // In one order, so that coincident edges are crossed at the same place.
+            if (q.x < p.x || (q.x == p.x && q.y < p.y)) std::swap(p, q);
+            const auto left = [&](const Vec2& c) {
+                return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y) >= 0;
+            };
+            if (left(p) == left(q)) continue;
+            const double hp = cross(d, p - a), hq = cross(d, q - a);
+            const double t = hp == hq ? 0.5 : std::clamp(hp / (hp - hq), 0.0, 1.0);
+            at.push_back(dot(p + (q - p) * t - a, d) / dot(d, d));
+        }
+    std::sort(at.begin(), at.end());
+    std::vector<Interval> kept;
+    const auto keep_part = [&](double from, double to) {
+        from = std::max(from, 0.0), to = std::min(to, 1.0);
+        if (from < to) kept.push_back({from, to});
+    };
+    if (keep == Keep::inside) {
+        for (std::size_t i = 0; i + 1 < at.size(); i += 2) keep_part(at[i], at[i + 1]);
+    } else {
+        double from = 0;
+        for (std::size_t i = 0; i + 1 < at.size(); i += 2)
+            keep_part(from, at[i]), from = std::max(from, at[i + 1]);
+        keep_part(from, 1);
+    }
+    return kept;
+}
+
+std::vector<Segment> hatch(Rings rings, const HatchSettings& s) {
+    const Box box = bounds_of(rings);
+    if (box.empty()) return {};
+    check_limit(box, s);
+    std::vector<Crossing> crossings;
+    for (const Ring ring : rings) cross_ring(ring, s, crossings);
+    if (s.keep ==
+        Keep::outside) { // the frame around it all, so that what is between it and the outline is inside
+        const double w = s.spacing;
+        const std::array frame{Vec2{box.min.x - w, box.min.y - w}, Vec2{box.max.x + w, box.min.y - w},
+                               Vec2{box.max.x + w, box.max.y + w}, Vec2{box.min.x - w, box.max.y + w}};
+        cross_ring(frame, s, crossings);
+    }
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+        return a.line != b.line ? a.line < b.line : a.at < b.at;
+    });
+    const Vec2 across{-s.direction.y, s.direction.x};
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+        const auto [line, from] = crossings[i];
+        if (from == crossings[i + 1].at) continue;
+        const Vec2 foot = across * (static_cast<double>(line) * s.spacing);
+        Segment segment{foot + s.direction * from, foot + s.direction * crossings[i + 1].at};
+        if (line % 2 != 0) std::swap(segment.a, segment.b);
+        segments.push_back(segment);
+    }
+    // A pen that runs back and forth: odd lines are drawn from their far end.
+    for (std::size_t i = 0; i < segments.size();) {
+        std::size_t end = i;
+        const auto height = [&](const Segment& g) { return std::llround(dot(g.a, across) / s.spacing); };
+        while (end < segments.size() && height(segments[end]) == height(segments[i])) ++end;
+        if (height(segments[i]) % 2 != 0)
+            std::reverse(segments.begin() + static_cast<std::ptrdiff_t>(i),
+                         segments.begin() + static_cast<std::ptrdiff_t>(end));
+        i = end;
+    }
+    return segments;
+}
+
+} // namespace facetmill::polygon

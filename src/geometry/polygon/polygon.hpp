@@ -1,0 +1,180 @@
+#pragma once
+// Polygon maths in the plane and in space, after Bourke's notes "Polygon types" (1993), "Clockwise or
+// counter-clockwise" (1998), "Clipping a line to a complex polygon" (1997), "Area of a 3D polygon" (2000),
+// "Inside a polygon" and "Area and centroid, second moment of a polygon" (1988). Signs that decide are exact
+// (base/predicates.hpp); sums are taken about a point of the polygon, so that polygons far from the origin
+// lose nothing.
+
+#include "base/vec.hpp"
+#include "mesh/mesh.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace facetmill {
+
+/// A point of a plane.
+struct Vec2 {
+    double x = 0, y = 0;
+    constexpr bool operator==(const Vec2&) const = default;
+};
+constexpr Vec2 operator+(const Vec2& a, const Vec2& b) { return {a.x + b.x, a.y + b.y}; }
+constexpr Vec2 operator-(const Vec2& a, const Vec2& b) { return {a.x - b.x, a.y - b.y}; }
+constexpr Vec2 operator*(const Vec2& a, double s) { return {a.x * s, a.y * s}; }
+constexpr double dot(const Vec2& a, const Vec2& b) { return a.x * b.x + a.y * b.y; }
+constexpr double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
+inline double length(const Vec2& a) { return std::sqrt(dot(a, a)); }
+
+namespace polygon {
+
+/// The corners of a closed polygon; the last is joined to the first.
+using Ring = std::span<const Vec2>;
+/// A polygon with holes: its rings in any order. Where areas count, holes run the other way round than
+/// outlines.
+using Rings = std::span<const Ring>;
+
+// --- Area, centroid, second moments
+
+/// A = 1/2 sum(x_i y_i+1 - x_i+1 y_i): positive when anticlockwise.
+double signed_area(Ring ring);
+
+/// 1 anticlockwise, -1 clockwise, 0 without area: the sign of the note's area, exact for any ring, concave
+/// too.
+int orientation(Ring ring);
+
+/// Second moments: x = integral of y^2 (about the x axis), y = of x^2, xy = of x y. Length to the fourth.
+struct SecondMoments {
+    double x = 0, y = 0, xy = 0;
+};
+
+/// The directions about which a shape's second moment is largest and smallest.
+struct PrincipalAxes {
+    Vec2 major{1, 0}, minor{0, 1}; ///< unit vectors; minor is major turned left
+    double largest = 0, smallest = 0;
+};
+
+struct Moments {
+    double area = 0; ///< not negative
+    Vec2 centroid;
+    SecondMoments about_origin, about_centroid;
+    PrincipalAxes axes; ///< about the centroid
+};
+
+/// Of a polygon with holes by orientation, summed over its rings; when the sum is clockwise all signs are
+/// turned, as the note asks. None when the area is zero. The rings must not cross themselves: see classify.
+std::optional<Moments> moments(Rings rings);
+std::optional<Moments> moments(Ring ring);
+
+/// From cos 2t = (Ix - Iy) / 2r, sin 2t = -Ixy / r, r^2 = ((Ix - Iy) / 2)^2 + Ixy^2; the x axis when all are
+/// equal.
+PrincipalAxes principal_axes(const SecondMoments& moments);
+
+// --- Polygons in space
+
+/// Half the sum of P_i x P_i+1 (Stokes): along the normal from which the corners run anticlockwise, as long
+/// as the area. The note's order, P_i x P_i-1, gives the negative. For any closed polygon, planar or not.
+Vec3 area_vector(std::span<const Vec3> corners);
+
+/// |(P1 - P0) x (P2 - P0)| / 2 for a triangle, |(P2 - P0) x (P3 - P1)| / 2 for a quad (twice the
+/// parallelogram of its edge midpoints), the length of area_vector beyond.
+double area(std::span<const Vec3> corners);
+
+/// The largest distance of a corner from the plane through the mean of the corners across area_vector; 0 for
+/// triangles. For a polygon whose parts cancel in area: across that of its largest triangle; 0 on a line.
+double plane_deviation(std::span<const Vec3> corners);
+
+/// The corners seen along the coordinate axis nearest to the normal, mirrored so that the ring is
+/// anticlockwise when the normal points at the viewer. The coordinates are copied, not computed, so turns are
+/// those of the corners.
+std::vector<Vec2> flattened(std::span<const Vec3> corners);
+
+// --- Kinds
+
+/// Convex: all turns (cross products of neighbouring edges) have one sign or are straight, and the ring goes
+/// round once (a pentagram's turns agree as well). Exact.
+bool is_convex(Ring ring);
+
+/// How the edges of rings meet other than at common corners of neighbours.
+enum class Contact {
+    none,
+    touching, ///< a corner on a corner or edge, or edges along each other
+    crossing, ///< two edges cross in their interiors
+};
+/// Exact; O(n log n) for rings that are not tangled.
+Contact contact(Rings rings);
+
+enum class Kind {
+    triangle,
+    quad,    ///< rectangle or other convex polygon with four corners
+    convex,  ///< five corners or more
+    concave, ///< no edge meets another
+    complex, ///< holes, by coincident edges or several rings, or corners that touch; covers each point once
+    self_intersecting, ///< winds more than once around some points, or both ways
+    degenerate,        ///< without area
+};
+inline constexpr int kinds = 7;
+const char* to_string(Kind kind);
+
+/// The note's types. Several rings (with holes by orientation) are complex or self-intersecting.
+Kind classify(Rings rings);
+Kind classify(Ring ring);
+
+// --- Containment
+
+enum class Place { outside, inside, on_edge, on_vertex };
+const char* to_string(Place place);
+
+/// Crossing rule: a ray to the right crosses an odd number of edges; of each edge the lower end counts and
+/// the upper does not, so that shared ends count once. Holes are holes whatever their orientation. Exact.
+Place locate(const Vec2& p, Rings rings);
+Place locate(const Vec2& p, Ring ring);
+
+/// For a convex ring: on one side of all its edges. Exact.
+Place locate_convex(const Vec2& p, Ring convex);
+
+/// The sum of the angles that the edges subtend at p: 2 pi times how often the ring goes round p. p is not on
+/// the ring.
+double angle_sum(const Vec2& p, Ring ring);
+/// By the sum over all rings (holes by orientation or by coincident edges); p is on none of them.
+bool inside_by_angles(const Vec2& p, Rings rings);
+
+/// The sum of the unsigned angles between neighbouring corners seen from q: 2 pi only when q is in the plane
+/// of a convex polygon and inside it, less the farther away.
+double angle_sum(const Vec3& q, std::span<const Vec3> convex);
+/// On the polygon, as far as the angles tell: the sum falls short of 2 pi by at most tolerance (radians). A
+/// corner is inside.
+bool inside_by_angles(const Vec3& q, std::span<const Vec3> convex, double tolerance = 1e-9);
+
+// --- Lines
+
+enum class Keep { inside, outside };
+
+/// A part of a line from a to b, by parameter: 0 at a, 1 at b.
+struct Interval {
+    double from = 0, to = 1;
+    bool operator==(const Interval&) const = default;
+};
+
+/// The parts of the segment inside (or outside) a polygon with holes, ascending: the crossings of the whole
+/// line, sorted, pair up from its far end, so that nothing need be known of where a lies. Sides are exact,
+/// and a corner on the line counts as left of it, so the crossings are always even in number.
+std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep keep = Keep::inside);
+
+struct Segment {
+    Vec2 a, b;
+};
+
+struct HatchSettings {
+    double spacing = 1;          ///< between lines, above zero
+    Vec2 direction{1, 0};        ///< unit vector along the lines
+    Keep keep = Keep::inside;    ///< outside: in the bounds of the rings, widened by one spacing
+    std::size_t limit = 1000000; ///< lines at most
+};
+
+/// Parallel lines clipped to the polygon with holes, every other one running back. They pass through
+/// multiples of spacing from the origin, so that neighbouring sections match. Throws limit (E-HATCH).
+std::vector<Segment> hatch(Rings rings, const HatchSettings& settings);
+
+} // namespace polygon
+} // namespace facetmill

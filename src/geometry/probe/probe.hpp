@@ -1,0 +1,31 @@
+#pragma once
+// Questions asked of a surface, point by point and line by line: what the probe stage answers.
+
+#include "geometry/spatial/closest_point.hpp"
+#include "geometry/spatial/rays.hpp"
+
+namespace facetmill {
+
+enum class Side { inside, outside, on, unknown };
+const char* to_string(Side side);
+
+struct PointAnswer {
+    Side side = Side::unknown; ///< unknown for open surfaces, unless on
+    int winding = 0;           ///< how often the surface goes around the point; 0 when on it
+    Closest closest;
+};
+
+struct PointSettings {
+    bool closed = true;   ///< whether the surface has an inside
+    double tolerance = 0; ///< up to this distance a point is on the surface; 0: exactly on it
+};
+
+/// In parallel, the same for any number of threads. Inside is where the winding number is not zero.
+std::vector<PointAnswer> probe_points(const FaceTree& tree, std::span<const Vec3> points,
+                                      const PointSettings& settings = {});
+
+/// Of each line the first hit on a face that does not touch its start: what rays from the vertices of the
+/// surface itself meet. In parallel, the same for any number of threads.
+HitLists hits_away(const FaceTree& tree, std::span<const Line> lines);
+
+} // namespace facetmill

@@ -1,0 +1,142 @@
+#include "geometry/relax/relax.hpp"
+
+#include "base/error.hpp"
+#include "base/numbers.hpp"
+#include "base/parallel.hpp"
+#include "geometry/edit/moved.hpp"
+#include "geometry/relax/steps.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using Settings = RelaxSettings;
+using Method = Settings::Method;
+
+void need(bool holds, const char* name, const char* range, const std::string& found) {
+    if (!holds)
+        throw Error(ErrorKind::usage, "E-RANGE", fmt::format("relax: {} is {}, not {}", name, range, found));
+}
+
+void check_factor(const Settings& s) {
+    const double f = relax_factor(s);
+    if (s.method == Method::implicit)
+        need(f > 0 && f <= 1e6, "factor", "0 < x <= 1e+06 for implicit", to_string(f));
+    else if (s.method == Method::taubin) // the step out would grow what the step in has turned around
+        need(f > 0 && f < 0.7, "factor", "0 < x < 0.7 for taubin", to_string(f));
+    else
+        need(f > 0 && f <= 1, "factor", "0 < x <= 1", to_string(f));
+}
+
+/// The places after at most so many iterations.
+struct Run {
+    std::vector<Vec3> places;
+    std::int64_t iterations = 0;
+    bool settled = false;
+    double last_move = 0;
+};
+
+Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
+        const std::vector<Vec3>& start, std::int64_t iterations, double until) {
+    if (iterations == 0) return {start};
+    Run run;
+    const RelaxStep step = relax_step(mesh, near, settings, start);
+    run.places.resize(start.size());
+    std::vector<Vec3> last(iterations > 1 ? start.size() : 0);
+    while (run.iterations < iterations && !run.settled) {
+        if (run.iterations > 0) run.places.swap(last);
+        const std::vector<Vec3>& from = run.iterations > 0 ? last : start;
+        step(from, run.places);
+        ++run.iterations;
+        if (until <= 0) continue;
+        run.last_move = move_size(from, run.places, settings.to_world).largest;
+        run.settled = run.last_move <= until;
+    }
+    return run;
+}
+
+bool is_position_target(const Attribute& a) {
+    return a.role == Role::morph_vector && a.components == 3 && a.domain != Domain::face &&
+           a.name.ends_with("_POSITION");
+}
+
+/// Where the vertices are in the morph target; empty when wedges of one vertex disagree.
+std::vector<Vec3> target_places(const Mesh& mesh, const Attribute& a) {
+    std::vector<Vec3> places = mesh.positions;
+    std::vector<std::uint8_t> seen(mesh.vertex_count());
+    const auto at = [&](std::size_t i) { return Vec3{a.value(i, 0), a.value(i, 1), a.value(i, 2)}; };
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Index v =
+            a.domain == Domain::vertex ? static_cast<Index>(i) : mesh.vertex_of_wedge(static_cast<Index>(i));
+        const Vec3 place = mesh.positions[v] + at(i);
+        if (seen[v] && !(places[v] == place)) return {};
+        places[v] = place, seen[v] = 1;
+    }
+    return places;
+}
+
+void set_target(const Mesh& mesh, Attribute& a, const std::vector<Vec3>& target,
+                const std::vector<Vec3>& base) {
+    parallel_for(a.size(), [&](std::size_t i) {
+        const Index v =
+            a.domain == Domain::vertex ? static_cast<Index>(i) : mesh.vertex_of_wedge(static_cast<Index>(i));
+        const Vec3 d = target[v] - base[v];
+        for (int c = 0; c < 3; ++c) a.set_value(i, c, d[static_cast<std::size_t>(c)]);
+    });
+}
+
+/// Relaxes the morph targets of positions as often as the surface was, and says what became of all targets.
+Fates relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& settings, const Run& base) {
+    Fates fates;
+    for (auto& a : mesh.attributes) {
+        if (a.role != Role::morph_vector) continue;
+        Fate fate{a.name, a.domain, Fate::Kind::kept, "not relaxed"};
+        const auto start = is_position_target(a) ? target_places(mesh, a) : std::vector<Vec3>{};
+        if (is_position_target(a) && start.empty() && mesh.vertex_count() > 0)
+            fate.why = "not relaxed: the wedges of a vertex disagree";
+        if (!start.empty()) {
+            const Run target = run(mesh, near, settings, start, base.iterations, 0);
+            set_target(mesh, a, target.places, base.places);
+            fate = {a.name, a.domain, Fate::Kind::recomputed, "relaxed with the surface"};
+        }
+        fates.push_back(fate);
+    }
+    return fates;
+}
+
+} // namespace
+
+void check_relax_settings(const Settings& s) {
+    need(s.iterations >= 0, "iterations", "at least 0", std::to_string(s.iterations));
+    check_factor(s);
+    need(s.pass_band > 0 && s.pass_band < 1, "pass_band", "0 < x < 1", to_string(s.pass_band));
+    need(s.original >= 0 && s.original <= 1, "original", "0 <= x <= 1", to_string(s.original));
+    need(s.push_back >= 0 && s.push_back <= 1, "push_back", "0 <= x <= 1", to_string(s.push_back));
+    need(s.until >= 0, "until", "at least 0", to_string(s.until));
+}
+
+RelaxResult relax(Mesh mesh, const Settings& settings) {
+    check_relax_settings(settings);
+    RelaxResult result;
+    const Neighbourhoods near = neighbourhoods(mesh, settings);
+    result.held = near.held;
+    Run done = run(mesh, near, settings, mesh.positions, settings.iterations, settings.until);
+    const MoveSize moves = move_size(mesh.positions, done.places, settings.to_world);
+    result.iterations = done.iterations;
+    result.settled = done.settled;
+    result.last_move = done.last_move;
+    result.largest_move = moves.largest;
+    result.moved = moves.count;
+    const Fates targets = relax_targets(mesh, near, settings, done);
+    mesh.positions = std::move(done.places);
+    result.fates = settle_moved(mesh);
+    for (auto& fate : result.fates)
+        for (const auto& target : targets)
+            if (target.attribute == fate.attribute && target.domain == fate.domain) fate = target;
+    result.mesh = std::move(mesh);
+    return result;
+}
+
+} // namespace facetmill

@@ -1,0 +1,28 @@
+#pragma once
+// One simultaneous step of each method of relax.
+
+#include "geometry/relax/neighbours.hpp"
+
+#include <functional>
+
+namespace facetmill {
+
+/// Computes all new places from all old ones; not in place.
+using RelaxStep = std::function<void(const std::vector<Vec3>& from, std::vector<Vec3>& to)>;
+
+/// The step of the settings' method. start: where the surface is before the first step (hc). What is given
+/// must outlive the step.
+RelaxStep relax_step(const Mesh& mesh, const Neighbourhoods& near, const RelaxSettings& settings,
+                     const std::vector<Vec3>& start);
+
+/// to = from moved by factor (times the mask) towards the neighbours' mean.
+void umbrella_step(const std::vector<Vec3>& from, std::vector<Vec3>& to, const VertexLists& near,
+                   double factor, const std::vector<double>& mask);
+
+RelaxStep cotangent_step(const Mesh& mesh, const Neighbourhoods& near, const RelaxSettings& settings);
+RelaxStep implicit_step(const Neighbourhoods& near, const RelaxSettings& settings);
+
+/// The factor that is used: the given one, or the method's own.
+double relax_factor(const RelaxSettings& settings);
+
+} // namespace facetmill

@@ -1,0 +1,68 @@
+#pragma once
+// What the planes of a stack do to the faces of a mesh: pieces of contours. For section only.
+
+#include "geometry/section/section.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+/// A place where a plane crosses an edge of the mesh, as endpoints in index order.
+struct EdgeKey {
+    Index low = 0, high = 0;
+    std::uint64_t bits() const { return std::uint64_t{low} << 32 | high; }
+};
+
+/// A piece of a contour: across a face, from the edge where the face comes down through the plane to the edge
+/// where it goes up. Seen against the plane's normal, the face's back is on its left.
+struct Piece {
+    Index plane;
+    EdgeKey from, to;
+};
+
+/// The planes of the stack in the mesh's space.
+class StackPlanes {
+  public:
+    explicit StackPlanes(const SectionSettings& s) : local_(pulled_back(s.plane, s.to_world)) {
+        const double scale = length(s.plane.normal);
+        for (const double h : s.heights) offsets_.push_back(local_.offset - h * scale);
+        local_.offset = 0;
+        if (!s.memory || s.memory->entries.empty()) return;
+        for (std::size_t k = 0; k < size(); ++k) known_.push_back(s.memory->find(plane(k)));
+    }
+    std::size_t size() const { return offsets_.size(); }
+    /// 0 for points that are known to be on the plane, too.
+    double side_of(std::size_t k, const Vec3& p) const {
+        const double s = side(plane(k), p);
+        const CutMemory::Entry* known = known_.empty() ? nullptr : known_[k];
+        return known && known->has(p, side(known->plane, p)) ? 0 : s;
+    }
+    /// How many planes the point is on or above. Exact signs decide; the search in doubles only says where to
+    /// look.
+    Index level(const Vec3& p) const {
+        const double s = side(local_, p);
+        auto k = static_cast<std::size_t>(
+            std::partition_point(offsets_.begin(), offsets_.end(), [&](double o) { return s + o >= 0; }) -
+            offsets_.begin());
+        while (k < size() && side_of(k, p) >= 0) ++k;
+        while (k > 0 && side_of(k - 1, p) < 0) --k;
+        return static_cast<Index>(k);
+    }
+
+  private:
+    Plane plane(std::size_t k) const {
+        Plane plane = local_;
+        plane.offset = offsets_[k];
+        return plane;
+    }
+
+    Plane local_;
+    std::vector<double> offsets_;                ///< descending
+    std::vector<const CutMemory::Entry*> known_; ///< [planes] or none; empty: nothing is known
+};
+
+/// The pieces of all faces, ordered by plane, then face. plane: in the mesh's space. Throws limit
+/// (E-SECTION).
+std::vector<Piece> pieces_of(const Mesh& mesh, const StackPlanes& stack, const Plane& plane);
+
+} // namespace facetmill

@@ -1,0 +1,88 @@
+#pragma once
+// Plane sections of a mesh: the contours that a plane, or a stack of parallel planes, cuts out of it.
+//
+// Each vertex is classified once by the exact sign of its side (mesh/plane.hpp), and a vertex on the
+// plane counts as above it: the section is that of a plane just below. So a face lying in the plane gives its
+// outline when it is a top and nothing when it is a bottom, and the sections of two halves of a solid never
+// count the same place twice.
+
+#include "mesh/cut_memory.hpp"
+#include "geometry/polygon/polygon.hpp"
+
+namespace facetmill {
+
+/// The coordinates of a plane in the world. The origin is the foot of the world's origin on the plane, so
+/// that the sections of a stack line up; v is normal x u.
+struct SectionFrame {
+    Vec3 origin, u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
+
+    Vec2 flat(const Vec3& p) const { return {dot(p - origin, u), dot(p - origin, v)}; }
+    Vec3 point(const Vec2& p) const { return origin + u * p.x + v * p.y; }
+    Vec3 direction(const Vec2& d) const { return u * d.x + v * d.y; }
+};
+
+/// The frame of a plane: u is the axis after the normal's longest component (x for z), made square to the
+/// normal. For normals along an axis flat coordinates are world coordinates.
+SectionFrame frame_of(const Plane& plane);
+
+struct SectionSettings {
+    Plane plane;                    ///< in world space
+    std::vector<double> heights{0}; ///< ascending, world units along the normal from the plane
+    Transform to_world;             ///< from the mesh's space
+    /// Points known to be on planes, in the mesh's space: those on a plane of the stack count as on it. None:
+    /// nothing is known.
+    const CutMemory* memory = nullptr;
+};
+
+/// What a contour is to the others of its section.
+enum class ContourRole {
+    outline, ///< nothing outside it, something inside
+    hole,    ///< something outside, nothing inside
+    inner,   ///< something on both sides: bodies that overlap
+    open,    ///< not closed: the mesh has a boundary there
+};
+const char* to_string(ContourRole role);
+
+struct Contour {
+    Index begin = 0, end = 0; ///< into Section::points
+    ContourRole role = ContourRole::outline;
+    Index parent = none; ///< the contour right around it, or none
+    int orientation = 1; ///< 1 anticlockwise seen against the normal, -1 clockwise
+    polygon::Kind kind = polygon::Kind::convex;
+    double area = 0;   ///< signed by orientation
+    double length = 0; ///< around it, or along it when open
+    std::optional<polygon::Moments>
+        moments; ///< none when open or self-intersecting: the sums would mean nothing
+};
+
+/// The section at one height.
+struct Section {
+    double height = 0;
+    SectionFrame frame;
+    std::vector<Vec2> points;      ///< in the frame; contour by contour
+    std::vector<Contour> contours; ///< in the order of the faces they start at
+    double area = 0;           ///< sum over closed contours: holes take, what is covered twice counts twice
+    bool oriented = true;      ///< neighbours agreed; else contours were turned by nesting (even-odd)
+    std::size_t collapsed = 0; ///< contours that shrank to a point or line: the plane only touched there
+    polygon::Contact contact = polygon::Contact::none; ///< among all closed contours
+    /// Of outlines and holes together; none when a contour is open, or overlaps itself or another.
+    std::optional<polygon::Moments> moments;
+
+    polygon::Ring ring(const Contour& c) const { return {points.data() + c.begin, points.data() + c.end}; }
+    /// Outlines and holes: what a drawing fills.
+    std::vector<polygon::Ring> filled() const;
+};
+
+/// Sections at all heights, in order; a plane that misses gives one without contours. Contours of
+/// consistently oriented closed meshes have the material on their left. Points are computed once per cut
+/// edge, and a vertex exactly on a plane is a contour's point as it is; points that are straight or the same
+/// but for rounding (64 units in the last place of the section's largest coordinate) are left out. Time is
+/// one pass over the vertices and the faces, and n log n in the points of each section; parallel, the same
+/// bytes for any number of threads. Throws usage (E-PLANE) for a bad plane and limit (E-SECTION) beyond 2^31
+/// segments.
+std::vector<Section> section(const Mesh& mesh, const SectionSettings& settings);
+
+/// Finds roles, parents, kinds and measures of the contours of a section whose points are there.
+void arrange(Section& section);
+
+} // namespace facetmill

@@ -1,0 +1,297 @@
+// One collapse: the tests that keep the guarantees, and the edit.
+
+#include "geometry/simplify/around.hpp"
+#include "geometry/simplify/price.hpp"
+
+#include <span>
+#include <utility>
+
+namespace facetmill::simplification {
+
+namespace {
+
+constexpr double least_cosine = 0.5; // no face turns by more than 60 degrees
+// A face whose height is below this share of its longest edge counts as flat: far above what rounding can do,
+// far below what anyone wants.
+constexpr double least_height = 1e-5;
+constexpr std::uint8_t outside = 64; // the territory: no reason that is kept
+
+/// The live faces at a vertex; false when there are too many.
+bool gather(const Work& s, Index v, Ring& ring) {
+    std::size_t size = 0;
+    for (Index c = s.first[v]; c != none; c = s.next[c]) {
+        const Index* t = &s.tri[c - c % 3];
+        if (t[0] == none) continue;
+        if (size == Ring::most) return false;
+        ring.spokes[size++] = {c, s.tri[after(c)], s.tri[before(c)]};
+    }
+    ring.size = size;
+    return true;
+}
+
+/// A set of vertices that says most of the time at once that one is not in it.
+class Vertices {
+  public:
+    explicit Vertices(const Ring& ring) : ring_(ring) {
+        for (const Spoke& k : ring) hints_ |= hint(k.next) | hint(k.before);
+    }
+    bool has(Index v) const {
+        if (!(hints_ & hint(v))) return false;
+        return std::any_of(ring_.begin(), ring_.end(), [&](const Spoke& k) { return k.has(v); });
+    }
+
+  private:
+    static std::uint64_t hint(Index v) { return std::uint64_t{1} << (v % 64); }
+    const Ring& ring_;
+    std::uint64_t hints_ = 0;
+};
+
+/// An edge about to go: r.b into r.a.
+class Collapse {
+  public:
+    Collapse(Work& s, Around& r) : s_(s), r_(r) {}
+
+    /// 0, or why the collapse to `to` is not allowed. most: how far points may be, squared.
+    std::uint8_t refusal(const Vec3& to, bool a_stays, bool along, bool boundary, double most) {
+        if (!gather(s_, r_.a, r_.at_a) || !gather(s_, r_.b, r_.at_b)) return blocked_topology;
+        if (!is_inside()) return outside;
+        find_sides();
+        if (!(s_.allow ? r_.sides >= 1 && r_.sides <= Around::most_sides : r_.sides == (boundary ? 1 : 2)))
+            return blocked_topology;
+        if (!link_condition(along)) return blocked_topology;
+        if (!s_.wedge.empty() && !pair_wedges(a_stays)) return blocked_border;
+        if (r_.changes_topology && !find_cancelled(s_, r_)) return blocked_topology;
+        if (r_.changes_topology && vanishes(s_, r_)) return 0;
+        if (!a_stays && !keeps_facing(r_.a, r_.at_a, r_.b, to)) return blocked_flip;
+        if (!keeps_facing(r_.b, r_.at_b, r_.a, to)) return blocked_flip;
+        return s_.points.empty() || points_stay_near(s_, r_, to, most) ? 0 : blocked_error;
+    }
+
+    /// Makes it. Returns the faces and vertices that went.
+    std::pair<std::size_t, std::size_t> make(const Vec3& to, double error, Log& log) {
+        if (!s_.points.empty()) hand_over_points(s_, r_);
+        if (!s_.wedge.empty()) hand_over_wedges(log);
+        if (s_.logging)
+            log.steps.push_back({s_.source[r_.a], s_.source[r_.b], static_cast<Index>(log.wedges.size()),
+                                 static_cast<float>(error), to});
+        join_lists();
+        for (const Side& side : sides()) {
+            if (s_.has_features) pass_on_features(side);
+            kill_face(s_, side.at_a / 3);
+        }
+        const auto faces = static_cast<std::size_t>(r_.sides);
+        return r_.changes_topology ? settle_topology(s_, r_, faces) : std::pair{faces, std::size_t{1}};
+    }
+
+    /// Prices the edges at a, where b is now too, and tells the vertices around.
+    void price(Pricer& pricer) {
+        if (r_.changes_topology) { // more went than the faces on the edge
+            if (!gather(s_, r_.a, r_.at_a)) return;
+            r_.at_b.size = 0;
+        }
+        const auto price_ring = [&](const Ring& ring, Index gone) {
+            for (const Spoke& k : ring) {
+                if (k.has(gone)) continue;
+                s_.dirty[k.next] = s_.dirty[k.before] = s_.pass;
+                pricer(k.corner, r_.a, k.next);
+                pricer(simplification::before(k.corner), k.before, r_.a);
+            }
+        };
+        price_ring(r_.at_a, r_.b), price_ring(r_.at_b, r_.a);
+        pricer.finish();
+    }
+
+  private:
+    std::span<const Side> sides() const {
+        return std::span(r_.side).first(static_cast<std::size_t>(r_.sides));
+    }
+
+    bool is_inside() const {
+        const Territory& mine = r_.territory;
+        const auto inside = [&](const Spoke& k) { return mine.has(k.next) && mine.has(k.before); };
+        return std::all_of(r_.at_a.begin(), r_.at_a.end(), inside) &&
+               std::all_of(r_.at_b.begin(), r_.at_b.end(), inside);
+    }
+
+    void find_sides() {
+        r_.sides = 0;
+        for (const Spoke& k : r_.at_a) {
+            if (!k.has(r_.b)) continue;
+            if (r_.sides < Around::most_sides)
+                r_.side[static_cast<std::size_t>(r_.sides)] = k.next == r_.b
+                                                                  ? Side{k.corner, after(k.corner), k.before}
+                                                                  : Side{k.corner, before(k.corner), k.next};
+            ++r_.sides;
+        }
+    }
+
+    /// How many vertices both ends have as neighbours; 8 for more.
+    int common_neighbours() const {
+        const Vertices near_a(r_.at_a);
+        std::array<Index, 8> seen;
+        std::size_t count = 0;
+        for (const Spoke& k : r_.at_b)
+            for (const Index v : {k.next, k.before}) {
+                if (v == r_.a || !near_a.has(v)) continue;
+                const auto end = seen.begin() + static_cast<std::ptrdiff_t>(count);
+                if (std::find(seen.begin(), end, v) != end) continue;
+                seen[count++] = v;
+                if (count == seen.size()) return static_cast<int>(count);
+            }
+        return static_cast<int>(count);
+    }
+
+    /// The ends' links meet in nothing but the opposite vertices (Dey et al. 1999; the outside of a boundary,
+    /// and both sides of a feature line, count as one more vertex).
+    bool link_condition(bool along) {
+        r_.changes_topology = common_neighbours() != r_.sides || r_.sides > 2 ||
+                              (r_.sides == 2 && joined(r_.at_a) && joined(r_.at_b)); // the last tetrahedron
+        if (along)
+            for (const Side& side : sides()) { // a loop of three feature edges would close on itself
+                const auto both = edge_flags(side.at_a, side.opposite) & edge_flags(side.at_b, side.opposite);
+                if (!(both & feature_edge)) continue;
+                r_.changes_topology = true;
+                if (!(both & boundary_edge)) return false; // of a seam or border, not a lone triangle
+            }
+        return s_.allow || !r_.changes_topology;
+    }
+
+    /// Whether a face of the ring has both opposite vertices.
+    bool joined(const Ring& ring) const {
+        const Index x = r_.side[0].opposite, y = r_.side[1].opposite;
+        return std::any_of(ring.begin(), ring.end(), [&](const Spoke& k) {
+            return (k.next == x && k.before == y) || (k.next == y && k.before == x);
+        });
+    }
+
+    /// Flags of the edge of c's face between c's vertex and v.
+    std::uint8_t edge_flags(Index c, Index v) const {
+        return s_.flags[s_.tri[after(c)] == v ? c : before(c)];
+    }
+
+    /// Finds for each wedge at b the one at a that takes its faces.
+    bool pair_wedges(bool a_stays) {
+        pairs_ = 0;
+        for (const Side& side : sides()) {
+            const Index to = s_.wedge[side.at_a], from = s_.wedge[side.at_b];
+            const Index known = taker(from);
+            if (known != none) {
+                if (to != known) return false;
+                continue;
+            }
+            // Two wedges may end in one only when that one keeps its own attributes.
+            if (!a_stays)
+                for (int k = 0; k < pairs_; ++k)
+                    if (pair_[k][0] == to) return false;
+            if (s_.sides)
+                for (int k = 0; k < pairs_; ++k)
+                    if (pair_[k][0] == to && (*s_.sides)[pair_[k][1]] != (*s_.sides)[from]) return false;
+            pair_[pairs_][0] = to, pair_[pairs_][1] = from;
+            ++pairs_;
+        }
+        return std::all_of(r_.at_b.begin(), r_.at_b.end(),
+                           [&](const Spoke& k) { return taker(s_.wedge[k.corner]) != none; });
+    }
+
+    Index taker(Index wedge) const {
+        for (int i = 0; i < pairs_; ++i)
+            if (pair_[i][1] == wedge) return pair_[i][0];
+        return none;
+    }
+
+    /// Whether the faces of the ring that stay keep their side when v moves.
+    bool keeps_facing(Index v, const Ring& ring, Index other, const Vec3& to) const {
+        const Vec3& from = s_.at[v];
+        for (const Spoke& k : ring) {
+            if (k.has(other)) continue;
+            const Vec3 &x = s_.at[k.next], &y = s_.at[k.before], along = y - x;
+            const Vec3 old = cross(x - from, along), now = cross(x - to, along);
+            const double was = dot(old, old), is = dot(now, now), turn = dot(old, now);
+            if (!(was > 0)) continue; // degenerate before: nothing to keep
+            if (!(turn > 0 && turn * turn >= least_cosine * least_cosine * was * is)) return false;
+            const double longest = std::max({dot(x - to, x - to), dot(y - to, y - to), dot(along, along)});
+            const double least = least_height * longest;
+            if (is < least * least && is < was) return false;
+        }
+        return true;
+    }
+
+    void hand_over_wedges(Log& log) {
+        for (int i = 0; i < pairs_; ++i)
+            if (pair_[i][0] != pair_[i][1]) {
+                if (s_.logging) log.wedges.push_back({pair_[i][0], pair_[i][1]});
+                join_fields(s_.fields, pair_[i][0], pair_[i][1]);
+            }
+        for (const Spoke& k : r_.at_b) s_.wedge[k.corner] = taker(s_.wedge[k.corner]);
+    }
+
+    /// a's list becomes the corners that stay, b's becomes empty.
+    void join_lists() {
+        Index* link = &s_.first[r_.a];
+        const auto add = [&](Index c) {
+            *link = c;
+            link = &s_.next[c];
+        };
+        for (const Spoke& k : r_.at_a)
+            if (!k.has(r_.b)) add(k.corner);
+        for (const Spoke& k : r_.at_b) {
+            if (k.has(r_.a)) continue;
+            add(k.corner);
+            s_.tri[k.corner] = r_.a;
+        }
+        *link = none;
+        s_.first[r_.b] = none;
+    }
+
+    /// The edges from a and b to the opposite vertex become one: a feature if either was.
+    void pass_on_features(const Side& side) {
+        const auto either = static_cast<std::uint8_t>(
+            (edge_flags(side.at_a, side.opposite) | edge_flags(side.at_b, side.opposite)) &
+            (boundary_edge | feature_edge));
+        if (!either) return;
+        for (Index c = s_.first[r_.a]; c != none; c = s_.next[c]) {
+            if (s_.tri[after(c)] == side.opposite) s_.flags[c] |= either;
+            if (s_.tri[before(c)] == side.opposite) s_.flags[before(c)] |= either;
+        }
+    }
+
+    Work& s_;
+    Around& r_;
+    Index pair_[Around::most_sides][2] = {}; // wedge at a, wedge at b
+    int pairs_ = 0;
+};
+
+} // namespace
+
+Attempt collapse(Work& s, Index c, double most, Around& around, Pricer& pricer, Tally& tally) {
+    const Index u = s.tri[c], v = s.tri[after(c)];
+    const std::uint8_t flags = s.flags[c];
+    const Placement p = place(s, c, flags);
+    const Index a = around.a = p.keep_second ? v : u, b = around.b = p.keep_second ? u : v;
+    const bool stays = p.keep_first || p.keep_second;
+    Collapse edit(s, around);
+    const bool beyond = !s.limit.empty() && !(p.error < std::min(s.limit[a], s.limit[b]));
+    const auto why = beyond ? blocked_border
+                            : edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge, most);
+    if (why == outside) return Attempt::outside;
+    if (why) {
+        s.flags[c] |= why;
+        s.cost[c] = never;
+        return Attempt::refused;
+    }
+    s.kind[a] = std::max(s.kind[a], s.kind[b]);
+    if (!s.limit.empty()) s.limit[a] = std::min(s.limit[a], s.limit[b]);
+    const auto [faces, vertices] = edit.make(p.at, p.error, tally.log);
+    s.at[a] = p.at;
+    s.moved[a] |= !stays;
+    s.touched[a] = s.touched[b] = s.pass;
+    if (!s.quadrics.empty()) s.quadrics[a] = p.joined;
+    if (s.wedge.empty()) join_fields(s.fields, a, b);
+    tally.largest = std::max(tally.largest, p.error);
+    edit.price(pricer);
+    ++tally.collapses;
+    tally.faces += faces, tally.vertices += vertices;
+    return Attempt::done;
+}
+
+} // namespace facetmill::simplification

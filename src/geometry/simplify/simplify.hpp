@@ -1,0 +1,176 @@
+#pragma once
+// Simplification: edges are collapsed, cheapest first, until a target is met.
+
+#include "base/portable_math.hpp"
+#include "geometry/normals/normal_seams.hpp"
+#include "mesh/plane.hpp"
+
+#include <optional>
+
+namespace facetmill {
+
+/// What stays vertex by vertex.
+struct SimplifyLocks {
+    bool boundary = false;     ///< the vertices of boundary edges
+    bool seams = false;        ///< the vertices of seams and of borders of primitives
+    bool groups = false;       ///< the vertices of borders between values of the face attribute "group"
+    std::vector<Plane> body{}; ///< the vertices in front of all of these, in the mesh's space; empty: none
+    std::vector<std::uint8_t> vertices{}; ///< [vertices] 1 for those that stay; empty: none
+};
+
+/// What no collapse of the method constrained may bring about; 0 leaves a constraint out.
+struct SimplifyConstraints {
+    double least_cosine = 0.5; ///< of the angle between a face's normal and the one that it came with
+    double aspect_ratio = 0;   ///< no face gets a larger one: longest edge by height
+    double roundness = 0; ///< no face gets a smaller one: 1 for an equilateral triangle, 0 for a flat one
+    double hausdorff = 0; ///< no vertex that went is farther from the faces near by, in the mesh's units
+};
+
+/// What attributes weigh in the error of the quadric methods; 0 leaves one out.
+struct AttributeWeights {
+    /// UV sets: a texture that slides by a length counts as much as `uv` times a surface off by that length.
+    double uv = 0.5;
+    // A difference of 1 counts as much as a surface that is off by the weight times 1 % of the diagonal.
+    double normal = 0.1; ///< of unit vectors
+    double colour = 1;   ///< of full intensity
+    double skin = 1;     ///< of skin weights: all of a joint's pull
+};
+
+struct SimplifySettings {
+    enum class Method {
+        quadric, ///< Garland and Heckbert: least sum of squared distances to the planes of the faces
+        quadric_endpoints, ///< the same, but the new vertex is one of the two: vertices are a subset
+        constrained,       ///< OpenMesh's decimater: quadric, endpoints only, under SimplifyConstraints
+        shortest_edge,     ///< the note's: the shortest edge goes, and the rest meets at its midpoint
+        cluster, ///< the vertices in each cell of a grid become one: for previews, topology is not kept
+    };
+    enum class Topology {
+        keep,  ///< genus, components and boundary loops stay
+        allow, ///< components may vanish, holes close, and handles be pinched off
+    };
+    enum class Intersections {
+        ignore, ///< not looked for
+        count,  ///< counted before and after
+        avoid,  ///< no more pairs of faces that run into each other than there were
+    };
+    Method method = Method::quadric;
+    Topology topology = Topology::keep;
+    Intersections self_intersections = Intersections::ignore;
+    AttributeWeights weights{}; ///< for quadric and quadric-endpoints
+    SimplifyLocks lock{};
+    SimplifyConstraints constraints{}; ///< for the method constrained
+    double crease = 30 * pi / 180;     ///< radians, see merge_normal_seams; 0: every normal seam stays
+    // At least one target; the first one met stops the work.
+    std::optional<double> ratio =
+        {}; ///< of the triangles that came in, 0 < ratio <= 1; the count is rounded up
+    std::optional<std::size_t> faces = {};    ///< at most so many triangles
+    std::optional<std::size_t> vertices = {}; ///< at most so many vertices
+    /// The deviation from the mesh that came in, measured both ways (geometry/deviation/deviation.hpp, its samples and
+    /// seed), stays within this. In the mesh's units.
+    std::optional<double> max_error = {};
+    /// Levels of detail: ratios, descending. No other target may be given then.
+    std::vector<double> levels = {};
+};
+
+struct SimplifyResult {
+    enum class Stop {
+        nothing,   ///< the mesh was at or below every target already: it is returned as it was
+        ratio,     ///< met
+        faces,     ///< met
+        vertices,  ///< met
+        max_error, ///< any more would deviate too much
+        stuck,     ///< no collapse was left that keeps the guarantees
+    };
+    /// Edges that were left because a collapse would have broken something; counted when the work stopped as
+    /// stuck or for max_error.
+    struct Blocked {
+        std::size_t borders = 0;      ///< boundaries and locks; and where faces would cross, with avoid
+        std::size_t seams = 0;        ///< at a seam, or a border of primitives or groups
+        std::size_t non_manifold = 0; ///< at a vertex that is not manifold
+        std::size_t topology = 0;     ///< would change genus, close a hole, or make a component vanish
+        std::size_t flips = 0;        ///< would flip or flatten a face
+        std::size_t error = 0;        ///< would move the surface too far
+    };
+    Mesh mesh;
+    Fates fates;
+    Stop stop = Stop::nothing;
+    Blocked blocked;
+    NormalSeams::Shading shading = NormalSeams::Shading::as_given; ///< what was done about normal seams
+    std::size_t merged_wedges = 0;                                 ///< by them
+    std::size_t faces_given = 0;                                   ///< as they came, polygons too
+    std::size_t faces_before = 0, faces_after = 0;                 ///< triangles
+    std::size_t vertices_before = 0, vertices_after = 0;           ///< used by faces
+    std::size_t collapses = 0;                                     ///< that led to the mesh
+    std::size_t rolled_back = 0;                                   ///< that were taken back for max_error
+    std::size_t measurements = 0;                                  ///< that max_error took
+    std::optional<double> measured; ///< the deviation when max_error was given, in the mesh's units
+    std::optional<std::size_t> intersections_before = {}, intersections_after = {}; ///< when counted
+    std::size_t held = 0; ///< vertices that less error was allowed to, to avoid self-intersections
+    std::size_t passes = 0;
+    /// quadric and cluster: the largest distance (root mean square over the planes gathered in a new vertex)
+    /// at any collapse; shortest-edge: half the longest edge that was collapsed; constrained: none. In the
+    /// mesh's units.
+    std::optional<double> largest_error;
+    std::optional<double> cell; ///< cluster: the edge of the grid's cells, in the mesh's units
+};
+
+/// Simplifies a mesh.
+///
+/// Requires nothing: open, non-manifold and degenerate input is worked on, except within reach of its
+/// non-manifold or inconsistently oriented vertices, which stay with all their edges. Polygons are
+/// triangulated first. Vertices that no face uses are dropped.
+///
+/// Guarantees: every collapse satisfies the link condition, so a manifold stays manifold, a closed surface
+/// closed, and the genus, the number of components and of boundary loops stay; a closed component keeps at
+/// least four faces. No collapse turns a face by more than 60 degrees, makes one degenerate or doubles one.
+/// Boundaries, UV and normal seams, and borders of primitives and groups collapse only along themselves;
+/// where more than two of them meet, or one ends, the vertex stays. Vertices that were not moved keep their
+/// exact position. Open borders that run along each other at exactly the same places, as of patches that were
+/// never welded, collapse as the two sides of a seam and stay apart (with quadric, quadric-endpoints and
+/// shortest-edge).
+///
+/// max_error: every vertex and centre of a face that came in is followed to a face near by, and a collapse is
+/// refused when it leaves one farther than 9/10 of the bound from the faces around, or when the new vertex or
+/// the centre of a face at it is as far from the surface that came in. All collapses are logged, and the
+/// deviation of the result is measured. If it is above the bound, the log is cut by bisection: every
+/// beginning of it is a mesh with all the guarantees. Nothing is run again.
+///
+/// self_intersections: avoid: where the result runs into itself more often than the mesh that came in, all
+/// vertices that went into the faces concerned may take part in collapses of half the error only, and
+/// all is done again, until none is new; after ten rounds they stay as they were. It works on one mesh, not
+/// on levels.
+///
+/// The method constrained keeps boundaries, seams and borders vertex by vertex, and gives no largest_error;
+/// max_error and levels are refused.
+///
+/// topology: allow leaves the link condition out: the last faces of a component may go (not with max_error,
+/// which must find every point near by), holes of three edges close, and edges and vertices where handles
+/// were may end up with more than two faces or fans. Closedness, flips and features are kept as always.
+///
+/// The method cluster (Rossignac and Borrel 1993, placed after Lindstrom 2000) makes one vertex of all in a
+/// cell, where their planes meet best; faces that keep three vertices stay. It keeps neither topology nor
+/// borders, and refuses locks, levels and self_intersections: avoid. Its targets are met by the size of the
+/// cells: the finest grid that was found to be at or below; sheets thinner than a cell become double faces.
+///
+/// Weights: the attributes are linear over the faces that came in, and every new vertex pays the squared
+/// difference to what they would be at its place, by area (Hoppe 1999; the best value at the vertex is
+/// eliminated, so that the sum is again a quadric). Skin weights go through a fixed random projection to four
+/// numbers.
+///
+/// Attributes: a vertex or wedge that moved has those of the surface that came in, at the nearest point of
+/// the faces around all the vertices that went into it (on a feature line: of that line, so that both sides
+/// match); the others keep theirs, and so do faces. Seams that only normals make are merged first, see
+/// merge_normal_seams. The vertices and faces come out along a Morton curve.
+///
+/// Errors: usage (E-RANGE) when no target or one out of range is given. About O(n log n), parallel; the same
+/// bytes for any number of threads. Source: the note 'Surface simplification' (1997); Garland & Heckbert,
+/// 'Surface simplification using quadric error metrics' (1997).
+SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
+
+/// One result per ratio of settings.levels, from fine to coarse: a chain in which each level is made from the
+/// one before by further collapses, so a vertex of a coarse level stands for a set of vertices of the finer
+/// one, largest_error never falls, and borders that match in one part match in all. ratio, faces, vertices
+/// and max_error must not be given. collapses are those since the mesh that came in.
+std::vector<SimplifyResult> simplify_levels(Mesh mesh, const SimplifySettings& settings);
+
+} // namespace facetmill

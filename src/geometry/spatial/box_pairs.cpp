@@ -1,0 +1,57 @@
+#include "geometry/spatial/box_pairs.hpp"
+
+#include "geometry/spatial/hilbert_curve.hpp"
+
+namespace facetmill {
+
+BoxPairs::BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among) {
+    if (boxes.empty()) return;
+    const Box all = parallel_reduce(
+        boxes.size(), Box{},
+        [&](std::size_t begin, std::size_t end) {
+            Box b;
+            for (std::size_t i = begin; i < end; ++i) b.add(boxes[i]);
+            return b;
+        },
+        [](Box a, const Box& b) { return a.add(b), a; });
+    if (all.empty()) return;
+    levels_.set_frame(all);
+    items_ = order_along_curve(boxes.size(), all, [&](std::size_t i) {
+        return boxes[i].empty() ? all.min : boxes[i].min * 0.5 + boxes[i].max * 0.5;
+    });
+    levels_.build(items_.size(), [&](Node& node, std::size_t slot, std::size_t i) {
+        const Box& box = boxes[items_[i]];
+        if (box.empty())
+            node.clear(slot);
+        else
+            node.set(slot, levels_.local(box.min), levels_.local(box.max));
+    });
+    if (among.empty()) return;
+    flags_.emplace_back(items_.size());
+    for (std::size_t i = 0; i < items_.size(); ++i) flags_[0][i] = among[items_[i]];
+    while (flags_.size() < static_cast<std::size_t>(levels_.height())) {
+        const auto& below = flags_.back();
+        std::vector<std::uint8_t> flags((below.size() + 3) / 4, 0);
+        for (std::size_t i = 0; i < below.size(); ++i) flags[i / 4] |= below[i];
+        flags_.push_back(std::move(flags));
+    }
+}
+
+std::vector<BoxPairs::Couple> BoxPairs::couples_above() const {
+    constexpr std::size_t enough = 4096;
+    std::vector<Couple> couples;
+    if (levels_.height() == 0) return couples;
+    couples.push_back({levels_.height() - 1, 0, 0});
+    while (couples[0].level > 0 && couples.size() < enough) {
+        std::vector<Couple> below;
+        for (const Couple& c : couples)
+            children(c, [&](std::uint32_t s, std::uint32_t t) {
+                if (wanted(c.level, s, t)) below.push_back({c.level - 1, s, t});
+            });
+        if (below.empty()) return below;
+        couples = std::move(below);
+    }
+    return couples;
+}
+
+} // namespace facetmill

@@ -1,0 +1,102 @@
+#pragma once
+// All pairs of boxes of one set that meet, found in one walk of a tree against itself.
+
+#include "base/simd.hpp"
+#include "geometry/spatial/box_levels.hpp"
+#include "mesh/mesh.hpp"
+
+#include <array>
+#include <bit>
+#include <span>
+
+namespace facetmill {
+
+/// Built once, in parallel, the same for any number of threads; then only read. Items with an empty box are
+/// in no pair. Boxes are of float32 and a little larger than given: some pairs only nearly meet.
+class BoxPairs {
+  public:
+    /// `among`: only pairs with an item whose number is flagged there; empty: all pairs.
+    explicit BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among = {});
+
+    /// The items along the curve; neighbours there are neighbours in space.
+    const std::vector<Index>& items() const { return items_; }
+
+    /// found(T&, i, j) for every pair, i and j being places in items(); each thread's pairs go into a T of
+    /// their own, and those are joined from left to right: join(first, second), the same for any number of
+    /// threads.
+    template <class T, class Found, class Join>
+    T reduce(const T& identity, Found&& found, Join&& join) const {
+        const std::vector<Couple> tasks = couples_above();
+        return parallel_reduce(
+            tasks.size(), identity,
+            [&](std::size_t begin, std::size_t end) {
+                T result = identity;
+                for (std::size_t i = begin; i < end; ++i)
+                    walk(tasks[i], [&](std::size_t a, std::size_t b) { found(result, a, b); });
+                return result;
+            },
+            join, 4);
+    }
+
+  private:
+    using Node = BoxLevels::Node;
+    /// Two nodes of a level whose items are to be paired, or twice the same one.
+    struct Couple {
+        std::int32_t level;
+        std::uint32_t a, b;
+    };
+
+    /// Which boxes of the node meet box s of the other: a bit each.
+    static unsigned meeting(const Node& node, const Node& other, std::size_t s) {
+        Int4 meets = Int4{} - 1;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            meets &= (load(node.min[axis]) <= Float4{} + other.max[axis][s]) &
+                     (load(node.max[axis]) >= Float4{} + other.min[axis][s]);
+        return bits_of(meets);
+    }
+
+    /// The pairs of children of two nodes, or of one, whose boxes meet: found(child of a, child of b).
+    template <class Found>
+    void children(const Couple& c, Found&& found) const {
+        const Node &a = levels_.node(c.level, c.a), &b = levels_.node(c.level, c.b);
+        for (std::uint32_t s = 0; s < 4; ++s) {
+            unsigned bits = meeting(b, a, s);
+            if (c.a == c.b) bits &= 15u << s; // each pair once
+            for (; bits != 0; bits &= bits - 1)
+                found(4 * c.a + s, 4 * c.b + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        }
+    }
+
+    bool wanted(int level, std::uint32_t a, std::uint32_t b) const {
+        if (flags_.empty()) return true;
+        const auto& flags = flags_[static_cast<std::size_t>(level)];
+        return flags[a] || flags[b];
+    }
+
+    template <class Found>
+    void walk(const Couple& from, Found&& found) const {
+        std::array<Couple, 16 * 17> stack; // 17 levels of four hold all indices; fifteen wait at each
+        std::size_t size = 0;
+        stack[size++] = from;
+        while (size > 0) {
+            const Couple c = stack[--size];
+            children(c, [&](std::uint32_t s, std::uint32_t t) {
+                if (!wanted(c.level, s, t)) return;
+                if (c.level > 0)
+                    stack[size++] = {c.level - 1, s, t};
+                else if (s != t)
+                    found(std::size_t{s}, std::size_t{t});
+            });
+        }
+    }
+
+    /// The couples of an upper level, enough of them to share out.
+    std::vector<Couple> couples_above() const;
+
+    BoxLevels levels_;
+    std::vector<Index> items_;
+    /// For each level whether a child of a node has something flagged; child i of all on level 0 is item i.
+    std::vector<std::vector<std::uint8_t>> flags_;
+};
+
+} // namespace facetmill

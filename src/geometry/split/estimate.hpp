@@ -1,0 +1,27 @@
+#pragma once
+// What a split would make, before it is made.
+
+#include "geometry/split/split.hpp"
+
+namespace facetmill {
+
+/// How the numbers of triangles, quads and larger faces, and the corners of these, change in one pass.
+struct SplitCensus {
+    double triangles = 0, quads = 0, larger = 0, larger_corners = 0;
+
+    explicit SplitCensus(const Mesh& mesh);
+    double corners() const { return 3 * triangles + 4 * quads + larger_corners; }
+    double faces() const { return triangles + quads + larger; }
+    /// The most that a pass makes; n: SplitSettings::grid.
+    void pass(SplitMethod method, double n);
+
+  private:
+    void set(double t, double q, double l, double c) {
+        triangles = t, quads = q, larger = l, larger_corners = c;
+    }
+};
+
+/// Throws limit (E-LIMIT, E-MEMORY) when so many corners, with the mesh's attributes, are more than can be.
+void refuse_giant_split(const Mesh& mesh, double corners);
+
+} // namespace facetmill

@@ -1,0 +1,34 @@
+#pragma once
+// The methods of split that choose edges: bisect, notch, halve, and their closures.
+
+#include "geometry/split/split.hpp"
+#include "mesh/topology.hpp"
+
+namespace facetmill {
+
+/// The edges of a mesh and how long they are in world space.
+struct MeasuredEdges {
+    EdgeTable table;
+    std::vector<double> squared; ///< [edges] squared length; both faces at an edge see the same
+};
+MeasuredEdges measure_edges(const Mesh& mesh, const Transform& to_world);
+
+/// One byte per edge: the edges at which faces are cut.
+using EdgeMarks = std::vector<std::uint8_t>;
+
+/// The local number (0 to 2) of the longest edge of each triangle, 3 when it has none; ties: the lower edge.
+std::vector<std::uint8_t> longest_edges(const Mesh& mesh, const MeasuredEdges& edges);
+
+/// bisect, notch or halve of every face, or of the narrow ones (settings.min_angle). One pass; min_angle
+/// finds nothing: an empty optional. Fates and counts of spots go to so_far.
+std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far);
+
+/// Cuts at the marked edges by bisect's rule; the marks must be closed under it.
+Mesh cut_marked(const Mesh& mesh, const MeasuredEdges& edges, const EdgeMarks& marks,
+                const std::vector<std::uint8_t>& longest, SplitSettings::Cut cut, const Transform& to_world,
+                SplitResult& so_far);
+
+/// bisect with targets: edges longer than max_edge, the longest first when there is a budget of faces.
+SplitResult refine(const Mesh& mesh, const SplitSettings& settings);
+
+} // namespace facetmill

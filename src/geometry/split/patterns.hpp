@@ -1,0 +1,235 @@
+#pragma once
+// What one face becomes by the methods of split that cut every face alike (see split_pattern.hpp for the
+// frame).
+
+#include "geometry/split/pattern.hpp"
+#include "mesh/quad_diagonal.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+/// Triangles into n * n triangles, quads into n x n quads, rows along the first edge.
+struct GridPattern {
+    int n;
+
+    PatternCounts counts(const Mesh& mesh, Index f) const {
+        const std::uint64_t m = static_cast<std::uint64_t>(n);
+        if (mesh.face_size(f) == 4) return {m * m, 4 * m * m, (m - 1) * (m - 1), 4 * (m - 1) * (m - 1)};
+        const std::uint64_t inner = m < 3 ? 0 : (m - 1) * (m - 2) / 2;
+        return {m * m, 3 * m * m, inner, 3 * inner};
+    }
+    bool triangles_only(const Mesh& mesh) const { return mesh.all_triangles(); }
+
+    void emit(const PatternFace& face, PatternOut& out) const {
+        face.size() == 4 ? quad(face, out) : triangle(face, out);
+    }
+
+    /// Lattice point (i, j): i steps along the first edge, j towards the third corner.
+    Index triangle_point(const PatternFace& face, int i, int j) const {
+        if (j == 0) return i == 0 ? face.at(0) : i == n ? face.at(1) : face.on(0, i);
+        if (i == 0) return j == n ? face.at(2) : face.on(2, n - j);
+        if (i + j == n) return face.on(1, j);
+        const int before = (j - 1) * (n - 1) - (j - 1) * j / 2; // inner points in lower rows
+        return face.inside(static_cast<Index>(before + i - 1));
+    }
+    void triangle(const PatternFace& face, PatternOut& out) const {
+        for (int j = 1; j < n - 1; ++j)
+            for (int i = 1; i + j < n; ++i) {
+                out.source(face.at(0), static_cast<double>(n - i - j) / n);
+                out.source(face.at(1), static_cast<double>(i) / n);
+                out.source(face.at(2), static_cast<double>(j) / n);
+                out.end_mix();
+            }
+        for (int j = 0; j < n; ++j) {
+            Index low = triangle_point(face, 0, j), high = triangle_point(face, 0, j + 1);
+            for (int i = 0; i + j < n; ++i) {
+                const Index next = triangle_point(face, i + 1, j);
+                out.face(low, next, high);
+                if (i + j + 1 < n) {
+                    const Index next_high = triangle_point(face, i + 1, j + 1);
+                    out.face(next, next_high, high);
+                    high = next_high;
+                }
+                low = next;
+            }
+        }
+    }
+
+    /// Lattice point (i, j): i steps along the first edge, j along the second.
+    Index quad_point(const PatternFace& face, int i, int j) const {
+        if (j == 0) return i == 0 ? face.at(0) : i == n ? face.at(1) : face.on(0, i);
+        if (j == n) return i == n ? face.at(2) : i == 0 ? face.at(3) : face.on(2, n - i);
+        if (i == n) return face.on(1, j);
+        if (i == 0) return face.on(3, n - j);
+        return face.inside(static_cast<Index>((j - 1) * (n - 1) + i - 1));
+    }
+    void quad(const PatternFace& face, PatternOut& out) const {
+        const double nn = static_cast<double>(n) * n;
+        for (int j = 1; j < n; ++j)
+            for (int i = 1; i < n; ++i) {
+                out.source(face.at(0), static_cast<double>(n - i) * (n - j) / nn);
+                out.source(face.at(1), static_cast<double>(i) * (n - j) / nn);
+                out.source(face.at(2), static_cast<double>(i) * j / nn);
+                out.source(face.at(3), static_cast<double>(n - i) * j / nn);
+                out.end_mix();
+            }
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i)
+                out.face(quad_point(face, i, j), quad_point(face, i + 1, j), quad_point(face, i + 1, j + 1),
+                         quad_point(face, i, j + 1));
+    }
+};
+
+/// What each corner counts in the centre that a face is cut to: all the same, but in a concave quad the two
+/// at the ends of the diagonal that lies inside, because from its middle all of the quad is seen.
+struct CentreWeights {
+    double even, odd; ///< of corners 0, 2 ... and 1, 3 ...
+    double of(Index k) const { return k % 2 == 0 ? even : odd; }
+};
+inline CentreWeights centre_weights(const PatternFace& face) {
+    const Index n = face.size();
+    if (n == 4) {
+        const QuadDiagonals quad = quad_diagonals(face.mesh, face.face);
+        if (quad.concave()) return quad.first ? CentreWeights{0.5, 0} : CentreWeights{0, 0.5};
+    }
+    return {1.0 / n, 1.0 / n};
+}
+
+inline void centroid(const PatternFace& face, PatternOut& out) {
+    const CentreWeights weights = centre_weights(face);
+    for (Index k = 0; k < face.size(); ++k) out.source(face.at(k), weights.of(k));
+    out.end_mix();
+}
+
+/// A triangle at every corner and one between the middles of the edges: what the grid of 2 gives, in its
+/// order.
+inline void four_triangles(const PatternFace& face, PatternOut& out) {
+    const Index first = face.on(0), second = face.on(1), third = face.on(2);
+    out.face(face.at(0), first, third);
+    out.face(first, second, third);
+    out.face(first, face.at(1), second);
+    out.face(third, second, face.at(2));
+}
+
+/// A quad at every corner, through the middles of its edges and the centroid.
+struct QuadsPattern {
+    bool keep_triangles = false; ///< triangles become four triangles instead
+
+    PatternCounts counts(const Mesh& mesh, Index f) const {
+        const Index n = mesh.face_size(f);
+        return n == 3 && keep_triangles ? PatternCounts{4, 12, 0, 0} : PatternCounts{n, 4 * n, 1, n};
+    }
+    bool triangles_only(const Mesh& mesh) const { return keep_triangles && mesh.all_triangles(); }
+    void emit(const PatternFace& face, PatternOut& out) const {
+        const Index n = face.size();
+        if (n == 3 && keep_triangles) return four_triangles(face, out);
+        centroid(face, out);
+        Index before = face.on(n - 1);
+        for (Index k = 0; k < n; ++k) {
+            const Index after = face.on(k);
+            out.face(face.at(k), after, face.inside(0), before);
+            before = after;
+        }
+    }
+};
+
+/// A triangle on every edge, to the centroid.
+struct CentroidPattern {
+    PatternCounts counts(const Mesh& mesh, Index f) const {
+        const Index n = mesh.face_size(f);
+        return {n, 3 * n, 1, n};
+    }
+    bool triangles_only(const Mesh&) const { return true; }
+    void emit(const PatternFace& face, PatternOut& out) const {
+        centroid(face, out);
+        const Index n = face.size();
+        for (Index k = 0; k < n; ++k) out.face(face.at(k), face.at(k + 1 == n ? 0 : k + 1), face.inside(0));
+    }
+};
+
+/// Faces of four corners and more into triangles around their centroid; triangles stay.
+struct FanPattern {
+    PatternCounts counts(const Mesh& mesh, Index f) const {
+        return mesh.face_size(f) == 3 ? PatternCounts{1, 3, 0, 0} : CentroidPattern{}.counts(mesh, f);
+    }
+    bool triangles_only(const Mesh&) const { return true; }
+    void emit(const PatternFace& face, PatternOut& out) const {
+        if (face.size() == 3) return out.face(face.at(0), face.at(1), face.at(2));
+        CentroidPattern{}.emit(face, out);
+    }
+};
+
+/// A triangle at every corner, and the polygon of the edges' middles; corners that another face shares with
+/// both their edges stay in the polygon, because the edge across them would belong to both.
+struct VarignonPattern {
+    const std::vector<std::uint8_t>& shared; ///< [corners]
+
+    Index kept(const Mesh& mesh, Index f) const {
+        Index n = 0;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) n += shared[c];
+        return n;
+    }
+    PatternCounts counts(const Mesh& mesh, Index f) const {
+        const Index n = mesh.face_size(f), k = kept(mesh, f);
+        return {n - k + 1, 4 * n - 2 * k, 0, 0};
+    }
+    bool triangles_only(const Mesh& mesh) const {
+        return mesh.all_triangles() && std::find(shared.begin(), shared.end(), 1) == shared.end();
+    }
+    void emit(const PatternFace& face, PatternOut& out) const {
+        const Index n = face.size(), begin = face.mesh.face_begin(face.face);
+        std::vector<Index> polygon;
+        for (Index k = 0; k < n; ++k) {
+            if (shared[begin + k])
+                polygon.push_back(face.at(k));
+            else
+                out.face(face.at(k), face.on(k), face.on(k == 0 ? n - 1 : k - 1));
+            polygon.push_back(face.on(k));
+        }
+        out.face_of(polygon);
+    }
+};
+
+/// The same shape at half size around the centroid, and a quad between it and every edge.
+struct CorePattern {
+    PatternCounts counts(const Mesh& mesh, Index f) const {
+        const std::uint64_t n = mesh.face_size(f);
+        return {n + 1, 5 * n, n, n * n};
+    }
+    bool triangles_only(const Mesh&) const { return false; }
+    void emit(const PatternFace& face, PatternOut& out) const {
+        const Index n = face.size();
+        const CentreWeights weights = centre_weights(face);
+        std::vector<Index> inner(n);
+        for (Index k = 0; k < n; ++k) {
+            for (Index s = 0; s < n; ++s) out.source(face.at(s), (s == k ? 0.5 : 0.0) + 0.5 * weights.of(s));
+            out.end_mix();
+            inner[k] = face.inside(k);
+        }
+        for (Index k = 0; k < n; ++k) {
+            const Index next = k + 1 == n ? 0 : k + 1;
+            out.face(face.at(k), face.at(next), inner[next], inner[k]);
+        }
+        out.face_of(inner);
+    }
+};
+
+/// Quads along a diagonal.
+struct DiagonalPattern {
+    const std::vector<std::uint8_t>& at_second; ///< [faces] 1: from the second corner
+
+    PatternCounts counts(const Mesh& mesh, Index f) const {
+        const Index n = mesh.face_size(f);
+        return {n - 2, 3 * (n - 2), 0, 0};
+    }
+    bool triangles_only(const Mesh&) const { return true; }
+    void emit(const PatternFace& face, PatternOut& out) const {
+        if (face.size() == 3) return out.face(face.at(0), face.at(1), face.at(2));
+        const Index s = at_second[face.face];
+        out.face(face.at(s), face.at(s + 1), face.at(s + 2));
+        out.face(face.at(s), face.at(s + 2), face.at((s + 3) % 4));
+    }
+};
+
+} // namespace facetmill

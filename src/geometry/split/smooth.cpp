@@ -1,0 +1,300 @@
+#include "geometry/split/smooth.hpp"
+
+#include "base/error.hpp"
+#include "base/portable_math.hpp"
+#include "geometry/inspect/evidence.hpp"
+#include "geometry/edit/moved.hpp"
+#include "geometry/split/patterns.hpp"
+#include "geometry/split/rings.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+/// A vertex on a curve of sharp edges: the cubic B-spline's rule along it; corners and ends stay.
+std::optional<Vec3> on_curve(const SmoothRings& rings, Index v) {
+    const auto sharp = rings.sharp_at(v);
+    const auto& p = rings.mesh.positions;
+    if (sharp.count < 2 && rings.is_smooth(v)) return {};
+    if (sharp.count != 2) return p[v];
+    return p[v] * 0.75 + (p[sharp.ends[0]] + p[sharp.ends[1]]) * 0.125;
+}
+
+Vec3 middle(const SmoothRings& rings, Index e) {
+    const auto& [low, high] = rings.edges.edges[e];
+    return (rings.mesh.positions[low] + rings.mesh.positions[high]) * 0.5;
+}
+
+/// The number of faces at a smooth vertex, and the sum of its neighbours.
+struct Star {
+    Index v;
+    double n = 0;
+    Vec3 sum{};
+
+    Star(const SmoothRings& rings, Index vertex) : v(vertex) {
+        for (const Index c : rings.corners.of(v)) sum += rings.mesh.positions[rings.to(c)], ++n;
+    }
+};
+
+Vec3 loop_vertex(const SmoothRings& rings, Index v) {
+    const Star star(rings, v);
+    if (star.n == 0) return rings.mesh.positions[v];
+    const double t = 3 + 2 * cosine(2 * pi / star.n), alpha = (40 - t * t) / 64;
+    return rings.mesh.positions[v] * (1 - alpha) + star.sum * (alpha / star.n);
+}
+
+Vec3 loop_edge(const SmoothRings& rings, Index e) {
+    const auto at = rings.edges.corners_of(e);
+    const auto& [low, high] = rings.edges.edges[e];
+    const auto& p = rings.mesh.positions;
+    return (p[low] + p[high]) * 0.375 +
+           (p[rings.from(rings.previous(at[0]))] + p[rings.from(rings.previous(at[1]))]) * 0.125;
+}
+
+Vec3 centroid_of(const Mesh& mesh, Index f) {
+    Vec3 sum;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
+    return sum / static_cast<double>(mesh.face_size(f));
+}
+
+/// (Q + R + (n - 2) P) / n, Q the mean of the faces' centroids and R of the neighbours.
+Vec3 catmull_clark_vertex(const SmoothRings& rings, const std::vector<Index>& faces, Index v) {
+    const Star star(rings, v);
+    if (star.n == 0) return rings.mesh.positions[v];
+    Vec3 centroids;
+    for (const Index c : rings.corners.of(v)) centroids += centroid_of(rings.mesh, faces[c]);
+    return (centroids + star.sum) / (star.n * star.n) + rings.mesh.positions[v] * ((star.n - 2) / star.n);
+}
+
+Vec3 catmull_clark_edge(const SmoothRings& rings, const std::vector<Index>& faces, Index e) {
+    const auto at = rings.edges.corners_of(e);
+    return middle(rings, e) * 0.5 +
+           (centroid_of(rings.mesh, faces[at[0]]) + centroid_of(rings.mesh, faces[at[1]])) * 0.25;
+}
+
+/// The point beyond a of the curve of sharp edges that runs from b to a, mirrored when the curve ends there.
+Vec3 beyond(const SmoothRings& rings, Index a, Index b) {
+    const auto& p = rings.mesh.positions;
+    const auto sharp = rings.sharp_at(a);
+    if (sharp.count == 2) return p[sharp.ends[0] == b ? sharp.ends[1] : sharp.ends[0]];
+    return p[a] * 2 - p[b];
+}
+
+/// The vertex across the edge of corner c, mirrored when it is sharp: what the eight-point mask calls a wing.
+/// c runs along a side of the triangle whose third vertex is `third`.
+Vec3 wing(const SmoothRings& rings, Index c, Index third) {
+    const auto& p = rings.mesh.positions;
+    if (!rings.is_sharp(rings.edges.corner_edge[c])) return p[rings.from(rings.previous(rings.twin(c)))];
+    return p[rings.from(c)] + p[rings.to(c)] - p[third];
+}
+
+/// The mask of an irregular vertex a for its edge to b, corner c running from a to b.
+Vec3 butterfly_irregular(const SmoothRings& rings, Index c) {
+    const Index a = rings.from(c);
+    const auto& p = rings.mesh.positions;
+    const double n = Star(rings, a).n;
+    Vec3 sum;
+    double weights = 0;
+    Index at = c;
+    for (double j = 0; j < n; ++j, at = rings.twin(rings.previous(at))) {
+        double w = (0.25 + cosine(2 * pi * j / n) + 0.5 * cosine(4 * pi * j / n)) / n;
+        if (n == 3) w = j == 0 ? 5.0 / 12 : -1.0 / 12;
+        if (n == 4) w = j == 0 ? 3.0 / 8 : j == 2 ? -1.0 / 8 : 0;
+        sum += p[rings.to(at)] * w, weights += w;
+    }
+    return sum + p[a] * (1 - weights);
+}
+
+Vec3 butterfly_edge(const SmoothRings& rings, Index e) {
+    const auto& p = rings.mesh.positions;
+    const auto& [low, high] = rings.edges.edges[e];
+    if (rings.is_sharp(e))
+        return (p[low] + p[high]) * (9.0 / 16) -
+               (beyond(rings, low, high) + beyond(rings, high, low)) * (1.0 / 16);
+    const auto at = rings.edges.corners_of(e);
+    const auto irregular = [&](Index v) { return rings.is_smooth(v) && Star(rings, v).n != 6; };
+    Vec3 sum;
+    int masks = 0;
+    for (const Index c : at) // each of the two runs from another end
+        if (irregular(rings.from(c))) sum += butterfly_irregular(rings, c), ++masks;
+    if (masks > 0) return sum / masks;
+    const Index b0 = rings.from(rings.previous(at[0])), b1 = rings.from(rings.previous(at[1]));
+    const auto wings = [&](Index c) {
+        return wing(rings, rings.next(c), rings.from(c)) + wing(rings, rings.previous(c), rings.to(c));
+    };
+    return (p[low] + p[high]) * 0.5 + (p[b0] + p[b1]) * 0.125 - (wings(at[0]) + wings(at[1])) * (1.0 / 16);
+}
+
+/// The new places of the old vertices (vertex) and of the points on edges (edge) of a pattern that has one
+/// point per edge; what comes after them, centroids, stays.
+template <class VertexRule, class EdgeRule>
+void place(Mesh& finer, const SmoothRings& rings, VertexRule&& vertex, EdgeRule&& edge) {
+    const std::size_t n = rings.mesh.vertex_count();
+    parallel_for(n, [&](std::size_t v) { finer.positions[v] = vertex(static_cast<Index>(v)); });
+    parallel_for(rings.edges.size(),
+                 [&](std::size_t e) { finer.positions[n + e] = edge(static_cast<Index>(e)); });
+}
+
+Mesh loop_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings, Fates& fates) {
+    const EdgePoints points(mesh, table, 2);
+    Mesh finer = apply_pattern(mesh, &points, QuadsPattern{true}, fates);
+    place(
+        finer, rings, [&](Index v) { return on_curve(rings, v).value_or(loop_vertex(rings, v)); },
+        [&](Index e) { return rings.is_sharp(e) ? middle(rings, e) : loop_edge(rings, e); });
+    return finer;
+}
+
+Mesh butterfly_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings, Fates& fates) {
+    const EdgePoints points(mesh, table, 2);
+    Mesh finer = apply_pattern(mesh, &points, QuadsPattern{true}, fates);
+    place(
+        finer, rings, [&](Index v) { return mesh.positions[v]; },
+        [&](Index e) { return butterfly_edge(rings, e); });
+    return finer;
+}
+
+Mesh catmull_clark_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings, Fates& fates) {
+    const EdgePoints points(mesh, table, 2);
+    const std::vector<Index> faces = corner_faces(mesh);
+    Mesh finer = apply_pattern(mesh, &points, QuadsPattern{}, fates);
+    place(
+        finer, rings,
+        [&](Index v) { return on_curve(rings, v).value_or(catmull_clark_vertex(rings, faces, v)); },
+        [&](Index e) { return rings.is_sharp(e) ? middle(rings, e) : catmull_clark_edge(rings, faces, e); });
+    return finer;
+}
+
+/// A triangle from each edge to the point inside its face, turned, where the edge may be, to the points
+/// inside the two faces beside it. Odd passes cut faces at boundaries in three along the boundary instead:
+/// there the points of the boundary edge stand for the one inside.
+struct Sqrt3Pattern {
+    const SmoothRings& rings;
+    const EdgePoints& points;
+    std::vector<std::uint8_t> boundary; ///< [faces] which of its edges is cut, 3: none
+    std::vector<Index> before;          ///< [faces] how many points are inside earlier faces
+
+    PatternCounts counts(const Mesh&, Index f) const {
+        return boundary[f] < 3 ? PatternCounts{3, 9, 0, 0} : PatternCounts{3, 9, 1, 3};
+    }
+    bool triangles_only(const Mesh&) const { return true; }
+    /// The third wedge of the triangle at the edge of corner c, which is not the boundary's that is cut.
+    Index third(const PatternFace& face, Index c) const {
+        const Index f = c / 3, k = boundary[f];
+        if (k == 3) return face.first_mix - before[face.face] + before[f];
+        return points.wedge(3 * f + k, c == 3 * f + (k + 1) % 3 ? 2 : 1);
+    }
+    /// Neither sharp, nor a seam, nor a border of primitives.
+    bool may_turn(Index c) const {
+        const Index twin = rings.twin(c);
+        const Mesh& mesh = rings.mesh;
+        return twin != none && !rings.is_sharp(rings.edges.corner_edge[c]) &&
+               mesh.corners[rings.next(twin)] == mesh.corners[c] &&
+               mesh.corners[rings.next(c)] == mesh.corners[twin] &&
+               mesh.primitive_of(twin / 3) == mesh.primitive_of(c / 3);
+    }
+    void emit(const PatternFace& face, PatternOut& out) const {
+        const Index first = 3 * face.face, cut_at = boundary[face.face];
+        if (cut_at == 3) centroid(face, out);
+        for (Index k = 0; k < 3; ++k) {
+            const Index c = first + k;
+            if (k == cut_at)
+                out.face(face.on(k, 1), face.on(k, 2), face.at((k + 2) % 3));
+            else if (may_turn(c))
+                out.face(face.at(k), third(face, rings.twin(c)), third(face, c));
+            else
+                out.face(face.at(k), face.at((k + 1) % 3), third(face, c));
+        }
+    }
+};
+
+Vec3 sqrt3_vertex(const SmoothRings& rings, Index v, bool odd) {
+    const auto& p = rings.mesh.positions;
+    if (!rings.is_smooth(v)) {
+        const auto sharp = rings.sharp_at(v);
+        if (!odd || sharp.count != 2) return p[v];
+        return (p[v] * 19 + (p[sharp.ends[0]] + p[sharp.ends[1]]) * 4) / 27;
+    }
+    const Star star(rings, v);
+    if (star.n == 0) return p[v];
+    const double alpha = (4 - 2 * cosine(2 * pi / star.n)) / 9;
+    return p[v] * (1 - alpha) + star.sum * (alpha / star.n);
+}
+
+Mesh sqrt3_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings, bool odd, Fates& fates) {
+    std::vector<std::uint8_t> cut(table.size()), boundary(mesh.face_count(), 3);
+    std::vector<Index> before(mesh.face_count());
+    Index centroids = 0;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        for (std::uint8_t k = 0; odd && k < 3; ++k) // at most one edge of a face is cut
+            if (boundary[f] == 3 && rings.twin(3 * f + k) == none) boundary[f] = k;
+        if (boundary[f] < 3) cut[table.corner_edge[3 * f + boundary[f]]] = 1;
+        before[f] = centroids;
+        centroids += boundary[f] == 3;
+    }
+    const EdgePoints points(mesh, table, 3, cut);
+    Mesh finer = apply_pattern(mesh, &points,
+                               Sqrt3Pattern{rings, points, std::move(boundary), std::move(before)}, fates);
+    const std::size_t n = mesh.vertex_count();
+    parallel_for(
+        n, [&](std::size_t v) { finer.positions[v] = sqrt3_vertex(rings, static_cast<Index>(v), odd); });
+    const auto& p = mesh.positions;
+    for (std::size_t e = 0, at = n; e < table.size(); ++e) {
+        if (!cut[e]) continue;
+        const auto& [low, high] = table.edges[e];
+        finer.positions[at++] = (beyond(rings, low, high) + p[low] * 16 + p[high] * 10) / 27;
+        finer.positions[at++] = (beyond(rings, high, low) + p[high] * 16 + p[low] * 10) / 27;
+    }
+    return finer;
+}
+
+[[noreturn]] void refuse(SplitMethod method, const std::string& found, const std::string& hint) {
+    throw Error(ErrorKind::stage, "E-MANIFOLD",
+                fmt::format("split: {} needs a manifold, oriented mesh; {}", to_string(method), found), hint);
+}
+
+} // namespace
+
+void require_manifold(const Mesh& mesh, SplitMethod method) {
+    const EdgeTable table = build_edges(mesh);
+    for (Index e = 0; e < table.size(); ++e) {
+        const auto at = table.corners_of(e);
+        const auto& [low, high] = table.edges[e];
+        if (at.size() > 2)
+            refuse(method, fmt::format("the edge of vertices {} and {} has {} faces", low, high, at.size()),
+                   "clean repairs non-manifold places; midpoint splits them as they are");
+        if (at.size() == 2 && (mesh.vertex(at[0]) == low) == (mesh.vertex(at[1]) == low))
+            refuse(
+                method,
+                fmt::format("the faces at the edge of vertices {} and {} disagree in direction", low, high),
+                "orient makes neighbours agree; midpoint splits them as they are");
+    }
+    for (Index c = 0; c < mesh.corner_count(); ++c)
+        if (table.corner_edge[c] == none)
+            refuse(method, fmt::format("a face uses vertex {} twice in a row", mesh.vertex(c)),
+                   "clean removes degenerate faces");
+    const auto fans = fans_at_vertices(mesh, table);
+    for (Index v = 0; v < fans.size(); ++v)
+        if (fans[v] > 1)
+            refuse(method, fmt::format("{} fans of faces meet at vertex {} only", fans[v], v),
+                   "clean repairs non-manifold places; midpoint splits them as they are");
+}
+
+Mesh split_smooth(const Mesh& mesh, const SplitSettings& settings, int pass, Fates& fates) {
+    const EdgeTable table = build_edges(mesh);
+    const SmoothRings rings(mesh, table, settings);
+    Mesh finer;
+    if (settings.method == SplitMethod::loop)
+        finer = loop_pass(mesh, table, rings, fates);
+    else if (settings.method == SplitMethod::butterfly)
+        finer = butterfly_pass(mesh, table, rings, fates);
+    else if (settings.method == SplitMethod::catmull_clark)
+        finer = catmull_clark_pass(mesh, table, rings, fates);
+    else
+        finer = sqrt3_pass(mesh, table, rings, pass % 2 == 1, fates);
+    fates = joined(fates, settle_moved(finer));
+    return finer;
+}
+
+} // namespace facetmill

@@ -1,0 +1,182 @@
+#include "geometry/split/split.hpp"
+
+#include "base/error.hpp"
+#include "geometry/split/estimate.hpp"
+#include "geometry/split/marked.hpp"
+#include "geometry/split/patterns.hpp"
+#include "geometry/split/smooth.hpp"
+#include "geometry/split/spots.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+/// The most corners of a face that the method knows; 0: any.
+Index most_corners(SplitMethod method) {
+    switch (method) {
+    case SplitMethod::grid:
+    case SplitMethod::halve:
+    case SplitMethod::diagonal:
+        return 4;
+    case SplitMethod::bisect:
+    case SplitMethod::notch:
+    case SplitMethod::loop:
+    case SplitMethod::sqrt3:
+    case SplitMethod::butterfly:
+        return 3;
+    default:
+        return 0;
+    }
+}
+
+void check_polygons(const Mesh& mesh, SplitMethod method) {
+    const Index most = most_corners(method);
+    if (most == 0 || mesh.all_triangles()) return;
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (mesh.face_size(f) > most)
+            throw Error(ErrorKind::stage, "E-POLYGON",
+                        fmt::format("split: {} takes faces of at most {} corners, face {} has {}",
+                                    to_string(method), most, f, mesh.face_size(f)),
+                        most == 4 ? "'split: quads' before it makes quads of every face"
+                                  : "'triangulate' before it makes triangles of every face");
+}
+
+/// Whether every face becomes as many as it has corners, or four, and all edges are cut.
+bool halves_edges(SplitMethod m) {
+    return m == SplitMethod::midpoint || m == SplitMethod::quads || m == SplitMethod::loop ||
+           m == SplitMethod::butterfly || m == SplitMethod::catmull_clark;
+}
+
+/// One pass; what it did to attributes and where it could not keep its promises goes to the result. Without
+/// faces when min_angle finds no narrow one.
+Mesh split_once(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {
+    Fates& fates = so_far.fates;
+    so_far.folded += folding_faces(mesh, settings.method);
+    const auto with_points = [&](int pieces, const auto& pattern) {
+        const EdgeTable table = build_edges(mesh);
+        if (pieces > 1) so_far.shared += shared_cuts(mesh, table, {});
+        const EdgePoints points(mesh, table, pieces);
+        return apply_pattern(mesh, &points, pattern, fates);
+    };
+    switch (settings.method) {
+    case SplitMethod::midpoint:
+        return with_points(2, QuadsPattern{true});
+    case SplitMethod::grid:
+        return with_points(settings.grid, GridPattern{settings.grid});
+    case SplitMethod::quads:
+    case SplitMethod::varignon: {
+        const EdgeTable table = build_edges(mesh);
+        const EdgePoints points(mesh, table, 2);
+        if (settings.method == SplitMethod::quads) return apply_pattern(mesh, &points, QuadsPattern{}, fates);
+        const auto shared = shared_corners(mesh, table);
+        return apply_pattern(mesh, &points, VarignonPattern{shared}, fates);
+    }
+    case SplitMethod::centroid:
+        return apply_pattern(mesh, nullptr, CentroidPattern{}, fates);
+    case SplitMethod::fan:
+        return apply_pattern(mesh, nullptr, FanPattern{}, fates);
+    case SplitMethod::core:
+        return apply_pattern(mesh, nullptr, CorePattern{}, fates);
+    case SplitMethod::diagonal: {
+        const QuadCuts cuts = mesh.all_triangles() ? QuadCuts{} : quad_cuts(mesh);
+        so_far.shared += cuts.coinciding;
+        return apply_pattern(mesh, nullptr, DiagonalPattern{cuts.at_second}, fates);
+    }
+    case SplitMethod::bisect:
+    case SplitMethod::notch:
+    case SplitMethod::halve:
+        return split_marked(mesh, settings, so_far).value_or(Mesh{});
+    default:
+        return split_smooth(mesh, settings, so_far.passes, fates);
+    }
+}
+
+/// Whether the mesh is as the target wants it; false without a target that can be looked for.
+bool is_reached(const Mesh& mesh, const SplitSettings& settings) {
+    return settings.max_edge > 0 && facet_shape(mesh, settings.to_world).longest_edge <= settings.max_edge;
+}
+
+/// Passes over all faces, as many as the settings allow and the targets need.
+SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
+    using Stop = SplitResult::Stop;
+    SplitResult result;
+    const Mesh* from = &mesh;
+    while (true) {
+        if (is_reached(*from, settings)) {
+            result.stop = Stop::target;
+            break;
+        }
+        if (result.passes >= settings.passes) break;
+        const bool quads_left = settings.method == SplitMethod::notch && result.passes > 0;
+        const Mesh triangles = quads_left ? triangulated(*from) : Mesh{};
+        const Mesh& next_from = quads_left ? triangles : *from;
+        SplitCensus next(next_from);
+        next.pass(settings.method, settings.grid);
+        if (settings.faces > 0 && next.faces() > static_cast<double>(settings.faces)) {
+            result.stop = Stop::budget;
+            break;
+        }
+        refuse_giant_split(next_from, next.corners());
+        check_polygons(next_from, settings.method);
+        Mesh finer = split_once(next_from, settings, result);
+        if (settings.min_angle > 0 && finer.face_count() == 0) {
+            result.stop = Stop::target; // none is narrow
+            break;
+        }
+        result.mesh = std::move(finer);
+        from = &result.mesh;
+        ++result.passes;
+    }
+    if (from == &mesh) result.mesh = mesh;
+    result.added = result.mesh.face_count() - mesh.face_count();
+    return result;
+}
+
+} // namespace
+
+bool is_smooth(SplitMethod method) { return method >= SplitMethod::loop; }
+
+const char* to_string(SplitMethod method) {
+    constexpr const char* names[] = {"midpoint", "bisect", "notch", "centroid",  "grid",
+                                     "quads",    "halve",  "fan",   "varignon",  "core",
+                                     "diagonal", "loop",   "sqrt3", "butterfly", "catmull-clark"};
+    return names[static_cast<std::size_t>(method)];
+}
+
+void check_split_targets(const SplitSettings& s) {
+    const auto refuse = [&](const char* target, const char* knows) {
+        throw Error(ErrorKind::usage, "E-TARGET",
+                    fmt::format("split: {} cannot reach the target {}", to_string(s.method), target),
+                    fmt::format("use {}", knows));
+    };
+    if (s.max_edge > 0 && s.method != SplitMethod::bisect && !halves_edges(s.method))
+        refuse("max_edge", "bisect, midpoint, quads, loop, butterfly or catmull-clark");
+    if (s.min_angle > 0 && s.method != SplitMethod::bisect && s.method != SplitMethod::notch)
+        refuse("min_angle", "bisect or notch");
+    if (s.cut == SplitSettings::Cut::widest_angle && (s.max_edge > 0 || s.min_angle > 0 || s.faces > 0))
+        throw Error(ErrorKind::usage, "E-TARGET", "split: the cut at the widest angle reaches no target",
+                    "cut in the middle of the longest edge, or give passes and no target");
+    if (s.min_angle > 0 && (s.max_edge > 0 || s.faces > 0))
+        throw Error(ErrorKind::usage, "E-TARGET", "split: min_angle goes with no other target",
+                    "use two split stages");
+}
+
+SplitResult split(const Mesh& mesh, const SplitSettings& settings) {
+    check_split_targets(settings);
+    check_polygons(mesh, settings.method);
+    if (settings.min_angle <= 0) refuse_giant_split(mesh, split_corner_estimate(mesh, settings));
+    if (is_smooth(settings.method) && settings.passes > 0) require_manifold(mesh, settings.method);
+    if (settings.method == SplitMethod::bisect && (settings.max_edge > 0 || settings.faces > 0))
+        return refine(mesh, settings);
+    return repeated(mesh, settings);
+}
+
+SplitResult grid_split(const Mesh& mesh, int n) {
+    SplitSettings settings;
+    settings.method = SplitMethod::grid, settings.grid = n;
+    return split(mesh, settings);
+}
+
+} // namespace facetmill

@@ -1,0 +1,158 @@
+#include "geometry/split/spots.hpp"
+
+#include "base/parallel.hpp"
+#include "mesh/surface_normal.hpp"
+#include "mesh/quad_diagonal.hpp"
+
+#include <algorithm>
+#include <span>
+
+namespace facetmill {
+
+namespace {
+
+/// A corner at one end of an edge, and the vertex that its other edge goes to.
+struct Turn {
+    Index beyond, corner;
+    bool operator<(const Turn& b) const { return beyond != b.beyond ? beyond < b.beyond : corner < b.corner; }
+};
+
+/// Calls visit(corners of faces that share the edge and the next one at its end) for each end of edge e.
+template <class Visit>
+void visit_shared(const Mesh& mesh, const EdgeTable& edges, const std::vector<Index>& faces, Index e,
+                  std::vector<Turn>& room, Visit&& visit) {
+    const auto around = edges.corners_of(e);
+    if (around.size() < 2) return;
+    const auto face = [&](Index c) { return faces.empty() ? c / 3 : faces[c]; };
+    for (const Index end : {edges.edges[e].low, edges.edges[e].high}) {
+        room.clear();
+        for (const Index c : around) {
+            const Index f = face(c), begin = mesh.face_begin(f), last = mesh.face_end(f) - 1;
+            const Index next = c == last ? begin : c + 1, previous = c == begin ? last : c - 1;
+            if (mesh.vertex(c) == end)
+                room.push_back({mesh.vertex(previous), c});
+            else
+                room.push_back({mesh.vertex(next == last ? begin : next + 1), next});
+        }
+        if (room.size() == 2 && room[0].beyond != room[1].beyond) continue;
+        std::sort(room.begin(), room.end());
+        for (std::size_t i = 0, j = 0; i < room.size(); i = j) {
+            while (j < room.size() && room[j].beyond == room[i].beyond) ++j;
+            if (j - i > 1 && room[i].beyond != end) visit(std::span<const Turn>(&room[i], j - i), end);
+        }
+    }
+}
+
+Index other_end(const EdgeTable::Edge& edge, Index end) { return edge.low == end ? edge.high : edge.low; }
+
+/// Whether triangles may share two edges, told from a third of the edges where all have two faces: such
+/// triangles share all three, and one of these is the first of the lower triangle.
+bool may_share(const Mesh& mesh, const EdgeTable& edges) {
+    const auto apex = [&](Index c) { return mesh.vertex(c - c % 3 + (c % 3 + 2) % 3); };
+    return parallel_reduce(
+               edges.size(), std::size_t{0},
+               [&](std::size_t begin, std::size_t end) {
+                   std::size_t found = 0;
+                   for (auto e = static_cast<Index>(begin); e < end; ++e) {
+                       const auto at = edges.corners_of(e);
+                       found +=
+                           at.size() > 2 || (at.size() == 2 && at[0] % 3 == 0 && apex(at[0]) == apex(at[1]));
+                   }
+                   return found;
+               },
+               [](std::size_t a, std::size_t b) { return a + b; }) > 0;
+}
+
+std::vector<Index> faces_of_corners(const Mesh& mesh) {
+    return mesh.all_triangles() ? std::vector<Index>{} : corner_faces(mesh);
+}
+
+/// Whether the triangle of three points looks the other way than the normal.
+bool looks_back(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal) {
+    return dot(cross(b - a, c - a), normal) < 0;
+}
+
+bool has_reflex_corner(const Mesh& mesh, Index f, const Vec3& normal) {
+    const Index begin = mesh.face_begin(f), n = mesh.face_size(f);
+    for (Index k = 0; k < n; ++k)
+        if (looks_back(mesh.point(begin + k), mesh.point(begin + (k + 1) % n),
+                       mesh.point(begin + (k + 2) % n), normal))
+            return true;
+    return false;
+}
+
+bool hides_from_centre(const Mesh& mesh, Index f, const Vec3& normal) {
+    const Index begin = mesh.face_begin(f), n = mesh.face_size(f);
+    if (n == 4 && quad_diagonals(mesh, f).concave()) return false;
+    Vec3 centre;
+    for (Index k = 0; k < n; ++k) centre += mesh.point(begin + k);
+    centre = centre / n;
+    for (Index k = 0; k < n; ++k)
+        if (looks_back(mesh.point(begin + k), mesh.point(begin + (k + 1) % n), centre, normal)) return true;
+    return false;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edges) {
+    std::vector<std::uint8_t> shared(mesh.corner_count());
+    const std::vector<Index> faces = faces_of_corners(mesh);
+    parallel_chunks(edges.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<Turn> room;
+        for (auto e = static_cast<Index>(begin); e < end; ++e)
+            visit_shared(mesh, edges, faces, e, room, [&](std::span<const Turn> turns, Index at) {
+                if (turns[0].beyond < other_end(edges.edges[e], at)) return; // seen from its other edge
+                for (const Turn& t : turns) shared[t.corner] = 1;
+            });
+    });
+    return shared;
+}
+
+std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks) {
+    if (mesh.all_triangles() && !may_share(mesh, edges)) return 0;
+    const std::vector<Index> faces = faces_of_corners(mesh);
+    const auto is_triangle = [&](const Turn& t) {
+        return faces.empty() || mesh.face_size(faces[t.corner]) == 3;
+    };
+    const auto is_cut = [&](const Turn& t) {
+        if (marks.empty()) return true;
+        const Index f = faces.empty() ? t.corner / 3 : faces[t.corner], begin = mesh.face_begin(f);
+        const Index previous = t.corner == begin ? mesh.face_end(f) - 1 : t.corner - 1;
+        return marks[edges.corner_edge[t.corner]] || marks[edges.corner_edge[previous]];
+    };
+    return parallel_reduce(
+        edges.size(), std::size_t{0},
+        [&](std::size_t begin, std::size_t end) {
+            std::size_t found = 0;
+            std::vector<Turn> room;
+            for (auto e = static_cast<Index>(begin); e < end; ++e)
+                visit_shared(mesh, edges, faces, e, room, [&](std::span<const Turn> turns, Index at) {
+                    if (turns[0].beyond < other_end(edges.edges[e], at)) return;
+                    found += is_cut(turns[0]) && std::count_if(turns.begin(), turns.end(), is_triangle) > 1;
+                });
+            return found;
+        },
+        [](std::size_t a, std::size_t b) { return a + b; });
+}
+
+std::size_t folding_faces(const Mesh& mesh, SplitMethod method) {
+    using enum SplitMethod;
+    const bool between = method == grid || method == halve || method == varignon;
+    const bool to_centre =
+        method == midpoint || method == quads || method == centroid || method == fan || method == core;
+    if (mesh.all_triangles() || (!between && !to_centre)) return 0;
+    return parallel_reduce(
+        mesh.face_count(), std::size_t{0},
+        [&](std::size_t begin, std::size_t end) {
+            std::size_t found = 0;
+            for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                if (mesh.face_size(f) == 3) continue;
+                const Vec3 normal = area_vector(mesh, f);
+                found += between ? has_reflex_corner(mesh, f, normal) : hides_from_centre(mesh, f, normal);
+            }
+            return found;
+        },
+        [](std::size_t a, std::size_t b) { return a + b; });
+}
+
+} // namespace facetmill

@@ -1,0 +1,161 @@
+#include "geometry/tile/tile.hpp"
+
+#include "base/error.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <fmt/format.h>
+#include <tbb/parallel_invoke.h>
+
+namespace facetmill {
+
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+struct Range {
+    double low, high; ///< cells
+};
+
+class Tiler {
+  public:
+    explicit Tiler(const TileSettings& settings) : settings_(settings) {
+        for (const TileAxis& a : settings.axes)
+            if (!(a.size > 0) || !std::isfinite(a.size) || !std::isfinite(a.origin))
+                throw Error(ErrorKind::usage, "E-TILE", "a tile's size must be above zero");
+    }
+
+    TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, Cell cell) {
+        if (mesh.face_count() == 0) return {};
+        if (axis == settings_.axes.size()) return finished(std::move(mesh), std::move(memory), cell);
+        const TileAxis& a = settings_.axes[axis];
+        const Range cells = cells_of(mesh, a);
+        if (cells.low >= cells.high) {
+            cell[a.axis] = static_cast<std::int64_t>(cells.low);
+            return split(std::move(mesh), std::move(memory), axis + 1, cell);
+        }
+        const double middle = first_plane(cells);
+        ClipSettings settings = settings_.clip;
+        settings.planes = {pulled_back(plane_at(a, middle), settings_.to_world)};
+        settings.keep = Keep::both;
+        settings.memory = std::move(memory);
+        ClipResult halves = clip(std::move(mesh), settings);
+        // A mesh that the plane only touches may reach over it by rounding in the world: it is in the cell
+        // beside.
+        if (halves.front.face_count() == 0 || halves.back.face_count() == 0)
+            return one_side(std::move(halves), axis, cell, middle);
+        TileResult front, back;
+        tbb::parallel_invoke([&] { back = split(std::move(halves.back), halves.memory, axis, cell); },
+                             [&] { front = split(std::move(halves.front), halves.memory, axis, cell); });
+        return joined(std::move(back), std::move(front), halves);
+    }
+
+  private:
+    /// The number between the cells that halves evenly most often, 0 before all: so an edge on a border that
+    /// both neighbours are cut along is cut in the same order in both, and its points are rounded alike.
+    static double first_plane(const Range& cells) {
+        double best = cells.low + 1;
+        for (double step = 2; best != 0; step *= 2) {
+            const double next = std::ceil((cells.low + 1) / step) * step;
+            if (next > cells.high) break;
+            best = next;
+        }
+        return best;
+    }
+    static Plane plane_at(const TileAxis& a, double k) {
+        Plane plane{{}, {}, 0};
+        plane.normal[a.axis] = 1;
+        plane.through[a.axis] = a.origin + k * a.size;
+        return plane;
+    }
+
+    Range cells_of(const Mesh& mesh, const TileAxis& a) const {
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        const auto add = [&](const Vec3& p) {
+            least = std::min(least, p[a.axis]), most = std::max(most, p[a.axis]);
+        };
+        if (settings_.to_world.identity())
+            add(mesh.bounds().min), add(mesh.bounds().max);
+        else
+            for (const Vec3& p : mesh.positions) add(settings_.to_world.point(p));
+        Range r{std::floor((least - a.origin) / a.size), std::ceil((most - a.origin) / a.size) - 1};
+        if (!(std::fabs(r.low) < 1e9 && std::fabs(r.high) < 1e9) && r.high - r.low < 1e9)
+            throw Error(ErrorKind::limit, "E-TILE",
+                        fmt::format("a part lies {:.3g} tiles from the grid's origin along one axis, and at "
+                                    "most 1e+09 are counted",
+                                    std::max(std::fabs(r.low), std::fabs(r.high))),
+                        "choose a nearer origin, or a larger size");
+        if (!(r.high - r.low < static_cast<double>(settings_.limit)))
+            throw Error(ErrorKind::limit, "E-TILE",
+                        fmt::format("a part would be cut into about {:.3g} rows of tiles along one axis",
+                                    r.high - r.low + 1),
+                        "choose a larger size");
+        // The planes themselves decide, as they are rounded.
+        while (a.origin + r.low * a.size > least) --r.low;
+        while (a.origin + (r.low + 1) * a.size <= least) ++r.low;
+        while (a.origin + (r.high + 1) * a.size < most) ++r.high;
+        while (r.high > r.low && a.origin + r.high * a.size >= most) --r.high;
+        return r;
+    }
+
+    TileResult one_side(ClipResult halves, std::size_t axis, Cell cell, double middle) {
+        const bool front = halves.back.face_count() == 0;
+        Mesh& mesh = front ? halves.front : halves.back;
+        const TileAxis& a = settings_.axes[axis];
+        const Range cells = cells_of(mesh, a);
+        TileResult whole;
+        if (front ? cells.low < middle : cells.high >= middle) { // by rounding, or with isolated vertices
+            cell[a.axis] = static_cast<std::int64_t>(front ? middle : middle - 1);
+            whole = split(std::move(mesh), halves.memory, axis + 1, cell);
+        } else {
+            whole = split(std::move(mesh), halves.memory, axis, cell);
+        }
+        return joined(std::move(whole), {}, halves);
+    }
+
+    TileResult finished(Mesh mesh, CutMemory memory, const Cell& cell) {
+        if (++made_ > settings_.limit)
+            throw Error(ErrorKind::limit, "E-TILE",
+                        fmt::format("there would be more than {} tiles", settings_.limit),
+                        "choose a larger size");
+        for (const TileAxis& a : settings_.axes) {
+            const std::string name = std::string("tile_") + "xyz"[a.axis];
+            mesh.drop(name, Domain::face);
+            mesh.attributes.push_back(
+                {name, Domain::face, Role::index, 1, false,
+                 std::vector<std::int32_t>(mesh.face_count(), static_cast<std::int32_t>(cell[a.axis]))});
+        }
+        TileResult result;
+        result.tiles.push_back({cell, std::move(mesh)});
+        result.memory = std::move(memory);
+        return result;
+    }
+
+    static TileResult joined(TileResult a, TileResult b, const ClipResult& halves) {
+        for (Tile& t : b.tiles) a.tiles.push_back(std::move(t));
+        for (const auto& entry : b.memory.entries) a.memory.add(entry.plane, entry.points);
+        Fates fates = halves.fates;
+        merge_fates(fates, a.fates), merge_fates(fates, b.fates);
+        a.fates = std::move(fates);
+        a.cut_faces += halves.cut_faces + b.cut_faces;
+        a.cap_faces += halves.cap_faces + b.cap_faces;
+        a.open.insert(a.open.begin(), halves.open.begin(), halves.open.end());
+        a.open.insert(a.open.end(), b.open.begin(), b.open.end());
+        return a;
+    }
+
+    const TileSettings& settings_;
+    std::atomic<std::size_t> made_ = 0;
+};
+
+} // namespace
+
+TileResult tile(Mesh mesh, const TileSettings& settings) {
+    TileResult result = Tiler(settings).split(std::move(mesh), settings.clip.memory, 0, {});
+    std::sort(result.tiles.begin(), result.tiles.end(), [](const Tile& a, const Tile& b) {
+        return std::tie(a.cell[2], a.cell[1], a.cell[0]) < std::tie(b.cell[2], b.cell[1], b.cell[0]);
+    });
+    return result;
+}
+
+} // namespace facetmill

@@ -1,0 +1,46 @@
+#pragma once
+// Cuts a mesh into the cells of a grid.
+
+#include "geometry/clip/clip.hpp"
+
+#include <array>
+
+namespace facetmill {
+
+/// The grid's planes across one axis of the world: at origin + k * size for every integer k.
+struct TileAxis {
+    std::size_t axis = 0; ///< 0 x, 1 y, 2 z
+    double size = 1;      ///< above zero
+    double origin = 0;
+};
+
+struct TileSettings {
+    std::vector<TileAxis> axes; ///< each axis at most once
+    Transform to_world;
+    ClipSettings clip;          ///< cap, cap_primitive, cap_numbers, snap and memory count; the rest is set
+    std::size_t limit = 100000; ///< tiles at most
+};
+
+/// What lies in one cell: coordinates from k * size up to (k + 1) * size.
+struct Tile {
+    std::array<std::int64_t, 3> cell{}; ///< k by axis, 0 for axes that are not cut
+    Mesh mesh;
+};
+
+struct TileResult {
+    std::vector<Tile> tiles; ///< that have faces, by z, then y, then x of their cells
+    Fates fates;
+    std::size_t cut_faces = 0, cap_faces = 0;
+    std::vector<OpenContour> open;
+    CutMemory memory;
+};
+
+/// Cuts the mesh in two again and again until every piece is in one cell, so that time grows with the
+/// logarithm of the cells. Neighbours come out of one cut, so their borders have the same points; caps that
+/// face each other have the same triangles, but for points that a later cap adds where contours cross. Faces
+/// in a plane of the grid go with what they are the boundary of, as with Keep::both. Every tile has face
+/// attributes tile_x, tile_y, tile_z (int32) for the axes that are cut. Throws usage (E-TILE) for a size that
+/// is not above zero and limit (E-TILE) for too many tiles.
+TileResult tile(Mesh mesh, const TileSettings& settings);
+
+} // namespace facetmill

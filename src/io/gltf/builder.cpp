@@ -1,0 +1,160 @@
+#include "io/gltf/builder.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+void erase_empty(Json& document, const char* list) {
+    const auto it = document.find(list);
+    if (it != document.end() && it->empty()) document.erase(it);
+}
+
+void remove_name(Json& document, const char* list, const std::string& name) {
+    const auto it = document.find(list);
+    if (it == document.end() || !it->is_array()) return;
+    Json kept = Json::array();
+    for (auto& entry : *it)
+        if (entry != name) kept.push_back(std::move(entry));
+    *it = std::move(kept);
+    erase_empty(document, list);
+}
+
+void add_name(Json& document, const char* list, const std::string& name) {
+    Json& names = document[list];
+    if (!names.is_array()) names = Json::array();
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+} // namespace
+
+Builder::Builder(Json document, const std::vector<Bytes>* buffers)
+    : original_(document), json_(std::move(document)), source_(original_, buffers ? *buffers : no_buffers_) {
+    for (std::size_t i = 0; i < count_of(json_, "bufferViews"); ++i) old_view_.push_back(i);
+}
+
+std::size_t Builder::add(const char* name, Json value) {
+    Json& items = json_[name];
+    if (!items.is_array()) items = Json::array();
+    items.push_back(std::move(value));
+    return items.size() - 1;
+}
+
+std::size_t Builder::add_view(Bytes bytes, int target, std::size_t stride) {
+    Json view = {{"buffer", 0}, {"byteLength", bytes.size()}};
+    if (stride) view["byteStride"] = stride;
+    if (target) view["target"] = target;
+    const std::size_t index = add("bufferViews", std::move(view));
+    old_view_.push_back(index);
+    new_views_[index] = std::move(bytes);
+    return index;
+}
+
+std::size_t Builder::add_accessor(Json accessor) { return add("accessors", std::move(accessor)); }
+
+void Builder::release(const Json& primitive) {
+    Json alone = {{"meshes", {{{"primitives", Json::array({primitive})}}}}};
+    visit_accessor_references(alone, [&](Json& r) { released_accessors_.insert(r.get<std::size_t>()); });
+    visit_view_references(alone, [&](Json& r) { released_views_.insert(r.get<std::size_t>()); });
+}
+
+void Builder::use_extension(const std::string& name, bool required) {
+    add_name(json_, "extensionsUsed", name);
+    if (required) add_name(json_, "extensionsRequired", name);
+}
+
+void Builder::drop_extension(const std::string& name) {
+    remove_name(json_, "extensionsUsed", name);
+    remove_name(json_, "extensionsRequired", name);
+}
+
+void Builder::drop_released() {
+    std::set<std::size_t> accessors = released_accessors_, views = released_views_;
+    visit_accessor_references(json_, [&](Json& r) { accessors.erase(r.get<std::size_t>()); });
+    for (const std::size_t a : accessors) {
+        Json alone = {{"accessors", Json::array({json_["accessors"][a]})}};
+        visit_view_references(alone, [&](Json& r) { views.insert(r.get<std::size_t>()); });
+    }
+    // What the dropped accessors name does not count as use.
+    Json placeholder = {{"componentType", int(uint8)}, {"count", 1}, {"type", "SCALAR"}};
+    for (const std::size_t a : accessors) json_["accessors"][a] = placeholder;
+    visit_view_references(json_, [&](Json& r) { views.erase(r.get<std::size_t>()); });
+
+    if (has_unknown_extensions(json_)) {
+        // Somebody may name accessors and views by number: the dead ones stay as placeholders without data.
+        for (const std::size_t v : views)
+            json_["bufferViews"][v] = {{"buffer", 0}, {"byteLength", 1}}, new_views_[v] = Bytes(1);
+        return;
+    }
+    erase_items(json_["accessors"], accessors,
+                [&](const auto& visit) { visit_accessor_references(json_, visit); });
+    erase_items(json_["bufferViews"], views, [&](const auto& visit) { visit_view_references(json_, visit); });
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < old_view_.size(); ++i)
+        if (!views.count(i)) kept.push_back(old_view_[i]);
+    old_view_ = std::move(kept);
+}
+
+Bytes Builder::build_buffer(std::vector<Diagnostic>& warnings) {
+    Bytes buffer;
+    bool decompressed = false;
+    for (std::size_t i = 0; i < old_view_.size(); ++i) {
+        Json& view = json_["bufferViews"][i];
+        const auto added = new_views_.find(old_view_[i]);
+        if (added == new_views_.end() && source_.without_bytes(old_view_[i])) {
+            dataless_[view["buffer"].get<std::size_t>()].push_back(i);
+            continue;
+        }
+        const Span bytes = added != new_views_.end() ? Span(added->second) : source_.view(old_view_[i]);
+        while (buffer.size() % 4 != 0) buffer.push_back(std::byte{0});
+        view["buffer"] = 0;
+        view["byteOffset"] = buffer.size();
+        view["byteLength"] = bytes.size();
+        if (view.contains("extensions") && view["extensions"].erase("EXT_meshopt_compression") > 0) {
+            decompressed = true;
+            if (view["extensions"].empty()) view.erase("extensions");
+        }
+        buffer.insert(buffer.end(), bytes.begin(), bytes.end());
+    }
+    if (decompressed) {
+        warnings.push_back({Severity::warning,
+                            "W-MESHOPT",
+                            "EXT_meshopt_compression is not written: the data is stored plain",
+                            {},
+                            ""});
+    }
+    drop_extension("EXT_meshopt_compression");
+    return buffer;
+}
+
+Bytes Builder::finish(std::vector<Diagnostic>& warnings) {
+    for (const char* name : {"accessors", "bufferViews"})
+        if (!json_.contains(name)) json_[name] = Json::array();
+    drop_released();
+    Bytes buffer = build_buffer(warnings);
+    for (const char* name : {"accessors", "bufferViews", "meshes", "nodes", "materials"})
+        erase_empty(json_, name);
+    list_buffers(buffer.size());
+    return buffer;
+}
+
+/// One buffer with all bytes, then those that have none: glTF allows a buffer that somebody else will fill.
+void Builder::list_buffers(std::size_t bytes) {
+    const Json before = json_.contains("buffers") ? json_["buffers"] : Json::array();
+    json_.erase("buffers");
+    if (bytes > 0) {
+        Json first = before.empty() ? Json::object() : before[0];
+        first.erase("uri");
+        first.erase("extensions");
+        first["byteLength"] = bytes;
+        add("buffers", std::move(first));
+    }
+    for (const auto& [buffer, views] : dataless_) {
+        const std::size_t index = add("buffers", before[buffer]);
+        for (const std::size_t view : views) json_["bufferViews"][view]["buffer"] = index;
+    }
+}
+
+} // namespace facetmill::io::gltf

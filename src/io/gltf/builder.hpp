@@ -1,0 +1,63 @@
+#pragma once
+// A glTF document being written: new accessors and buffer views are added, those that nothing names any more
+// are dropped, and one buffer is built of what is left.
+
+#include "io/gltf/accessor.hpp"
+
+#include <functional>
+#include <set>
+
+namespace facetmill::io::gltf {
+
+/// The document under construction. Begins as a document that was read (with its buffers), or as an empty
+/// one.
+class Builder {
+  public:
+    Builder(Json document, const std::vector<Bytes>* buffers);
+
+    Json& json() { return json_; }
+    /// The document as it was read.
+    Source& source() { return source_; }
+
+    /// Adds bytes as a buffer view; target and stride 0 are not written. Returns its index.
+    std::size_t add_view(Bytes bytes, int target = 0, std::size_t stride = 0);
+    std::size_t add_accessor(Json accessor);
+    /// Appends to a top-level array, which is made when missing. Returns the index.
+    std::size_t add(const char* list, Json value);
+
+    /// Notes the accessors and views that a primitive uses: they go when nothing else names them.
+    void release(const Json& primitive);
+    void use_extension(const std::string& name, bool required);
+    void drop_extension(const std::string& name);
+
+    /// Drops what was released and is not used, removes lists that became empty, and gives the bytes of the
+    /// one buffer. Views under EXT_meshopt_compression are written decompressed, with a warning.
+    Bytes finish(std::vector<Diagnostic>& warnings);
+
+  private:
+    void drop_released();
+    Bytes build_buffer(std::vector<Diagnostic>& warnings);
+    void list_buffers(std::size_t bytes);
+
+    Json original_, json_;
+    std::vector<Bytes> no_buffers_;
+    Source source_;
+    std::map<std::size_t, Bytes> new_views_; // by index at the time of adding
+    std::vector<std::size_t> old_view_;      // the index that each remaining view had
+    std::set<std::size_t> released_accessors_, released_views_;
+    std::map<std::size_t, std::vector<std::size_t>>
+        dataless_; // views of buffers that have no bytes, by buffer
+};
+
+/// Calls visit for every reference to an accessor, a buffer view or a mesh that is known to the standard and
+/// to the extensions that are understood.
+void visit_accessor_references(Json& document, const std::function<void(Json&)>& visit);
+void visit_view_references(Json& document, const std::function<void(Json&)>& visit);
+void visit_mesh_references(Json& document, const std::function<void(Json&)>& visit);
+/// True when the document has an extension whose references we cannot know: then nothing may be renumbered.
+bool has_unknown_extensions(const Json& document);
+/// Erases items of a list and renumbers the references to it.
+void erase_items(Json& list, const std::set<std::size_t>& items,
+                 const std::function<void(const std::function<void(Json&)>&)>& references);
+
+} // namespace facetmill::io::gltf

@@ -1,0 +1,291 @@
+#include "io/gltf/encode.hpp"
+
+#include "base/parallel.hpp"
+
+#include <cstring>
+#include <fmt/format.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+constexpr int array_buffer = 34962, element_buffer = 34963;
+
+/// One table per primitive that has faces; with `shared`, all use the same wedges.
+std::vector<Table> tables_of(const Mesh& mesh, bool shared) {
+    const std::size_t primitives = std::max<std::size_t>(mesh.primitives.size(), 1);
+    std::vector<std::size_t> first(primitives + 1);
+    std::vector<Index> faces(mesh.face_count());
+    for (Index f = 0; f < mesh.face_count(); ++f) ++first[mesh.primitive_of(f)];
+    exclusive_scan(first);
+    auto next = first;
+    for (Index f = 0; f < mesh.face_count(); ++f) faces[next[mesh.primitive_of(f)]++] = f;
+
+    std::vector<Index> number(mesh.wedge_count(), none);
+    std::vector<Table> tables;
+    const auto collect = [&](Table& table, const std::vector<Index>& corners) {
+        for (const Index w : corners)
+            if (number[w] == none) number[w] = 0, table.wedges.push_back(w);
+        std::sort(table.wedges.begin(), table.wedges.end());
+        for (Index i = 0; i < table.wedges.size(); ++i) number[table.wedges[i]] = i;
+    };
+    Table common;
+    if (shared) collect(common, mesh.corners);
+    for (std::size_t p = 0; p < primitives; ++p) {
+        if (first[p] == first[p + 1]) continue;
+        Table table{static_cast<Index>(p), common.wedges, {}};
+        table.indices.reserve(3 * (first[p + 1] - first[p]));
+        for (std::size_t i = first[p]; i < first[p + 1]; ++i)
+            for (const Index w : mesh.face_wedges(faces[i])) table.indices.push_back(w);
+        if (!shared) collect(table, table.indices);
+        for (Index& w : table.indices) w = number[w];
+        if (!shared)
+            for (const Index w : table.wedges) number[w] = none;
+        tables.push_back(std::move(table));
+    }
+    return tables;
+}
+
+void check_range(const Mesh& mesh, const std::string& name) {
+    constexpr double most = 3.4028234663852886e38;
+    const Box box = mesh.bounds();
+    for (std::size_t i = 0; i < 3 && !box.empty(); ++i)
+        if (!(box.min[i] >= -most && box.max[i] <= most))
+            throw Error(ErrorKind::stage, "E-RANGE",
+                        fmt::format("part '{}' has positions that float32 cannot hold, up to {}", name,
+                                    std::max(-box.min[i], box.max[i])));
+}
+
+Bytes index_bytes(const std::vector<Index>& indices, bool wide) {
+    Bytes bytes(indices.size() * (wide ? 4 : 2));
+    parallel_for(indices.size(), [&](std::size_t i) {
+        if (wide) {
+            std::memcpy(&bytes[4 * i], &indices[i], 4);
+        } else {
+            const auto narrow = static_cast<std::uint16_t>(indices[i]);
+            std::memcpy(&bytes[2 * i], &narrow, 2);
+        }
+    });
+    return bytes;
+}
+
+/// 65535 itself would restart the primitive, so it is not a valid index.
+bool needs_wide(std::size_t vertices) { return vertices > 65535; }
+
+Json index_accessor(std::size_t count, bool wide) {
+    return {{"componentType", wide ? int(uint32) : int(uint16)}, {"count", count}, {"type", "SCALAR"}};
+}
+
+std::size_t add_indices(Builder& builder, const Table& table) {
+    const bool wide = needs_wide(table.wedges.size());
+    Json accessor = {{"bufferView", builder.add_view(index_bytes(table.indices, wide), element_buffer)}};
+    accessor.update(index_accessor(table.indices.size(), wide));
+    return builder.add_accessor(std::move(accessor));
+}
+
+Json add_attributes(Builder& builder, const Mesh& mesh, const Table& table,
+                    const std::vector<Column>& columns) {
+    Json attributes = {
+        {"POSITION", add_vertex_data(builder, positions_of(mesh, table.wedges), 3, false, true)}};
+    for (const auto& column : columns)
+        if (column.target < 0 && has_column(mesh, table.primitive, column))
+            attributes[column.semantic] =
+                add_vertex_data(builder, gathered(mesh, column, table.wedges), column.data.components,
+                                column.data.normalised, false);
+    return attributes;
+}
+
+/// Material, extras and extensions of the primitive as the source had them.
+Json primitive_frame(const Mesh& mesh, Index p, const EncodeSettings& settings, Builder& builder,
+                     Written& written) {
+    Json out = Json::object();
+    if (p >= mesh.primitives.size()) return out;
+    const Primitive& info = mesh.primitives[p];
+    const int material = info.material == none ? -1 : settings.material(info.material);
+    if (material >= 0) out["material"] = material;
+    if (info.json.empty()) return out;
+    const Json kept = parse_document(info.json);
+    if (kept.contains("extras")) out["extras"] = kept["extras"];
+    if (!kept.contains("extensions")) return out;
+    for (const auto& [name, value] : kept["extensions"].items()) {
+        if (name == "KHR_materials_variants" &&
+            builder.json().value("extensions", Json::object()).contains(name)) {
+            out["extensions"][name] = value;
+            continue;
+        }
+        written.fates.push_back(
+            {name, Domain::face, Fate::Kind::dropped, "an extension of a primitive that has changed"});
+        written.warnings.push_back(
+            {Severity::warning,
+             "W-EXTENSION",
+             fmt::format(
+                 "part '{}': the extension {} of a primitive is dropped, because the mesh has changed",
+                 settings.name, name),
+             {},
+             ""});
+    }
+    return out;
+}
+
+/// All primitives' indices in one view, one accessor each: EXT_mesh_manifold then covers them with a single
+/// one.
+void encode_manifold(Builder& builder, const Mesh& mesh, std::vector<Table>& tables,
+                     const std::vector<Column>& columns, const EncodeSettings& settings, Written& written,
+                     EncodedMesh& out) {
+    std::vector<Index> all;
+    for (const auto& t : tables) all.insert(all.end(), t.indices.begin(), t.indices.end());
+    const bool wide = needs_wide(tables[0].wedges.size());
+    const std::size_t view = builder.add_view(index_bytes(all, wide), element_buffer);
+    std::map<std::string, std::size_t> accessors; // one per column, shared by the primitives
+    const std::size_t position =
+        add_vertex_data(builder, positions_of(mesh, tables[0].wedges), 3, false, true);
+    const Json targets = add_targets(builder, mesh, columns, tables[0].wedges);
+    std::size_t offset = 0;
+    for (const auto& table : tables) {
+        Json primitive = primitive_frame(mesh, table.primitive, settings, builder, written);
+        primitive["attributes"] = {{"POSITION", position}};
+        for (const auto& column : columns) {
+            if (column.target >= 0 || !has_column(mesh, table.primitive, column)) continue;
+            if (!accessors.count(column.semantic))
+                accessors[column.semantic] =
+                    add_vertex_data(builder, gathered(mesh, column, table.wedges), column.data.components,
+                                    column.data.normalised, false);
+            primitive["attributes"][column.semantic] = accessors[column.semantic];
+        }
+        if (!targets.is_null()) primitive["targets"] = targets;
+        Json accessor = {{"bufferView", view}, {"byteOffset", offset}};
+        accessor.update(index_accessor(table.indices.size(), wide));
+        offset += table.indices.size() * (wide ? 4 : 2);
+        primitive["indices"] = builder.add_accessor(std::move(accessor));
+        out.primitives.push_back(std::move(primitive));
+    }
+    const Json extension =
+        manifold_extension(builder, mesh, tables[0].wedges, all, view, position, written, settings.name);
+    if (!extension.is_null()) out.extensions = {{"EXT_mesh_manifold", extension}};
+}
+
+} // namespace
+
+std::vector<float> positions_of(const Mesh& mesh, const std::vector<Index>& wedges) {
+    std::vector<float> out(3 * wedges.size());
+    parallel_for(wedges.size(), [&](std::size_t i) {
+        const Vec3& p = mesh.positions[mesh.vertex_of_wedge(wedges[i])];
+        // -0 would make one vertex two for those who compare bits.
+        for (std::size_t c = 0; c < 3; ++c) out[3 * i + c] = static_cast<float>(p[c]) + 0.0f;
+    });
+    return out;
+}
+
+AttributeData gathered(const Mesh& mesh, const Column& column, const std::vector<Index>& wedges) {
+    const std::size_t width = static_cast<std::size_t>(column.data.components);
+    const bool vertices = column.data.domain == Domain::vertex;
+    return std::visit(
+        [&](const auto& from) -> AttributeData {
+            std::decay_t<decltype(from)> to(wedges.size() * width);
+            parallel_for(wedges.size(), [&](std::size_t i) {
+                const std::size_t source = vertices ? mesh.vertex_of_wedge(wedges[i]) : wedges[i];
+                for (std::size_t c = 0; c < width; ++c) to[i * width + c] = from[source * width + c];
+            });
+            return to;
+        },
+        column.data.data);
+}
+
+Json accessor_json(const AttributeData& data, int components, bool normalised, bool bounds) {
+    return std::visit(
+        [&](const auto& numbers) {
+            const std::size_t width = static_cast<std::size_t>(components), count = numbers.size() / width;
+            Json accessor = {{"componentType", component_type_of(data)}};
+            if (normalised) accessor["normalized"] = true;
+            accessor["count"] = count;
+            accessor["type"] = type_name(components);
+            if (!bounds || count == 0) return accessor;
+            std::vector<double> low(width, HUGE_VAL), high(width, -HUGE_VAL);
+            for (std::size_t i = 0; i < numbers.size(); ++i) {
+                const double x = static_cast<double>(numbers[i]);
+                low[i % width] = std::min(low[i % width], x);
+                high[i % width] = std::max(high[i % width], x);
+            }
+            accessor["min"] = low;
+            accessor["max"] = high;
+            return accessor;
+        },
+        data);
+}
+
+std::size_t add_vertex_data(Builder& builder, const AttributeData& data, int components, bool normalised,
+                            bool bounds) {
+    Bytes bytes;
+    std::size_t stride = 0;
+    std::visit(
+        [&](const auto& numbers) {
+            const std::size_t size = sizeof(numbers[0]) * static_cast<std::size_t>(components);
+            const std::size_t count = numbers.size() / static_cast<std::size_t>(components),
+                              padded = (size + 3) / 4 * 4;
+            if (padded != size) stride = padded;
+            bytes.resize(count * padded);
+            const auto* from = reinterpret_cast<const std::byte*>(numbers.data());
+            parallel_for(count,
+                         [&](std::size_t i) { std::memcpy(&bytes[i * padded], from + i * size, size); });
+        },
+        data);
+    Json accessor = {{"bufferView", builder.add_view(std::move(bytes), array_buffer, stride)}};
+    accessor.update(accessor_json(data, components, normalised, bounds));
+    return builder.add_accessor(std::move(accessor));
+}
+
+Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
+                 const std::vector<Index>& wedges) {
+    Json targets;
+    for (const auto& column : columns) {
+        if (column.target < 0) continue;
+        if (targets.is_null()) targets = Json::array();
+        while (targets.size() <= static_cast<std::size_t>(column.target)) targets.push_back(Json::object());
+        targets[static_cast<std::size_t>(column.target)][column.semantic] =
+            add_vertex_data(builder, gathered(mesh, column, wedges), column.data.components,
+                            column.data.normalised, column.semantic == "POSITION");
+    }
+    return targets;
+}
+
+bool has_column(const Mesh& mesh, Index primitive, const Column& column) {
+    const auto lists = [&](const Primitive& p) {
+        return std::find(p.attributes.begin(), p.attributes.end(), column.data.name) != p.attributes.end();
+    };
+    if (primitive >= mesh.primitives.size() || mesh.primitives[primitive].attributes.empty()) return true;
+    return lists(mesh.primitives[primitive]) ||
+           std::none_of(mesh.primitives.begin(), mesh.primitives.end(), lists);
+}
+
+EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSettings& settings,
+                        Written& written) {
+    EncodedMesh out;
+    Mesh cut;
+    if (!given.all_triangles()) cut = triangulated(given);
+    const Mesh& mesh = given.all_triangles() ? given : cut;
+    if (mesh.face_count() == 0) return out;
+    check_range(mesh, settings.name);
+    const auto columns = columns_of(mesh, settings.columns, written.fates);
+    for (const auto& column : columns)
+        out.targets = std::max(out.targets, static_cast<std::size_t>(column.target + 1));
+    auto tables = tables_of(mesh, settings.manifold && !settings.draco.on);
+    if (settings.manifold && !settings.draco.on) {
+        encode_manifold(builder, mesh, tables, columns, settings, written, out);
+        return out;
+    }
+    for (auto& table : tables) {
+        Json primitive = primitive_frame(mesh, table.primitive, settings, builder, written);
+        if (settings.draco.on) {
+            encode_draco_primitive(builder, mesh, table, columns, settings, primitive);
+        } else {
+            primitive["attributes"] = add_attributes(builder, mesh, table, columns);
+            const Json targets = add_targets(builder, mesh, columns, table.wedges);
+            if (!targets.is_null()) primitive["targets"] = targets;
+            primitive["indices"] = add_indices(builder, table);
+        }
+        out.primitives.push_back(std::move(primitive));
+    }
+    return out;
+}
+
+} // namespace facetmill::io::gltf

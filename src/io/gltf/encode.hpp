@@ -1,0 +1,63 @@
+#pragma once
+// A Mesh as glTF primitives: taken apart along its primitives, wedges as glTF vertices, plain or under Draco.
+
+#include "io/codec.hpp"
+#include "io/gltf/builder.hpp"
+#include "io/gltf/columns.hpp"
+
+namespace facetmill::io::gltf {
+
+struct EncodeSettings {
+    DracoSettings draco;
+    bool manifold = false; ///< write EXT_mesh_manifold
+    ColumnSettings columns;
+    std::string name; ///< of the part, for messages
+    /// The document's index for a scene material; -1: none.
+    std::function<int(Index)> material;
+};
+
+/// What goes into a mesh object; the accessors and views are in the builder already.
+struct EncodedMesh {
+    Json primitives = Json::array(); ///< empty when the mesh has no faces: then it cannot be a glTF mesh
+    Json extensions;                 ///< of the mesh, or null
+    std::size_t targets = 0;         ///< morph targets of each primitive
+};
+
+/// Polygons are triangulated. Positions become float32 with min and max, indices uint16 where they fit, else
+/// uint32. Degenerate faces are kept, wedges that no face uses are not. Throws stage (E-RANGE) when a
+/// position does not fit float32.
+EncodedMesh encode_mesh(Builder& builder, const Mesh& mesh, const EncodeSettings& settings, Written& written);
+
+/// The wedges of one primitive in the order they are written, and its triangles in that numbering.
+struct Table {
+    Index primitive = 0;
+    std::vector<Index> wedges;
+    std::vector<Index> indices;
+};
+
+/// Draco's part: fills the primitive's accessors and extension.
+void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& table,
+                            const std::vector<Column>& columns, const EncodeSettings& settings,
+                            Json& primitive);
+/// The positions of the table's wedges, x y z each.
+std::vector<float> positions_of(const Mesh& mesh, const std::vector<Index>& wedges);
+/// The column's numbers for the table's wedges.
+AttributeData gathered(const Mesh& mesh, const Column& column, const std::vector<Index>& wedges);
+/// An accessor object without buffer view; min and max when asked for.
+Json accessor_json(const AttributeData& data, int components, bool normalised, bool bounds);
+/// A view and an accessor for vertex data, each element padded to 4 bytes. Returns the accessor's index.
+std::size_t add_vertex_data(Builder& builder, const AttributeData& data, int components, bool normalised,
+                            bool bounds);
+/// The accessors of morph targets for these wedges, as the primitive's "targets"; null when there are none.
+Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
+                 const std::vector<Index>& wedges);
+/// True when the column is one of those that the primitive had, or is new since.
+bool has_column(const Mesh& mesh, Index primitive, const Column& column);
+
+/// The EXT_mesh_manifold object of a mesh whose primitives use one table; null, with a warning, when it is
+/// not manifold. indices are those of all primitives together.
+Json manifold_extension(Builder& builder, const Mesh& mesh, const std::vector<Index>& wedges,
+                        const std::vector<Index>& indices, std::size_t index_view, const Json& position,
+                        Written& written, const std::string& name);
+
+} // namespace facetmill::io::gltf

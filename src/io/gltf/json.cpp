@@ -1,0 +1,157 @@
+#include "io/gltf/json.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+constexpr int deepest = 256;
+
+/// Refuses deep nesting before the parser builds it; brackets inside strings do not count.
+void check_depth(std::string_view text) {
+    int depth = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quoted) {
+            if (c == '\\') ++i;
+            quoted = c != '"';
+        } else if (c == '"') {
+            quoted = true;
+        } else if (c == '{' || c == '[') {
+            if (++depth > deepest)
+                throw Error(ErrorKind::malformed, "E-JSON",
+                            fmt::format("the JSON is nested deeper than {} levels at byte {}", deepest, i));
+        } else if (c == '}' || c == ']') {
+            --depth;
+        }
+    }
+}
+
+std::string shown(const Json& json) {
+    if (json.is_object()) return "an object";
+    if (json.is_array()) return "an array";
+    std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    if (text.size() > 40) text = text.substr(0, 37) + "...";
+    return text;
+}
+
+} // namespace
+
+Json parse_document(std::string_view text) {
+    check_depth(text);
+    try {
+        return Json::parse(text);
+    } catch (const Json::parse_error& e) {
+        throw Error(ErrorKind::malformed, "E-JSON", fmt::format("not valid JSON at byte {}", e.byte));
+    } catch (const Json::exception& e) {
+        throw Error(ErrorKind::malformed, "E-JSON", "not valid JSON: a number is out of range");
+    }
+}
+
+std::string to_string(const Json& document) {
+    return document.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void Place::fail(const std::string& message, const char* id, std::string hint) const {
+    throw Error(ErrorKind::malformed, id, path_.empty() ? message : path_ + ": " + message, std::move(hint));
+}
+
+void Place::expected(const char* what) const {
+    fail(fmt::format("expected {}, found {}", what, shown(*json_)));
+}
+
+std::optional<Place> Place::find(const char* key) const {
+    if (!json_->is_object()) expected("an object");
+    const auto it = json_->find(key);
+    if (it == json_->end()) return std::nullopt;
+    return Place(*it, path_.empty() ? key : path_ + "." + key);
+}
+
+Place Place::at(const char* key) const {
+    auto found = find(key);
+    if (!found) fail(fmt::format("\"{}\" is missing", key));
+    return *std::move(found);
+}
+
+Place Place::at(std::size_t i) const {
+    if (i >= size()) fail(fmt::format("item {} of {} is missing", i, size()));
+    return Place((*json_)[i], fmt::format("{}[{}]", path_, i));
+}
+
+std::size_t Place::size() const {
+    if (!json_->is_array()) expected("an array");
+    return json_->size();
+}
+
+std::uint64_t Place::natural(std::uint64_t most) const {
+    std::uint64_t value = 0;
+    if (json_->is_number_unsigned() || (json_->is_number_integer() && json_->get<std::int64_t>() >= 0)) {
+        value = json_->get<std::uint64_t>();
+    } else if (json_->is_number_float()) {
+        // Some exporters write every number as a float: 3.0 is an integer all the same.
+        const double x = json_->get<double>();
+        if (!(x >= 0 && x < 9007199254740992.0 && x == std::floor(x)))
+            expected("an integer that is not negative");
+        value = static_cast<std::uint64_t>(x);
+    } else {
+        expected("an integer that is not negative");
+    }
+    if (value > most) fail(fmt::format("expected at most {}, found {}", most, value));
+    return value;
+}
+
+std::size_t Place::index(std::size_t count, const char* what) const {
+    const std::uint64_t i = natural();
+    if (i >= count) fail(fmt::format("refers to {} {}, but there are {}", what, i, count));
+    return static_cast<std::size_t>(i);
+}
+
+double Place::real() const {
+    if (!json_->is_number()) expected("a number");
+    return json_->get<double>();
+}
+
+bool Place::boolean() const {
+    if (!json_->is_boolean()) expected("true or false");
+    return json_->get<bool>();
+}
+
+std::string Place::text() const {
+    if (!json_->is_string()) expected("a string");
+    return json_->get<std::string>();
+}
+
+std::uint64_t Place::natural_or(const char* key, std::uint64_t otherwise) const {
+    const auto found = find(key);
+    return found ? found->natural() : otherwise;
+}
+
+std::string Place::text_or(const char* key, std::string otherwise) const {
+    const auto found = find(key);
+    return found ? found->text() : std::move(otherwise);
+}
+
+bool Place::boolean_or(const char* key, bool otherwise) const {
+    const auto found = find(key);
+    return found ? found->boolean() : otherwise;
+}
+
+std::optional<Place> list(const Json& document, const char* name) {
+    auto found = Place(document, "").find(name);
+    if (found) found->size(); // it must be an array
+    return found;
+}
+
+std::size_t count_of(const Json& document, const char* name) {
+    const auto found = list(document, name);
+    return found ? found->size() : 0;
+}
+
+Place item(const Json& document, const char* name, std::size_t i) {
+    return Place(document, "").at(name).at(i);
+}
+
+} // namespace facetmill::io::gltf

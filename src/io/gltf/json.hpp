@@ -1,0 +1,60 @@
+#pragma once
+// A glTF document as JSON, read with the place in every message: "accessors[3].count: expected ...".
+
+#include "base/error.hpp"
+#include "base/json.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace facetmill::io::gltf {
+
+/// Parses a document. Throws malformed: E-JSON with the byte where the text stops being JSON, or when it is
+/// nested deeper than 256 levels (the JSON library writes and copies recursively).
+Json parse_document(std::string_view text);
+/// The document as text; invalid UTF-8 in names that came from elsewhere is replaced, never written.
+std::string to_string(const Json& document);
+
+/// A value of the document and where it stands. Every access checks and throws malformed (E-GLTF).
+class Place {
+  public:
+    Place(const Json& json, std::string path) : json_(&json), path_(std::move(path)) {}
+
+    const Json& json() const { return *json_; }
+    const std::string& path() const { return path_; }
+
+    /// A member of an object; none when absent.
+    std::optional<Place> find(const char* key) const;
+    Place at(const char* key) const; ///< a required member
+    Place at(std::size_t i) const;   ///< an item of an array
+    std::size_t size() const;        ///< items of an array
+
+    std::uint64_t natural(std::uint64_t most = UINT64_MAX) const; ///< an integer from 0 to most
+    std::size_t index(std::size_t count, const char* what) const; ///< a reference to one of count things
+    double real() const;
+    bool boolean() const;
+    std::string text() const;
+
+    std::uint64_t natural_or(const char* key, std::uint64_t otherwise) const;
+    std::string text_or(const char* key, std::string otherwise) const;
+    bool boolean_or(const char* key, bool otherwise) const;
+
+    [[noreturn]] void fail(const std::string& message, const char* id = "E-GLTF",
+                           std::string hint = {}) const;
+
+  private:
+    [[noreturn]] void expected(const char* what) const;
+    const Json* json_;
+    std::string path_;
+};
+
+/// A top-level array of the document ("accessors"), or none when it is absent.
+std::optional<Place> list(const Json& document, const char* name);
+/// Length of a top-level array, 0 when absent.
+std::size_t count_of(const Json& document, const char* name);
+/// Item i of a top-level array; i must have been checked against count_of.
+Place item(const Json& document, const char* name, std::size_t i);
+
+} // namespace facetmill::io::gltf

@@ -1,0 +1,185 @@
+#include "io/gltf/nodes.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+template <std::size_t N>
+std::array<double, N> numbers(const Place& node, const char* key, std::array<double, N> otherwise) {
+    const auto found = node.find(key);
+    if (!found) return otherwise;
+    if (found->size() != N) found->fail(fmt::format("expected {} numbers, found {}", N, found->size()));
+    std::array<double, N> values{};
+    for (std::size_t i = 0; i < N; ++i) values[i] = found->at(i).real();
+    return values;
+}
+
+Transform from_matrix(const Place& node) {
+    const auto m = numbers<16>(node, "matrix", {});
+    if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+        node.at("matrix").fail("the last row of the matrix is not 0, 0, 0, 1");
+    Transform t;
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column) t.m[row][column] = m[column * 4 + row];
+    return t;
+}
+
+Transform from_parts(const Place& node) {
+    const auto move = numbers<3>(node, "translation", {0, 0, 0});
+    const auto scale = numbers<3>(node, "scale", {1, 1, 1});
+    auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
+    const double norm = std::sqrt(x * x + y * y + z * z + w * w);
+    if (!(norm > 0)) node.at("rotation").fail("the quaternion is zero");
+    x /= norm, y /= norm, z /= norm, w /= norm;
+    const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                            {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+    Transform t;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) t.m[i][j] = r[i][j] * scale[j];
+        t.m[i][3] = move[i];
+    }
+    return t;
+}
+
+/// A node has one parent. Files that name two exist; the node then stands under the first, and `warn` hears
+/// of it.
+void link_children(const Place& node, std::size_t index, std::vector<NodeFrame>& frames, const Warn& warn) {
+    const auto children = node.find("children");
+    if (!children) return;
+    for (std::size_t c = 0; c < children->size(); ++c) {
+        const std::size_t child = children->at(c).index(frames.size(), "node");
+        int& parent = frames[child].parent;
+        if (parent >= 0 && warn)
+            warn("W-NODES",
+                 fmt::format("{}: node {} has two parents and is taken to stand under the first, nodes[{}]",
+                             children->at(c).path(), child, parent));
+        if (parent < 0) parent = static_cast<int>(index);
+    }
+}
+
+/// A level of detail (MSFT_lod) stands in for the node that names it, so under the same parent.
+void link_levels(const Place& node, std::size_t index, std::vector<NodeFrame>& frames) {
+    const auto extensions = node.find("extensions");
+    const auto levels = extensions ? extensions->find("MSFT_lod") : std::nullopt;
+    if (!levels) return;
+    const Place ids = levels->at("ids");
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const std::size_t level = ids.at(i).index(frames.size(), "node");
+        if (frames[level].parent < 0 && level != index) frames[level].parent = frames[index].parent;
+    }
+}
+
+} // namespace
+
+std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn) {
+    std::vector<NodeFrame> frames(count_of(document, "nodes"));
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const Place node = item(document, "nodes", i);
+        frames[i].local = node.find("matrix") ? from_matrix(node) : from_parts(node);
+        if (const auto mesh = node.find("mesh"))
+            frames[i].mesh = static_cast<int>(mesh->index(count_of(document, "meshes"), "mesh"));
+        if (const auto skin = node.find("skin")) {
+            skin->index(count_of(document, "skins"), "skin");
+            frames[i].skinned = frames[i].mesh >= 0;
+        }
+        link_children(node, i, frames, warn);
+    }
+    for (std::size_t i = 0; i < frames.size(); ++i) link_levels(item(document, "nodes", i), i, frames);
+    for (const std::size_t i : parents_first(frames)) {
+        const int parent = frames[i].parent;
+        frames[i].world =
+            parent < 0 ? frames[i].local : frames[static_cast<std::size_t>(parent)].world * frames[i].local;
+    }
+    return frames;
+}
+
+std::set<std::size_t> animated_nodes(const Json& document) {
+    std::set<std::size_t> nodes;
+    for (std::size_t a = 0; a < count_of(document, "animations"); ++a) {
+        const Place channels = item(document, "animations", a).at("channels");
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            const Place target = channels.at(c).at("target");
+            if (target.text_or("path", "") != "weights" && target.find("node"))
+                nodes.insert(target.at("node").index(count_of(document, "nodes"), "node"));
+        }
+    }
+    return nodes;
+}
+
+std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames) {
+    std::vector<std::vector<std::size_t>> children(frames.size());
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (frames[i].parent < 0)
+            order.push_back(i);
+        else
+            children[static_cast<std::size_t>(frames[i].parent)].push_back(i);
+    }
+    for (std::size_t done = 0; done < order.size(); ++done)
+        for (const std::size_t child : children[order[done]]) order.push_back(child);
+    // Every node has at most one parent, so what no root reaches goes round in a circle.
+    if (order.size() < frames.size()) {
+        const std::set<std::size_t> reached(order.begin(), order.end());
+        for (std::size_t i = 0; i < frames.size(); ++i)
+            if (!reached.count(i))
+                throw Error(ErrorKind::malformed, "E-NODES",
+                            fmt::format("nodes[{}]: the node is its own ancestor", i));
+    }
+    return order;
+}
+
+bool makes_triangles(const Place& primitive) {
+    const auto mode = primitive.natural_or("mode", 4);
+    if (mode > 6) primitive.at("mode").fail(fmt::format("{} is not a mode", mode));
+    return mode >= 4 &&
+           primitive.at("attributes").find("POSITION"); // without positions an extension gives them
+}
+
+bool has_triangles(const Place& mesh) {
+    const Place primitives = mesh.at("primitives");
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        if (makes_triangles(primitives.at(i))) return true;
+    return false;
+}
+
+std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames) {
+    std::vector<Placement> all;
+    std::set<std::string> taken;
+    std::map<std::string, int> copies; // where to go on counting: a thousand nodes may share a name
+    std::vector<char> triangles(count_of(document, "meshes"));
+    for (std::size_t m = 0; m < triangles.size(); ++m)
+        triangles[m] = has_triangles(item(document, "meshes", m));
+    const auto place = [&](int node, int mesh, bool skinned, const Transform& world) {
+        if (!triangles[static_cast<std::size_t>(mesh)]) return;
+        std::string name =
+            node < 0 ? "" : item(document, "nodes", static_cast<std::size_t>(node)).text_or("name", "");
+        if (name.empty()) name = item(document, "meshes", static_cast<std::size_t>(mesh)).text_or("name", "");
+        if (name.empty()) name = fmt::format("mesh_{}", mesh);
+        std::string unique = name;
+        while (!taken.insert(unique).second) unique = fmt::format("{}_{}", name, ++copies[name] + 1);
+        all.push_back({unique, node, mesh, skinned, skinned ? Transform{} : world});
+    };
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        if (frames[i].mesh >= 0)
+            place(static_cast<int>(i), frames[i].mesh, frames[i].skinned, frames[i].world);
+    if (frames.empty())
+        for (std::size_t m = 0; m < triangles.size(); ++m) place(-1, static_cast<int>(m), false, {});
+    return all;
+}
+
+Json matrix(const Transform& t) {
+    Json out = Json::array();
+    for (std::size_t column = 0; column < 4; ++column) {
+        for (std::size_t row = 0; row < 3; ++row) out.push_back(t.m[row][column]);
+        out.push_back(column == 3 ? 1.0 : 0.0);
+    }
+    return out;
+}
+
+} // namespace facetmill::io::gltf

@@ -1,0 +1,51 @@
+#pragma once
+// The node hierarchy of a glTF document: where each mesh stands in the world.
+
+#include "io/gltf/json.hpp"
+#include "mesh/inverse.hpp"
+#include "mesh/scene.hpp"
+
+#include <functional>
+#include <set>
+
+namespace facetmill::io::gltf {
+
+/// A node as the hierarchy has it.
+struct NodeFrame {
+    Transform local, world;
+    int parent = -1;
+    int mesh = -1;
+    bool skinned = false;
+};
+
+/// Takes a warning's id and message.
+using Warn = std::function<void(const char*, std::string)>;
+/// All nodes, by index. Throws malformed (E-NODES) for cycles, E-GLTF for bad members; warns (W-NODES) of
+/// nodes with two parents.
+std::vector<NodeFrame> node_frames(const Json& document, const Warn& warn = {});
+/// The node indices so that parents come before children.
+std::vector<std::size_t> parents_first(const std::vector<NodeFrame>& frames);
+
+/// The nodes whose translation, rotation or scale an animation drives.
+std::set<std::size_t> animated_nodes(const Json& document);
+
+/// A mesh that faces are read from, and where it stands: one part of the scene. The writer asks for the same
+/// list, to see what has changed since.
+struct Placement {
+    std::string name; ///< the node's, else the mesh's, unique in the document
+    int node = -1; ///< -1 when the document has no nodes at all: then each mesh is placed once, at the origin
+    int mesh = -1;
+    bool skinned = false;
+    Transform world;
+};
+/// One per node with a mesh that has triangles, in node order.
+std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames);
+
+/// True for primitives that make triangles (lists, strips and fans) of positions.
+bool makes_triangles(const Place& primitive);
+bool has_triangles(const Place& mesh);
+
+/// glTF's 16 numbers, column by column.
+Json matrix(const Transform& t);
+
+} // namespace facetmill::io::gltf

@@ -1,0 +1,201 @@
+#include "io/gltf/encode.hpp"
+#include "io/gltf/mesh.hpp"
+#include "io/gltf/patch.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+/// Parts that came from one mesh and still have the same one.
+struct Variant {
+    std::size_t example;   ///< a part
+    bool original = false; ///< nothing has changed: its primitives stay as they are
+    int mesh = -1;
+};
+
+bool same_attribute(const Attribute& a, const Attribute& b) {
+    return a.name == b.name && a.domain == b.domain && a.role == b.role && a.components == b.components &&
+           a.normalised == b.normalised && a.data == b.data;
+}
+
+bool has_draco(const Json& primitive) {
+    return primitive.contains("extensions") && primitive["extensions"].contains("KHR_draco_mesh_compression");
+}
+
+/// True when the primitives as they are in the document are what the settings ask for.
+bool stored_as_wanted(const Patch& patch, const Json& mesh) {
+    for (const auto& primitive : mesh["primitives"]) {
+        const bool triangles = makes_triangles(Place(primitive, ""));
+        if (triangles && has_draco(primitive) != patch.settings.draco.on) return false;
+    }
+    const bool manifold = mesh.contains("extensions") && mesh["extensions"].contains("EXT_mesh_manifold");
+    return manifold || patch.settings.draco.on || !patch.settings.mesh_manifold;
+}
+
+bool is_original(Patch& patch, const Part& part) {
+    const auto mesh = static_cast<std::size_t>(part.source_mesh);
+    if (part.changed || !stored_as_wanted(patch, patch.builder.json()["meshes"][mesh])) return false;
+    const Mesh read = decode_mesh(patch.builder.source(), mesh).mesh;
+    return same_mesh(read, part.mesh, [&](Index there, Index here) {
+        if (here == none || here >= patch.scene.materials.size()) return there == here;
+        const Material& m = patch.scene.materials[here];
+        return m.document == patch.base && m.index == static_cast<int>(there);
+    });
+}
+
+EncodeSettings settings_for(Patch& patch, const Part& part) {
+    EncodeSettings s;
+    s.draco = patch.settings.draco;
+    s.manifold = patch.settings.mesh_manifold;
+    s.name = part.name;
+    s.material = [&patch](Index m) { return patch_material(patch, m); };
+    s.columns.skinned = part.document < 0 || part.document == patch.base;
+    const Json& json = patch.builder.json();
+    if (const auto used = json.find("extensionsUsed"); used != json.end())
+        s.columns.quantised = std::find(used->begin(), used->end(), "KHR_mesh_quantization") != used->end();
+    return s;
+}
+
+/// Extensions of the mesh are about the geometry that it had.
+void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
+    if (!mesh.contains("extensions")) return;
+    for (const auto& [name, value] : mesh["extensions"].items()) {
+        if (name == "EXT_mesh_manifold") continue; // ours: written again on request
+        patch.written.fates.push_back(
+            {name, Domain::face, Fate::Kind::dropped, "an extension of a mesh that has changed"});
+        patch.warn(
+            "W-EXTENSION",
+            fmt::format("part '{}': the extension {} of its mesh is dropped, because the mesh has changed",
+                        part.name, name));
+    }
+    mesh.erase("extensions");
+}
+
+/// The mesh object for a part: `mesh` is what it was (or has only a name). Null when nothing is left of it.
+Json encoded_object(Patch& patch, Json mesh, const Part& part) {
+    EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(patch, part), patch.written);
+    Json untouched = Json::array(); // points and lines
+    if (mesh.contains("primitives"))
+        for (auto& primitive : mesh["primitives"])
+            if (!makes_triangles(Place(primitive, ""))) untouched.push_back(primitive);
+    for (auto& primitive : untouched) encoded.primitives.push_back(std::move(primitive));
+    if (encoded.primitives.empty()) return nullptr;
+    mesh["primitives"] = std::move(encoded.primitives);
+    drop_extensions(patch, mesh, part);
+    if (!encoded.extensions.is_null()) mesh["extensions"] = std::move(encoded.extensions);
+    if (mesh.contains("weights") && mesh["weights"].size() != encoded.targets) mesh.erase("weights");
+    return mesh;
+}
+
+/// Whether the variant is a level of detail of an earlier one: it stands for the same node.
+bool is_level(const Scene& scene, const std::vector<Variant>& variants, const Variant& variant) {
+    const int node = scene.parts[variant.example].node;
+    return node >= 0 && std::any_of(variants.data(), &variant, [&](const Variant& earlier) {
+               return scene.parts[earlier.example].node == node;
+           });
+}
+
+/// All parts of one mesh of the patched document.
+void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& variants) {
+    Json& meshes = patch.builder.json()["meshes"];
+    const Json before = meshes[mesh];
+    bool slot_free =
+        std::none_of(variants.begin(), variants.end(), [](const Variant& v) { return v.original; });
+    if (slot_free)
+        for (const auto& primitive : before["primitives"])
+            if (makes_triangles(Place(primitive, ""))) patch.builder.release(primitive);
+    int copies = 0;
+    for (auto& variant : variants) {
+        const Part& part = patch.scene.parts[variant.example];
+        if (variant.original) {
+            variant.mesh = static_cast<int>(mesh);
+            continue;
+        }
+        Json object = encoded_object(patch, before, part);
+        if (object.is_null()) continue;
+        if (slot_free) {
+            patch.builder.json()["meshes"][mesh] = std::move(object);
+            variant.mesh = static_cast<int>(mesh);
+            slot_free = false;
+        } else {
+            variant.mesh = static_cast<int>(patch.builder.add("meshes", std::move(object)));
+            copies += !is_level(patch.scene, variants, variant);
+        }
+    }
+    if (copies > 0)
+        patch.warn("W-INSTANCES",
+                   fmt::format("the instances of meshes[{}] differ now: {} of them {} a mesh of {} own", mesh,
+                               copies, copies == 1 ? "has" : "have", copies == 1 ? "its" : "their"));
+}
+
+} // namespace
+
+bool same_mesh(const Mesh& a, const Mesh& b, const std::function<bool(Index, Index)>& same_material) {
+    const auto same_primitive = [&](const Primitive& p, const Primitive& q) {
+        return p.attributes == q.attributes && p.json == q.json && same_material(p.material, q.material);
+    };
+    return a.positions == b.positions && a.wedge_vertex == b.wedge_vertex && a.corners == b.corners &&
+           a.face_offsets == b.face_offsets &&
+           std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
+                      same_attribute) &&
+           std::equal(a.primitives.begin(), a.primitives.end(), b.primitives.begin(), b.primitives.end(),
+                      same_primitive);
+}
+
+std::vector<int> patch_meshes(Patch& patch) {
+    const auto& parts = patch.scene.parts;
+    const std::size_t known_meshes = count_of(patch.builder.json(), "meshes");
+    std::vector<std::size_t> variant_of(parts.size());
+    std::map<std::pair<int, int>, std::vector<Variant>>
+        families; // by document and mesh; new parts stand alone
+    const auto key_of = [&](std::size_t i) {
+        const Part& p = parts[i];
+        const bool ours = p.document == patch.base && p.document >= 0 && p.source_mesh >= 0 &&
+                          static_cast<std::size_t>(p.source_mesh) < known_meshes;
+        if (ours || (p.document > 0 && p.source_mesh >= 0)) return std::pair(p.document, p.source_mesh);
+        return std::pair(-1, static_cast<int>(i));
+    };
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        auto& family = families[key_of(i)];
+        const auto same = std::find_if(family.begin(), family.end(), [&](const Variant& v) {
+            return parts[v.example].changed == parts[i].changed &&
+                   same_mesh(parts[v.example].mesh, parts[i].mesh, std::equal_to<>());
+        });
+        variant_of[i] = static_cast<std::size_t>(same - family.begin());
+        if (same == family.end())
+            family.push_back(
+                {i, key_of(i).first == patch.base && patch.base >= 0 && is_original(patch, parts[i])});
+    }
+    for (auto& [key, family] : families) {
+        if (key.first == patch.base && patch.base >= 0) {
+            patch_variants(patch, static_cast<std::size_t>(key.second), family);
+            continue;
+        }
+        for (auto& variant : family) {
+            Json object =
+                encoded_object(patch, {{"name", parts[variant.example].name}}, parts[variant.example]);
+            if (!object.is_null())
+                variant.mesh = static_cast<int>(patch.builder.add("meshes", std::move(object)));
+        }
+    }
+    std::vector<int> mesh_of_part(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) mesh_of_part[i] = families[key_of(i)][variant_of[i]].mesh;
+    return mesh_of_part;
+}
+
+void drop_dead_meshes(Patch& patch, const std::vector<int>& mesh_of_part) {
+    std::set<std::size_t> dead;
+    for (const auto& placement : patch.placements) dead.insert(static_cast<std::size_t>(placement.mesh));
+    for (const int mesh : mesh_of_part)
+        if (mesh >= 0) dead.erase(static_cast<std::size_t>(mesh));
+    Json& json = patch.builder.json();
+    visit_mesh_references(json, [&](Json& r) { dead.erase(r.get<std::size_t>()); });
+    if (dead.empty() || has_unknown_extensions(json)) return;
+    for (const std::size_t mesh : dead)
+        for (const auto& primitive : json["meshes"][mesh]["primitives"]) patch.builder.release(primitive);
+    erase_items(json["meshes"], dead, [&](const auto& visit) { visit_mesh_references(json, visit); });
+}
+
+} // namespace facetmill::io::gltf

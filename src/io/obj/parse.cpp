@@ -1,0 +1,324 @@
+#include "io/obj/obj.hpp"
+
+#include "base/parallel.hpp"
+#include "io/text.hpp"
+
+#include <atomic>
+#include <cstdint>
+#include <fmt/format.h>
+#include <limits>
+
+namespace facetmill::io::obj {
+
+namespace {
+
+constexpr std::int32_t absent = std::numeric_limits<std::int32_t>::min();
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
+
+/// A corner as written: an index from 0, or one relative to the first element of the chunk.
+struct Corner {
+    std::int32_t index[3] = {absent, absent, absent}; ///< position, uv, normal
+};
+
+/// What one chunk of lines holds; counts and relative indices are the chunk's own.
+struct Chunk {
+    Statements own; ///< without corners
+    std::vector<Corner> corners;
+    std::vector<std::uint8_t>
+        relative; ///< a bit for each index of each corner; empty when all count from the start
+    int lines = 0;
+    std::optional<Error> error;
+};
+
+class ChunkParser {
+  public:
+    ChunkParser(std::string_view text, const std::string& name, Chunk& chunk)
+        : text_(text, name, "E-OBJ", '#'), chunk_(chunk), out_(chunk.own) {}
+
+    void parse() {
+        out_.face_offsets.assign(1, 0);
+        do {
+            statement(text_.word_on_line());
+        } while (text_.next_line());
+        chunk_.lines = text_.line() - 1;
+    }
+
+  private:
+    void statement(std::string_view word) {
+        if (word.empty()) return;
+        if (word == "v") return vertex();
+        if (word == "f" || word == "fo") return face();
+        if (word == "vn") return numbers(out_.normals, 3, "normal");
+        if (word == "vt") return texture_point();
+        if (word == "usemtl") return event(Event::Kind::material);
+        if (word == "g") return event(Event::Kind::group);
+        if (word == "o") return event(Event::Kind::object);
+        if (word == "s") return event(Event::Kind::smoothing);
+        if (word == "mtllib") return event(Event::Kind::library);
+        ++out_.skipped[std::string(word.substr(0, 20))];
+        while (!text_.word_on_line().empty()) {
+        } // with the lines that it goes on for
+    }
+
+    void vertex() {
+        double n[8];
+        int count = 0;
+        for (; count < 8 && !text_.at_line_end(); ++count)
+            n[count] = count < 3 ? text_.coordinate("a coordinate") : text_.real("a number");
+        if (count < 3) text_.fail(fmt::format("expected three coordinates, found {}", count));
+        out_.positions.push_back({n[0], n[1], n[2]});
+        if (count == 4 && n[3] != 1) ++out_.skipped["w of v"];
+        if (count < 6) {
+            if (!out_.colours.empty()) out_.colours.insert(out_.colours.end(), 3, 1.0F);
+            return;
+        }
+        out_.colours.resize((out_.positions.size() - 1) * 3, 1.0F);
+        for (int c = 3; c < 6; ++c) out_.colours.push_back(static_cast<float>(n[c]));
+    }
+
+    void numbers(std::vector<float>& to, int wanted, const char* what) {
+        for (int c = 0; c < wanted; ++c) {
+            if (text_.at_line_end())
+                text_.fail(fmt::format("expected {} numbers of a {}, found {}", wanted, what, c));
+            to.push_back(static_cast<float>(text_.real("a number")));
+        }
+    }
+
+    void texture_point() {
+        if (text_.at_line_end()) text_.fail("expected the numbers of a texture point, found none");
+        out_.uvs.push_back(static_cast<float>(text_.real("a number")));
+        out_.uvs.push_back(text_.at_line_end() ? 0.0F : static_cast<float>(text_.real("a number")));
+    }
+
+    void event(Event::Kind kind) {
+        out_.events.push_back({kind, out_.faces(), out_.positions.size(), std::string(text_.rest_of_line())});
+    }
+
+    void face() {
+        const std::size_t first = chunk_.corners.size();
+        while (!text_.at_line_end()) corner();
+        if (chunk_.corners.size() - first < 3) {
+            chunk_.corners.resize(first);
+            if (!chunk_.relative.empty()) chunk_.relative.resize(first);
+            ++out_.short_faces;
+        } else {
+            out_.face_offsets.push_back(static_cast<Index>(chunk_.corners.size()));
+        }
+    }
+
+    /// v, v/vt, v//vn, v/vt/vn; a slash with nothing behind it is let pass.
+    void corner() {
+        const Text start = text_;
+        Corner corner;
+        std::uint8_t relative = 0;
+        const std::size_t counts[3] = {out_.positions.size(), out_.uvs.size() / 2, out_.normals.size() / 3};
+        for (int k = 0; k < 3; ++k) {
+            std::int64_t index = 0;
+            if (text_.take(index)) {
+                if (index == 0) text_.fail("indices count from 1, found 0");
+                if (index > INT32_MAX || index < -INT32_MAX)
+                    text_.fail(fmt::format("index {} is out of range", index));
+                if (index < 0) relative |= static_cast<std::uint8_t>(1 << k);
+                corner.index[k] = static_cast<std::int32_t>(
+                    index > 0 ? index - 1 : static_cast<std::int64_t>(counts[k]) + index);
+            } else if (k == 0) {
+                break;
+            }
+            if (!text_.take('/')) break;
+        }
+        if (corner.index[0] == absent || !text_.at_word_end()) {
+            Text again = start;
+            again.expected("a corner (v, v/vt, v//vn or v/vt/vn)");
+        }
+        if (relative && chunk_.relative.empty()) chunk_.relative.resize(chunk_.corners.size());
+        chunk_.corners.push_back(corner);
+        if (relative || !chunk_.relative.empty()) chunk_.relative.push_back(relative);
+    }
+
+    Text text_;
+    Chunk& chunk_;
+    Statements& out_;
+};
+
+/// Pieces of about chunk_bytes that end where a line does (and does not go on).
+std::vector<std::string_view> pieces(std::string_view text) {
+    std::vector<std::string_view> all;
+    while (text.size() > chunk_bytes) {
+        std::size_t end = chunk_bytes;
+        while (true) {
+            end = text.find('\n', end);
+            if (end == std::string_view::npos) break;
+            const char before = end > 1 && text[end - 1] == '\r' ? text[end - 2] : text[end - 1];
+            ++end;
+            if (before != '\\') break;
+        }
+        if (end == std::string_view::npos) break;
+        all.push_back(text.substr(0, end));
+        text.remove_prefix(end);
+    }
+    all.push_back(text);
+    return all;
+}
+
+/// The first error of the file, its line counted from the beginning.
+void rethrow_first(const std::vector<Chunk>& chunks, const std::string& name) {
+    int before = 0;
+    for (const auto& chunk : chunks) {
+        if (chunk.error) {
+            Diagnostic d = chunk.error->diagnostics().front();
+            malformed(name, d.where.line + before, d.id.c_str(), d.message, d.hint);
+        }
+        before += chunk.lines;
+    }
+}
+
+int line_of_face(const Input& input, std::size_t face) {
+    Text text(as_text(input.bytes()), input.name(), "E-OBJ", '#');
+    std::size_t met = 0;
+    do {
+        const std::string_view word = text.word_on_line();
+        const int line = text.line();
+        if (word != "f" && word != "fo") continue;
+        int corners = 0;
+        while (!text.word_on_line().empty()) ++corners;
+        if (corners >= 3 && met++ == face) return line;
+    } while (text.next_line());
+    return 0;
+}
+
+struct Counts {
+    std::size_t element[3] = {0, 0, 0}; ///< positions, uvs, normals
+    std::size_t corners = 0, faces = 0;
+};
+
+/// Joins the chunks; relative indices become absolute.
+class Joiner {
+  public:
+    Joiner(const Input& input, std::vector<Chunk>& chunks)
+        : input_(input), chunks_(chunks), before_(chunks.size() + 1), dangling_(chunks.size()) {
+        for (std::size_t c = 0; c < chunks.size(); ++c) {
+            const Statements& own = chunks[c].own;
+            const std::size_t sizes[3] = {own.positions.size(), own.uvs.size() / 2, own.normals.size() / 3};
+            for (int k = 0; k < 3; ++k) before_[c + 1].element[k] = before_[c].element[k] + sizes[k];
+            before_[c + 1].corners = before_[c].corners + chunks[c].corners.size();
+            before_[c + 1].faces = before_[c].faces + own.faces();
+        }
+    }
+
+    Statements join(const ReadSettings& settings) {
+        const Counts& all = before_.back();
+        if (all.element[0] > settings.max_vertices || all.element[0] >= none || all.corners >= none)
+            beyond_limit(input_.name(), fmt::format("{} vertices and {} corners are more than can be held",
+                                                    all.element[0], all.corners));
+        bool coloured = false, keyed = false;
+        for (const auto& chunk : chunks_) coloured |= !chunk.own.colours.empty();
+        for (const auto& chunk : chunks_)
+            for (const auto& corner : chunk.corners)
+                keyed |= corner.index[1] != absent || corner.index[2] != absent;
+        out_.positions.resize(all.element[0]);
+        out_.uvs.resize(all.element[1] * 2);
+        out_.normals.resize(all.element[2] * 3);
+        out_.colours.assign(coloured ? all.element[0] * 3 : 0, 1.0F);
+        out_.corners.resize(all.corners);
+        out_.corner_keys.resize(keyed ? all.corners : 0);
+        out_.face_offsets.resize(all.faces + 1);
+        std::vector<std::size_t> bad(chunks_.size(), SIZE_MAX);
+        parallel_for(
+            chunks_.size(), [&](std::size_t c) { bad[c] = join_chunk(c); }, 1);
+        for (const std::size_t corner : bad)
+            if (corner != SIZE_MAX) refuse(corner);
+        for (std::size_t c = 0; c < chunks_.size(); ++c) join_rest(c);
+        for (const std::size_t count : dangling_) out_.dangling += count;
+        return std::move(out_);
+    }
+
+  private:
+    /// Copies what the chunk has; the first corner (of the file) that names what is not there, or SIZE_MAX.
+    std::size_t join_chunk(std::size_t c) {
+        Statements& own = chunks_[c].own;
+        const Counts& base = before_[c];
+        std::copy(own.positions.begin(), own.positions.end(),
+                  out_.positions.begin() + static_cast<std::ptrdiff_t>(base.element[0]));
+        std::copy(own.uvs.begin(), own.uvs.end(),
+                  out_.uvs.begin() + static_cast<std::ptrdiff_t>(2 * base.element[1]));
+        std::copy(own.normals.begin(), own.normals.end(),
+                  out_.normals.begin() + static_cast<std::ptrdiff_t>(3 * base.element[2]));
+        std::copy(own.colours.begin(), own.colours.end(),
+                  out_.colours.begin() +
+                      static_cast<std::ptrdiff_t>(own.colours.empty() ? 0 : 3 * base.element[0]));
+        for (std::size_t f = 0; f < own.faces(); ++f)
+            out_.face_offsets[base.faces + f + 1] =
+                static_cast<Index>(base.corners + own.face_offsets[f + 1]);
+        for (std::size_t i = 0; i < chunks_[c].corners.size(); ++i)
+            if (!resolve(c, i)) return base.corners + i;
+        return SIZE_MAX;
+    }
+
+    bool resolve(std::size_t c, std::size_t i) {
+        const Corner& corner = chunks_[c].corners[i];
+        const std::uint8_t relative = chunks_[c].relative.empty() ? 0 : chunks_[c].relative[i];
+        Index found[3] = {none, none, none};
+        for (int k = 0; k < 3; ++k) {
+            const bool from_here = relative >> k & 1;
+            if (corner.index[k] == absent && !from_here) continue;
+            const std::int64_t index =
+                corner.index[k] + (from_here ? static_cast<std::int64_t>(before_[c].element[k]) : 0);
+            if (index >= 0 && index < static_cast<std::int64_t>(before_.back().element[k]))
+                found[k] = static_cast<Index>(index);
+            else if (k == 0)
+                return false;
+            else
+                ++dangling_[c]; // the surface is whole without it
+        }
+        const std::size_t at = before_[c].corners + i;
+        out_.corners[at] = found[0];
+        if (!out_.corner_keys.empty()) out_.corner_keys[at] = std::uint64_t{found[1]} << 32 | found[2];
+        return true;
+    }
+
+    [[noreturn]] void refuse(std::size_t corner) {
+        const auto at =
+            std::upper_bound(out_.face_offsets.begin(), out_.face_offsets.end(), static_cast<Index>(corner));
+        const auto face = static_cast<std::size_t>(at - out_.face_offsets.begin()) - 1;
+        malformed(input_.name(), line_of_face(input_, face), "E-OBJ",
+                  fmt::format("a face names a vertex that is not there: the file has {}",
+                              before_.back().element[0]));
+    }
+
+    void join_rest(std::size_t c) {
+        for (auto& e : chunks_[c].own.events) {
+            e.face += before_[c].faces;
+            e.vertex += before_[c].element[0];
+            out_.events.push_back(std::move(e));
+        }
+        for (const auto& [word, count] : chunks_[c].own.skipped) out_.skipped[word] += count;
+        out_.short_faces += chunks_[c].own.short_faces;
+    }
+
+    const Input& input_;
+    std::vector<Chunk>& chunks_;
+    std::vector<Counts> before_;        ///< [chunks + 1]
+    std::vector<std::size_t> dangling_; ///< [chunks]
+    Statements out_;
+};
+
+} // namespace
+
+Statements parse(const Input& input, const ReadSettings& settings) {
+    const auto texts = pieces(as_text(input.bytes()));
+    std::vector<Chunk> chunks(texts.size());
+    parallel_for(
+        texts.size(),
+        [&](std::size_t c) {
+            try {
+                ChunkParser(texts[c], input.name(), chunks[c]).parse();
+            } catch (const Error& error) {
+                chunks[c].error = error;
+            }
+        },
+        1);
+    rethrow_first(chunks, input.name());
+    return Joiner(input, chunks).join(settings);
+}
+
+} // namespace facetmill::io::obj

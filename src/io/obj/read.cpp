@@ -1,0 +1,307 @@
+#include "io/obj/obj.hpp"
+
+#include "base/parallel.hpp"
+#include "io/attributes.hpp"
+#include "io/text.hpp"
+#include "io/wedges.hpp"
+
+#include <fmt/format.h>
+#include <numeric>
+
+namespace facetmill::io::obj {
+
+namespace {
+
+/// Names in the order of their first face, and the name's number for every face.
+struct Naming {
+    std::vector<std::string> names;
+    std::vector<Index> of_face;
+    std::map<std::string, Index> known;
+};
+
+/// What holds at each face of the events of a kind; faces before the first have the name `before`.
+Naming naming(const Statements& s, Event::Kind kind, const std::string& before) {
+    Naming n;
+    n.of_face.resize(s.faces());
+    const auto hold = [&](const std::string& name, std::size_t begin, std::size_t end) {
+        if (begin >= end) return;
+        const auto [at, fresh] = n.known.try_emplace(name, static_cast<Index>(n.names.size()));
+        if (fresh) n.names.push_back(name);
+        std::fill(n.of_face.begin() + static_cast<std::ptrdiff_t>(begin),
+                  n.of_face.begin() + static_cast<std::ptrdiff_t>(end), at->second);
+    };
+    std::string current = before;
+    std::size_t begin = 0;
+    for (const auto& e : s.events) {
+        if (e.kind != kind) continue;
+        hold(current, begin, e.face);
+        current = e.text, begin = e.face;
+    }
+    hold(current, begin, s.faces());
+    return n;
+}
+
+Attribute numbers(const char* name, std::vector<Index> values) {
+    return {name, Domain::face, Role::index, 1, false, std::move(values)};
+}
+
+/// Vertex normals for the wedges that the file gives none: the sum of the faces around, weighted by area.
+void fill_normals(const Mesh& mesh, std::vector<float>& normals, const std::vector<bool>& given) {
+    std::vector<Vec3> sums(given.size());
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        Vec3 area;
+        const Vec3& o = mesh.point(mesh.face_begin(f));
+        for (Index c = mesh.face_begin(f) + 1; c + 1 < mesh.face_end(f); ++c)
+            area += cross(mesh.point(c) - o, mesh.point(c + 1) - o);
+        for (const Index w : mesh.face_wedges(f)) sums[w] += area;
+    }
+    for (std::size_t w = 0; w < given.size(); ++w) {
+        if (given[w]) continue;
+        Vec3 n = normalised(sums[w]);
+        if (!is_finite(n) || n == Vec3{}) n = {0, 0, 1};
+        for (std::size_t c = 0; c < 3; ++c) normals[3 * w + c] = static_cast<float>(n[c]);
+    }
+}
+
+/// Wedges and their attributes from the keys of the corners.
+void add_wedges(Mesh& mesh, Statements& s) {
+    std::vector<std::uint64_t> keys(mesh.positions.size(), no_key);
+    if (!s.corner_keys.empty()) {
+        Wedges wedges = make_wedges(mesh.positions.size(), std::move(mesh.corners), s.corner_keys);
+        mesh.corners = std::move(wedges.corners);
+        mesh.wedge_vertex = std::move(wedges.wedge_vertex);
+        keys = std::move(wedges.keys);
+    }
+    std::vector<float> uv(2 * keys.size(), 0.0F), normal(3 * keys.size(), 0.0F);
+    std::vector<bool> has_normal(keys.size(), false);
+    bool uvs = false, normals = false;
+    for (std::size_t w = 0; w < keys.size(); ++w) {
+        const auto t = static_cast<Index>(keys[w] >> 32), n = static_cast<Index>(keys[w]);
+        if (t != none) {
+            uvs = true;
+            uv[2 * w] = s.uvs[2 * std::size_t{t}];
+            uv[2 * w + 1] = 1 - s.uvs[2 * std::size_t{t} + 1]; // glTF counts from the top
+        }
+        if (n != none) {
+            normals = has_normal[w] = true;
+            std::copy_n(&s.normals[3 * std::size_t{n}], 3, &normal[3 * w]);
+        }
+    }
+    if (normals) {
+        fill_normals(mesh, normal, has_normal);
+        add_attribute(mesh, {"NORMAL", Domain::wedge, Role::normal, 3, false, std::move(normal)});
+    }
+    if (uvs) add_attribute(mesh, {"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::move(uv)});
+    if (s.colours.empty()) return;
+    Attribute colour{"COLOR_0", Domain::wedge, Role::colour, 3, false, std::move(s.colours)};
+    if (mesh.has_seams()) extend_to_wedges(colour, mesh.wedge_vertex, mesh.vertex_count());
+    add_attribute(mesh, std::move(colour));
+}
+
+/// Materials of the scene and the primitives of the mesh, from usemtl.
+void add_materials(Scene& scene, Mesh& mesh, const Statements& s) {
+    static const std::string no_material; // usemtl without a name means the same
+    Naming used = naming(s, Event::Kind::material, no_material);
+    if (used.names.empty() || used.names == std::vector{no_material}) return;
+    for (const auto& name : used.names) {
+        Primitive primitive;
+        if (!name.empty()) {
+            primitive.material = static_cast<Index>(scene.materials.size());
+            scene.materials.emplace_back().name = name;
+        }
+        mesh.primitives.push_back(std::move(primitive));
+    }
+    if (mesh.primitives.size() > 1)
+        mesh.attributes.push_back(numbers(std::string(primitive_attribute).c_str(), std::move(used.of_face)));
+}
+
+void add_groups(Mesh& mesh, const Statements& s, const std::string& file, ReadLog& log) {
+    Naming groups = naming(s, Event::Kind::group, "");
+    if (groups.names.size() > 1) {
+        log.warnings.push_back(
+            {Severity::note, "W-GROUPS",
+             fmt::format("the names of {} groups are not kept; face attribute 'group' numbers them",
+                         groups.names.size()),
+             file_mark(file), ""});
+        mesh.attributes.push_back(numbers("group", std::move(groups.of_face)));
+    }
+    const Naming smoothing = naming(s, Event::Kind::smoothing, "off");
+    if (smoothing.names.size() < 2) return;
+    std::vector<Index> of_face(smoothing.of_face.size());
+    for (std::size_t f = 0; f < of_face.size(); ++f) {
+        const std::string& name = smoothing.names[smoothing.of_face[f]];
+        const char* at = name.data();
+        std::int64_t number = 0;
+        if (scan_integer(at, name.data() + name.size(), number) && number > 0 && number < none)
+            of_face[f] = static_cast<Index>(number);
+    }
+    mesh.attributes.push_back(numbers("smoothing_group", std::move(of_face)));
+}
+
+/// The object of each vertex: that of its faces, or where it was declared when it has none. Empty when a
+/// vertex belongs to two.
+std::vector<Index> object_of_vertices(const Mesh& mesh, const Naming& objects, const Statements& s) {
+    std::vector<Index> object(mesh.vertex_count(), none);
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        for (const Index w : mesh.face_wedges(f)) {
+            Index& at = object[mesh.vertex_of_wedge(w)];
+            if (at != none && at != objects.of_face[f]) return {};
+            at = objects.of_face[f];
+        }
+    Index current = 0;
+    auto next = s.events.begin();
+    for (std::size_t v = 0; v < object.size(); ++v) {
+        for (; next != s.events.end() && next->vertex <= v; ++next) {
+            if (next->kind != Event::Kind::object) continue;
+            if (const auto at = objects.known.find(next->text); at != objects.known.end())
+                current = at->second;
+        }
+        if (object[v] == none) object[v] = current;
+    }
+    return object;
+}
+
+/// The elements of each object, ascending, and where each element goes among those of its object.
+struct Shares {
+    std::vector<Index> offsets, items, place;
+    Shares(const std::vector<Index>& object_of, std::size_t objects)
+        : offsets(objects + 1), items(object_of.size()), place(object_of.size()) {
+        for (const Index o : object_of) ++offsets[o];
+        exclusive_scan(offsets);
+        std::vector<Index> next(offsets);
+        for (Index i = 0; i < object_of.size(); ++i) {
+            place[i] = next[object_of[i]] - offsets[object_of[i]];
+            items[next[object_of[i]]++] = i;
+        }
+    }
+    std::span<const Index> of(Index object) const {
+        return {items.data() + offsets[object], items.data() + offsets[object + 1]};
+    }
+};
+
+/// The part of the mesh that is this object.
+Mesh extract(const Mesh& mesh, const Shares& vertices, const Shares& wedges, const Shares& faces,
+             Index object) {
+    Mesh own;
+    for (const Index v : vertices.of(object)) own.positions.push_back(mesh.positions[v]);
+    if (wedges.of(object).size() != vertices.of(object).size())
+        for (const Index w : wedges.of(object))
+            own.wedge_vertex.push_back(vertices.place[mesh.vertex_of_wedge(w)]);
+    if (!mesh.all_triangles()) own.face_offsets.push_back(0);
+    for (const Index f : faces.of(object)) {
+        for (const Index w : mesh.face_wedges(f)) own.corners.push_back(wedges.place[w]);
+        if (!mesh.all_triangles()) own.face_offsets.push_back(static_cast<Index>(own.corners.size()));
+    }
+    normalise_offsets(own);
+    for (const Attribute& a : mesh.attributes) {
+        const Shares& shares = a.domain == Domain::face    ? faces
+                               : a.domain == Domain::wedge ? wedges
+                                                           : vertices;
+        own.attributes.push_back(selected(a, shares.of(object)));
+    }
+    own.primitives = mesh.primitives;
+    return own;
+}
+
+/// Primitives that no face uses go; one that is left needs no attribute.
+void compact_primitives(Mesh& mesh) {
+    Attribute* a = mesh.find(primitive_attribute, Domain::face);
+    if (!a) return;
+    auto& of_face = std::get<std::vector<std::uint32_t>>(a->data);
+    std::vector<Index> place(mesh.primitives.size(), none);
+    std::vector<Primitive> used;
+    for (Index& p : of_face) {
+        if (place[p] == none) place[p] = static_cast<Index>(used.size()), used.push_back(mesh.primitives[p]);
+        p = place[p];
+    }
+    mesh.primitives = std::move(used);
+    if (mesh.primitives.size() < 2) mesh.drop(primitive_attribute, Domain::face);
+}
+
+void add_parts(Scene& scene, Mesh mesh, const Statements& s) {
+    const Naming objects = naming(s, Event::Kind::object, "");
+    if (objects.names.size() > 1) {
+        const std::vector<Index> vertex_object = object_of_vertices(mesh, objects, s);
+        if (!vertex_object.empty()) {
+            std::vector<Index> wedge_object(mesh.wedge_count());
+            for (Index w = 0; w < mesh.wedge_count(); ++w)
+                wedge_object[w] = vertex_object[mesh.vertex_of_wedge(w)];
+            const Shares vertices(vertex_object, objects.names.size()),
+                wedges(wedge_object, objects.names.size()), faces(objects.of_face, objects.names.size());
+            for (Index n = 0; n < objects.names.size(); ++n) {
+                Part& part = scene.parts.emplace_back();
+                part.name = objects.names[n];
+                part.mesh = extract(mesh, vertices, wedges, faces, n);
+                compact_primitives(part.mesh);
+            }
+            return;
+        }
+        mesh.attributes.push_back(numbers("object", objects.of_face));
+    }
+    Part& part = scene.parts.emplace_back();
+    const Naming groups = naming(s, Event::Kind::group, "");
+    if (objects.names.size() == 1) part.name = objects.names[0];
+    if (part.name.empty() && objects.names.size() < 2 && groups.names.size() == 1)
+        part.name = groups.names[0];
+    part.mesh = std::move(mesh);
+}
+
+void report_skipped(const Statements& s, const std::string& file, ReadLog& log) {
+    const auto warn = [&](const char* id, std::string message) {
+        log.warnings.push_back({Severity::warning, id, std::move(message), file_mark(file), ""});
+    };
+    std::vector<std::string> words;
+    for (const auto& [word, count] : s.skipped)
+        words.push_back(fmt::format("{} ({})", in_quotes(word), count));
+    if (!words.empty())
+        warn("W-SKIPPED",
+             fmt::format("statements that cannot be kept are skipped: {}", fmt::join(words, ", ")));
+    if (s.dangling > 0)
+        warn("W-INDEX", fmt::format("{} corners name a texture point or normal that the file does not have",
+                                    s.dangling));
+    if (s.short_faces > 0)
+        warn("W-FACES", fmt::format("{} faces of fewer than three corners are skipped", s.short_faces));
+}
+
+} // namespace
+
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
+    Statements s = parse(input, settings);
+    report_skipped(s, input.name(), log);
+    Scene scene;
+    Mesh mesh;
+    mesh.positions = std::move(s.positions);
+    mesh.corners = std::move(s.corners);
+    mesh.face_offsets = s.face_offsets;
+    add_wedges(mesh, s);
+    normalise_offsets(mesh);
+    add_materials(scene, mesh, s);
+    add_groups(mesh, s, input.name(), log);
+    read_materials(input, s.events, scene.materials, log);
+    add_parts(scene, std::move(mesh), s);
+    return scene;
+}
+
+namespace {
+
+/// Perhaps: OBJ has no magic. The first statement decides.
+int sniff(Span bytes) {
+    static const std::string nameless;
+    Text text(as_text(bytes.first(std::min<std::size_t>(bytes.size(), 65536))), nameless, "E-OBJ", '#');
+    const std::string_view word = text.word();
+    for (const std::string_view known : {"v", "vn", "vt", "f", "o", "g", "s", "mtllib", "usemtl"})
+        if (word == known) return 1;
+    return 0;
+}
+
+const RegisterCodec codec({
+    .name = "obj",
+    .about = "Wavefront object, with its material colours; texture points and normals by corner",
+    .extensions = {"obj"},
+    .sniff = sniff,
+    .read = read,
+    .write = write,
+});
+} // namespace
+
+} // namespace facetmill::io::obj

@@ -1,0 +1,250 @@
+#include "io/obj/obj.hpp"
+
+#include "io/flatten.hpp"
+
+#include <bit>
+#include <cstring>
+#include <fmt/format.h>
+#include <set>
+#include <unordered_map>
+
+namespace facetmill::io::obj {
+
+namespace {
+
+/// The distinct values of an attribute in the order of their first wedge, and the value of each wedge: so
+/// that a texture point or normal is written once, however many vertices share it.
+struct Pool {
+    std::vector<float> values;
+    std::vector<Index> of_wedge;
+    std::size_t components = 0;
+};
+
+Pool pool_of(const Attribute& a, bool from_bottom) {
+    Pool pool;
+    pool.components = static_cast<std::size_t>(a.components);
+    struct Key {
+        std::uint32_t bits[3];
+        bool operator==(const Key&) const = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& k) const {
+            std::uint64_t h = k.bits[0] * 0x9e3779b97f4a7c15ULL;
+            for (int i = 1; i < 3; ++i) h = (h ^ (h >> 29) ^ k.bits[i]) * 0xbf58476d1ce4e5b9ULL;
+            return h ^ (h >> 32);
+        }
+    };
+    std::unordered_map<Key, Index, Hash> known; // looked up only
+    known.reserve(a.size());
+    for (std::size_t w = 0; w < a.size(); ++w) {
+        Key key{{0, 0, 0}};
+        float value[3] = {0, 0, 0};
+        for (std::size_t c = 0; c < pool.components; ++c) {
+            value[c] = static_cast<float>(a.value(w, static_cast<int>(c)));
+            if (from_bottom && c == 1) value[c] = 1 - value[c];
+            key.bits[c] = std::bit_cast<std::uint32_t>(value[c]);
+        }
+        const auto [at, fresh] = known.try_emplace(key, static_cast<Index>(known.size()));
+        if (fresh) pool.values.insert(pool.values.end(), value, value + pool.components);
+        pool.of_wedge.push_back(at->second);
+    }
+    return pool;
+}
+
+void put_values(Bytes& bytes, const char* word, const Pool& pool) {
+    if (pool.components == 0) return;
+    append_text(bytes, pool.values.size() / pool.components,
+                [&](std::size_t begin, std::size_t end, std::string& out) {
+                    for (std::size_t i = begin; i < end; ++i) {
+                        out += word;
+                        for (std::size_t c = 0; c < pool.components; ++c)
+                            out += ' ', put_number(out, pool.values[i * pool.components + c]);
+                        out += '\n';
+                    }
+                });
+}
+
+void put_vertices(Bytes& bytes, const Mesh& mesh, bool all_digits) {
+    const Attribute* colour = mesh.find("COLOR_0", Domain::wedge);
+    std::vector<Index> wedge;
+    if (colour) {
+        wedge.assign(mesh.vertex_count(), none);
+        for (Index w = 0; w < mesh.wedge_count(); ++w)
+            if (Index& slot = wedge[mesh.vertex_of_wedge(w)]; slot == none) slot = w;
+    }
+    append_text(bytes, mesh.vertex_count(), [&](std::size_t begin, std::size_t end, std::string& out) {
+        for (std::size_t v = begin; v < end; ++v) {
+            out += 'v';
+            for (std::size_t c = 0; c < 3; ++c) {
+                out += ' ';
+                if (all_digits)
+                    put_number(out, mesh.positions[v][c]);
+                else
+                    put_number(out, static_cast<float>(mesh.positions[v][c]));
+            }
+            for (int c = 0; colour && c < 3; ++c) {
+                out += ' ';
+                put_number(out, wedge[v] == none ? 1.0F : static_cast<float>(colour->value(wedge[v], c)));
+            }
+            out += '\n';
+        }
+    });
+}
+
+struct Offsets {
+    std::int64_t vertex = 1, uv = 1, normal = 1; ///< OBJ counts from 1, over the whole file
+};
+
+/// Faces [begin, end) of a run that has one material, group and smoothing group.
+void put_faces(Bytes& bytes, const Mesh& mesh, Index begin, Index end, const Pool& uv, const Pool& normal,
+               const Offsets& o) {
+    append_text(bytes, end - begin, [&](std::size_t first, std::size_t last, std::string& out) {
+        for (Index f = begin + static_cast<Index>(first); f < begin + last; ++f) {
+            out += 'f';
+            for (const Index w : mesh.face_wedges(f)) {
+                out += ' ';
+                put_number(out, o.vertex + mesh.vertex_of_wedge(w));
+                if (uv.components == 0 && normal.components == 0) continue;
+                out += '/';
+                if (uv.components) put_number(out, o.uv + uv.of_wedge[w]);
+                if (normal.components) out += '/', put_number(out, o.normal + normal.of_wedge[w]);
+            }
+            out += '\n';
+        }
+    });
+}
+
+/// A statement before the faces whose number in an attribute differs from that of the face before.
+struct Switch {
+    const Attribute* attribute = nullptr;
+    double current = -1;
+    bool differs(Index f) const { return attribute && attribute->value(f, 0) != current; }
+};
+
+class PartWriter {
+  public:
+    PartWriter(Bytes& bytes, const Mesh& mesh, const std::vector<std::string>& materials)
+        : bytes_(bytes), mesh_(mesh),
+          materials_(materials), group_{number("group")}, smoothing_{number("smoothing_group")} {}
+
+    void faces(const Pool& uv, const Pool& normal, const Offsets& offsets) {
+        const auto count = static_cast<Index>(mesh_.face_count());
+        for (Index begin = 0, end = 0; begin < count; begin = end) {
+            statements(begin);
+            end = begin + 1;
+            while (end < count && !changes(end)) ++end;
+            put_faces(bytes_, mesh_, begin, end, uv, normal, offsets);
+        }
+    }
+
+  private:
+    const Attribute* number(std::string_view name) const {
+        const Attribute* a = mesh_.find(name, Domain::face);
+        return a && a->components == 1 ? a : nullptr;
+    }
+    Index material(Index f) const {
+        return mesh_.primitives.empty() ? none : mesh_.primitives[mesh_.primitive_of(f)].material;
+    }
+    bool changes(Index f) const {
+        return material(f) != material_ || group_.differs(f) || smoothing_.differs(f);
+    }
+
+    void statements(Index f) {
+        if (group_.differs(f)) {
+            group_.current = group_.attribute->value(f, 0);
+            append(bytes_, fmt::format("g group_{}\n", group_.current));
+        }
+        if (smoothing_.differs(f)) {
+            smoothing_.current = smoothing_.attribute->value(f, 0);
+            append(bytes_, smoothing_.current > 0 ? fmt::format("s {}\n", smoothing_.current) : "s off\n");
+        }
+        if (material(f) == material_) return;
+        material_ = material(f);
+        append(bytes_, material_ == none ? "usemtl\n" : fmt::format("usemtl {}\n", materials_[material_]));
+    }
+
+    Bytes& bytes_;
+    const Mesh& mesh_;
+    const std::vector<std::string>& materials_;
+    Switch group_, smoothing_;
+    Index material_ = none;
+};
+
+/// Names for usemtl: on one line, never empty, each once.
+std::vector<std::string> material_names(const std::vector<Material>& materials) {
+    std::vector<std::string> names;
+    std::set<std::string> taken;
+    for (const auto& m : materials) {
+        std::string name = m.name.empty() ? "material" : m.name;
+        for (char& c : name)
+            if (static_cast<unsigned char>(c) <= ' ' || c == '#') c = '_';
+        std::string unique = name;
+        for (int n = 2; !taken.insert(unique).second; ++n) unique = fmt::format("{}_{}", name, n);
+        names.push_back(unique);
+    }
+    return names;
+}
+
+void tell_what_is_lost(const Mesh& mesh, Written& written) {
+    for (const auto& a : mesh.attributes) {
+        const bool face = a.domain == Domain::face &&
+                          (a.name == primitive_attribute || a.name == "group" || a.name == "smoothing_group");
+        const bool wedge = a.domain == Domain::wedge && (a.name == "NORMAL" || a.name == "TEXCOORD_0");
+        const bool colour = a.domain == Domain::wedge && a.name == "COLOR_0";
+        if (colour && a.components == 4)
+            written.fates.push_back({a.name, a.domain, Fate::Kind::recomputed, "OBJ colours have no alpha"});
+        if (!face && !wedge && !colour &&
+            std::find_if(written.fates.begin(), written.fates.end(), [&](const Fate& f) {
+                return f.attribute == a.name && f.domain == a.domain;
+            }) == written.fates.end())
+            dropped(written, a, "OBJ has no place for it");
+    }
+}
+
+std::string one_line(std::string name) {
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    return name;
+}
+
+} // namespace
+
+Written write(const Scene& scene, const WriteSettings& settings) {
+    Written written;
+    Bytes bytes;
+    append(bytes, "# written by facetmill\n");
+    const std::vector<std::string> materials = material_names(scene.materials);
+    const std::string library = settings.title + ".mtl";
+    if (!materials.empty()) append(bytes, fmt::format("mtllib {}\n", library));
+    Offsets offsets;
+    for (const auto& part : scene.parts) {
+        const WorldMesh world(part);
+        const auto pool = [&](const char* name, int components) {
+            const Attribute* a = world->find(name, Domain::wedge);
+            return a && a->components == components ? pool_of(*a, components == 2) : Pool{};
+        };
+        const Pool uv = pool("TEXCOORD_0", 2), normal = pool("NORMAL", 3);
+        if (!part.name.empty()) append(bytes, fmt::format("o {}\n", one_line(part.name)));
+        put_vertices(bytes, *world, settings.double_positions);
+        put_values(bytes, "vt", uv);
+        put_values(bytes, "vn", normal);
+        PartWriter(bytes, *world, materials).faces(uv, normal, offsets);
+        offsets.vertex += static_cast<std::int64_t>(world->vertex_count());
+        if (uv.components) offsets.uv += static_cast<std::int64_t>(uv.values.size() / uv.components);
+        if (normal.components)
+            offsets.normal += static_cast<std::int64_t>(normal.values.size() / normal.components);
+        tell_what_is_lost(part.mesh, written);
+    }
+    leave_documents(written, scene, "OBJ");
+    written.files.push_back({settings.title + ".obj", std::move(bytes)});
+    if (!materials.empty()) {
+        std::vector<Material> named = scene.materials;
+        for (std::size_t m = 0; m < named.size(); ++m) named[m].name = materials[m];
+        Bytes mtl;
+        append(mtl, material_library(named));
+        written.files.push_back({library, std::move(mtl)});
+    }
+    return written;
+}
+
+} // namespace facetmill::io::obj

@@ -1,0 +1,323 @@
+#include "io/off/off.hpp"
+
+#include "io/attributes.hpp"
+#include "io/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <fmt/format.h>
+
+namespace facetmill::io::off {
+
+namespace {
+
+/// The prefixes before OFF, in the order that Geomview fixes; none when this is no such keyword.
+std::optional<Kind> kind_named(std::string_view word) {
+    if (!word.ends_with("OFF")) return {};
+    word.remove_suffix(3);
+    Kind kind;
+    if (word.starts_with("ST")) kind.uvs = true, word.remove_prefix(2);
+    if (word.starts_with("C")) kind.colours = true, word.remove_prefix(1);
+    if (word.starts_with("N")) kind.normals = true, word.remove_prefix(1);
+    return word.empty() ? std::optional(kind) : std::nullopt;
+}
+
+/// Colours of a file are bytes or fractions: all numbers together decide, for "1 0 0" alone may be either.
+struct Colours {
+    std::vector<float> values; ///< four each; negative: not given
+    std::size_t most = 0;      ///< numbers of the longest colour
+    bool points = false;       ///< a number was written with a point
+    double largest = 0;
+
+    void add(std::span<const double> given, bool whole) {
+        const bool known = given.size() == 3 || given.size() == 4; // one number is an index into a colour map
+        points |= known && !whole;
+        for (std::size_t c = 0; c < 4; ++c) {
+            const bool there = known && c < given.size();
+            values.push_back(there && given[c] > 0 ? static_cast<float>(given[c]) : there ? 0.0F : -1.0F);
+            if (there) largest = std::max(largest, given[c]);
+        }
+        if (known) most = std::max(most, given.size());
+    }
+
+    void give(Mesh& mesh, Domain domain) const {
+        if (most == 0) return;
+        const bool bytes = largest > (points ? 2 : 1);
+        std::vector<float> numbers;
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (i % 4 < most) numbers.push_back(values[i] >= 0 ? values[i] : bytes ? 255.0F : 1.0F);
+        Attribute a{"COLOR_0", domain, Role::colour, static_cast<int>(most), bytes, {}};
+        if (bytes) {
+            std::vector<std::uint8_t> small;
+            for (const float x : numbers) small.push_back(static_cast<std::uint8_t>(std::min(x, 255.0F)));
+            a.data = std::move(small);
+        } else {
+            a.data = std::move(numbers);
+        }
+        add_attribute(mesh, std::move(a));
+    }
+};
+
+/// What both encodings fill.
+struct Builder {
+    const Input& input;
+    const ReadSettings& settings;
+    Mesh mesh;
+    std::vector<float> normals, uvs;
+    Colours vertex_colours, face_colours;
+
+    /// Refuses counts that the bytes left cannot fill.
+    void check(std::int64_t vertices, std::int64_t faces, int line, std::size_t left, std::size_t per_vertex,
+               std::size_t per_face) const {
+        if (vertices < 0 || faces < 0)
+            malformed(input.name(), line, "E-OFF",
+                      fmt::format("expected counts, found {} vertices and {} faces", vertices, faces));
+        if (static_cast<std::uint64_t>(vertices) > settings.max_vertices || vertices >= none || faces >= none)
+            beyond_limit(input.name(),
+                         fmt::format("{} vertices and {} faces are more than can be held", vertices, faces));
+        if (static_cast<std::size_t>(vertices) * per_vertex + static_cast<std::size_t>(faces) * per_face >
+            left + 1)
+            malformed(
+                input.name(), line, "E-OFF",
+                fmt::format("{} vertices and {} faces are promised, which the {} bytes left cannot hold",
+                            vertices, faces, left));
+    }
+
+    Scene finish(ReadLog& log) {
+        if (!normals.empty())
+            add_attribute(mesh, {"NORMAL", Domain::wedge, Role::normal, 3, false, std::move(normals)});
+        if (!uvs.empty())
+            add_attribute(mesh, {"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::move(uvs)});
+        vertex_colours.give(mesh, Domain::wedge);
+        face_colours.give(mesh, Domain::face);
+        drop_short_faces(mesh, input.name(), log);
+        normalise_offsets(mesh);
+        Scene scene;
+        scene.parts.emplace_back().mesh = std::move(mesh);
+        return scene;
+    }
+};
+
+class TextReader {
+  public:
+    TextReader(Builder& out, const Text& text, Kind kind) : out_(out), text_(text), kind_(kind) {}
+
+    void read() {
+        const std::int64_t vertices = text_.integer("the number of vertices"),
+                           faces = text_.integer("the number of faces");
+        out_.check(vertices, faces, text_.line(), text_.left(), 6, 2);
+        text_.rest_of_line(); // the number of edges, where there is one: it is not used
+        out_.mesh.positions.reserve(static_cast<std::size_t>(vertices));
+        for (std::int64_t v = 0; v < vertices; ++v) vertex();
+        std::vector<Index> corners;
+        for (std::int64_t f = 0; f < faces; ++f) face(corners, vertices);
+    }
+
+  private:
+    void vertex() {
+        const double x = text_.coordinate("x"), y = text_.coordinate("y"), z = text_.coordinate("z");
+        out_.mesh.positions.push_back({x, y, z});
+        if (kind_.normals)
+            for (int c = 0; c < 3; ++c) out_.normals.push_back(static_cast<float>(text_.real("a normal")));
+        if (kind_.colours) colour(out_.vertex_colours, kind_.uvs ? 2 : 0);
+        if (kind_.uvs) {
+            out_.uvs.push_back(static_cast<float>(text_.real("u")));
+            out_.uvs.push_back(1 - static_cast<float>(text_.real("v"))); // glTF counts from the top
+        }
+    }
+
+    /// The numbers left on the line but for the last `more`: a colour of one to four.
+    void colour(Colours& colours, int more) {
+        int left = 0;
+        for (Text ahead = text_; !ahead.word_on_line().empty();) ++left;
+        std::array<double, 4> values{};
+        const int count = std::clamp(left - more, 0, 4);
+        bool whole = count > 0;
+        for (int c = 0; c < count; ++c) {
+            Text ahead = text_;
+            whole &= ahead.word_on_line().find_first_of(".eE") == std::string_view::npos;
+            values[static_cast<std::size_t>(c)] = text_.real("a colour");
+        }
+        colours.add({values.data(), static_cast<std::size_t>(count)}, whole);
+    }
+
+    void face(std::vector<Index>& corners, std::int64_t vertices) {
+        const std::int64_t n = text_.integer("the number of corners");
+        if (n < 0 || static_cast<std::size_t>(n) > text_.left() / 2 + 1)
+            text_.fail(fmt::format("a face of {} corners, which the rest of the file cannot hold", n));
+        corners.clear();
+        for (std::int64_t k = 0; k < n; ++k) {
+            const std::int64_t v = text_.integer("a vertex");
+            if (v < 0 || v >= vertices)
+                text_.fail(fmt::format("a face names vertex {}, there are {}", v, vertices));
+            corners.push_back(static_cast<Index>(v));
+        }
+        add_face(out_.mesh, corners);
+        colour(out_.face_colours, 0);
+    }
+
+    Builder& out_;
+    Text text_;
+    Kind kind_;
+};
+
+/// Binary: 32-bit integers and floats in one byte order, which the counts give away.
+class BinaryReader {
+  public:
+    BinaryReader(Builder& out, Kind kind, std::size_t at)
+        : out_(out), kind_(kind), bytes_(out.input.bytes()), at_(at) {}
+
+    void read() {
+        need(12, "the counts");
+        choose_order();
+        const std::int64_t vertices = integer(), faces = integer();
+        integer();
+        const std::size_t vertex_size =
+            12 + (kind_.normals ? 12 : 0) + (kind_.colours ? 16 : 0) + (kind_.uvs ? 8 : 0);
+        out_.check(vertices, faces, 0, bytes_.size() - at_, vertex_size, 4);
+        for (std::int64_t v = 0; v < vertices; ++v) vertex();
+        const bool colours = faces_have_colours(faces);
+        std::vector<Index> corners;
+        for (std::int64_t f = 0; f < faces; ++f) face(corners, vertices, colours);
+    }
+
+  private:
+    void need(std::size_t size, const char* what) const {
+        if (bytes_.size() - at_ < size)
+            malformed(out_.input.name(), 0, "E-OFF",
+                      fmt::format("the file ends in {}, at byte {}", what, bytes_.size()));
+    }
+    std::uint32_t word(std::size_t at) const {
+        std::uint32_t w = 0;
+        std::memcpy(&w, bytes_.data() + at, sizeof w);
+        return swap_ ? __builtin_bswap32(w) : w;
+    }
+    std::int32_t integer() { return static_cast<std::int32_t>(word((at_ += 4) - 4)); }
+    float real() { return std::bit_cast<float>(word((at_ += 4) - 4)); }
+
+    /// Geomview says big-endian; others write what their machine has. Counts read the wrong way are huge.
+    void choose_order() {
+        const auto too_many = [&] {
+            return word(at_) > bytes_.size() / 12 || word(at_ + 4) > bytes_.size() / 4;
+        };
+        swap_ = std::endian::native == std::endian::little;
+        if (too_many()) swap_ = !swap_;
+        if (too_many()) swap_ = !swap_;
+    }
+
+    void vertex() {
+        const float x = real(), y = real(), z = real();
+        out_.mesh.positions.push_back({x, y, z});
+        if (!is_finite(out_.mesh.positions.back()))
+            malformed(out_.input.name(), 0, "E-NAN",
+                      fmt::format("vertex {} at byte {} is ({}, {}, {}), expected finite numbers",
+                                  out_.mesh.positions.size() - 1, at_ - 12, x, y, z));
+        for (int c = 0; kind_.normals && c < 3; ++c) out_.normals.push_back(real());
+        if (kind_.colours) {
+            const std::array<double, 4> rgba{real(), real(), real(), real()};
+            out_.vertex_colours.add(rgba, false);
+        }
+        if (kind_.uvs) {
+            out_.uvs.push_back(real());
+            out_.uvs.push_back(1 - real());
+        }
+    }
+
+    /// Geomview puts a count of colour numbers behind each face, others do not: the one that ends with the
+    /// file is it.
+    bool faces_have_colours(std::int64_t faces) const {
+        std::size_t at = at_;
+        for (std::int64_t f = 0; f < faces; ++f) {
+            for (const std::size_t most : {bytes_.size() / 4, std::size_t{4}}) {
+                if (at + 4 > bytes_.size()) return false;
+                const std::size_t n = word(at);
+                if (n > most || (bytes_.size() - at - 4) / 4 < n) return false;
+                at += 4 + 4 * n;
+            }
+        }
+        return at == bytes_.size();
+    }
+
+    void face(std::vector<Index>& corners, std::int64_t vertices, bool coloured) {
+        need(4, "a face");
+        const std::uint32_t n = word((at_ += 4) - 4);
+        need(4 * std::size_t{n}, "a face");
+        corners.clear();
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const std::int64_t v = integer();
+            if (v < 0 || v >= vertices)
+                malformed(
+                    out_.input.name(), 0, "E-OFF",
+                    fmt::format("a face names vertex {}, there are {}, at byte {}", v, vertices, at_ - 4));
+            corners.push_back(static_cast<Index>(v));
+        }
+        add_face(out_.mesh, corners);
+        if (!coloured) return;
+        std::array<double, 4> colour{};
+        const std::uint32_t count = word((at_ += 4) - 4); // at most four, see faces_have_colours
+        for (std::uint32_t c = 0; c < count; ++c) colour[c] = real();
+        out_.face_colours.add({colour.data(), count}, false);
+    }
+
+    Builder& out_;
+    Kind kind_;
+    Span bytes_;
+    std::size_t at_;
+    bool swap_ = false;
+};
+
+} // namespace
+
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
+    Text text(as_text(input.bytes()), input.name(), "E-OFF", '#');
+    Builder out{input, settings, {}, {}, {}, {}, {}};
+    const Text start = text;
+    std::string_view word = text.word();
+    auto kind = kind_named(word);
+    if (!kind && word.starts_with("OFF") && word.size() > 3) {
+        // "OFF8 6 12": the keyword and the count have grown together.
+        text = start;
+        text.at_end();
+        for (const char c : {'O', 'F', 'F'}) text.take(c);
+        kind.emplace();
+    } else if (!kind && (word.find("4") == 0 || word.find("OFF") != std::string_view::npos) &&
+               word.ends_with("OFF")) {
+        text.fail(fmt::format("{} is a kind of OFF that is not read: points have three coordinates here",
+                              in_quotes(word)),
+                  "expected OFF with any of the prefixes ST, C and N, in this order");
+    } else if (!kind) {
+        // The keyword may be left out.
+        text = start;
+        kind.emplace();
+    }
+    Text ahead = text;
+    if (ahead.word_on_line() == "BINARY") {
+        ahead.next_line();
+        BinaryReader(out, *kind, ahead.offset()).read();
+    } else {
+        TextReader(out, text, *kind).read();
+    }
+    return out.finish(log);
+}
+
+namespace {
+const RegisterCodec codec({
+    .name = "off",
+    .about = "Geomview object file, text or binary; polygons with colours",
+    .extensions = {"off", "coff", "noff"},
+    .sniff =
+        [](Span bytes) {
+            static const std::string nameless;
+            Text text(as_text(bytes.first(std::min<std::size_t>(bytes.size(), 4096))), nameless, "E-OFF",
+                      '#');
+            const std::string_view word = text.word();
+            return kind_named(word) ? 2 : word.starts_with("OFF") ? 1 : 0;
+        },
+    .read = read,
+    .write = write,
+});
+} // namespace
+
+} // namespace facetmill::io::off

@@ -1,0 +1,249 @@
+#include "io/ply/ply.hpp"
+
+#include "base/parallel.hpp"
+#include "io/attributes.hpp"
+#include "io/ply/columns.hpp"
+#include "io/text.hpp"
+#include "io/wedges.hpp"
+
+#include <array>
+#include <bit>
+#include <fmt/format.h>
+
+namespace facetmill::io::ply {
+
+namespace {
+
+class Builder {
+  public:
+    Builder(const Input& input, const ReadSettings& settings, ReadLog& log)
+        : input_(input), settings_(settings), log_(log) {}
+    Scene read();
+
+  private:
+    [[noreturn]] void fail(const Element& e, std::string message) const {
+        malformed(input_.name(), e.line, "E-PLY", std::move(message));
+    }
+    void skipped(std::string what) {
+        log_.warnings.push_back({Severity::warning, "W-SKIPPED", what + " cannot be kept: skipped",
+                                 file_mark(input_.name()), ""});
+    }
+    void set_positions();
+    void set_faces();
+    std::size_t index_column();
+    void add_strips();
+    void add_corner_uvs();
+    void report_lists(const Table& table);
+
+    const Input& input_;
+    const ReadSettings& settings_;
+    ReadLog& log_;
+    Table vertices_, faces_, strips_;
+    Mesh mesh_;
+};
+
+void Builder::set_positions() {
+    if (!vertices_.element) malformed(input_.name(), 0, "E-PLY", "there is no element 'vertex'");
+    const Element& e = *vertices_.element;
+    if (e.count > settings_.max_vertices || e.count >= none)
+        beyond_limit(input_.name(), fmt::format("{} vertices are more than the {} that can be held", e.count,
+                                                std::min<std::size_t>(settings_.max_vertices, none - 1)));
+    std::vector<std::size_t> columns = vertices_.take({"x", "y", "z"});
+    if (columns.empty()) fail(e, "element 'vertex' lacks one of the properties x, y and z");
+    mesh_.positions.resize(e.count);
+    for (std::size_t c = 0; c < 3; ++c)
+        std::visit(
+            [&](const auto& values) {
+                parallel_for(e.count,
+                             [&](std::size_t i) { mesh_.positions[i][c] = static_cast<double>(values[i]); });
+            },
+            vertices_.columns[columns[c]].values);
+}
+
+std::size_t Builder::index_column() {
+    for (const char* name : {"vertex_indices", "vertex_index"})
+        if (const auto found = faces_.take({name}, true); !found.empty()) return found[0];
+    fail(*faces_.element, "element 'face' has no list 'vertex_indices'");
+}
+
+void Builder::set_faces() {
+    if (faces_.count() == 0) return;
+    const Column& column = faces_.columns[index_column()];
+    const std::size_t faces = faces_.count(), corners = column.begin(faces - 1) + column.size(faces - 1);
+    if (corners >= none || faces >= none)
+        beyond_limit(input_.name(), fmt::format("{} corners are too many", corners));
+    mesh_.corners.resize(corners);
+    const std::size_t vertices = mesh_.vertex_count();
+    const std::size_t bad = std::visit(
+        [&](const auto& values) {
+            return parallel_reduce(
+                corners, corners,
+                [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t c = begin; c < end; ++c) {
+                        const auto v = static_cast<double>(values[c]);
+                        if (!(v >= 0 && v < static_cast<double>(vertices))) return c;
+                        mesh_.corners[c] = static_cast<Index>(values[c]);
+                    }
+                    return corners;
+                },
+                [](std::size_t a, std::size_t b) { return std::min(a, b); });
+        },
+        column.values);
+    if (bad < corners) {
+        std::size_t f = 0;
+        while (column.begin(f) + column.size(f) <= bad) ++f;
+        const auto index =
+            std::visit([&](const auto& values) { return static_cast<double>(values[bad]); }, column.values);
+        fail(*faces_.element,
+             fmt::format("face {} of {} names vertex {}, there are {}", f, faces, index, vertices));
+    }
+    if (column.offsets.empty() && column.each == 3) return;
+    mesh_.face_offsets.resize(faces + 1);
+    for (std::size_t f = 0; f <= faces; ++f)
+        mesh_.face_offsets[f] = static_cast<Index>(f == faces ? corners : column.begin(f));
+}
+
+/// Triangle strips: every index after the second makes a triangle with the two before it, every other one
+/// turned over; a negative index starts anew; triangles with a repeated vertex only link strips.
+void Builder::add_strips() {
+    if (strips_.count() == 0) return;
+    std::vector<std::size_t> found = strips_.take({"vertex_indices"}, true);
+    if (found.empty()) found = strips_.take({"vertex_index"}, true);
+    if (found.empty()) fail(*strips_.element, "element 'tristrips' has no list 'vertex_indices'");
+    const Column& column = strips_.columns[found[0]];
+    for (std::size_t s = 0; s < strips_.count(); ++s) {
+        Index a = none, b = none;
+        bool turned = false;
+        for (std::size_t i = column.begin(s); i < column.begin(s) + column.size(s); ++i) {
+            const auto index =
+                std::visit([&](const auto& values) { return static_cast<double>(values[i]); }, column.values);
+            if (!(index < static_cast<double>(mesh_.vertex_count())))
+                fail(*strips_.element,
+                     fmt::format("a strip names vertex {}, there are {}", index, mesh_.vertex_count()));
+            if (index < 0) {
+                a = b = none;
+                turned = false;
+                continue;
+            }
+            const auto c = static_cast<Index>(index);
+            if (a != none) {
+                const std::array<Index, 3> face = turned ? std::array{b, a, c} : std::array{a, b, c};
+                if (a != b && b != c && c != a) add_face(mesh_, face);
+                turned = !turned;
+            }
+            a = b, b = c;
+        }
+    }
+}
+
+/// Texture coordinates per corner (MeshLab's face list texcoord) make seams.
+void Builder::add_corner_uvs() {
+    const auto found = faces_.take({"texcoord"}, true);
+    if (found.empty()) return;
+    const Column& column = faces_.columns[found[0]];
+    std::vector<std::uint64_t> keys(mesh_.corner_count(), 0);
+    std::visit(
+        [&](const auto& values) {
+            for (Index f = 0; f < faces_.count(); ++f) {
+                if (column.size(f) != 2 * std::size_t{mesh_.face_size(f)}) continue;
+                for (std::size_t k = 0; k < mesh_.face_size(f); ++k) {
+                    const auto u = static_cast<float>(values[column.begin(f) + 2 * k]);
+                    const auto v = 1 - static_cast<float>(values[column.begin(f) + 2 * k + 1]);
+                    keys[mesh_.face_begin(f) + k] = std::uint64_t{std::bit_cast<std::uint32_t>(u)} << 32 |
+                                                    std::bit_cast<std::uint32_t>(v);
+                }
+            }
+        },
+        column.values);
+    Wedges wedges = make_wedges(mesh_.vertex_count(), std::move(mesh_.corners), keys);
+    mesh_.corners = std::move(wedges.corners);
+    mesh_.wedge_vertex = std::move(wedges.wedge_vertex);
+    std::vector<float> uv(wedges.keys.size() * 2, 0.0F);
+    for (std::size_t w = 0; w < wedges.keys.size(); ++w) {
+        if (wedges.keys[w] == no_key) continue;
+        uv[2 * w] = std::bit_cast<float>(static_cast<std::uint32_t>(wedges.keys[w] >> 32));
+        uv[2 * w + 1] = std::bit_cast<float>(static_cast<std::uint32_t>(wedges.keys[w]));
+    }
+    add_attribute(mesh_, {"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::move(uv)});
+}
+
+void Builder::report_lists(const Table& table) {
+    for (std::size_t p = 0; p < table.columns.size(); ++p)
+        if (!table.taken[p] && table.property(p).list && table.count() > 0)
+            skipped(
+                fmt::format("the list '{}' of element '{}'", table.property(p).name, table.element->name));
+}
+
+Scene Builder::read() {
+    const Header header = read_header(input_);
+    for (const auto& texture : header.textures)
+        log_.warnings.push_back(
+            {Severity::warning, "W-IMAGE",
+             fmt::format("the texture '{}' is not read: PLY names it only in a comment", texture),
+             file_mark(input_.name()), "give the written file its material elsewhere"});
+    Body body(input_, header);
+    for (const Element& e : header.elements) {
+        Table table{&e, body.read(e), std::vector<bool>(e.properties.size(), false)};
+        Table* place = e.name == "vertex"      ? &vertices_
+                       : e.name == "face"      ? &faces_
+                       : e.name == "tristrips" ? &strips_
+                                               : nullptr;
+        if (place && place->element) fail(e, fmt::format("element '{}' is declared twice", e.name));
+        if (place)
+            *place = std::move(table);
+        else if (e.count > 0)
+            skipped(fmt::format("element '{}' ({})", e.name, e.count));
+    }
+    set_positions();
+    set_faces();
+    add_corner_uvs();
+    add_normals(vertices_, mesh_);
+    add_uvs(vertices_, mesh_);
+    add_colours(vertices_, mesh_, Domain::wedge);
+    add_others(vertices_, mesh_, Domain::wedge);
+    if (mesh_.has_seams())
+        for (auto& a : mesh_.attributes)
+            if (a.name != "TEXCOORD_0") extend_to_wedges(a, mesh_.wedge_vertex, mesh_.vertex_count());
+    if (faces_.count() > 0 && strips_.count() > 0)
+        fail(*strips_.element, "faces and strips in one file cannot be read");
+    add_strips();
+    if (faces_.count() > 0) {
+        add_colours(faces_, mesh_, Domain::face);
+        add_others(faces_, mesh_, Domain::face);
+    }
+    report_lists(vertices_);
+    report_lists(faces_);
+    drop_short_faces(mesh_, input_.name(), log_);
+    normalise_offsets(mesh_);
+    Scene scene;
+    scene.parts.emplace_back().mesh = std::move(mesh_);
+    return scene;
+}
+
+} // namespace
+
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
+    return Builder(input, settings, log).read();
+}
+
+namespace {
+const RegisterCodec codec({
+    .name = "ply",
+    .about = "Stanford polygon file, text or binary; all attributes are kept",
+    .extensions = {"ply"},
+    .sniff =
+        [](Span bytes) {
+            const std::string_view text = as_text(bytes);
+            return text.starts_with("ply\n") || text.starts_with("ply\r") || text.starts_with("ply ") ? 2 : 0;
+        },
+    .read = read,
+    .write = write,
+    .peek =
+        [](const Input& input) {
+            read_header(input);
+            return std::vector<std::string>{""};
+        },
+});
+} // namespace
+
+} // namespace facetmill::io::ply

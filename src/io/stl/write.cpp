@@ -1,0 +1,147 @@
+#include "io/stl/stl.hpp"
+
+#include "base/parallel.hpp"
+#include "io/flatten.hpp"
+
+#include <array>
+#include <cstring>
+#include <fmt/format.h>
+#include <set>
+
+namespace facetmill::io::stl {
+
+namespace {
+
+using Point = std::array<float, 3>;
+
+Point rounded(const Vec3& p) {
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+
+/// The three corners of a triangle as written, and the normal that they have then (zero when they have none).
+struct Triangle {
+    Point normal;
+    std::array<Point, 3> corners;
+};
+
+Triangle triangle(const Mesh& mesh, Index f) {
+    Triangle t;
+    std::array<Vec3, 3> p;
+    for (Index k = 0; k < 3; ++k) {
+        t.corners[k] = rounded(mesh.point(3 * f + k));
+        p[k] = {t.corners[k][0], t.corners[k][1], t.corners[k][2]};
+    }
+    const Vec3 n = normalised(cross(p[1] - p[0], p[2] - p[0]));
+    t.normal = is_finite(n) ? rounded(n) : Point{0, 0, 0};
+    return t;
+}
+
+/// The mesh itself when it is all triangles, else its triangulation.
+class Triangles {
+  public:
+    explicit Triangles(const Mesh& mesh) : given_(&mesh) {
+        if (mesh.all_triangles()) return;
+        own_ = triangulated(mesh);
+        given_ = &own_;
+    }
+    Triangles(const Triangles&) = delete;
+    Triangles& operator=(const Triangles&) = delete;
+    const Mesh& operator*() const { return *given_; }
+
+  private:
+    Mesh own_;
+    const Mesh* given_;
+};
+
+void put_point(std::string& out, const Point& p) {
+    for (const float x : p) {
+        out += ' ';
+        put_number(out, x);
+    }
+    out += '\n';
+}
+
+void write_text(Bytes& bytes, const Mesh& mesh, const std::string& name) {
+    append(bytes, fmt::format("solid {}\n", name));
+    append_text(bytes, mesh.face_count(), [&](std::size_t begin, std::size_t end, std::string& out) {
+        for (auto f = static_cast<Index>(begin); f < end; ++f) {
+            const Triangle t = triangle(mesh, f);
+            out += "  facet normal";
+            put_point(out, t.normal);
+            out += "    outer loop\n";
+            for (const Point& p : t.corners) {
+                out += "      vertex";
+                put_point(out, p);
+            }
+            out += "    endloop\n  endfacet\n";
+        }
+    });
+    append(bytes, fmt::format("endsolid {}\n", name));
+}
+
+const std::vector<std::uint16_t>* attribute_bytes(const Mesh& mesh) {
+    const Attribute* a = mesh.find("attribute", Domain::face);
+    return a && a->components == 1 ? std::get_if<std::vector<std::uint16_t>>(&a->data) : nullptr;
+}
+
+void write_binary(Bytes& bytes, const Mesh& mesh) {
+    constexpr std::string_view title = "binary STL, written by facetmill";
+    bytes.resize(84 + 50 * mesh.face_count());
+    std::memcpy(bytes.data(), title.data(), title.size());
+    const auto n = static_cast<std::uint32_t>(mesh.face_count());
+    std::memcpy(bytes.data() + 80, &n, sizeof n);
+    const auto* const extra = attribute_bytes(mesh);
+    parallel_for(mesh.face_count(), [&](std::size_t f) {
+        const Triangle t = triangle(mesh, static_cast<Index>(f));
+        std::byte* at = bytes.data() + 84 + 50 * f;
+        std::memcpy(at, &t.normal, 12);
+        std::memcpy(at + 12, &t.corners, 36);
+        if (extra) std::memcpy(at + 48, &(*extra)[f], 2);
+    });
+}
+
+/// A name that fits on a line.
+std::string one_line(std::string name) {
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) < ' ') c = ' ';
+    return name;
+}
+
+void tell_what_is_lost(const Scene& scene, const WriteSettings& settings, Written& written) {
+    std::set<std::pair<std::string, Domain>> told;
+    for (const auto& part : scene.parts) {
+        for (const auto& a : part.mesh.attributes) {
+            const bool kept =
+                !settings.ascii && a.name == "attribute" && attribute_bytes(part.mesh) != nullptr;
+            if (!kept && told.insert({a.name, a.domain}).second)
+                dropped(written, a, "STL holds positions only");
+        }
+        if (!part.mesh.all_triangles() && told.insert({"polygons", Domain::face}).second)
+            written.fates.push_back(
+                {"polygons", Domain::face, Fate::Kind::recomputed, "STL holds triangles: cut into them"});
+    }
+    leave_documents(written, scene, "STL");
+    if (!scene.materials.empty())
+        written.fates.push_back({"materials", Domain::face, Fate::Kind::dropped, "STL has no materials"});
+}
+
+} // namespace
+
+Written write(const Scene& scene, const WriteSettings& settings) {
+    Written written;
+    Bytes bytes;
+    if (settings.ascii) {
+        for (const auto& part : scene.parts) {
+            const WorldMesh world(part);
+            write_text(bytes, *Triangles(*world), one_line(part.name));
+        }
+    } else {
+        const WorldMesh world(scene);
+        write_binary(bytes, *Triangles(*world));
+    }
+    tell_what_is_lost(scene, settings, written);
+    written.files.push_back({settings.title + ".stl", std::move(bytes)});
+    return written;
+}
+
+} // namespace facetmill::io::stl

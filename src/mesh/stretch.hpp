@@ -1,0 +1,28 @@
+#pragma once
+// How much a transform lengthens, for lengths in the world that are used in a part's own space.
+
+#include "base/portable_math.hpp"
+#include "base/vec.hpp"
+
+namespace facetmill {
+
+/// The cube root of how much volumes grow: what lengths grow by under a rotation and a uniform scale, and by
+/// their geometric mean under others. 1 for a transform that flattens.
+inline double mean_stretch(const Transform& t) {
+    const double volume = std::abs(t.determinant());
+    return volume > 0 && std::isfinite(volume) && volume != 1 ? exponential(logarithm(volume) / 3) : 1;
+}
+
+/// The greatest growth of any length: exact for similarities, else at most sqrt(3) times as much. 1 for a
+/// transform that flattens to a point.
+inline double greatest_stretch(const Transform& t) {
+    const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
+    const double xx = dot(x, x), sum = xx + dot(y, y) + dot(z, z), slack = 1e-9 * sum;
+    const bool similar = std::abs(dot(y, y) - xx) < slack && std::abs(dot(z, z) - xx) < slack &&
+                         std::abs(dot(x, y)) < slack && std::abs(dot(y, z)) < slack &&
+                         std::abs(dot(z, x)) < slack;
+    const double most = std::sqrt(similar ? xx : sum);
+    return most > 0 ? most : 1;
+}
+
+} // namespace facetmill

@@ -1,0 +1,91 @@
+#include "mesh/surface.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "mesh/bare.hpp"
+
+#include <limits>
+#include <string>
+
+namespace facetmill {
+
+namespace {
+
+/// The triangles of a mesh with polygons, and the face of each.
+void cut_polygons(const Mesh& mesh, Surface& surface) {
+    Mesh numbered = bare(mesh);
+    std::vector<std::uint32_t> numbers(mesh.face_count());
+    for (std::size_t f = 0; f < numbers.size(); ++f) numbers[f] = static_cast<std::uint32_t>(f);
+    numbered.attributes.push_back({"face", Domain::face, Role::index, 1, false, std::move(numbers)});
+    Mesh cut = triangulated(numbered);
+    surface.faces = std::get<std::vector<std::uint32_t>>(std::move(cut.attributes[0].data));
+    surface.positions = std::move(cut.positions);
+    surface.corners = std::move(cut.corners);
+}
+
+void append(Surface& all, Surface&& one, Index first_face) {
+    if (all.positions.size() + one.positions.size() > std::numeric_limits<Index>::max() ||
+        all.corners.size() + one.corners.size() > std::numeric_limits<Index>::max())
+        throw Error(ErrorKind::limit, "E-LIMIT", "the parts together have too many vertices or corners",
+                    "work on fewer parts at a time, or simplify first");
+    const auto base = static_cast<Index>(all.positions.size());
+    for (std::size_t t = 0; t < one.size(); ++t) all.faces.push_back(first_face + one.face(t));
+    for (const Index v : one.corners) all.corners.push_back(base + v);
+    all.positions.insert(all.positions.end(), one.positions.begin(), one.positions.end());
+}
+
+} // namespace
+
+Box Surface::bounds() const {
+    return parallel_reduce(
+        corners.size(), Box{},
+        [&](std::size_t begin, std::size_t end) {
+            Box box;
+            for (std::size_t c = begin; c < end; ++c)
+                if (is_finite(positions[corners[c]])) box.add(positions[corners[c]]);
+            return box;
+        },
+        [](Box a, const Box& b) { return a.add(b), a; });
+}
+
+Surface surface_of(const Mesh& mesh) {
+    Surface surface;
+    if (!mesh.all_triangles()) {
+        cut_polygons(mesh, surface);
+    } else {
+        surface.positions = mesh.positions;
+        surface.corners = mesh.corners;
+    }
+    if (mesh.has_seams())
+        parallel_for(surface.corners.size(),
+                     [&](std::size_t c) { surface.corners[c] = mesh.vertex_of_wedge(surface.corners[c]); });
+    return surface;
+}
+
+Surface surface_of(const Part& part) {
+    Surface surface = surface_of(part.mesh);
+    if (!part.skinned && !part.transform.identity())
+        parallel_for(surface.positions.size(), [&](std::size_t v) {
+            surface.positions[v] = part.transform.point(surface.positions[v]);
+        });
+    return surface;
+}
+
+Surface surface_of(std::span<const Part* const> parts) {
+    if (parts.size() == 1) return surface_of(*parts[0]);
+    Surface all;
+    Index first_face = 0;
+    for (const Part* part : parts) {
+        append(all, surface_of(*part), first_face);
+        first_face += static_cast<Index>(part->mesh.face_count());
+    }
+    return all;
+}
+
+Surface surface_of(const Scene& scene) {
+    std::vector<const Part*> parts;
+    for (const auto& part : scene.parts) parts.push_back(&part);
+    return surface_of(parts);
+}
+
+} // namespace facetmill

@@ -1,0 +1,83 @@
+#include "stage/options/box.hpp"
+
+#include "stage/options/numbers.hpp"
+
+#include "base/portable_math.hpp"
+#include "base/numbers.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+bool OptionType<BoxCorners>::parse(const Value& value, BoxCorners& out, Problems& problems) {
+    return parse_numbers(value, out.numbers,
+                         "a box ({min: [0, 0, 0], max: [1, 1, 1]}, {centre: [0, 0, 0], size: [1, 1, 1]}, "
+                         "[0, 0, 0, 1, 1, 1])",
+                         problems);
+}
+std::string OptionType<BoxCorners>::print(const BoxCorners& value) {
+    std::string text;
+    for (const double x : value.numbers) text += (text.empty() ? "[" : ", ") + to_string(x);
+    return text + "]";
+}
+Json OptionType<BoxCorners>::schema() { return numbers_schema(6); }
+
+void declare_box(Declare<BoxOption>& d) {
+    d.option("min", &BoxOption::min, "The corner with the least coordinates, in scene units.");
+    d.option("max", &BoxOption::max, "The corner with the greatest.");
+    d.option("centre", &BoxOption::centre, "The middle, in scene units; with size.");
+    d.option("size", &BoxOption::size, "The lengths of the edges, in scene units.");
+    d.option("axis", &BoxOption::axis, "The direction around which angle turns the box, about its middle.");
+    d.option("angle", &BoxOption::angle, "How far the box is turned, anticlockwise seen against the axis.");
+    d.at_most_one({"min", "centre"});
+    d.at_most_one({"max", "size"});
+    d.shorthand("[x, y, z, X, Y, Z]: the least and the greatest corner", OptionType<BoxCorners>::schema(),
+                [](const Value& value, BoxOption& out, Problems& problems) {
+                    BoxCorners c;
+                    if (!OptionType<BoxCorners>::parse(value, c, problems)) return false;
+                    const auto& n = c.numbers;
+                    out.min = {n[0], n[1], n[2]}, out.max = {n[3], n[4], n[5]};
+                    return true;
+                });
+}
+
+void verify_box(const BoxOption& box, const Mark& where, Problems& problems) {
+    const char* example =
+        "for example {min: [0, 0, 0], max: [1, 1, 1]} or {centre: [0, 0, 0], size: [1, 1, 1]}";
+    if (!(box.min && box.max) && !(box.centre && box.size))
+        return problems.add(where, "E-BOX", "a box needs min and max, or centre and size", example);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double extent = box.min ? (*box.max)[i] - (*box.min)[i] : (*box.size)[i];
+        if (!(extent > 0))
+            return problems.add(
+                where, "E-BOX", fmt::format("the box has no extent along {}: {}", "xyz"[i], to_string(extent)),
+                box.min ? "max must be greater than min in all three" : "sizes are above zero");
+    }
+    if (box.axis == Vec3{})
+        problems.add(where, "E-BOX", "the axis of the box is zero, so it has no direction",
+                     "for example axis: [0, 0, 1]");
+}
+
+std::vector<Plane> planes_of(const BoxOption& box) {
+    const Vec3 half = (box.min ? *box.max - *box.min : *box.size) * 0.5;
+    const Vec3 middle = box.min ? *box.min + half : *box.centre;
+    const Vec3 low = box.min ? *box.min : middle - half, high = box.min ? *box.max : middle + half;
+    std::vector<Plane> planes;
+    const double c = cosine(box.angle.radians), s = sine(box.angle.radians);
+    const Vec3 k = normalised(box.axis);
+    for (std::size_t i = 0; i < 3; ++i) {
+        Vec3 axis;
+        axis[i] = 1;
+        if (box.angle.radians != 0) { // Rodrigues
+            axis = axis * c + cross(k, axis) * s + k * (dot(k, axis) * (1 - c));
+            planes.push_back({axis, middle - axis * half[i], 0});
+            planes.push_back({-axis, middle + axis * half[i], 0});
+        } else {
+            planes.push_back({axis, low, 0});
+            planes.push_back({-axis, high, 0});
+        }
+    }
+    return planes;
+}
+
+} // namespace facetmill

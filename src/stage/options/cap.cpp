@@ -1,0 +1,32 @@
+#include "stage/options/cap.hpp"
+
+#include "mesh/placement.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+Index material_number(const Scene& scene, const std::string& name) {
+    Index i = 0;
+    while (i < scene.materials.size() && scene.materials[i].name != name) ++i;
+    return i;
+}
+
+void add_material(Scene& scene, const std::string& name) {
+    if (material_number(scene, name) == scene.materials.size()) scene.materials.emplace_back().name = name;
+}
+
+void warn_of_open(std::string_view stage, const Part& part, const std::vector<OpenContour>& open,
+                  Context& context) {
+    for (const OpenContour& contour : open) {
+        const Vec3 at = in_world(part, contour.at);
+        context.warn(
+            "W-CAP-OPEN",
+            fmt::format("{}: a contour of {} edges of part '{}' is open and was not capped; it ends at "
+                        "({:.6g}, {:.6g}, {:.6g})",
+                        stage, contour.edges, part.name, at.x, at.y, at.z),
+            "the part has a hole where the plane meets it; fill it first");
+    }
+}
+
+} // namespace facetmill

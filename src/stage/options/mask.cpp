@@ -1,0 +1,40 @@
+#include "stage/options/mask.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+void declare_mask(Declare<MaskSettings>& d) {
+    d.option("material", &MaskSettings::material, "Name or glob of the materials whose faces move.");
+    d.option("group", &MaskSettings::group,
+             "Number of the group whose faces move, as in face attribute group (without unit).");
+    d.option("attribute", &MaskSettings::attribute,
+             "A vertex, wedge or face attribute: its first number, cut to 0 .. 1, is the share of the move.")
+        .primary();
+    d.option("invert", &MaskSettings::invert, "Move the others, by the rest of the share.");
+    d.at_least_one({"material", "group", "attribute"});
+}
+
+std::vector<double> MaskOfParts::of(const Part& part) {
+    if (!settings_) return {};
+    auto shares = vertex_mask(part, scene_, *settings_);
+    vertices_ += shares.size();
+    selected_ += static_cast<std::size_t>(
+        std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0; }));
+    return shares;
+}
+
+void MaskOfParts::warn_if_idle(Context& context) const {
+    if (vertices_ == 0 || selected_ > 0) return;
+    std::string materials;
+    for (const auto& m : scene_.materials) materials += (materials.empty() ? "" : ", ") + m.name;
+    context.warn(
+        "W-MASK",
+        fmt::format("{}: the mask selects none of {} vertices: nothing moves", context.name(), vertices_),
+        settings_->material.empty() ? std::string("a vertex moves when all its faces are selected")
+        : materials.empty()         ? std::string("the scene has no materials")
+                                    : "the materials are " + materials);
+}
+
+} // namespace facetmill

@@ -1,0 +1,96 @@
+#include "stages/crop/footprint.hpp"
+
+#include "base/hash.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+bool refuse(const Value& value, Problems& problems) {
+    problems.add(
+        value.mark, "E-TYPE",
+        fmt::format("expected a footprint (a file, POLYGON ((0 0, 1 0, 1 1)), [[0, 0], [1, 0], [1, 1]], "
+                    "or a list of such rings), found {}",
+                    value.described()));
+    return false;
+}
+
+bool parse_text(const Value& value, FootprintOption& out, Problems& problems) {
+    try {
+        out.rings = io::parse_wkt(value.text, "the footprint");
+    } catch (const Error& error) {
+        problems.add(value.mark, "E-WKT", error.diagnostics().front().message);
+        return false;
+    }
+    return true;
+}
+
+bool parse_ring(const Value& value, FootprintOption& out, Problems& problems) {
+    if (!value.is_list()) return refuse(value, problems);
+    auto& ring = out.rings.emplace_back();
+    for (const Value& p : value.items) {
+        if (!p.is_list() || p.items.size() != 2) return refuse(p, problems);
+        Vec2 at;
+        if (!OptionType<double>::parse(p.items[0], at.x, problems) ||
+            !OptionType<double>::parse(p.items[1], at.y, problems))
+            return false;
+        ring.push_back(at);
+    }
+    return true;
+}
+
+/// Lists in a text, as one-liners have them.
+Value listed(const Json& json, const Mark& mark) {
+    if (!json.is_array())
+        return Value::scalar(json.is_string() ? json.get<std::string>() : json.dump(), mark);
+    Value list = Value::list({}, mark);
+    for (const Json& item : json) list.items.push_back(listed(item, mark));
+    return list;
+}
+
+} // namespace
+
+bool OptionType<FootprintOption>::parse(const Value& value, FootprintOption& out, Problems& problems) {
+    if (value.deferred) return true;
+    if (value.is_scalar() && io::is_wkt(value.text)) return parse_text(value, out, problems);
+    if (value.is_scalar() && value.text.starts_with('[')) {
+        const Json json = Json::parse(value.text, nullptr, false);
+        return json.is_array() ? parse(listed(json, value.mark), out, problems) : refuse(value, problems);
+    }
+    if (value.is_scalar() && !value.text.empty()) return out.path = value.text, true;
+    if (!value.is_list() || value.items.empty()) return refuse(value, problems);
+    const bool nested =
+        value.items[0].is_list() && !value.items[0].items.empty() && value.items[0].items[0].is_list();
+    if (!nested) return parse_ring(value, out, problems);
+    bool good = true;
+    for (const Value& ring : value.items) good &= parse_ring(ring, out, problems);
+    return good;
+}
+
+Json OptionType<FootprintOption>::schema() {
+    const Json point = {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+    const Json ring = {{"type", "array"}, {"items", point}, {"minItems", 3}};
+    return {{"anyOf", Json::array({{{"type", "string"}}, ring, {{"type", "array"}, {"items", ring}}})}};
+}
+
+void verify_footprint(const FootprintOption& option, const Value& value, std::string_view stage,
+                      Problems& problems) {
+    if (value.deferred || !option.path.empty()) return;
+    try {
+        static_cast<void>(Footprint(option.rings));
+    } catch (const Error& error) {
+        const Diagnostic& d = error.diagnostics().front();
+        problems.add(value.mark, d.id, fmt::format("{}: {}", stage, d.message), d.hint);
+    }
+}
+
+Footprint resolve_footprint(const FootprintOption& option, Context& context) {
+    if (option.path.empty()) return Footprint(option.rings);
+    const io::Input input = io::Input::open(context.places().input(option.path));
+    context.run().record.inputs.push_back({input.name(), input.stored().size(), sha256(input.stored()), {}});
+    return Footprint(io::read_footprint(input));
+}
+
+} // namespace facetmill

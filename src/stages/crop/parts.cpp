@@ -1,0 +1,93 @@
+#include "stages/crop/parts.hpp"
+
+#include "mesh/placement.hpp"
+#include "stage/both_sides.hpp"
+#include "stage/options/cap.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+class CropRun {
+  public:
+    CropRun(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context)
+        : scene_(scene), footprint_(footprint), both_(how.both), settings_(how.settings), context_(context),
+          sides_(scene) {
+        if (settings_.cap) set_cap(settings_, scene, how.cap_material);
+    }
+
+    void run(const std::string& cap_material) {
+        context_.for_each_part(scene_, [&](Part& part) { crop_part(part); });
+        if (caps_ > 0) add_material(scene_, cap_material);
+        sides_.insert();
+        context_.result() = {{"rings", footprint_.rings().size()},
+                             {"footprint_area", footprint_.area()},
+                             {"axis", std::string(1, "xyz"[settings_.axis])},
+                             {"cut_faces", cut_},
+                             {"cap_faces", caps_},
+                             {"open_contours", open_},
+                             {"snapped", snapped_},
+                             {"faces_before", before_},
+                             {"faces_after", after_}};
+    }
+
+  private:
+    void crop_part(Part& part) {
+        settings_.to_world = effective(part);
+        settings_.memory = part.cuts ? *part.cuts : CutMemory{};
+        const std::size_t faces = part.mesh.face_count();
+        std::vector<CropResult> sides;
+        if (both_)
+            sides = crop_both(part.mesh, footprint_, settings_);
+        else
+            sides.push_back(crop(part.mesh, footprint_, settings_));
+        warn(part, sides, faces);
+        before_ += faces, cut_ += sides[0].cut_faces, snapped_ += sides[0].snapped;
+        CutMemory memory;
+        for (CropResult& r : sides) {
+            after_ += r.mesh.face_count(), caps_ += r.cap_faces, open_ += r.open.size();
+            context_.ledger(part, r.fates);
+            for (auto& entry : r.memory.entries) memory.add(entry.plane, std::move(entry.points));
+        }
+        if (!memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(memory));
+        part.mesh = {};
+        if (both_) sides_.part_in_two(part, ".inside", ".outside", std::move(sides[1].mesh));
+        part.mesh = std::move(sides[0].mesh);
+    }
+
+    void warn(const Part& part, const std::vector<CropResult>& sides, std::size_t faces) {
+        constexpr const char* hint = "check the footprint's place and axis; info prints the bounds";
+        std::size_t left = 0;
+        bool changed = false;
+        for (const CropResult& r : sides) {
+            warn_of_open("crop", part, r.open, context_);
+            left += r.mesh.face_count(), changed |= r.mesh.face_count() > 0 && r.changed;
+        }
+        if (faces > 0 && left == 0)
+            context_.warn("W-CROP-NOTHING", fmt::format("crop: nothing of part '{}' was kept", part.name),
+                          hint);
+        else if (faces > 0 && !changed)
+            context_.warn(
+                "W-CROP-ALL",
+                fmt::format("crop: the outline does not meet part '{}', all of it was kept", part.name),
+                hint);
+    }
+
+    Scene& scene_;
+    const Footprint& footprint_;
+    bool both_;
+    CropSettings settings_;
+    Context& context_;
+    BothSides sides_;
+    std::size_t cut_ = 0, before_ = 0, after_ = 0, caps_ = 0, open_ = 0, snapped_ = 0;
+};
+
+} // namespace
+
+void crop_parts(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context) {
+    CropRun(scene, footprint, how, context).run(how.cap_material);
+}
+
+} // namespace facetmill

@@ -1,0 +1,120 @@
+#include "stage/options/cap.hpp"
+#include "stages/crop/parts.hpp"
+#include "stages/crop/footprint.hpp"
+#include "stage/options/snap.hpp"
+#include "stage/stage.hpp"
+
+namespace facetmill {
+
+namespace {
+
+enum class Axis { up, x, y, z };
+enum class CropKeep { inside, outside, both };
+
+struct CropOptions {
+    FootprintOption footprint;
+    Axis axis = Axis::up;
+    CropBy by = CropBy::cut;
+    CropKeep keep = CropKeep::inside;
+    InsideBy inside_by = InsideBy::crossings;
+    bool cap = false;
+    std::string cap_material = "cap";
+    Snap snap = Snap::automatic;
+};
+
+void declare(Declare<CropOptions>& d) {
+    d.option("footprint", &CropOptions::footprint,
+             "The polygon, in scene units: a GeoJSON, WKT or DXF file; WKT; a ring of points, or a list of "
+             "rings, of "
+             "which those within others are holes.")
+        .required()
+        .primary();
+    d.choice<Axis>("axis", &CropOptions::axis,
+                   {{"up", Axis::up, "the scene's up axis; z when it is not known"},
+                    {"x", Axis::x, "the footprint is in y and z"},
+                    {"y", Axis::y, "the footprint is in x and z"},
+                    {"z", Axis::z, "the footprint is in x and y"}},
+                   "The axis to look along.");
+    d.choice<CropBy>("by", &CropOptions::by,
+                     {{"cut", CropBy::cut, "faces are cut at the outline"},
+                      {"whole", CropBy::whole, "faces that lie wholly on the kept side stay"},
+                      {"centre", CropBy::centre, "faces whose corners' mean lies there stay"},
+                      {"touching", CropBy::touching, "faces of which any part lies there stay"}},
+                     "What happens to faces at the outline.");
+    d.choice<CropKeep>("keep", &CropOptions::keep,
+                       {{"inside", CropKeep::inside, "what lies in the polygon and not in its holes"},
+                        {"outside", CropKeep::outside, "the rest"},
+                        {"both", CropKeep::both, "both, as parts NAME.inside and NAME.outside"}},
+                       "Which side stays.");
+    d.choice<InsideBy>(
+        "inside_by", &CropOptions::inside_by,
+        {{"crossings", InsideBy::crossings, "how many edges lie to one side; exact and fast"},
+         {"angles", InsideBy::angles, "the sum of the angles that the edges subtend"},
+         {"half_planes", InsideBy::half_planes, "one side of all edges; for one convex ring"},
+         {"angles_3d", InsideBy::angles_3d, "the sum of unsigned angles; for one convex ring"}},
+        "How it is found whether a point is inside; all give the same.");
+    declare_cap(d, &CropOptions::cap, &CropOptions::cap_material);
+    declare_snap(d, &CropOptions::snap, "the outline");
+}
+
+std::size_t axis_of(const CropOptions& o, const Scene& scene) {
+    if (o.axis == Axis::up) return scene.up == UpAxis::y ? 1 : 2;
+    return o.axis == Axis::x ? 0 : o.axis == Axis::y ? 1 : 2;
+}
+
+Scene run(Scene scene, const CropOptions& o, Context& context) {
+    PartsToCrop how;
+    how.settings.axis = axis_of(o, scene), how.settings.by = o.by, how.settings.inside_by = o.inside_by;
+    how.settings.keep = o.keep == CropKeep::outside ? polygon::Keep::outside : polygon::Keep::inside;
+    how.settings.cap = o.cap, how.settings.snap = o.snap == Snap::automatic;
+    how.both = o.keep == CropKeep::both, how.cap_material = o.cap_material;
+    crop_parts(scene, resolve_footprint(o.footprint, context), how, context);
+    return scene;
+}
+
+void verify(const CropOptions& o, const Value& given, Problems& problems) {
+    const auto find = [&](const char* name) { return given.is_map() ? given.find(name) : nullptr; };
+    const Value* footprint = given.is_map() ? find("footprint") : &given;
+    if (footprint) verify_footprint(o.footprint, *footprint, "crop", problems);
+    if (o.cap && o.by != CropBy::cut)
+        problems.add(find("cap")->mark, "E-CROP",
+                     "crop: walls stand on the outline, and by whole faces nothing is cut there",
+                     "leave out cap, or take by: cut");
+}
+
+StageFiles files(const CropOptions& o) {
+    if (o.footprint.path.empty()) return {};
+    return {{PathText{o.footprint.path}}, {}};
+}
+
+const RegisterStage registered{make_stage<CropOptions>(
+    {.name = "crop",
+     .about = "Keeps what lies in a polygon seen along an axis, or outside it.",
+     .details =
+         "The footprint is a polygon with holes and islands, in the world's coordinates across the axis. "
+         "What is in an odd number of its rings is inside, whichever way round they run; a last point that "
+         "repeats the first may be there or not. A footprint that crosses itself is refused with the "
+         "place.\n\n"
+         "Cut at the outline, faces get points where the outline passes over them, one for each edge, shared "
+         "by the faces there, so no crack opens; a face at a corner of the outline falls into a few more "
+         "pieces than it must. With cap, a closed part stays closed: upright walls stand on the outline and "
+         "on its holes, and those of the inside and the outside fit exactly. cut_id numbers the walls by the "
+         "outline's segments, group by its rings. Without cap, closed parts become open. Positions that are "
+         "32-bit floats count as on the outline within one float's rounding of the part's bounds: the 0.1 of "
+         "an STL is not that of a footprint. New vertices and wedges are interpolated, pieces copy the "
+         "attributes of their face. By whole faces, nothing is mixed; corners on the outline count to either "
+         "side.\n\n"
+         "Files: GeoJSON (Polygon, MultiPolygon, features and collections of them), WKT (POLYGON, "
+         "MULTIPOLYGON), DXF as text (closed polylines and circles; arcs in segments of at most 5 "
+         "degrees).\n\n"
+         "Source: the note on points inside a polygon (1987).",
+     .examples = {"crop: [[0, 0], [10, 0], [10, 5], [0, 5]]",
+                  "crop: {footprint: \"POLYGON ((0 0, 4 0, 4 4, 0 4), (1 1, 2 1, 2 2, 1 2))\", by: whole}",
+                  "crop: {footprint: parcel.geojson, keep: outside, axis: z}",
+                  "crop: {footprint: parcel.geojson, keep: both, cap: true}",
+                  "crop: {footprint: [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]], cap: true}"}},
+    declare, run, StageHooks<CropOptions>{.files = files, .verify = verify})};
+
+} // namespace
+
+} // namespace facetmill

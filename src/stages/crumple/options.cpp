@@ -1,0 +1,94 @@
+#include "stages/crumple/options.hpp"
+
+#include "mesh/power_scale.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using Boundary = CrumpleSettings::Boundary;
+using Direction = CrumpleSettings::Direction;
+using Intersections = CrumpleOptions::Intersections;
+
+void declare_noise(Declare<CrumpleOptions>& d) {
+    d.option(
+         "frequency", &CrumpleOptions::frequency,
+         "How many bumps there are along the diagonal of the scene (a number without unit): vertices near "
+         "each other move alike. 0 moves every vertex on its own, as the note does.")
+        .at_least(0);
+    d.option(
+         "octaves", &CrumpleOptions::octaves,
+         "Goes with frequency: how many noises are added, each of twice the frequency of the one before (a "
+         "count); several give a fractal surface.")
+        .between(1, 32);
+    d.option(
+         "roughness", &CrumpleOptions::roughness,
+         "Goes with frequency and octaves: the amount of each beside the one before (a share, without unit).")
+        .above(0)
+        .at_most(1);
+    d.option("seed", &CrumpleOptions::seed, "Another seed gives other noise (an integer, without unit).")
+        .at_least(0);
+    d.option("truncate", &CrumpleOptions::truncate,
+             "No amount is larger than this many standard deviations (without unit); the distribution is cut "
+             "off there.")
+        .between(0.1, 100);
+}
+
+} // namespace
+
+void declare_crumple(Declare<CrumpleOptions>& d) {
+    d.option(
+         "amplitude", &CrumpleOptions::amplitude,
+         "The standard deviation of each displacement (a length; 0.2% of the scene's diagonal unless given).")
+        .at_least(0)
+        .primary();
+    d.option("grid", &CrumpleOptions::grid,
+             "How many pieces each edge is cut into before (a count): every face becomes n x n; 1 leaves "
+             "them whole.")
+        .between(1, 10000);
+    d.choice<Direction>("direction", &CrumpleOptions::direction,
+                        {{"free", Direction::free, "three independent amounts along x, y and z"},
+                         {"normal", Direction::normal, "one amount along the vertex normal"}},
+                        "Where vertices go.");
+    d.choice<Boundary>(
+        "boundary", &CrumpleOptions::boundary,
+        {{"free", Boundary::free, "they move as all others"}, {"fixed", Boundary::fixed, "they stay"}},
+        "What boundary vertices do: those on an edge with exactly one face, unwelded copies counted as one.");
+    d.choice<Intersections>(
+        "self_intersections", &CrumpleOptions::self_intersections,
+        {{"allow", Intersections::allow, "faces may come to meet"},
+         {"avoid", Intersections::avoid,
+          "vertices of faces that would meet go 1/2, 1/4 ... 1/256 of their way, or stay"},
+         {"forbid", Intersections::forbid, "fail when faces would meet"}},
+        "What happens when faces of a part would run into each other or fold over. With avoid and forbid, "
+        "positions are rounded to float32, which is what files hold.");
+    d.group("mask", &CrumpleOptions::mask, mask_help, declare_mask);
+    declare_noise(d);
+    d.option("triangulate", &CrumpleOptions::triangulate,
+             "Cut the quads, which are no longer planar, into triangles along the shorter diagonal.");
+}
+
+void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& problems) {
+    if (!given.is_map() || o.frequency > 0) return;
+    const Value* frequency = given.find("frequency");
+    if (frequency && frequency->deferred) return;
+    for (const char* name : {"octaves", "roughness"})
+        if (const Value* value = given.find(name))
+            problems.add(value->mark, "E-EXCLUSIVE",
+                         fmt::format("crumple: '{}' goes with a frequency above 0 only", name),
+                         "for example frequency: 4, or leave it out");
+}
+
+CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene) {
+    CrumpleSettings s;
+    s.direction = o.direction, s.boundary = o.boundary;
+    s.seed = static_cast<std::uint64_t>(o.seed), s.truncate = o.truncate;
+    const double whole = diagonal(scene.bounds());
+    s.frequency = whole > 0 ? o.frequency / whole : 0;
+    s.octaves = static_cast<int>(o.octaves), s.roughness = o.roughness;
+    return s;
+}
+
+} // namespace facetmill

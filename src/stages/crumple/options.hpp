@@ -1,0 +1,33 @@
+#pragma once
+// The options of crumple, and what they come to.
+
+#include "geometry/crumple/crumple.hpp"
+#include "stage/options/mask.hpp"
+
+namespace facetmill {
+
+struct CrumpleOptions {
+    enum class Intersections { allow, avoid, forbid };
+
+    Length amplitude = Length::percent(0.2);
+    std::int64_t grid = 3;
+    CrumpleSettings::Direction direction = CrumpleSettings::Direction::free;
+    CrumpleSettings::Boundary boundary = CrumpleSettings::Boundary::free;
+    std::int64_t seed = 0;
+    double truncate = 3;
+    bool triangulate = false;
+    double frequency = 0;
+    std::int64_t octaves = 1;
+    double roughness = 0.5;
+    Intersections self_intersections = Intersections::allow;
+    std::optional<MaskSettings> mask;
+};
+
+void declare_crumple(Declare<CrumpleOptions>& d);
+/// What the declaration cannot say: options that go with a frequency only.
+void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& problems);
+
+/// What is the same for all parts; amplitude, transform and mask are each part's own.
+CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene);
+
+} // namespace facetmill

@@ -1,0 +1,35 @@
+#pragma once
+// What crumple says of its parts.
+
+#include "geometry/crumple/crumple.hpp"
+#include "geometry/split/split.hpp"
+#include "stage/context.hpp"
+
+#include <span>
+
+namespace facetmill {
+
+/// A part between being split and being moved.
+struct CrumpledPart {
+    Part* part;
+    SplitResult pieces;
+    std::vector<Vec3> before;
+    Transform to_world;
+};
+
+/// What keeping faces apart came to, for the report.
+Json described(const AvoidResult& r);
+
+/// Throws stage (E-INTERSECTS): the first pair of faces that would meet, by the faces that came in, of which
+/// each became grid * grid.
+[[noreturn]] void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> parts,
+                                       std::int64_t grid);
+
+/// Warns of an amplitude that is larger than the edges: nothing tears, but faces run into each other.
+void warn_of_tangles(const CrumpledPart& part, double amplitude, Context& context);
+/// Warns of concave quads, which cannot be split n x n without folds.
+void warn_of_folds(const CrumpledPart& part, Context& context);
+/// Warns when parts are so near each other that their faces may have come to meet.
+void warn_of_parts(const Scene& scene, Context& context);
+
+} // namespace facetmill

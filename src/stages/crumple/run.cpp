@@ -1,0 +1,132 @@
+#include "base/memory.hpp"
+#include "geometry/edit/moved.hpp"
+#include "mesh/placement.hpp"
+#include "stages/crumple/options.hpp"
+#include "stages/crumple/report.hpp"
+#include "stage/stage.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using Intersections = CrumpleOptions::Intersections;
+
+/// Splits the part, in this stage's words when that cannot be.
+SplitResult split_part(const Part& part, std::int64_t grid) {
+    try {
+        return grid_split(part.mesh, static_cast<int>(grid));
+    } catch (const Error& e) {
+        auto diagnostics = e.diagnostics();
+        for (auto& d : diagnostics) {
+            if (d.message.starts_with("split: "))
+                d.message = fmt::format("crumple: part '{}', every face split {} x {}: {}", part.name, grid,
+                                        grid, d.message.substr(7));
+            if (e.kind() == ErrorKind::limit) d.hint = "use a smaller grid, or simplify before";
+        }
+        throw Error(e.kind(), std::move(diagnostics));
+    }
+}
+
+/// Refuses before anything is split what could not be kept apart afterwards.
+void require_room(const Scene& scene, const CrumpleOptions& o, const Context& context) {
+    if (o.self_intersections == Intersections::allow) return;
+    double triangles = 0;
+    for (const Part& part : scene.parts)
+        if (context.selects(part, scene))
+            triangles += static_cast<double>(part.mesh.corner_count()) - 2.0 * part.mesh.face_count();
+    triangles *= static_cast<double>(o.grid) * static_cast<double>(o.grid);
+    require_memory(move_apart_memory(triangles),
+                   fmt::format("crumple: keeping {:.3g} triangles apart", triangles),
+                   "use a smaller grid, or self_intersections: allow");
+}
+
+/// Moves all vertices, as far as self_intersections lets them.
+void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, const CrumpleOptions& o,
+          Context& context) {
+    hold_together(sheets);
+    if (o.self_intersections != Intersections::allow) {
+        const bool forbid = o.self_intersections == Intersections::forbid;
+        const AvoidResult r = move_apart(sheets, forbid);
+        if (r.left > 0) refuse_intersections(r, works, o.grid);
+        context.result()["self_intersections"] = described(r);
+        return;
+    }
+    for (auto& sheet : sheets)
+        for (std::size_t v = 0; v < sheet.moves.moves.size(); ++v)
+            sheet.mesh->positions[v] += sheet.moves.moves[v];
+}
+
+Scene run(Scene scene, const CrumpleOptions& o, Context& context) {
+    CrumpleSettings settings = crumple_settings(o, scene);
+    require_room(scene, o, context);
+    std::vector<CrumpledPart> works;
+    std::vector<CrumpleSheet> sheets;
+    MaskOfParts masks(scene, o.mask);
+    context.for_each_part(scene, [&](Part& part) {
+        settings.amplitude = context.resolve(o.amplitude, scene, "amplitude", &part);
+        settings.to_world = effective(part);
+        SplitResult pieces = split_part(part, o.grid);
+        part.mesh = std::move(pieces.mesh);
+        settings.mask = masks.of(part);
+        sheets.push_back({&part.mesh, crumple_moves(part.mesh, settings)});
+        works.push_back({&part, std::move(pieces), part.mesh.positions, settings.to_world});
+        warn_of_folds(works.back(), context);
+        if (o.self_intersections == Intersections::allow && o.frequency == 0)
+            warn_of_tangles(works.back(), settings.amplitude, context);
+    });
+    masks.warn_if_idle(context);
+    move(works, sheets, o, context);
+    if (o.self_intersections != Intersections::allow) warn_of_parts(scene, context);
+    Json parts = Json::array();
+    for (std::size_t i = 0; i < works.size(); ++i) {
+        Part& part = *works[i].part;
+        CrumpleResult r = crumple_settled(std::move(part.mesh), works[i].before, works[i].to_world);
+        part.mesh = o.triangulate ? triangulated(r.mesh) : std::move(r.mesh);
+        context.ledger(part, joined(works[i].pieces.fates, std::move(r.fates)));
+        parts.push_back({{"part", part.name},
+                         {"added_faces", works[i].pieces.added},
+                         {"moved_vertices", r.moved},
+                         {"held_vertices", sheets[i].moves.held},
+                         {"largest_move", r.largest_move},
+                         {"root_mean_square_move", r.root_mean_square}});
+    }
+    context.result()["parts"] = std::move(parts);
+    return scene;
+}
+
+const RegisterStage registered = make_stage<CrumpleOptions>(
+    {.name = "crumple",
+     .about = "Roughens a surface: faces are split n x n and every vertex is displaced by a Gaussian amount.",
+     .details =
+         "Each vertex moves once, by normally distributed amounts of mean 0 and the given standard "
+         "deviation, cut off at `truncate`. Faces that share a vertex move with it, so nothing tears and the "
+         "topology stays, with boundary: fixed and under a mask too, where a place moves by the least share "
+         "of all vertices there; faces may come to intersect when the amplitude is large beside their "
+         "size.\n\n"
+         "The noise at a vertex depends on the seed and on its world position rounded to float32, and on "
+         "nothing else: vertices at one place move together across seams, unwelded copies, parts and files, "
+         "and neither the order of vertices nor the number of threads matters. Along the normal, places "
+         "shared by several parts have a normal in each and may part; and a frequency is counted along the "
+         "scene, so files crumple alike only when their diagonals are the same.\n\n"
+         "With self_intersections: avoid, each place has a share of its move: 1, 1/2 ... 1/256, 0. In every "
+         "round all pairs of faces that newly meet, fold over or lose their area are found, exactly, and "
+         "their vertices take the next lower share, all at once, until there are none; after eight rounds "
+         "the vertices around them too. Pairs that met before are exempt. The report has how many pairs "
+         "there would have been and how many vertices got which share. Only faces of the same part are kept "
+         "apart (W-CRUMPLE-PARTS warns when others are near), and what they need of memory is refused before "
+         "it starts.\n\n"
+         "Splitting interpolates vertex and wedge attributes and copies those of faces; then normals are "
+         "recomputed, tangents made perpendicular to them, and all else is kept. The report has the largest "
+         "and the root mean square displacement, in world units.\n\n"
+         "Source: the note 'Geometric crumpling' (1994).",
+     .examples = {"crumple: 0.2%", "crumple: {grid: 3, amplitude: 0.5mm, seed: 7}",
+                  "crumple: {grid: 1, amplitude: 1%, direction: normal, boundary: fixed}",
+                  "crumple: {grid: 4, amplitude: 1%, self_intersections: avoid}",
+                  "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"}},
+    declare_crumple, run, {.verify = verify_crumple});
+
+} // namespace
+
+} // namespace facetmill

@@ -1,0 +1,28 @@
+#pragma once
+// The options of generate, and what they come to.
+
+#include "geometry/generate/generate.hpp"
+#include "stage/stage.hpp"
+
+namespace facetmill {
+
+struct GenerateOptions {
+    Shape shape = Shape::sphere;
+    std::optional<Length> radius, tube, size, height, spread;
+    std::optional<std::int64_t> faces, around, across, cells, level;
+    bool caps = true;
+    bool quads = false;
+    Length noise = Length::scene(0);
+    std::int64_t seed = 0;
+    Unit unit = Unit::unknown;
+    std::string name;
+};
+
+/// As pipelines spell it.
+const char* to_string(Shape shape);
+
+void declare_generate(Declare<GenerateOptions>& d);
+/// What the declaration cannot say: options of other shapes, counts whose limits depend on the shape.
+void verify_generate(const GenerateOptions& o, const Value& given, Problems& problems);
+
+} // namespace facetmill

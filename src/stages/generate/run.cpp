@@ -1,0 +1,115 @@
+#include "base/error.hpp"
+#include "mesh/power_scale.hpp"
+#include "io/convert.hpp"
+#include "stages/generate/options.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+/// What is being made, in its own unit.
+struct Made {
+    Scene scene;
+    double of_entering = 1; ///< that unit's share of the entering scene's, which percentages are of
+};
+
+Made made_for(const Scene& entering, Unit unit) {
+    Made made;
+    made.scene.unit = unit == Unit::unknown ? entering.unit : unit;
+    made.scene.up = UpAxis::z;
+    const double from = metres(entering.unit), to = metres(made.scene.unit);
+    if (from > 0 && to > 0) made.of_entering = from / to;
+    return made;
+}
+
+/// The length in the unit of the shape. Refuses a percentage of nothing.
+double resolved_length(const Length& length, const Made& made, const char* name, Context& context) {
+    const double x = context.resolve(length, made.scene, name) *
+                     (length.kind == Length::Kind::percent ? made.of_entering : 1);
+    if (length.kind == Length::Kind::percent && length.amount > 0 && x == 0)
+        throw Error(ErrorKind::usage, "E-RANGE",
+                    fmt::format("generate: '{}' is {}, but {}", name, length.text,
+                                length.of == Length::Of::load ? "nothing has been loaded yet"
+                                                              : "the scene is empty yet"),
+                    "give a number, or a length with a unit");
+    return x;
+}
+
+/// The options as numbers; lengths in the unit of the scene that they are read for.
+GenerateSettings resolved(const GenerateOptions& o, const Made& made, Context& context) {
+    GenerateSettings s;
+    s.shape = o.shape;
+    const auto set = [&](double& out, const std::optional<Length>& length, const char* name,
+                         double otherwise) {
+        out = length ? resolved_length(*length, made, name, context) : otherwise;
+    };
+    set(s.radius, o.radius, "radius", 1);
+    set(s.size, o.size, "size", 2);
+    set(s.tube, o.tube, "tube", 0.4 * s.radius);
+    set(s.height, o.height, "height", o.shape == Shape::gaussian ? s.size / 2 : 2 * s.radius);
+    set(s.spread, o.spread, "spread", 0.15 * s.size);
+    const bool rows = o.shape == Shape::cylinder || o.shape == Shape::cone;
+    s.around = o.around.value_or(48);
+    s.across = o.across.value_or(rows ? 1 : 24);
+    if (o.shape == Shape::sphere && !o.around && !o.across) {
+        const SphereBands bands = sphere_bands(o.faces.value_or(4000));
+        s.around = bands.around, s.across = bands.across;
+    }
+    s.cells = o.cells.value_or(o.shape == Shape::gaussian ? 40 : 10);
+    s.level = o.level.value_or(o.shape == Shape::menger ? 2 : 3);
+    s.caps = o.caps, s.quads = o.quads;
+    return s;
+}
+
+/// A percentage of noise is of the shape itself: the scene that enters may be empty.
+double noise_of(const GenerateOptions& o, const Made& made, const Part& part, Context& context) {
+    if (o.noise.kind != Length::Kind::percent || o.noise.of == Length::Of::load)
+        return resolved_length(o.noise, made, "noise", context);
+    Length of_shape = o.noise;
+    of_shape.of = Length::Of::part;
+    return context.resolve(of_shape, made.scene, "noise", &part);
+}
+
+Scene run(Scene scene, const GenerateOptions& o, Context& context) {
+    Made made = made_for(scene, o.unit);
+    Part& part = made.scene.parts.emplace_back();
+    part.name = o.name.empty() ? to_string(o.shape) : o.name;
+    part.changed = true;
+    part.mesh = generate(resolved(o, made, context));
+    const double noise = noise_of(o, made, part, context);
+    part.mesh = with_noise(std::move(part.mesh), noise, static_cast<std::uint64_t>(o.seed));
+    const Json result = {{"shape", to_string(o.shape)},
+                         {"vertices", part.mesh.vertex_count()},
+                         {"faces", part.mesh.face_count()}};
+    io::add_scene(scene, std::move(made.scene));
+    context.result() = result;
+    context.result()["part"] = scene.parts.back().name;
+    context.run().load_diagonal = diagonal(scene.bounds());
+    return scene;
+}
+
+const RegisterStage registered = make_stage<GenerateOptions>(
+    {.name = "generate",
+     .about = "Makes a shape from numbers and adds it to the scene: spheres, cube, torus, Menger sponge ...",
+     .details =
+         "The shape becomes a new part. It is centred on the origin with its axis along z (grid and gaussian "
+         "stand on z = 0), and all its faces are seen anticlockwise from outside. Sphere, icosphere, cube, "
+         "torus, menger, and cylinder and cone with caps are closed and manifold; grid and gaussian are "
+         "open. In a scene that has parts already, the shape is converted to the scene's unit and up "
+         "axis.\n\n"
+         "Faces are triangles, quads cut along their shorter diagonal, or quads on request. Noise moves each "
+         "vertex by independent normal amounts along x, y and z, cut off at three standard deviations; it "
+         "depends on the seed and the vertex's place alone. Each option goes with the shapes that its help "
+         "names and is refused with others. A shape that does not fit into memory is refused before it is "
+         "built (E-MEMORY).",
+     .examples = {"generate: sphere", "generate: {shape: menger, level: 3, quads: true}",
+                  "generate: {shape: gaussian, cells: 60, noise: 0.3%, seed: 4}",
+                  "generate: {shape: cylinder, radius: 5mm, height: 20mm, unit: mm}"},
+     .loads = true},
+    declare_generate, run, {.verify = verify_generate});
+
+} // namespace
+
+} // namespace facetmill

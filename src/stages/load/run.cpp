@@ -1,0 +1,119 @@
+#include "base/glob.hpp"
+#include "base/hash.hpp"
+#include "base/spelling.hpp"
+#include "mesh/power_scale.hpp"
+#include "io/convert.hpp"
+#include "stage/options/convention.hpp"
+#include "stage/stage.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+struct LoadOptions {
+    std::vector<PathText> path;
+    Unit unit = Unit::unknown;
+    UpAxis up = UpAxis::unknown;
+    std::string format;
+    io::Weld weld = io::Weld::automatic;
+};
+
+void declare(Declare<LoadOptions>& d) {
+    d.option("path", &LoadOptions::path,
+             "The mesh file, a glob (scan_*.ply), or a list of them; - is standard input.")
+        .primary()
+        .required();
+    d.choice<Unit>("unit", &LoadOptions::unit,
+                   unit_choices("auto", "as the format says; unknown where it says nothing"),
+                   "What one unit of the file's numbers is.");
+    d.choice<UpAxis>("up", &LoadOptions::up,
+                     up_choices("auto", "as the format says; unknown where it says nothing"),
+                     "Which axis points up in the file.");
+    d.option("format", &LoadOptions::format, "The format's name, when neither content nor suffix tell it.");
+    d.choice<io::Weld>(
+        "weld", &LoadOptions::weld,
+        {{"auto", io::Weld::automatic, "where the format has no indices (STL) or splits vertices (glTF)"},
+         {"none", io::Weld::off, "never"},
+         {"exact", io::Weld::exact, "always"}},
+        "Whether vertices at exactly the same place become one.");
+}
+
+void verify(const LoadOptions& o, const Value& given, Problems& problems) {
+    if (o.format.empty() || io::codec_named(o.format)) return;
+    std::vector<std::string> names;
+    for (const auto& c : io::codecs()) names.push_back(c.name);
+    const Value* value = given.is_map() ? given.find("format") : nullptr;
+    if (value && value->deferred) return;
+    problems.add(value ? value->mark : given.mark, "E-FORMAT",
+                 fmt::format("there is no format '{}'", o.format), suggestion(o.format, names));
+}
+
+void record_input(Context& context, const std::string& path, io::Span bytes) {
+    std::string sum = sha256(bytes);
+    context.run().outputs.protect(path, sum);
+    context.run().record.inputs.push_back({path, bytes.size(), std::move(sum), {}});
+}
+
+io::ReadSettings read_settings(const LoadOptions& o) {
+    io::ReadSettings settings;
+    settings.weld = o.weld;
+    if (o.unit != Unit::unknown) settings.unit = o.unit;
+    if (o.up != UpAxis::unknown) settings.up = o.up;
+    return settings;
+}
+
+void load_file(Scene& scene, const std::filesystem::path& path, const LoadOptions& o, Context& context) {
+    const io::Input input = io::Input::open(path);
+    record_input(context, input.name(), input.stored());
+    io::ReadLog log;
+    Scene more = io::read_scene(input, read_settings(o), log, io::codec_named(o.format));
+    for (const auto& w : log.warnings)
+        context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
+    for (const auto& file : log.files) record_input(context, file.string(), io::Input::open(file).stored());
+    const bool first = scene.parts.empty();
+    const io::Conversion done = io::add_scene(scene, std::move(more));
+    if (!first && done.unit_guessed)
+        context.warn(
+            "W-UNITS",
+            fmt::format("'{}' has no unit: its numbers are taken as {}", input.name(), to_string(scene.unit)),
+            "say it: load: {path: ..., unit: mm}");
+}
+
+Scene run(Scene scene, const LoadOptions& o, Context& context) {
+    for (const auto& text : o.path) {
+        const std::filesystem::path path = context.places().input(text.text);
+        const auto files = text.text == "-" ? std::vector{path} : expand_glob(path);
+        if (files.empty())
+            throw Error(ErrorKind::missing, "E-FILE", fmt::format("no file matches '{}'", text.text));
+        for (const auto& file : files) load_file(scene, file, o, context);
+    }
+    context.run().load_diagonal = diagonal(scene.bounds());
+    return scene;
+}
+
+StageFiles files(const LoadOptions& o) { return {o.path, {}}; }
+
+io::FileHeader header(const LoadOptions& o, const std::filesystem::path& path) {
+    return io::file_header(io::Input::open(path), read_settings(o), io::codec_named(o.format));
+}
+
+const RegisterStage registered{make_stage<LoadOptions>(
+    {.name = "load",
+     .about = "Reads mesh files and adds their parts to the scene.",
+     .details = "Files are recognised by their content, else by their suffix; .gz is "
+                "inflated. Each mesh, solid or object of "
+                "a file becomes a part, named as in the file, else after the file; "
+                "names are made unique. A scene has the "
+                "unit and the up axis of what was loaded first, and later files are "
+                "converted to it. Broken meshes are held "
+                "as they are; a malformed file is refused with its line or byte.",
+     .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",
+                  "load: [body.obj, \"wheel_*.obj\"]"},
+     .loads = true},
+    declare, run, StageHooks<LoadOptions>{.files = files, .verify = verify, .header = header})};
+
+} // namespace
+
+} // namespace facetmill

@@ -1,0 +1,98 @@
+#include "stages/separate/options.hpp"
+
+#include "geometry/clean/solid_pieces.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace facetmill {
+
+namespace {
+
+using By = SeparateOptions::By;
+
+template <class Key, class Name>
+PieceLabels labelled(std::size_t faces, Key&& key_of, Name&& name_of) {
+    PieceLabels labels;
+    std::map<std::int64_t, Index> numbers;
+    for (Index f = 0; f < faces; ++f) {
+        const std::int64_t key = key_of(f);
+        const auto [at, fresh] = numbers.try_emplace(key, static_cast<Index>(labels.names.size()));
+        if (fresh) labels.names.push_back(name_of(key, labels.names.size()));
+        labels.of_face.push_back(at->second);
+    }
+    return labels;
+}
+
+PieceLabels by_material(const Part& part, const Scene& scene) {
+    const Mesh& mesh = part.mesh;
+    const auto material_of = [&](Index f) {
+        const Index p = mesh.primitive_of(f);
+        return p < mesh.primitives.size() ? std::int64_t{mesh.primitives[p].material} : std::int64_t{none};
+    };
+    return labelled(mesh.face_count(), material_of, [&](std::int64_t material, std::size_t) {
+        const bool named = material < static_cast<std::int64_t>(scene.materials.size()) &&
+                           !scene.materials[static_cast<std::size_t>(material)].name.empty();
+        return part.name + "." +
+               (named                            ? scene.materials[static_cast<std::size_t>(material)].name
+                : material == std::int64_t{none} ? "none"
+                                                 : std::to_string(material));
+    });
+}
+
+PieceLabels by_group(const Part& part, const std::string& attribute) {
+    const Attribute* a = part.mesh.find(attribute, Domain::face);
+    if (!a)
+        throw Error(ErrorKind::stage, "E-GROUP",
+                    fmt::format("separate: part '{}' has no face attribute '{}'", part.name, attribute),
+                    "merge makes 'group'; info lists the attributes");
+    constexpr double largest = 9007199254740992; // beyond 2^53 doubles skip integers
+    for (Index f = 0; f < part.mesh.face_count(); ++f)
+        if (const double x = a->value(f, 0); !(std::abs(x) <= largest) || x != std::floor(x))
+            throw Error(ErrorKind::stage, "E-GROUP",
+                        fmt::format("separate: '{}' of part '{}' numbers no groups: it is {} at face {}",
+                                    attribute, part.name, x, f),
+                        "a group is a whole number");
+    return labelled(
+        part.mesh.face_count(), [&](Index f) { return static_cast<std::int64_t>(a->value(f, 0)); },
+        [&](std::int64_t group, std::size_t) { return fmt::format("{}.{}", part.name, group); });
+}
+
+} // namespace
+
+void declare_separate(Declare<SeparateOptions>& d) {
+    d.choice<By>(
+         "by", &SeparateOptions::by,
+         {{"component", By::component, "pieces connected through edges, cavities with the solid around them"},
+          {"material", By::material, "faces of one material"},
+          {"group", By::group, "faces with the same number in a face attribute"}},
+         "What becomes a part of its own.")
+        .primary();
+    d.option("attribute", &SeparateOptions::attribute,
+             "The face attribute that numbers the groups (with group).");
+    d.option(
+        "cavities", &SeparateOptions::cavities,
+        "With component: closed pieces that look inward become parts of their own, too; else they stay with "
+        "the solid that they lie in.");
+    d.option("most", &SeparateOptions::most, "Refuses to make more parts than this (a count).").at_least(1);
+}
+
+void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems) {
+    if (given.find("attribute") && o.by != By::group)
+        problems.add(given.mark, "E-SEPARATE", "separate: 'attribute' goes with by: group");
+    if (given.find("cavities") && o.by != By::component)
+        problems.add(given.mark, "E-SEPARATE", "separate: 'cavities' goes with by: component");
+}
+
+PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {
+    const Mesh& mesh = part.mesh;
+    if (o.by == By::material) return by_material(part, scene);
+    if (o.by == By::group) return by_group(part, o.attribute);
+    const Components pieces = o.cavities ? face_components(mesh, false) : solid_pieces(mesh);
+    return labelled(
+        mesh.face_count(), [&](Index f) { return pieces.of_face[f]; },
+        [&](std::int64_t, std::size_t n) { return fmt::format("{}.{}", part.name, n); });
+}
+
+} // namespace facetmill

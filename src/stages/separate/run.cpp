@@ -1,0 +1,77 @@
+#include "geometry/edit/surgery.hpp"
+#include "stages/separate/options.hpp"
+
+#include <fmt/format.h>
+#include <set>
+
+namespace facetmill {
+
+namespace {
+
+std::string unique_name(std::string name, std::set<std::string>& taken) {
+    std::string free = name;
+    for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{}_{}", name, n);
+    return free;
+}
+
+/// Refuses to make more parts than is wanted.
+void require_few(std::size_t parts, std::int64_t most) {
+    if (parts > static_cast<std::size_t>(most))
+        throw Error(ErrorKind::stage, "E-PARTS",
+                    fmt::format("separate: there would be {} parts or more, and most is {}", parts, most),
+                    "remove small pieces first (clean: {components: {faces: 10}}), or raise most");
+}
+
+/// The first piece keeps the part's node, the others stand beside it; all keep its skin and its animation.
+Part piece_of(const Part& part, Mesh mesh, std::string name) {
+    Part piece;
+    piece.name = std::move(name), piece.mesh = std::move(mesh);
+    piece.transform = part.transform, piece.skinned = part.skinned;
+    piece.document = part.document, piece.node = part.node, piece.source_mesh = part.source_mesh;
+    piece.changed = true;
+    return piece;
+}
+
+Scene run(Scene scene, const SeparateOptions& o, Context& context) {
+    std::vector<Part> parts;
+    std::set<std::string> taken;
+    Json result = Json::array();
+    for (const Part& part : scene.parts)
+        if (!context.selects(part, scene)) taken.insert(part.name);
+    for (Part& part : scene.parts) {
+        const PieceLabels labels =
+            context.selects(part, scene) ? piece_labels(part, scene, o) : PieceLabels{};
+        if (labels.names.size() < 2) {
+            if (context.selects(part, scene)) part.name = unique_name(part.name, taken);
+            parts.push_back(std::move(part));
+            continue;
+        }
+        require_few(parts.size() + labels.names.size(), o.most);
+        auto pieces = separated(part.mesh, labels.of_face, labels.names.size());
+        Fates fates;
+        for (const auto& a : part.mesh.attributes) fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
+        context.ledger(part, fates);
+        result.push_back({{"part", part.name}, {"pieces", labels.names.size()}});
+        for (std::size_t i = 0; i < pieces.size(); ++i)
+            parts.push_back(piece_of(part, std::move(pieces[i]), unique_name(labels.names[i], taken)));
+    }
+    scene.parts = std::move(parts);
+    context.result() = {{"parts", scene.parts.size()}, {"separated", std::move(result)}};
+    return scene;
+}
+
+const RegisterStage registered = make_stage<SeparateOptions>(
+    {.name = "separate",
+     .about = "Takes parts apart: by component, material or group.",
+     .details = "Each piece becomes a part of its own, named after the part and its number, material or "
+                "group, in the order of their first faces. Vertices and wedges that pieces share are copied, "
+                "attributes kept, isolated vertices dropped. The first piece keeps the part's node, the "
+                "others stand beside it; all keep its skin and its "
+                "animation. A part of one "
+                "piece stays as it is.",
+     .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"}},
+    declare_separate, run, {.verify = verify_separate});
+
+} // namespace
+
+} // namespace facetmill

@@ -1,0 +1,258 @@
+#include "stages/simplify/options.hpp"
+
+#include "base/portable_math.hpp"
+#include "base/spelling.hpp"
+#include "options/mark_at.hpp"
+#include "stage/options/numbers.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using Method = SimplifySettings::Method;
+using Topology = SimplifySettings::Topology;
+using Intersections = SimplifySettings::Intersections;
+
+bool parse_lock(const Value& v, LockOptions& out, Problems& problems) {
+    if (v.is_scalar() && v.text == "boundary") return out.boundary = true;
+    if (v.is_scalar() && v.text == "seams") return out.seams = true;
+    if (v.is_scalar() && v.text == "group") return out.group = true;
+    problems.add(v.mark, "E-CHOICE", fmt::format("lock has no {}", v.described()),
+                 v.text == "box" ? "a box needs its corners: lock: {box: {min: [0, 0, 0], max: [1, 1, 1]}}"
+                                 : suggestion(v.text, {"boundary", "seams", "group"}));
+    return false;
+}
+
+bool parse_locks(const Value& value, LockOptions& out, Problems& problems) {
+    if (value.deferred) return true;
+    Value words = value;
+    if (value.is_scalar()) words = split_at_commas(value);
+    bool good = words.is_list();
+    if (!good) parse_lock(value, out, problems);
+    for (const Value& word : words.items) good &= parse_lock(word, out, problems);
+    return good;
+}
+
+void declare_lock(Declare<LockOptions>& d) {
+    d.option("boundary", &LockOptions::boundary, "The vertices of the boundary stay, all of them.");
+    d.option("seams", &LockOptions::seams, "The vertices of seams and of borders of materials stay.");
+    d.option("group", &LockOptions::group, "The vertices of borders between the groups of an OBJ file stay.");
+    d.group("box", &LockOptions::box, "The vertices within this box stay, in world space.", declare_box);
+    const Json words = {{"enum", {"boundary", "seams", "group"}}};
+    d.shorthand("boundary, seams or group, or a list of them",
+                {{"anyOf", Json::array({words, {{"type", "array"}, {"items", words}}})}}, parse_locks);
+}
+
+void declare_weights(Declare<AttributeWeights>& d) {
+    d.option("uv", &AttributeWeights::uv,
+             "Texture coordinates: a texture that slides by a length counts as much as this many times a "
+             "surface that is off by it (a factor).")
+        .at_least(0);
+    d.option("normal", &AttributeWeights::normal,
+             "Normals: a difference of 1 counts as much as a surface that is off by so many percent of the "
+             "part's diagonal (a factor).")
+        .at_least(0);
+    d.option("colour", &AttributeWeights::colour, "Colours: full intensity counts so, too (a factor).")
+        .at_least(0);
+    d.option("skin", &AttributeWeights::skin,
+             "Skin weights: all of a joint's pull counts so, too (a factor).")
+        .at_least(0);
+    d.shorthand("one number for all, 0 for the shape alone", OptionType<double>::schema(),
+                [](const Value& v, AttributeWeights& out, Problems& problems) {
+                    double all = 0;
+                    if (!OptionType<double>::parse(v, all, problems)) return false;
+                    out = {all, all, all, all};
+                    if (all >= 0) return true;
+                    problems.add(v.mark, "E-RANGE", "weights are at least 0");
+                    return false;
+                });
+}
+
+void declare_constraints(Declare<ConstraintOptions>& d) {
+    d.option("normal_deviation", &ConstraintOptions::normal_deviation,
+             "No face turns farther from the normal that it came with.")
+        .between(0, 180);
+    d.option("aspect_ratio", &ConstraintOptions::aspect_ratio,
+             "No face gets a larger ratio of longest edge to height (a ratio, at least 1.16).")
+        .at_least(1);
+    d.option("roundness", &ConstraintOptions::roundness,
+             "No face gets a smaller roundness: 1 is equilateral, 0 is flat (a share, without unit).")
+        .between(0, 1);
+    d.option("hausdorff", &ConstraintOptions::hausdorff,
+             "No vertex that went is farther from the faces near by.")
+        .above(0);
+}
+
+void declare_levels(Declare<LevelOptions>& d) {
+    d.option(
+         "ratios", &LevelOptions::ratios,
+         "What remains at each level, from fine to coarse, of the triangles of each part: [100%, 50%, 10%].")
+        .required();
+    d.shorthand("a list of ratios", {{"type", "array"}},
+                [](const Value& v, LevelOptions& out, Problems& problems) {
+                    const Value list = v.is_scalar() && !v.deferred ? split_at_commas(v) : v;
+                    return OptionType<std::vector<Ratio>>::parse(list, out.ratios, problems);
+                });
+}
+
+void declare_targets(Declare<SimplifyOptions>& d) {
+    d.option("ratio", &SimplifyOptions::ratio,
+             "What remains, as a ratio of the triangles of each part: 25%, or 0.25.")
+        .above(0)
+        .at_most(1)
+        .primary();
+    d.option("faces", &SimplifyOptions::faces,
+             "At most so many triangles (a count), shared among the parts in proportion to their own.")
+        .at_least(1);
+    d.option("vertices", &SimplifyOptions::vertices,
+             "At most so many vertices (a count), shared among the parts in proportion to their own.")
+        .at_least(1);
+    d.option("max_error", &SimplifyOptions::max_error,
+             "As far as the deviation from what came in, measured both ways, stays within this.")
+        .above(0);
+}
+
+void declare_method(Declare<SimplifyOptions>& d) {
+    d.choice<Method>(
+        "method", &SimplifyOptions::method,
+        {{"quadric", Method::quadric,
+          "least squared distance to the planes of the faces; vertices go where that is least"},
+         {"quadric-endpoints", Method::quadric_endpoints,
+          "the same, but no vertex moves: those that remain are some of those that came in"},
+         {"constrained", Method::constrained,
+          "quadric-endpoints under constraints, by OpenMesh; see constraints"},
+         {"shortest-edge", Method::shortest_edge,
+          "the shortest edge goes, and the rest meets at its midpoint"},
+         {"cluster", Method::cluster,
+          "all vertices in a cell of a grid become one: very fast, for previews; topology is not kept"}},
+        "Which edge goes next.");
+    d.choice<Topology>(
+        "topology", &SimplifyOptions::topology,
+        {{"keep", Topology::keep, "genus, components and boundary loops stay"},
+         {"allow", Topology::allow,
+          "small components may vanish, holes close and handles be pinched off; the report counts them"}},
+        "Whether the topology may change.");
+    d.group("lock", &SimplifyOptions::lock,
+            "What stays vertex by vertex. Boundaries, seams and borders that are not locked collapse along "
+            "themselves only.",
+            declare_lock);
+    d.group("weights", &SimplifyOptions::weights,
+            "What attributes weigh in the error of the quadric methods, beside the shape; 0 leaves one out.",
+            declare_weights);
+    d.option(
+         "crease", &SimplifyOptions::crease,
+         "Seams that only normals make are merged where the faces meet at less than this angle; flat-shaded "
+         "meshes stay flat-shaded. 0 keeps every normal seam.")
+        .between(0, 180);
+}
+
+/// Adds a problem for an option that another method, or none of the sort, has use for.
+class Together {
+  public:
+    Together(const Value& given, Problems& problems) : given_(given), problems_(problems) {}
+
+    const Mark& mark(const char* name) const { return mark_at(given_, name); }
+    bool has(const char* name) const { return given_.find(name); }
+    void refuse(bool when, const char* name, const char* what, const char* hint) {
+        if (when) problems_.add(mark(name), "E-CONFLICT", std::string("simplify: ") + what, hint);
+    }
+
+  private:
+    const Value& given_;
+    Problems& problems_;
+};
+
+void verify_levels(const SimplifyOptions& o, Together& together, const Mark& mark, Problems& problems) {
+    together.refuse(o.ratio || o.faces || o.vertices || o.max_error, "lods", "lods has its own targets",
+                    "leave out ratio, faces, vertices and max_error");
+    together.refuse(o.self_intersections == Intersections::avoid, "lods",
+                    "lods cannot avoid self-intersections",
+                    "use self_intersections: count, or one simplify stage for each level");
+    together.refuse(o.method == Method::cluster, "lods",
+                    "lods is one chain of collapses, and cluster makes none",
+                    "use another method, or one simplify stage for each level");
+    if (o.lods->ratios.empty())
+        problems.add(mark, "E-RANGE", "simplify: lods: at least one ratio", "for example [100%, 50%, 10%]");
+    for (std::size_t i = 0; i < o.lods->ratios.size(); ++i) {
+        const double ratio = o.lods->ratios[i].value;
+        if (!(ratio > 0 && ratio <= 1))
+            problems.add(mark, "E-RANGE", "simplify: lods: each ratio is 0 < x <= 1", "for example 50%");
+        if (i > 0 && ratio > o.lods->ratios[i - 1].value)
+            problems.add(mark, "E-RANGE", "simplify: lods: ratios go from fine to coarse",
+                         "for example [100%, 50%, 10%]");
+    }
+}
+
+} // namespace
+
+void declare_simplify(Declare<SimplifyOptions>& d) {
+    declare_targets(d);
+    declare_method(d);
+    d.choice<Intersections>(
+        "self_intersections", &SimplifyOptions::self_intersections,
+        {{"ignore", Intersections::ignore, "not looked for"},
+         {"count", Intersections::count, "pairs of faces that run into each other, counted before and after"},
+         {"avoid", Intersections::avoid,
+          "none is new: where faces would run into others, less is taken away"}},
+        "What is done about faces that come to run into each other.");
+    d.group("constraints", &SimplifyOptions::constraints,
+            "For the method constrained: what no collapse may bring about.", declare_constraints);
+    d.group(
+        "lods", &SimplifyOptions::lods,
+        "Levels of detail in place of one target: each is made from the one before, and all are parts of the "
+        "scene: NAME, NAME.lod1, NAME.lod2, ... (write: {lods: true} puts them into one glTF as MSFT_lod).",
+        declare_levels);
+    d.option("measure", &SimplifyOptions::measure,
+             "Measure the deviation from what came in, both ways, and report it.");
+    d.option("certify", &SimplifyOptions::certify,
+             "Also find a guaranteed upper bound of the deviation (it costs).");
+    d.at_least_one({"ratio", "faces", "vertices", "max_error", "lods"});
+}
+
+void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems) {
+    Together together(given, problems);
+    const bool constrained = o.method == Method::constrained, cluster = o.method == Method::cluster;
+    const bool locks = o.lock.boundary || o.lock.seams || o.lock.group || o.lock.box;
+    together.refuse(constrained && o.max_error, "max_error", "constrained takes no max_error",
+                    "constraints: {hausdorff: 0.1%} bounds the error");
+    together.refuse(constrained && o.lods, "lods", "constrained takes no lods",
+                    "use another method, or one simplify stage for each level");
+    together.refuse(constrained && o.topology == Topology::allow, "topology",
+                    "constrained keeps the topology", "use the method quadric");
+    together.refuse(cluster && locks, "lock", "cluster cannot hold vertices", "use the method quadric");
+    together.refuse(cluster && o.self_intersections == Intersections::avoid, "self_intersections",
+                    "cluster cannot avoid self-intersections", "count them, or use the method quadric");
+    together.refuse(!constrained && together.has("constraints"), "constraints",
+                    "constraints go with the method constrained only", "method: constrained");
+    together.refuse(o.method != Method::quadric && o.method != Method::quadric_endpoints &&
+                        together.has("weights"),
+                    "weights", "weights go with the methods quadric and quadric-endpoints only",
+                    "method: quadric, which is the default");
+    if (o.lock.box) verify_box(*o.lock.box, together.mark("lock"), problems);
+    if (o.lods) verify_levels(o, together, together.mark("lods"), problems);
+}
+
+SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to_world,
+                                   const SimplifyShare& share) {
+    SimplifySettings s{.method = o.method,
+                       .topology = o.topology,
+                       .self_intersections = o.self_intersections,
+                       .weights = o.weights,
+                       .lock = {.boundary = o.lock.boundary, .seams = o.lock.seams, .groups = o.lock.group},
+                       .crease = o.crease.radians};
+    if (o.lock.box)
+        for (const Plane& p : planes_of(*o.lock.box)) s.lock.body.push_back(pulled_back(p, to_world));
+    if (o.ratio) s.ratio = o.ratio->value;
+    s.faces = share.faces, s.vertices = share.vertices, s.max_error = share.max_error;
+    s.constraints = {.least_cosine = cosine(o.constraints.normal_deviation.radians),
+                     .aspect_ratio = o.constraints.aspect_ratio.value_or(0),
+                     .roundness = o.constraints.roundness.value_or(0),
+                     .hausdorff = share.hausdorff.value_or(0)};
+    if (o.lods)
+        for (const Ratio& ratio : o.lods->ratios) s.levels.push_back(ratio.value);
+    return s;
+}
+
+} // namespace facetmill

@@ -1,0 +1,52 @@
+#pragma once
+// The options of simplify, and what they come to.
+
+#include "geometry/simplify/simplify.hpp"
+#include "stage/options/box.hpp"
+
+namespace facetmill {
+
+struct LockOptions {
+    bool boundary = false, seams = false, group = false;
+    std::optional<BoxOption> box;
+};
+
+struct ConstraintOptions {
+    Angle normal_deviation = Angle::degrees(60);
+    std::optional<double> aspect_ratio, roundness;
+    std::optional<Length> hausdorff;
+};
+
+struct LevelOptions {
+    std::vector<Ratio> ratios;
+};
+
+struct SimplifyOptions {
+    std::optional<Ratio> ratio;
+    std::optional<std::int64_t> faces, vertices;
+    std::optional<Length> max_error;
+    SimplifySettings::Method method = SimplifySettings::Method::quadric;
+    SimplifySettings::Topology topology = SimplifySettings::Topology::keep;
+    LockOptions lock;
+    AttributeWeights weights;
+    Angle crease = Angle::degrees(30);
+    SimplifySettings::Intersections self_intersections = SimplifySettings::Intersections::ignore;
+    std::optional<LevelOptions> lods;
+    ConstraintOptions constraints;
+    bool measure = true, certify = false;
+};
+
+void declare_simplify(Declare<SimplifyOptions>& d);
+/// What the declaration cannot say: options that do not go together.
+void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems);
+
+/// A part's share of what is meant for all parts.
+struct SimplifyShare {
+    std::optional<std::size_t> faces, vertices;
+    std::optional<double> max_error, hausdorff; ///< in the part's own units
+};
+/// The settings for a part of that transform.
+SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to_world,
+                                   const SimplifyShare& share);
+
+} // namespace facetmill

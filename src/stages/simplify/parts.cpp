@@ -1,0 +1,202 @@
+#include "stages/simplify/parts.hpp"
+
+#include "geometry/deviation/deviation.hpp"
+#include "geometry/simplify/joint.hpp"
+#include "mesh/stretch.hpp"
+#include "mesh/placement.hpp"
+#include "report/deviation_json.hpp"
+#include "stages/simplify/report.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using Stop = SimplifyResult::Stop;
+using Set = std::vector<std::size_t>; ///< parts, by their number in the scene
+
+std::size_t triangle_count(const Mesh& mesh) { return mesh.corner_count() - 2 * mesh.face_count(); }
+
+/// A share of a count that is meant for all, rounded down; it may be none.
+std::optional<std::size_t> share(std::optional<std::int64_t> whole, std::size_t own, std::size_t all) {
+    if (!whole) return {};
+    if (own == all || all == 0) return static_cast<std::size_t>(*whole);
+    return static_cast<std::size_t>(static_cast<double>(*whole) *
+                                    (static_cast<double>(own) / static_cast<double>(all)));
+}
+
+void warn(const Part& part, const SimplifyResult& r, Context& context) {
+    if (r.stop == Stop::nothing)
+        context.warn(
+            "W-SIMPLIFY-NOTHING",
+            fmt::format("part '{}' has {} triangles and {} vertices, at or below the target: nothing to do",
+                        part.name, r.faces_before, r.vertices_before));
+    if (r.stop == Stop::stuck)
+        context.warn("W-SIMPLIFY-STOPPED",
+                     fmt::format("part '{}' stopped at {} triangles, above the target: {}", part.name,
+                                 r.faces_after, report::held_by(r)),
+                     report::way_out(r));
+    if (r.faces_before > 0 && r.faces_after == 0)
+        context.warn("W-SIMPLIFY-VANISHED", fmt::format("of part '{}' no face is left", part.name),
+                     "ask for more faces, or keep the topology (topology: keep, and no cluster)");
+}
+
+/// A part as it came, as far as the report compares with it.
+struct Before {
+    Surface surface; ///< in the world
+    Properties topology;
+};
+
+class Simplifier {
+  public:
+    Simplifier(Scene scene, const SimplifyOptions& o, Context& context)
+        : scene_(std::move(scene)), o_(o), context_(context) {
+        for (const auto& part : scene_.parts)
+            if (context.selects(part, scene_))
+                faces_ += triangle_count(part.mesh), vertices_ += part.mesh.vertex_count();
+        if (o.constraints.hausdorff)
+            hausdorff_ = context.resolve(*o.constraints.hausdorff, scene_, "constraints.hausdorff");
+        if (o.max_error) max_error_ = context.resolve(*o.max_error, scene_, "max_error");
+    }
+
+    Scene run() {
+        find_sets();
+        results_.resize(scene_.parts.size());
+        before_.resize(scene_.parts.size());
+        std::vector<Part> levels;
+        context_.for_each_part(scene_, [&](Part& part) {
+            const auto number = static_cast<std::size_t>(&part - scene_.parts.data());
+            if (results_[number].empty()) simplify_set(set_of(number));
+            settle(part, number, levels);
+        });
+        for (Part& level : levels) scene_.parts.push_back(std::move(level));
+        context_.result()["parts"] = std::move(parts_);
+        context_.say(report::simplify_summary(context_.result()));
+        return std::move(scene_);
+    }
+
+  private:
+    bool changes_topology() const {
+        return o_.topology == SimplifySettings::Topology::allow ||
+               o_.method == SimplifySettings::Method::cluster;
+    }
+
+    /// Which parts are simplified as one, and which vertices of others stay because another part has them
+    /// too.
+    void find_sets() {
+        const bool matches_anyway = o_.lock.boundary || o_.method == SimplifySettings::Method::constrained;
+        if (scene_.parts.size() < 2 || matches_anyway || o_.method == SimplifySettings::Method::cluster)
+            return;
+        std::vector<PlacedMesh> placed;
+        for (const Part& part : scene_.parts) placed.push_back({&part.mesh, effective(part)});
+        contacts_ = find_contacts(placed);
+        for (const Set& set : contacts_.sets)
+            if (fits(set)) sets_.push_back(set);
+    }
+
+    bool fits(const Set& set) const {
+        std::vector<const Mesh*> meshes;
+        for (const std::size_t p : set) {
+            const Part& part = scene_.parts[p];
+            if (!context_.selects(part, scene_)) return false;
+            if (effective(part) != effective(scene_.parts[set.front()])) return false;
+            meshes.push_back(&part.mesh);
+        }
+        return fit_together(meshes, simplify_settings(o_, {}, {}));
+    }
+
+    Set set_of(std::size_t part) const {
+        for (const Set& set : sets_)
+            if (std::find(set.begin(), set.end(), part) != set.end()) return set;
+        return {part};
+    }
+
+    SimplifyShare share_of(const Set& set, double scale) const {
+        std::size_t faces = 0, vertices = 0;
+        for (const std::size_t p : set)
+            faces += triangle_count(scene_.parts[p].mesh), vertices += scene_.parts[p].mesh.vertex_count();
+        SimplifyShare mine{share(o_.faces, faces, faces_), share(o_.vertices, vertices, vertices_),
+                           max_error_, hausdorff_};
+        for (auto* length : {&mine.max_error, &mine.hausdorff})
+            if (*length) **length /= scale;
+        return mine;
+    }
+
+    /// Sets the results of the parts of a set, one for each level.
+    void simplify_set(const Set& set) {
+        for (const std::size_t p : set) {
+            if (o_.measure || o_.certify) before_[p].surface = surface_of(scene_.parts[p]);
+            if (changes_topology()) before_[p].topology = inspect(scene_.parts[p].mesh);
+        }
+        const Transform to_world = effective(scene_.parts[set.front()]);
+        SimplifySettings settings =
+            simplify_settings(o_, to_world, share_of(set, greatest_stretch(to_world)));
+        if (set.size() > 1) {
+            std::vector<const Mesh*> meshes;
+            for (const std::size_t p : set) meshes.push_back(&scene_.parts[p].mesh);
+            for (auto& level : simplify_together(meshes, settings))
+                for (std::size_t i = 0; i < set.size(); ++i) results_[set[i]].push_back(std::move(level[i]));
+            return;
+        }
+        const std::size_t p = set.front();
+        Mesh& mesh = scene_.parts[p].mesh;
+        if (!contacts_.shared.empty()) settings.lock.vertices = contacts_.shared[p];
+        if (o_.lods)
+            results_[p] = simplify_levels(std::move(mesh), settings);
+        else
+            results_[p].push_back(simplify(std::move(mesh), settings));
+    }
+
+    /// Gives a part its result; coarser levels become parts of their own.
+    void settle(Part& part, std::size_t number, std::vector<Part>& levels) {
+        part.mesh = {};
+        const Part base = part;
+        for (std::size_t i = 0; i < results_[number].size(); ++i) {
+            Part level = base;
+            if (i > 0) level.name += fmt::format(".lod{}", i);
+            take(level, number, std::move(results_[number][i]));
+            if (i == 0)
+                part = std::move(level);
+            else
+                level.changed = true, levels.push_back(std::move(level));
+        }
+        before_[number] = {};
+    }
+
+    void take(Part& part, std::size_t number, SimplifyResult r) {
+        part.mesh = std::move(r.mesh);
+        context_.ledger(part, r.fates);
+        Json entry = report::simplify_json(r, greatest_stretch(effective(part)));
+        entry["part"] = part.name;
+        if (const Set set = set_of(number); set.size() > 1)
+            for (const std::size_t p : set)
+                if (p != number) entry["together_with"].push_back(scene_.parts[p].name);
+        if (changes_topology())
+            entry["topology"] = report::topology_change_json(before_[number].topology, inspect(part.mesh));
+        if (o_.measure || o_.certify)
+            entry["deviation"] = report::deviation_json(
+                deviation(before_[number].surface, surface_of(part), {.certify = o_.certify}));
+        parts_.push_back(std::move(entry));
+        warn(part, r, context_);
+    }
+
+    Scene scene_;
+    const SimplifyOptions& o_;
+    Context& context_;
+    std::size_t faces_ = 0, vertices_ = 0; ///< of all parts selected
+    std::optional<double> max_error_, hausdorff_;
+    Contacts contacts_;
+    std::vector<Set> sets_;                            ///< of parts that are simplified as one
+    std::vector<std::vector<SimplifyResult>> results_; ///< [parts][levels] those found and not yet taken
+    std::vector<Before> before_;                       ///< [parts]
+    Json parts_ = Json::array();
+};
+
+} // namespace
+
+Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context) {
+    return Simplifier(std::move(scene), o, context).run();
+}
+
+} // namespace facetmill

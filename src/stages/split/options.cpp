@@ -1,0 +1,130 @@
+#include "stages/split/options.hpp"
+
+#include "options/mark_at.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using Cut = SplitSettings::Cut;
+using Method = std::optional<SplitMethod>;
+
+const std::vector<NamedChoice<Method>> methods = {
+    {"midpoint", SplitMethod::midpoint,
+     "edges halved: a triangle becomes 4 triangles, a quad 4 quads, an n-gon n quads; no finer angles"},
+    {"bisect", SplitMethod::bisect,
+     "triangles in 2 at their longest edge, in 3 or 4 where neighbours cut the other edges; see cut"},
+    {"notch", SplitMethod::notch,
+     "triangles between the middles of their two longest edges: a triangle and a quad; four triangles where "
+     "the third edge is cut too"},
+    {"centroid", SplitMethod::centroid,
+     "triangles from every edge to the centroid: a triangle becomes 3, a quad 4"},
+    {"core", SplitMethod::core,
+     "the same shape at half size and a quad along every edge: a triangle becomes 4 faces"},
+    {"quads", SplitMethod::quads, "quads around the centroid: a triangle becomes 3, a quad 4"},
+    {"halve", SplitMethod::halve,
+     "quads in 2 between the middles of their longer opposite edges; neighbours of those edges are cut too"},
+    {"varignon", SplitMethod::varignon,
+     "the polygon of the edges' midpoints and a triangle at every corner: a quad becomes 5 faces"},
+    {"diagonal", SplitMethod::diagonal,
+     "quads in 2 triangles along their shorter diagonal, concave ones along the inner one"},
+    {"fan", SplitMethod::fan, "quads and larger in triangles to the centroid: a quad becomes 4"},
+    {"grid", SplitMethod::grid, "triangles in n * n triangles, quads in n x n quads; see grid"},
+    {"loop", SplitMethod::loop, "smooth: triangles in 4, the surface approaches a box spline"},
+    {"sqrt3", SplitMethod::sqrt3, "smooth: triangles in 3 and turned; nine times as many in two passes"},
+    {"butterfly", SplitMethod::butterfly, "smooth, through the old vertices: triangles in 4"},
+    {"catmull-clark", SplitMethod::catmull_clark, "smooth: every face in quads; a quad becomes 4"}};
+
+} // namespace
+
+void declare_split(Declare<SplitOptions>& d) {
+    d.choice<Method>("method", &SplitOptions::method, methods,
+                     "How faces are split; midpoint unless given, bisect with a target.")
+        .primary();
+    d.option("grid", &SplitOptions::grid,
+             "How many pieces each edge is cut into (a count); every face becomes n x n. Implies the method "
+             "grid.")
+        .between(1, 10000);
+    d.option("passes", &SplitOptions::passes,
+             "How many times the split is repeated (a count; 1 unless given); with max_edge or faces, how "
+             "many times at most (100 unless given). A max_edge that is not reached is warned of.")
+        .between(0, 100);
+    d.choice<Cut>("cut", &SplitOptions::cut,
+                  {{"longest-edge", Cut::longest_edge, "in the middle of the longest edge"},
+                   {"widest-angle", Cut::widest_angle,
+                    "where the bisector of the widest angle meets the edge opposite to it; not with a "
+                    "target, which such cuts may never reach"}},
+                  "Where bisect cuts a triangle.");
+    d.option("max_edge", &SplitOptions::max_edge,
+             "Split until no edge is longer (a length): with bisect only where it is needed, with midpoint, "
+             "quads, loop, butterfly and catmull-clark everywhere.")
+        .above(0);
+    d.option("min_angle", &SplitOptions::min_angle,
+             "Split only triangles that have a smaller angle (an angle), by bisect or notch, and neighbours "
+             "that must follow, passes times. With bisect no angle becomes smaller than half the smallest "
+             "there was.")
+        .above(0)
+        .at_most(60);
+    d.option("faces", &SplitOptions::faces,
+             "Never more faces than this (a count, for all parts together): bisect cuts the longest edges "
+             "first, other methods stop before the pass that would exceed it.")
+        .at_least(1);
+    d.option("creases", &SplitOptions::creases,
+             "Smooth methods: edges that bend by more than this stay sharp (an angle; only boundaries do "
+             "unless given).")
+        .between(0, 180);
+}
+
+void verify_split(const SplitOptions& o, const Value& given, Problems& problems) {
+    const SplitMethod method = o.chosen();
+    if (o.grid && o.method && o.method != SplitMethod::grid)
+        problems.add(mark_at(given, "method"), "E-EXCLUSIVE", "split: 'grid' goes with the method grid only",
+                     "leave out either method or grid");
+    if (o.method == SplitMethod::grid && !o.grid)
+        problems.add(given.mark, "E-MISSING",
+                     "split: the method grid needs 'grid', the number of pieces per edge",
+                     "for example split: {grid: 3}");
+    if (o.cut != Cut::longest_edge && method != SplitMethod::bisect)
+        problems.add(mark_at(given, "cut"), "E-EXCLUSIVE",
+                     fmt::format("split: 'cut' goes with the method bisect, not with {}", to_string(method)));
+    if (o.cut != Cut::longest_edge && o.has_target())
+        problems.add(
+            mark_at(given, "cut"), "E-EXCLUSIVE",
+            fmt::format("split: 'cut: widest-angle' does not go with the target '{}', which its cuts "
+                        "may never reach",
+                        o.max_edge    ? "max_edge"
+                        : o.min_angle ? "min_angle"
+                                      : "faces"),
+            "leave out cut, or give passes and no target");
+    if (o.creases && (!is_smooth(method) || method == SplitMethod::sqrt3))
+        problems.add(mark_at(given, "creases"), "E-EXCLUSIVE",
+                     fmt::format("split: 'creases' goes with loop, butterfly and catmull-clark, not with {}",
+                                 to_string(method)));
+    if (o.min_angle && (o.max_edge || o.faces))
+        problems.add(mark_at(given, "min_angle"), "E-EXCLUSIVE",
+                     "split: 'min_angle' goes with no other target", "use two split stages");
+    try {
+        SplitSettings s;
+        s.method = method;
+        s.max_edge = o.max_edge ? 1 : 0, s.min_angle = o.min_angle && !o.max_edge && !o.faces ? 1 : 0;
+        check_split_targets(s);
+    } catch (const Error& e) {
+        const auto& d = e.diagnostics().front();
+        problems.add(mark_at(given, o.max_edge ? "max_edge" : "min_angle"), d.id, d.message, d.hint);
+    }
+}
+
+SplitSettings split_settings(const SplitOptions& o) {
+    SplitSettings settings;
+    settings.method = o.chosen();
+    settings.passes = static_cast<int>(o.passes.value_or(o.max_edge || o.faces ? 100 : 1));
+    settings.grid = static_cast<int>(o.grid.value_or(2));
+    settings.cut = o.cut;
+    if (o.min_angle) settings.min_angle = o.min_angle->radians;
+    if (o.creases) settings.creases = o.creases->radians;
+    return settings;
+}
+
+} // namespace facetmill

@@ -1,0 +1,30 @@
+#pragma once
+// The options of split, and what they come to.
+
+#include "geometry/split/split.hpp"
+#include "stage/stage.hpp"
+
+namespace facetmill {
+
+struct SplitOptions {
+    std::optional<SplitMethod> method; ///< none: midpoint, or bisect with a target
+    std::optional<std::int64_t> grid, passes, faces;
+    SplitSettings::Cut cut = SplitSettings::Cut::longest_edge;
+    std::optional<Length> max_edge;
+    std::optional<Angle> min_angle, creases;
+
+    bool has_target() const { return max_edge || min_angle || faces; }
+    SplitMethod chosen() const {
+        return grid ? SplitMethod::grid
+                    : method.value_or(has_target() ? SplitMethod::bisect : SplitMethod::midpoint);
+    }
+};
+
+void declare_split(Declare<SplitOptions>& d);
+/// What the declaration cannot say: options and targets that do not go together.
+void verify_split(const SplitOptions& o, const Value& given, Problems& problems);
+
+/// What is the same for all parts; max_edge, faces and the transform are each part's own.
+SplitSettings split_settings(const SplitOptions& o);
+
+} // namespace facetmill

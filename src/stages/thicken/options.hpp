@@ -1,0 +1,22 @@
+#pragma once
+// The options of thicken, and what they come to.
+
+#include "geometry/thicken/thicken.hpp"
+#include "stage/stage.hpp"
+
+namespace facetmill {
+
+struct ThickenOptions {
+    enum class What { surface, edges, open_edges };
+
+    Length thickness;
+    ThickenSide side = ThickenSide::inward;
+    What what = What::surface;
+    double corner_limit = 3;
+    std::int64_t sides = 8;
+    bool self_intersections = true;
+};
+
+void declare_thicken(Declare<ThickenOptions>& d);
+
+} // namespace facetmill

@@ -1,0 +1,94 @@
+#include "options/mark_at.hpp"
+#include "stage/options/cap.hpp"
+#include "stage/stage.hpp"
+#include "stages/tile/parts.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+struct TileOptions {
+    std::vector<Length> size;
+    std::string axes = "xy";
+    std::vector<Length> origin;
+    bool cap = false;
+    std::string cap_material = "cap";
+};
+
+void declare(Declare<TileOptions>& d) {
+    d.option("size", &TileOptions::size, "Edge length of the tiles: one, or one for each axis.")
+        .required()
+        .primary();
+    d.option("axes", &TileOptions::axes, "Across which axes it is cut: any of x, y and z.");
+    d.option("origin", &TileOptions::origin,
+             "A corner of the grid: one length for each axis; 0 when not given. The grid goes on both ways.");
+    declare_cap(d, &TileOptions::cap, &TileOptions::cap_material);
+}
+
+void verify(const TileOptions& o, const Value& given, Problems& problems) {
+    const auto axis = [&](char c) {
+        return std::string_view("xyz").find(c) != std::string_view::npos &&
+               std::count(o.axes.begin(), o.axes.end(), c) == 1;
+    };
+    if (o.axes.empty() || !std::all_of(o.axes.begin(), o.axes.end(), axis))
+        problems.add(mark_at(given, "axes"), "E-TILE",
+                     fmt::format("tile: 'axes' names each of x, y, z at most once, found '{}'", o.axes),
+                     "for example axes: xy");
+    const Value* sizes = given.is_map() ? given.find("size") : &given;
+    for (const Length& size : o.size)
+        if (!(size.amount > 0) && !(sizes && sizes->deferred))
+            problems.add(mark_at(given, "size"), "E-TILE",
+                         fmt::format("tile: 'size' must be above 0, found {}", size.text));
+    if (o.size.size() > 1 && o.size.size() != o.axes.size())
+        problems.add(mark_at(given, "size"), "E-TILE",
+                     fmt::format("tile: {} sizes for {} axes", o.size.size(), o.axes.size()),
+                     "give one size, or one for each axis");
+    if (!o.origin.empty() && o.origin.size() != o.axes.size())
+        problems.add(mark_at(given, "origin"), "E-TILE",
+                     fmt::format("tile: {} origins for {} axes", o.origin.size(), o.axes.size()),
+                     "give one for each axis");
+}
+
+std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context& context) {
+    std::vector<TileAxis> axes;
+    for (std::size_t i = 0; i < o.axes.size(); ++i) {
+        const Length& size = o.size[o.size.size() > 1 ? i : 0];
+        const double edge = context.resolve(size, scene, "size");
+        if (!(edge > 0))
+            throw Error(ErrorKind::stage, "E-TILE", "the size of the tiles comes to 0 in this scene",
+                        "its box has no extent: give a length in scene units");
+        axes.push_back({static_cast<std::size_t>(o.axes[i] - 'x'), edge,
+                        o.origin.empty() ? 0 : context.resolve(o.origin[i], scene, "origin")});
+    }
+    return axes;
+}
+
+Scene run(Scene scene, const TileOptions& o, Context& context) {
+    TileSettings settings;
+    settings.axes = axes_of(o, scene, context);
+    settings.clip.snap = true;
+    settings.clip.cap = o.cap;
+    return tile_parts(std::move(scene), settings, o.cap_material, context);
+}
+
+const RegisterStage registered{make_stage<TileOptions>(
+    {.name = "tile",
+     .about = "Cuts parts into the tiles of a grid, each a part of its own.",
+     .details =
+         "Tile k along an axis reaches from origin + k size to origin + (k + 1) size, in the world. Tiles "
+         "are named after their part and cell, NAME.x0.y1, and have the face attributes tile_x, tile_y, "
+         "tile_z of the axes that are cut; cells without faces give no part. foreach: {part: \"*\"} then "
+         "works on each.\n\n"
+         "Borders match exactly: neighbours come out of one cut, as of clip with keep: both, whose rules for "
+         "attributes, caps and faces in a plane hold here too. With cap: true a closed part gives closed "
+         "tiles, whose volumes add up.",
+     .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",
+                  "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"}},
+    declare, run, StageHooks<TileOptions>{.files = {}, .verify = verify})};
+
+} // namespace
+
+} // namespace facetmill

@@ -1,0 +1,105 @@
+#include "stages/transform/options.hpp"
+
+#include "base/portable_math.hpp"
+#include "options/mark_at.hpp"
+#include "stage/options/convention.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using About = TransformOptions::About;
+
+/// Rodrigues' formula.
+Transform rotation(const TransformRotation& r) {
+    const Vec3 u = normalised(r.axis);
+    const double c = cosine(r.angle.radians), s = sine(r.angle.radians);
+    Transform t;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) t.m[i][j] = (i == j ? c : 0) + (1 - c) * u[i] * u[j];
+    t.m[0][1] -= s * u.z, t.m[1][0] += s * u.z;
+    t.m[0][2] += s * u.y, t.m[2][0] -= s * u.y;
+    t.m[1][2] -= s * u.x, t.m[2][1] += s * u.x;
+    return t;
+}
+
+Transform scaling(const std::vector<double>& factors) {
+    Transform t;
+    for (std::size_t i = 0; i < 3; ++i) t.m[i][i] = factors[factors.size() == 1 ? 0 : i];
+    return t;
+}
+
+Transform from_numbers(const std::vector<double>& m) {
+    Transform t;
+    for (std::size_t i = 0; i < 12; ++i) t.m[i / 4][i % 4] = m[i];
+    return t;
+}
+
+} // namespace
+
+void declare_transform(Declare<TransformOptions>& d) {
+    d.choice<Unit>("unit", &TransformOptions::unit, unit_choices("unknown", "as it is"),
+                   "The unit that numbers are in from here on; they change so that sizes stay.");
+    d.choice<UpAxis>(
+        "up", &TransformOptions::up,
+        {{"unknown", UpAxis::unknown, "as it is"}, {"y", UpAxis::y, "+Y"}, {"z", UpAxis::z, "+Z"}},
+        "The axis that points up from here on; the scene turns so that up stays up, but where it had no up "
+        "axis (W-UP).");
+    d.option("scale", &TransformOptions::scale, "One factor, or one for each axis; negative ones mirror.");
+    d.group("rotate", &TransformOptions::rotate, "A rotation, anticlockwise seen against the axis.",
+            [](Declare<TransformRotation>& r) {
+                r.option("angle", &TransformRotation::angle, "How far.").primary();
+                r.option("axis", &TransformRotation::axis, "Around which direction.");
+            });
+    d.choice<About>("about", &TransformOptions::about,
+                    {{"origin", About::origin, "the world's origin"},
+                     {"centre", About::centre, "the centre of the parts' box"}},
+                    "The point that scale and rotate leave where it is.");
+    d.option("matrix", &TransformOptions::matrix,
+             "Twelve or sixteen numbers, row by row, applied to columns (x, y, z, 1).");
+    d.option("translate", &TransformOptions::translate, "Three lengths.");
+    d.option("centre", &TransformOptions::centre, "Then moves the centre of the parts' box to the origin.");
+    d.option("ground", &TransformOptions::ground,
+             "Then rests the parts on the ground: the lowest point along up is at 0.");
+    d.option("bake", &TransformOptions::bake,
+             "Moves the vertices and leaves the parts' nodes without a transform; not of animated parts.");
+}
+
+void verify_transform(const TransformOptions& o, const Value& given, Problems& problems) {
+    const auto refuse = [&](const char* name, std::string message) {
+        problems.add(mark_at(given, name), "E-TRANSFORM", "transform: " + std::move(message));
+    };
+    if (!o.translate.empty() && o.translate.size() != 3)
+        refuse("translate", fmt::format("translate takes three lengths, found {}", o.translate.size()));
+    if (!o.scale.empty() && o.scale.size() != 1 && o.scale.size() != 3)
+        refuse("scale", fmt::format("scale takes one factor or three, found {}", o.scale.size()));
+    for (const double factor : o.scale)
+        if (!(std::abs(factor) > 0) || !std::isfinite(factor))
+            refuse("scale", "a factor of 0 would flatten the parts");
+    if (!o.matrix.empty() && o.matrix.size() != 12 && o.matrix.size() != 16)
+        refuse("matrix", fmt::format("matrix takes 12 or 16 numbers, found {}", o.matrix.size()));
+    else if (!o.matrix.empty() && !(std::abs(from_numbers(o.matrix).determinant()) > 0))
+        refuse("matrix", "the matrix would flatten the parts");
+    if (o.matrix.size() == 16 &&
+        (o.matrix[12] != 0 || o.matrix[13] != 0 || o.matrix[14] != 0 || o.matrix[15] != 1))
+        refuse("matrix", "the last row of a matrix is 0, 0, 0, 1");
+    if (given.find("about") && o.scale.empty() && !o.rotate)
+        refuse("about", "about goes with scale or rotate");
+    if (o.rotate && !(length(o.rotate->axis) > 0)) refuse("rotate", "the axis of a rotation has no length");
+}
+
+Transform spin_of(const TransformOptions& o) {
+    Transform spin;
+    if (!o.scale.empty()) spin = scaling(o.scale);
+    if (o.rotate) spin = rotation(*o.rotate) * spin;
+    return spin;
+}
+
+Transform matrix_of(const TransformOptions& o) {
+    return o.matrix.empty() ? Transform{} : from_numbers(o.matrix);
+}
+
+} // namespace facetmill

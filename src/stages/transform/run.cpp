@@ -1,0 +1,108 @@
+#include "io/gltf/animated.hpp"
+#include "mesh/placement.hpp"
+#include "stages/transform/report.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+Transform moved(const Vec3& by) {
+    Transform t;
+    for (int i = 0; i < 3; ++i) t.m[i][3] = by[static_cast<std::size_t>(i)];
+    return t;
+}
+
+class Mover {
+  public:
+    Mover(Scene& scene, const TransformOptions& o, Context& context)
+        : scene_(scene), o_(o), context_(context) {}
+
+    void run() {
+        const io::Conversion converted = io::convert(scene_, {o_.unit, o_.up});
+        warn_of_conversion(converted, o_, context_);
+        const Transform spin = spin_of(o_);
+        const Vec3 fixed = o_.about == TransformOptions::About::centre ? box().centre() : Vec3{};
+        if (!spin.identity()) move(moved(fixed) * spin * moved(-fixed));
+        if (!o_.matrix.empty()) move(matrix_of(o_));
+        if (!o_.translate.empty()) move(moved(translation()));
+        if (o_.centre && !box().empty()) move(moved(-box().centre()));
+        if (o_.ground && !box().empty()) move(moved(drop()));
+        if (o_.bake) bake();
+        context_.result() = described(scene_, converted, all_);
+    }
+
+  private:
+    Vec3 translation() const {
+        Vec3 by;
+        for (std::size_t i = 0; i < o_.translate.size(); ++i)
+            by[i] = context_.resolve(o_.translate[i], scene_, fmt::format("translate.{}", "xyz"[i]));
+        return by;
+    }
+
+    /// What rests the parts on the ground.
+    Vec3 drop() const {
+        Vec3 by;
+        const std::size_t up = scene_.up == UpAxis::y ? 1 : 2;
+        by[up] = -box().min[up];
+        return by;
+    }
+
+    Box box() const {
+        Box all;
+        for (const Part& part : scene_.parts)
+            if (context_.selects(part, scene_))
+                for (const Vec3& p : part.mesh.positions) all.add(in_world(part, p));
+        return all;
+    }
+
+    void move(const Transform& t) {
+        all_ = t * all_;
+        for (Part& part : scene_.parts) {
+            if (!context_.selects(part, scene_)) continue;
+            part.transform = part.skinned ? t : t * part.transform;
+            if (part.skinned) warn_of_skin(part.name, context_);
+            part.skinned = false;
+        }
+    }
+
+    /// What is animated keeps its node: the animation would move the baked points about another place.
+    void bake() {
+        const auto animated = io::animated_parts(scene_);
+        context_.for_each_part(scene_, [&](Part& part) {
+            if (animated[static_cast<std::size_t>(&part - scene_.parts.data())])
+                warn_of_animation(part.name, context_);
+            else if (!part.skinned)
+                apply(part.mesh, part.transform), part.transform = {};
+        });
+    }
+
+    Scene& scene_;
+    const TransformOptions& o_;
+    Context& context_;
+    Transform all_;
+};
+
+Scene run(Scene scene, const TransformOptions& o, Context& context) {
+    Mover(scene, o, context).run();
+    return scene;
+}
+
+const RegisterStage registered = make_stage<TransformOptions>(
+    {.name = "transform",
+     .about = "Moves, turns and scales parts; converts units and the up axis.",
+     .details = "In this order, whatever the order of the options: unit and up (of the whole scene), scale, "
+                "rotate, matrix, translate, centre, ground. All in world space: the nodes of the parts move, "
+                "their meshes stay as they are, unless bake is on. Faces of a part that is mirrored keep "
+                "their front, as glTF has it. The ground is 0 along the up axis, +Z where that is unknown. A "
+                "skinned part moves in bind pose and loses its skin (W-SKIN).",
+     .examples = {"transform: {scale: 0.001}",
+                  "transform: {rotate: {axis: [1, 0, 0], angle: 90deg}, ground: true}",
+                  "transform: {unit: m, up: y, centre: true, ground: true}",
+                  "transform: {translate: [0, 0, 2mm]}"}},
+    declare_transform, run, {.verify = verify_transform});
+
+} // namespace
+
+} // namespace facetmill

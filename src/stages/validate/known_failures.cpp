@@ -1,0 +1,214 @@
+#include "stages/validate/known_failures.hpp"
+
+#include "base/json.hpp"
+#include "base/random.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+#include <iterator>
+
+namespace facetmill {
+
+namespace {
+
+using Keys = std::vector<std::uint64_t>;
+
+constexpr int form = 2;
+
+std::optional<double> number_in(std::string_view text) {
+    double x = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
+    if (error != std::errc() || end != text.data() + text.size()) return {};
+    return x;
+}
+
+/// The last number of "at most 5", "2", "1 to 5", "at most 5mm (0.005)"; a failure beyond it is too large,
+/// before it too small.
+std::optional<double> limit_in(const std::string& expected) {
+    std::string_view text(expected);
+    if (const auto space = text.rfind(' '); space != text.npos) text.remove_prefix(space + 1);
+    if (text.starts_with('(') && text.ends_with(')')) text = text.substr(1, text.size() - 2);
+    return number_in(text);
+}
+
+/// Whether what is found now is no worse; what is no number is as good as its places say, if it has any.
+bool is_no_worse(const Failure& before, const Failure& now) {
+    if (before.found == now.found) return true;
+    const auto was = number_in(before.found), is = number_in(now.found), limit = limit_in(now.expected);
+    if (!was && !is) return now.places() > 0;
+    if (!was || !is || !limit) return false;
+    return *is > *limit ? *is <= *was : *is >= *was;
+}
+
+std::uint64_t hash_of(std::span<const std::uint64_t> keys) {
+    std::uint64_t h = keys.size();
+    for (const std::uint64_t key : keys) h = hashed(h, key);
+    return h;
+}
+
+/// How many of the ascending keys go into a file: all that equal one of the lowest different ones.
+std::size_t listed(const Keys& keys) {
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        different += i == 0 || keys[i] != keys[i - 1];
+        if (different > KnownFailures::most_known) return i;
+    }
+    return keys.size();
+}
+
+Json keys_json(std::span<const std::uint64_t> keys) {
+    Json list = Json::array();
+    for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
+        while (end < keys.size() && keys[end] == keys[i]) ++end;
+        std::string text = fmt::format("{:016x}", keys[i]);
+        if (end - i > 1) text += fmt::format(" x{}", end - i);
+        list.push_back(std::move(text));
+    }
+    return list;
+}
+
+std::optional<std::uint64_t> hexadecimal(std::string_view text) {
+    std::uint64_t key = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), key, 16);
+    if (text.size() != 16 || error != std::errc() || end != text.data() + text.size()) return {};
+    return key;
+}
+
+/// Reads "0123456789abcdef x3"; false when it is none, or there are more in all than a check can have.
+bool read_key(const Json& json, Keys& keys) {
+    if (!json.is_string()) return false;
+    const auto& text = json.get_ref<const std::string&>();
+    const auto key = hexadecimal(std::string_view(text).substr(0, 16));
+    std::size_t count = 1;
+    if (text.size() > 16) {
+        const char* const end = text.data() + text.size();
+        if (text.size() < 19 || text.compare(16, 2, " x") != 0) return false;
+        const auto read = std::from_chars(text.data() + 18, end, count);
+        if (read.ec != std::errc() || read.ptr != end) return false;
+    }
+    constexpr std::size_t most = std::size_t{1} << 28;
+    if (!key || count == 0 || count > most || keys.size() + count > most) return false;
+    keys.insert(keys.end(), count, *key);
+    return true;
+}
+
+bool read_failure(const Json& json, Failure& failure) {
+    if (!json.is_object()) return false;
+    for (const auto& [name, slot] : {std::pair{"check", &failure.check},
+                                     {"part", &failure.part},
+                                     {"piece", &failure.piece},
+                                     {"expected", &failure.expected},
+                                     {"found", &failure.found}}) {
+        if (!json.contains(name) || !json[name].is_string()) return false;
+        *slot = json[name].get<std::string>();
+    }
+    if (!json.contains("places") || !json["places"].is_number_unsigned()) return false;
+    if (!json.contains("known") || !json["known"].is_array()) return false;
+    for (const auto& key : json["known"])
+        if (!read_key(key, failure.keys)) return false;
+    std::sort(failure.keys.begin(), failure.keys.end());
+    const auto places = json["places"].get<std::size_t>();
+    if (places < failure.keys.size()) return false;
+    failure.more = places - failure.keys.size();
+    if (failure.more == 0) return true;
+    if (!json.contains("more") || !json["more"].is_string()) return false;
+    const auto more = hexadecimal(json["more"].get_ref<const std::string&>());
+    failure.more_hash = more.value_or(0);
+    return more.has_value();
+}
+
+/// The places of `now` that are new against `before`.
+void add_fresh(const Failure& before, const Failure& now, KnownFailures::Verdict& verdict) {
+    auto end = now.keys.end(); // of those that the file would list
+    if (before.more > 0)
+        end = before.keys.empty() ? now.keys.begin()
+                                  : std::upper_bound(now.keys.begin(), now.keys.end(), before.keys.back());
+    std::set_difference(now.keys.begin(), end, before.keys.begin(), before.keys.end(),
+                        std::back_inserter(verdict.keys));
+    verdict.fresh = verdict.keys.size();
+    const auto beyond = static_cast<std::size_t>(now.keys.end() - end);
+    if (beyond > before.more)
+        verdict.fresh += beyond - before.more;
+    else if (beyond > 0 && beyond == before.more && hash_of({end, now.keys.end()}) != before.more_hash)
+        ++verdict.fresh;
+}
+
+} // namespace
+
+KnownFailures KnownFailures::read(const std::filesystem::path& path) {
+    const io::Input input = io::Input::open(path);
+    const auto bytes = input.bytes();
+    const Json json = Json::parse(reinterpret_cast<const char*>(bytes.data()),
+                                  reinterpret_cast<const char*>(bytes.data()) + bytes.size(), nullptr, false);
+    const auto refuse = [&](const char* what = "is no baseline of validate") {
+        return Error(ErrorKind::malformed, "E-BASELINE", fmt::format("'{}' {}", path.string(), what),
+                     "write one with update_baseline: true");
+    };
+    if (!json.is_object() || !json.contains("failures") || !json["failures"].is_array()) throw refuse();
+    if (!json.contains("facetmill_baseline"))
+        throw refuse("is a baseline of the first form, which counts places and does not know them");
+    if (!json["facetmill_baseline"].is_number_integer()) throw refuse();
+    if (json["facetmill_baseline"].get<std::int64_t>() != form)
+        throw refuse("is a baseline of another form than this facetmill reads");
+    KnownFailures known;
+    for (const auto& f : json["failures"]) {
+        if (!read_failure(f, known.failures_.emplace_back())) throw refuse();
+    }
+    return known;
+}
+
+void KnownFailures::write(io::Outputs& outputs, const std::filesystem::path& path) const {
+    Json list = Json::array();
+    for (const auto& f : failures_) {
+        const std::size_t count = listed(f.keys);
+        Json entry = {{"check", f.check},
+                      {"part", f.part},
+                      {"piece", f.piece},
+                      {"expected", f.expected},
+                      {"found", f.found},
+                      {"places", f.keys.size()},
+                      {"known", keys_json({f.keys.data(), count})}};
+        if (count < f.keys.size())
+            entry["more"] = fmt::format("{:016x}", hash_of({f.keys.data() + count, f.keys.size() - count}));
+        list.push_back(std::move(entry));
+    }
+    const std::string text = Json{{"facetmill_baseline", form}, {"failures", std::move(list)}}.dump(
+                                 1, ' ', false, Json::error_handler_t::replace) +
+                             "\n";
+    outputs.add(path, {reinterpret_cast<const std::byte*>(text.data()), text.size()});
+}
+
+KnownFailures::Verdict KnownFailures::judge(const Failure& now) const {
+    Verdict best;
+    best.fresh = now.places(), best.keys = now.keys;
+    for (const auto& before : failures_) {
+        if (!before.is_like(now)) continue;
+        Verdict verdict;
+        add_fresh(before, now, verdict);
+        verdict.known = true;
+        verdict.waived = verdict.fresh == 0 && is_no_worse(before, now);
+        if (!best.known || verdict.waived || (!best.waived && verdict.fresh < best.fresh))
+            best = std::move(verdict);
+    }
+    return best;
+}
+
+KnownFailures::Gone KnownFailures::gone(const KnownFailures& now) const {
+    Gone gone;
+    for (const auto& before : failures_) {
+        const auto like = std::find_if(now.failures_.begin(), now.failures_.end(),
+                                       [&](const Failure& f) { return f.is_like(before); });
+        if (like == now.failures_.end()) {
+            ++gone.failures;
+            continue;
+        }
+        Keys away;
+        std::set_difference(before.keys.begin(), before.keys.end(), like->keys.begin(), like->keys.end(),
+                            std::back_inserter(away));
+        gone.places += away.size();
+    }
+    return gone;
+}
+
+} // namespace facetmill

@@ -1,0 +1,63 @@
+#include "stages/validate/profiles.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+namespace {
+
+const Bound yes{.min = {}, .max = {}, .truth = true};
+const Bound no_more_than_none{.min = 0, .max = 0, .truth = {}};
+const Bound some{.min = 1, .max = {}, .truth = {}};
+
+using Rows = std::vector<std::pair<const char*, Bound>>;
+
+void add(Rows& rows, const Rows& more) { rows.insert(rows.end(), more.begin(), more.end()); }
+
+Rows rows_of(Profile profile) {
+    const Rows sound = {{"closed", yes},
+                        {"edge_manifold", yes},
+                        {"vertex_manifold", yes},
+                        {"oriented", yes},
+                        {"degenerate_faces", no_more_than_none},
+                        {"faces", some}};
+    Rows rows;
+    switch (profile) {
+    case Profile::none:
+        return sound;
+    case Profile::web:
+        return {{"finite_attributes", yes},
+                {"unit_normals", yes},
+                {"weights_sum", yes},
+                {"degenerate_faces", no_more_than_none},
+                {"duplicate_faces", no_more_than_none},
+                {"isolated_vertices", no_more_than_none},
+                {"faces", some}};
+    default:
+        add(rows, sound);
+        add(rows,
+            {{"outward", yes}, {"duplicate_faces", no_more_than_none}, {"folded_faces", no_more_than_none}});
+    }
+    if (profile == Profile::solid) return rows;
+    add(rows, {{"self_intersections", no_more_than_none}, {"isolated_vertices", no_more_than_none}});
+    if (profile == Profile::simulation)
+        add(rows, {{"t_vertices", no_more_than_none},
+                   {"min_angle", {.min = 5, .max = {}, .truth = {}}},
+                   {"aspect_ratio", {.min = {}, .max = 20, .truth = {}}}});
+    return rows;
+}
+
+} // namespace
+
+Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits, const Mark& where) {
+    if (profile == Profile::none && (!given.all.empty() || limits.any())) return given;
+    for (const auto& [name, bound] : rows_of(profile)) {
+        const bool known = std::any_of(given.all.begin(), given.all.end(),
+                                       [&](const Assertion& a) { return a.property == name; });
+        // Attributes that a web mesh may lack are judged only when they are there.
+        if (!known) given.all.push_back({name, bound, where, profile == Profile::web});
+    }
+    return given;
+}
+
+} // namespace facetmill

@@ -1,0 +1,33 @@
+#pragma once
+// Named sets of assertions, by what a mesh is for.
+
+#include "stage/assertions.hpp"
+#include "stages/validate/scene_limits.hpp"
+
+namespace facetmill {
+
+enum class Profile { none, solid, printing, web, simulation };
+
+template <class S>
+void declare_profile(Declare<S>& d, Profile S::*member) {
+    d.template choice<Profile>(
+        "for", member,
+        {{"none", Profile::none, "only what is given"},
+         {"solid", Profile::solid,
+          "closed, manifold, oriented outward; no degenerate, duplicate or folded faces; not empty"},
+         {"printing", Profile::printing,
+          "a solid without self-intersections or isolated vertices; it may touch itself"},
+         {"web", Profile::web,
+          "finite attributes, unit normals, weights that sum to 1; no degenerate or duplicate faces, no "
+          "isolated "
+          "vertices; not empty"},
+         {"simulation", Profile::simulation,
+          "fit for printing, no T-vertices, all angles at least 5 degrees, aspect ratios up to 20"}},
+        "A purpose, whose assertions are added to those given.");
+}
+
+/// What was given, and what the profile adds for properties that were not. When there is nothing at all: the
+/// marks of a sound solid.
+Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits, const Mark& where);
+
+} // namespace facetmill

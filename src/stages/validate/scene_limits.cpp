@@ -1,0 +1,148 @@
+#include "stages/validate/scene_limits.hpp"
+
+#include "base/glob.hpp"
+#include "base/numbers.hpp"
+#include "base/random.hpp"
+#include "stage/assertions.hpp"
+#include "stages/validate/document_contents.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+constexpr std::size_t most = 10; ///< entries of evidence
+
+/// Something that counts towards a limit.
+struct Share {
+    Json entry;
+    std::size_t amount = 1;
+};
+
+/// A check of the sum of the shares, with the largest as evidence.
+LimitCheck check_number(const char* name, const Bound& bound, std::vector<Share> shares) {
+    double sum = 0;
+    for (const Share& s : shares) sum += static_cast<double>(s.amount);
+    LimitCheck limit;
+    report::Check& check = limit.check;
+    check.name = name, check.expected = expectation(bound), check.found = to_string(sum);
+    check.passed = holds(bound, sum);
+    if (check.passed) return limit;
+    std::stable_sort(shares.begin(), shares.end(),
+                     [](const Share& a, const Share& b) { return a.amount > b.amount; });
+    shares.resize(std::min(shares.size(), most));
+    check.evidence = Json::array();
+    for (Share& s : shares) check.evidence.push_back(std::move(s.entry));
+    return limit;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
+    return text;
+}
+
+/// A word that has to match a pattern, and what is told of it when it does not.
+struct Word {
+    std::string text;
+    Json entry;
+};
+
+LimitCheck check_words(const char* name, const std::vector<std::string>& patterns,
+                       const std::vector<Word>& words) {
+    LimitCheck limit;
+    report::Check& check = limit.check;
+    check.name = name, check.expected = joined(patterns);
+    std::vector<std::string> bad;
+    Json evidence = Json::array();
+    for (const Word& w : words) {
+        if (std::any_of(patterns.begin(), patterns.end(),
+                        [&](const auto& p) { return glob_matches(p, w.text); }))
+            continue;
+        if (evidence.size() < most) evidence.push_back(w.entry);
+        if (std::find(bad.begin(), bad.end(), w.text) == bad.end()) bad.push_back(w.text);
+        std::uint64_t key = 8;
+        for (const char letter : w.entry.dump(-1, ' ', false, Json::error_handler_t::replace))
+            key = hashed(key, static_cast<unsigned char>(letter));
+        limit.keys.push_back(key);
+    }
+    std::sort(limit.keys.begin(), limit.keys.end());
+    check.passed = bad.empty();
+    const std::size_t more = bad.size() > most ? bad.size() - most : 0;
+    bad.resize(bad.size() - more);
+    check.found = check.passed ? "nothing else" : joined(bad);
+    if (more > 0) check.found += fmt::format(" and {} more", more);
+    if (check.passed) return limit;
+    check.evidence = std::move(evidence);
+    check.places = limit.keys.size();
+    return limit;
+}
+
+std::vector<Share> parts_of(const Scene& scene) {
+    std::vector<Share> shares;
+    for (const auto& part : scene.parts) shares.push_back({{{"part", part.name}}});
+    return shares;
+}
+
+std::vector<Share> materials_of(const Scene& scene) {
+    std::vector<Share> shares;
+    for (const auto& m : scene.materials) shares.push_back({{{"material", m.name}}});
+    return shares;
+}
+
+std::vector<Share> documents_bytes(const Scene& scene) {
+    std::vector<Share> shares;
+    for (const auto& b : bytes_of(scene))
+        shares.push_back({{{"bytes_of", b.name}, {"amount", b.bytes}}, b.bytes});
+    return shares;
+}
+
+std::vector<Share> texture_pixels(const Scene& scene) {
+    std::vector<Share> shares;
+    for (const auto& i : images_of(scene))
+        shares.push_back(
+            {{{"image", i.name}, {"width", i.width}, {"height", i.height}, {"amount", i.pixels()}},
+             i.pixels()});
+    return shares;
+}
+
+} // namespace
+
+void declare_limits(Declare<SceneLimits>& d) {
+    d.option("parts", &SceneLimits::parts, "How many parts; a bare number is the most (10).");
+    d.option("materials", &SceneLimits::materials, "How many materials.");
+    d.option("bytes", &SceneLimits::documents_bytes,
+             "Bytes of the glTF documents as loaded, buffers and images included: 10MB, 500kB (1000 bytes), "
+             "1.5MiB, 500KiB (1024 bytes) or a number.");
+    d.option("texture_pixels", &SceneLimits::texture_pixels,
+             "Pixels of all PNG and JPEG images together (a count).");
+    d.option("names", &SceneLimits::names, "Patterns; every part's name has to match one of them.");
+    d.option("extensions", &SceneLimits::extensions,
+             "Names or patterns of the glTF extensions that may be used.");
+}
+
+std::vector<LimitCheck> check_limits(const SceneLimits& limits, const Scene& scene) {
+    std::vector<LimitCheck> checks;
+    if (limits.parts) checks.push_back(check_number("parts", *limits.parts, parts_of(scene)));
+    if (limits.materials) checks.push_back(check_number("materials", *limits.materials, materials_of(scene)));
+    if (limits.documents_bytes)
+        checks.push_back(check_number("bytes", *limits.documents_bytes, documents_bytes(scene)));
+    if (limits.texture_pixels)
+        checks.push_back(check_number("texture_pixels", *limits.texture_pixels, texture_pixels(scene)));
+    if (!limits.names.empty()) {
+        std::vector<Word> words;
+        for (const auto& part : scene.parts) words.push_back({part.name, {{"part", part.name}}});
+        checks.push_back(check_words("names", limits.names, words));
+    }
+    if (!limits.extensions.empty()) {
+        std::vector<Word> words;
+        for (const auto& e : extensions_of(scene))
+            words.push_back({e.name, {{"extension", e.name}, {"document", e.document}}});
+        checks.push_back(check_words("extensions", limits.extensions, words));
+    }
+    return checks;
+}
+
+} // namespace facetmill

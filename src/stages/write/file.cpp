@@ -1,0 +1,135 @@
+#include "stages/write/file.hpp"
+
+#include "io/convert.hpp"
+#include "io/gltf/draco/draco.hpp"
+#include "io/read_back.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+/// The positions of all parts in the world, as a plain Draco file has them.
+Mesh in_one(const Scene& scene) {
+    Mesh all;
+    for (const Part& part : scene.parts)
+        for (const Vec3& p : part.mesh.positions) all.positions.push_back(part.transform.point(p));
+    return all;
+}
+
+/// Why rounding put points on others or faces on lines, and the way out.
+std::string rounding(std::size_t points, const io::Codec& codec, const io::WriteSettings& settings) {
+    const std::string what = points > 0
+                                 ? fmt::format("put {} point{} on others", points, points == 1 ? "" : "s")
+                                 : std::string("moved points onto lines of others");
+    if (settings.draco.on)
+        return fmt::format("Draco's {} bits {}: more draco.position_bits, or no draco",
+                           settings.draco.position_bits, what);
+    const bool has_full = codec.name == "ply" || codec.name == "obj" || codec.name == "off";
+    if (has_full && !settings.double_positions)
+        return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
+    return fmt::format("the 32-bit floats of {} {}: put clean before write, or write PLY, OBJ or OFF with "
+                       "precision: full",
+                       codec.name, what);
+}
+
+/// Why a file is less sound than the scene, and the way out.
+std::string reason(const io::VertexChanges& changes, const io::Codec& codec,
+                   const io::WriteSettings& settings) {
+    std::vector<std::string> reasons;
+    if (changes.added > 0)
+        reasons.push_back(fmt::format("{} has one set of attributes at a vertex, so seams came apart and {} "
+                                      "vertices were added: write OBJ or glTF, or weld after loading (clean)",
+                                      codec.name, changes.added));
+    if (changes.merged > 0 && codec.name == "stl")
+        reasons.push_back(fmt::format("STL has no shared vertices, so corners at the same place are one when "
+                                      "it is read ({} fewer): write PLY, OBJ or OFF",
+                                      changes.merged));
+    else if (changes.merged > 0)
+        reasons.push_back(
+            fmt::format("vertices of {} at the same place are one when it is read ({} fewer): "
+                        "{}write PLY, OBJ or OFF",
+                        codec.name, changes.merged,
+                        settings.mesh_manifold || settings.draco.on ? "" : "mesh_manifold: true, or "));
+    if (changes.rounded > 0 || reasons.empty()) reasons.push_back(rounding(changes.rounded, codec, settings));
+    return fmt::format("{}", fmt::join(reasons, "; "));
+}
+
+} // namespace
+
+void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context) {
+    const io::Convention target{o.unit != Unit::unknown ? o.unit : codec.unit,
+                                o.up != UpAxis::unknown ? o.up : codec.up};
+    if (o.unit != Unit::unknown && scene.unit == Unit::unknown)
+        throw Error(ErrorKind::stage, "E-UNIT",
+                    fmt::format("the scene has no unit, so it cannot be written in {}", to_string(o.unit)),
+                    "say what was loaded: load: {path: ..., unit: mm}", context.where());
+    if (o.up != UpAxis::unknown && scene.up == UpAxis::unknown)
+        throw Error(ErrorKind::stage, "E-UP", "the scene has no up axis, so it cannot be turned",
+                    "say what was loaded: load: {path: ..., up: z}", context.where());
+    const io::Conversion done = io::convert(scene, target);
+    if (done.unit_guessed)
+        context.warn("W-UNITS",
+                     fmt::format("the scene has no unit: '{}' gets its numbers as they are, and {} means {}",
+                                 o.path.text, codec.name, to_string(target.unit)),
+                     "say what was loaded: load: {path: ..., unit: mm, up: z}");
+    if (codec.name == "glb" || codec.name == "gltf")
+        for (const auto& name : done.lost_skins)
+            context.warn("W-SKIN",
+                         fmt::format("part '{}' is converted to {} and {} up in bind pose and loses its skin",
+                                     name, to_string(target.unit), to_string(target.up)),
+                         "write it in the unit and up axis that it was loaded in");
+    if (done.factor != 1) context.result()["factor"] = done.factor;
+    if (done.turned) context.result()["up"] = to_string(target.up);
+}
+
+void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
+                 Context& context) {
+    if (!s.draco.on) return;
+    const char* why = "as given";
+    if (!o.draco || !o.draco->position_bits) {
+        const int usual = io::DracoSettings{}.position_bits;
+        std::optional<int> most = usual;
+        const auto look = [&](const Mesh& mesh) {
+            if (most) most = io::bits_that_keep_apart(mesh, *most);
+        };
+        if (codec.name == "drc")
+            look(in_one(scene));
+        else
+            for (const Part& part : scene.parts) look(part.mesh);
+        s.draco.position_bits = most.value_or(usual);
+        why = most ? "the fewest from 14 that keep vertices apart" : "24 would not keep all vertices apart";
+    }
+    context.result()["draco"] = {{"position_bits", s.draco.position_bits}, {"why", why}};
+}
+
+void stage_files(const io::Written& written, const std::filesystem::path& target, const io::Codec& codec,
+                 const Scene& scene, const io::WriteSettings& settings, Context& context) {
+    RunState& run = context.run();
+    const io::Outputs::File* main = nullptr;
+    const std::size_t first = run.record.outputs.size();
+    for (const auto& file : written.files) {
+        if (main && target == "-") {
+            context.warn("W-SKIPPED", fmt::format("'{}' cannot go to standard output beside the mesh",
+                                                  file.name.string()));
+            continue;
+        }
+        const bool packed = !main && target.extension() == ".gz";
+        const io::Bytes gz = packed ? io::gzipped(file.bytes) : io::Bytes{};
+        const auto& staged = run.outputs.add(main ? target.parent_path() / file.name : target,
+                                             packed ? gz : file.bytes, context.where());
+        if (!main) main = &staged;
+        run.record.outputs.push_back({staged.target.string(), staged.bytes, staged.sha256, {}});
+    }
+    if (!main || !run.read_back) return;
+    const io::ReadBack back = io::read_back(run.outputs.staged(*main), codec, scene, settings);
+    run.record.outputs[first].read_back = back.json();
+    if (!back.losses.empty())
+        context.warn("W-ROUNDED",
+                     fmt::format("'{}' as read again is less sound than the scene: {}", target.string(),
+                                 fmt::join(back.losses, ", ")),
+                     reason(back.changes, codec, settings));
+}
+
+} // namespace facetmill

@@ -1,0 +1,21 @@
+#pragma once
+// How write brings a scene into a file's convention and precision, and the file among the outputs of the run.
+
+#include "stages/write/options.hpp"
+
+namespace facetmill {
+
+/// Converts to the file's convention, which the option or else the format says. Throws stage (E-UNIT, E-UP)
+/// when the option asks for one and the scene has none; warns of guesses and of skins that are lost.
+void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context);
+
+/// Bits of position for a file that is compressed by Draco: those given, or as many as keep vertices apart.
+void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
+                 Context& context);
+
+/// Stages the files, the first as the target and the others beside it, and reads the first back. Warns when
+/// what is read is less sound than the scene.
+void stage_files(const io::Written& written, const std::filesystem::path& target, const io::Codec& codec,
+                 const Scene& scene, const io::WriteSettings& settings, Context& context);
+
+} // namespace facetmill

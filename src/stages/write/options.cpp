@@ -1,0 +1,165 @@
+#include "stages/write/options.hpp"
+
+#include "base/spelling.hpp"
+#include "options/mark_at.hpp"
+#include "stage/options/convention.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using Precision = WriteOptions::Precision;
+
+void declare_draco(Declare<DracoOptions>& d) {
+    d.option("position_bits", &DracoOptions::position_bits,
+             "Bits of each coordinate: the largest side is cut into 2^bits - 1 steps (a count); unset, the "
+             "fewest from 14 to 24 at which no two vertices fall together, or 14 where 24 are too few.")
+        .between(1, 30);
+    d.option("normal_bits", &DracoOptions::normal_bits, "Bits of normals (a count).").between(1, 30);
+    d.option("uv_bits", &DracoOptions::uv_bits, "Bits of texture coordinates (a count).").between(1, 30);
+    d.option("colour_bits", &DracoOptions::colour_bits, "Bits of colours (a count).").between(1, 30);
+    d.option("generic_bits", &DracoOptions::generic_bits, "Bits of every other attribute (a count).")
+        .between(1, 30);
+    d.option("speed", &DracoOptions::speed, "0 gives the smallest file, 10 the fastest coding (a count).")
+        .between(0, 10);
+    d.shorthand("true or false", {{"type", "boolean"}},
+                [](const Value& v, DracoOptions& out, Problems& problems) {
+                    return OptionType<bool>::parse(v, out.on, problems);
+                });
+}
+
+/// An option that only some formats know, and whether it asks for something.
+struct FormatOption {
+    const char* name;
+    std::vector<std::string> formats;
+    bool asked;
+};
+
+std::vector<FormatOption> format_options(const WriteOptions& o) {
+    return {{"ascii", {"ply", "stl"}, o.ascii},
+            {"big_endian", {"ply"}, o.big_endian},
+            {"precision", {"ply", "obj", "off"}, o.precision == Precision::full},
+            {"draco", {"gltf", "glb", "drc"}, o.draco && o.draco->on},
+            {"mesh_manifold", {"gltf", "glb"}, o.mesh_manifold},
+            {"lods", {"gltf", "glb"}, o.lods},
+            {"normals", {"ply", "obj", "off", "gltf", "glb", "drc"}, o.normals != NormalKind::keep}};
+}
+
+/// Options that say something another format knows.
+void verify_options(const WriteOptions& o, const std::string& format, const Value& given,
+                    Problems& problems) {
+    for (const auto& [name, formats, asked] : format_options(o))
+        if (asked && std::find(formats.begin(), formats.end(), format) == formats.end())
+            problems.add(
+                given.find_entry(name)->key_mark, "E-EXCLUSIVE",
+                fmt::format("write: '{}' goes with {}, not with {}", name, fmt::join(formats, ", "), format),
+                "leave it out");
+    if (o.crease && o.normals != NormalKind::smooth)
+        problems.add(mark_at(given, "crease"), "E-EXCLUSIVE",
+                     "write: 'crease' goes with normals: smooth only", "add normals: smooth");
+}
+
+/// The file's name without suffix and .gz.
+std::string title_of(const std::filesystem::path& target) {
+    const std::filesystem::path name = target.extension() == ".gz" ? target.stem() : target.filename();
+    return target == "-" ? "mesh" : name.stem().string();
+}
+
+} // namespace
+
+void declare_write(Declare<WriteOptions>& d) {
+    d.option("path", &WriteOptions::path,
+             "The file to write; its suffix says the format; - is standard output.")
+        .primary()
+        .required();
+    d.option("format", &WriteOptions::format, "The format's name, when the suffix does not tell it.");
+    d.choice<Unit>("unit", &WriteOptions::unit,
+                   unit_choices("auto", "the format's (glTF: metres), else the scene's"),
+                   "The unit that the file's numbers are in.");
+    d.choice<UpAxis>("up", &WriteOptions::up, up_choices("auto", "the format's (glTF: y), else the scene's"),
+                     "The axis that points up in the file.");
+    d.option("ascii", &WriteOptions::ascii, "PLY and STL as text instead of binary.");
+    d.option("big_endian", &WriteOptions::big_endian, "Binary PLY with the most significant byte first.");
+    d.choice<Precision>("precision", &WriteOptions::precision,
+                        {{"single", Precision::single, "rounded to 32-bit floats"},
+                         {"full", Precision::full, "with all 64 bits (PLY, OBJ, OFF)"}},
+                        "How positions are written.");
+    d.choice<NormalKind>(
+        "normals", &WriteOptions::normals,
+        {{"keep", NormalKind::keep, "those of the scene; readers of glTF shade what has none flat"},
+         {"smooth", NormalKind::smooth, "the mean of the faces around a vertex, weighted by angle"},
+         {"flat", NormalKind::flat, "those of the faces"},
+         {"none", NormalKind::none, "not written, nor tangents"}},
+        "The normals in the file; the scene keeps its own.");
+    d.option("crease", &WriteOptions::crease,
+             "With smooth normals: edges that bend by more stay sharp; unset, none does.")
+        .above(0);
+    d.group("draco", &WriteOptions::draco, "glTF with KHR_draco_mesh_compression: true, or its settings.",
+            declare_draco);
+    d.option("mesh_manifold", &WriteOptions::mesh_manifold,
+             "glTF with EXT_mesh_manifold, so that readers need not weld.");
+    d.option("lods", &WriteOptions::lods,
+             "glTF with MSFT_lod: the parts X.lod1, X.lod2, ... are shown in place of X, not beside it.");
+}
+
+void verify_write(const WriteOptions& o, const Value& given, Problems& problems) {
+    const Value* path = given.is_map() ? given.find("path") : &given;
+    const Value* format = given.is_map() ? given.find("format") : nullptr;
+    if ((path && path->deferred) || (format && format->deferred)) return;
+    const io::Codec* codec = codec_of(o);
+    std::vector<std::string> names;
+    for (const auto& c : io::codecs())
+        if (c.write) names.push_back(c.name);
+    const Mark& mark = format ? format->mark : path ? path->mark : given.mark;
+    if (!codec && format)
+        problems.add(mark, "E-FORMAT", fmt::format("there is no format '{}'", o.format),
+                     suggestion(o.format, names));
+    else if (!codec)
+        problems.add(mark, "E-FORMAT", fmt::format("the suffix of '{}' names no format", o.path.text),
+                     fmt::format("say it with 'format', one of: {}", fmt::join(names, ", ")));
+    else if (!codec->write)
+        problems.add(mark, "E-FORMAT", fmt::format("{} is read but not written", codec->name),
+                     suggestion("", names));
+    else if (codec->name == "gltf" && o.path.text == "-")
+        problems.add(mark, "E-FORMAT", "a gltf has a file beside it, which standard output cannot hold",
+                     "format: glb");
+    else
+        verify_options(o, codec->name, given, problems);
+}
+
+const io::Codec* codec_of(const WriteOptions& o) {
+    return o.format.empty() ? io::codec_for(o.path.text) : io::codec_named(o.format);
+}
+
+io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
+                              const std::filesystem::path& target) {
+    io::WriteSettings s;
+    s.ascii = o.ascii;
+    s.big_endian = o.big_endian;
+    s.mesh_manifold = o.mesh_manifold;
+    s.lods = o.lods;
+    s.double_positions = o.precision == Precision::full;
+    s.title = title_of(target);
+    if (o.draco && o.draco->on)
+        s.draco = {.on = true,
+                   .position_bits = static_cast<int>(o.draco->position_bits.value_or(s.draco.position_bits)),
+                   .normal_bits = static_cast<int>(o.draco->normal_bits),
+                   .uv_bits = static_cast<int>(o.draco->uv_bits),
+                   .colour_bits = static_cast<int>(o.draco->colour_bits),
+                   .generic_bits = static_cast<int>(o.draco->generic_bits),
+                   .speed = static_cast<int>(o.draco->speed)};
+    s.draco.on |= codec.name == "drc";
+    return s;
+}
+
+StageFiles files_of_write(const WriteOptions& o) {
+    const io::Codec* codec = codec_of(o);
+    const std::filesystem::path path = o.path.text;
+    if (!codec || codec->name != "gltf" || o.path.text == "-") return {{}, {o.path}};
+    return {{}, {o.path, {(path.parent_path() / (title_of(path) + ".bin")).string()}}};
+}
+
+} // namespace facetmill

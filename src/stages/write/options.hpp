@@ -1,0 +1,41 @@
+#pragma once
+// The options of write, and what they come to.
+
+#include "geometry/normals/give_normals.hpp"
+#include "stage/stage.hpp"
+
+namespace facetmill {
+
+struct DracoOptions {
+    bool on = true;
+    std::optional<std::int64_t> position_bits;
+    std::int64_t normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12, speed = 3;
+};
+
+struct WriteOptions {
+    enum class Precision { single, full };
+
+    PathText path;
+    std::string format;
+    Unit unit = Unit::unknown;
+    UpAxis up = UpAxis::unknown;
+    bool ascii = false, big_endian = false, mesh_manifold = false, lods = false;
+    Precision precision = Precision::single;
+    NormalKind normals = NormalKind::keep;
+    std::optional<Angle> crease; ///< of smooth normals
+    std::optional<DracoOptions> draco;
+};
+
+void declare_write(Declare<WriteOptions>& d);
+/// What the declaration cannot say: names without a format, and options that the format does not know.
+void verify_write(const WriteOptions& o, const Value& given, Problems& problems);
+/// The file and, of a .gltf, the buffer beside it.
+StageFiles files_of_write(const WriteOptions& o);
+
+/// The format that is named, or the suffix's; null when there is none.
+const io::Codec* codec_of(const WriteOptions& o);
+/// What the codec is told; bits of position are the usual ones when they are not given.
+io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
+                              const std::filesystem::path& target);
+
+} // namespace facetmill

@@ -1,0 +1,79 @@
+#include "base/portable_math.hpp"
+#include "stages/write/file.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+/// Where a part came from, and what it was.
+struct Lent {
+    std::size_t part;
+    Transform transform;
+    bool skinned, changed;
+    std::optional<Mesh> mesh{}; ///< with the normals that the scene keeps, when the file has others
+};
+
+/// The scene's own meshes stay with what was lent.
+void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Context& context) {
+    if (o.normals == NormalKind::keep) return;
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        Part& part = out.parts[k];
+        lent[k].mesh = part.mesh;
+        context.ledger(part, give_normals(part.mesh, o.normals, o.crease ? o.crease->radians : pi));
+        part.changed = true;
+    }
+}
+
+Scene run(Scene scene, const WriteOptions& o, Context& context) {
+    const io::Codec* codec = codec_of(o);
+    if (!codec || !codec->write)
+        throw Error(ErrorKind::usage, "E-FORMAT",
+                    fmt::format("the suffix of '{}' names no format", o.path.text), {}, context.where());
+    // The parts are lent to the scene that is written, so that no mesh is copied, and come back as they were.
+    Scene out{{}, scene.materials, scene.unit, scene.up, scene.documents};
+    std::vector<Lent> lent;
+    for (std::size_t i = 0; i < scene.parts.size(); ++i)
+        if (context.selects(scene.parts[i], scene))
+            lent.push_back({i, scene.parts[i].transform, scene.parts[i].skinned, scene.parts[i].changed});
+    for (const auto& l : lent) out.parts.push_back(std::move(scene.parts[l.part]));
+    if (out.face_count() == 0)
+        throw Error(ErrorKind::stage, "E-EMPTY",
+                    fmt::format("there is nothing to write to '{}': the scene has no faces", o.path.text),
+                    "see what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
+                    context.where());
+    give_normals(out, lent, o, context);
+    to_convention(out, o, *codec, context);
+    const std::filesystem::path target = context.places().output(o.path.text);
+    io::WriteSettings settings = settings_of(o, *codec, target);
+    choose_bits(settings, o, *codec, out, context);
+    const io::Written written = codec->write(out, settings);
+    for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
+    if (!out.parts.empty()) context.ledger(out.parts.front(), written.fates);
+    stage_files(written, target, *codec, out, settings, context);
+    for (std::size_t k = 0; k < lent.size(); ++k) {
+        Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);
+        back.transform = lent[k].transform;
+        back.skinned = lent[k].skinned, back.changed = lent[k].changed;
+        if (lent[k].mesh) back.mesh = std::move(*lent[k].mesh);
+    }
+    return scene;
+}
+
+const RegisterStage registered = make_stage<WriteOptions>(
+    {.name = "write",
+     .about = "Writes the scene to a mesh file; it passes on as it is.",
+     .details = "Files are written beside their targets and appear together when the run has succeeded; what "
+                "was there before stays until then. The file is decoded again and compared with the scene: "
+                "the number of faces, and how far positions moved (float32, Draco). Units and the up axis "
+                "are converted to the format's convention; formats without nodes get all parts in world "
+                "space. What the format cannot hold is in the ledger. A name that ends in .gz is compressed.",
+     .examples = {"write: part.glb", "write: {path: part.glb, draco: true}",
+                  "write: {path: print.stl, unit: mm, up: z}",
+                  "write: {path: web.glb, normals: smooth, crease: 40deg}"}},
+    declare_write, run, {.files = files_of_write, .verify = verify_write});
+
+} // namespace
+
+} // namespace facetmill

@@ -1,0 +1,264 @@
+#include "support/catch.hpp"
+
+#include "mesh/shapes.hpp"
+#include "diff/comparison.hpp"
+
+using namespace facetmill;
+using report::Comparison;
+using report::ComparisonSettings;
+
+namespace {
+
+Scene scene_of(Mesh mesh, const char* name = "part") {
+    Scene scene;
+    scene.parts.emplace_back().name = name;
+    scene.parts[0].mesh = std::move(mesh);
+    return scene;
+}
+
+/// The names of the lines that differ.
+std::string different(const Comparison& comparison) {
+    std::string names;
+    for (const auto& d : comparison.lines)
+        if (!d.same) names += (names.empty() ? "" : ", ") + d.section + ": " + d.name;
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("a scene does not differ from itself", "[report]") {
+    const Comparison same = report::compare(scene_of(shapes::uv_cube()), scene_of(shapes::uv_cube()));
+    CHECK_FALSE(same.differs());
+    CHECK(different(same).empty());
+    CHECK(same.deviation->maximum() < 1e-15);
+    CHECK(report::to_text(same, "a", "b", false).starts_with("a and b agree\n"));
+    CHECK(report::to_json(same, "a", "b")["same"] == true);
+}
+
+TEST_CASE("the same surface cut otherwise differs in counts alone", "[report]") {
+    const Scene quads = scene_of(shapes::quad_cube()), triangles = scene_of(shapes::cube());
+    const Comparison d = report::compare(quads, triangles);
+    CHECK(different(d) == "counts: edges, counts: faces, counts: triangles");
+    CHECK(d.differs());
+    ComparisonSettings settings;
+    settings.ignored = {"counts"};
+    CHECK_FALSE(report::compare(quads, triangles, settings).differs());
+    CHECK(report::to_text(report::compare(quads, triangles, settings), "a", "b", false)
+              .starts_with("a and b agree in what was asked\n  counts: 3 different (ignored)\n"));
+}
+
+TEST_CASE("surfaces may be apart by the limit", "[report]") {
+    Scene moved = scene_of(shapes::grid(4, 3)); // diagonal 5
+    moved.parts[0].transform.m[2][3] = 0.05;
+    const Scene sheet = scene_of(shapes::grid(4, 3));
+    CHECK(different(report::compare(sheet, moved)) == "geometry: deviation maximum");
+    ComparisonSettings settings;
+    settings.maximum = ComparisonSettings::Limit{1.01, true};
+    CHECK_FALSE(report::compare(sheet, moved, settings).differs());
+    settings.maximum = ComparisonSettings::Limit{0.049, false};
+    CHECK(report::compare(sheet, moved, settings).differs());
+    settings.maximum.reset();
+    settings.rms = ComparisonSettings::Limit{0.9, true};
+    CHECK(different(report::compare(sheet, moved, settings)) == "geometry: deviation rms");
+    settings.ignored = {"geometry"};
+    CHECK_FALSE(report::compare(sheet, moved, settings).deviation.has_value());
+}
+
+TEST_CASE("attributes, materials and parts are told by name, attributes by value too", "[report]") {
+    Scene a = scene_of(shapes::uv_cube()), b = a;
+    b.parts[0].name = "other";
+    b.materials.push_back({.name = "red"});
+    Attribute* uv = b.parts[0].mesh.find("TEXCOORD_0", Domain::wedge);
+    REQUIRE(uv);
+    uv->set_value(3, 1, uv->value(3, 1) + 0.25);
+    b.parts[0].mesh.drop("NORMAL", Domain::wedge);
+    CHECK(different(report::compare(a, b)) == "attributes: NORMAL (wedge), attributes: TEXCOORD_0 (wedge), "
+                                              "materials: number, materials: 0, parts: 0");
+    ComparisonSettings settings;
+    settings.attribute_limit = 0.3;
+    settings.ignored = {"materials", "parts"};
+    CHECK(different(report::compare(a, b, settings)).starts_with("attributes: NORMAL (wedge), materials"));
+    for (const auto& d : report::compare(a, b).lines)
+        if (d.name == "TEXCOORD_0 (wedge)") CHECK(d.note == "largest difference 0.25, at element 3");
+}
+
+TEST_CASE("a surface turned inside out differs, closed or open", "[report]") {
+    for (const Mesh& mesh : {shapes::cube(), shapes::grid(3, 2)}) {
+        Scene a = scene_of(mesh), b = a;
+        for (std::size_t c = 0; c < b.parts[0].mesh.corners.size(); c += 3)
+            std::swap(b.parts[0].mesh.corners[c], b.parts[0].mesh.corners[c + 1]);
+        CHECK(different(report::compare(a, b)) == "geometry: turned round");
+    }
+}
+
+TEST_CASE("one piece or part turned inside out is enough to differ", "[report]") {
+    Scene a = scene_of(shapes::icosphere(1));
+    for (Vec3& p : a.parts[0].mesh.positions) p = p * 3;
+    append(a.parts[0].mesh, shapes::cube());
+    a.parts.push_back(scene_of(shapes::grid(3, 2)).parts[0]);
+    const auto turned = [](Mesh mesh, std::size_t from) {
+        for (std::size_t c = from; c < mesh.corners.size(); c += 3)
+            std::swap(mesh.corners[c], mesh.corners[c + 1]);
+        return mesh;
+    };
+    Scene b = a, c = a;
+    b.parts[0].mesh = turned(a.parts[0].mesh, 240);
+    c.parts[1].mesh = turned(a.parts[1].mesh, 0);
+    CHECK(different(report::compare(a, a)).empty());
+    for (const auto& [other, note] : {std::pair(b, "1 of 3 pieces, the first at face 80 of 'part'"),
+                                      std::pair(c, "1 of 3 pieces, the first at face 0 of 'part'")}) {
+        const auto found = report::compare(a, other);
+        CHECK(different(found) == "geometry: turned round");
+        for (const auto& d : found.lines)
+            if (d.name == "turned round") CHECK(d.note == note);
+    }
+}
+
+TEST_CASE("topology is compared property by property", "[report]") {
+    Mesh open = shapes::cube();
+    open.corners.resize(30);
+    const std::string found = different(report::compare(scene_of(shapes::cube()), scene_of(open)));
+    CHECK(found.find("topology: closed") != std::string::npos);
+    CHECK(found.find("topology: boundary_loops") != std::string::npos);
+    CHECK(found.find("topology: components") == std::string::npos);
+}
+
+TEST_CASE("something differs from nothing", "[report]") {
+    const Comparison d = report::compare(scene_of(shapes::cube()), scene_of({}));
+    CHECK(d.differs());
+    CHECK(report::to_json(d, "a", "b")["deviation"]["maximum"].is_null());
+}
+
+namespace {
+
+Scene cloud_of(std::vector<Vec3> points) {
+    Mesh mesh;
+    mesh.positions = std::move(points);
+    return scene_of(std::move(mesh));
+}
+
+const report::Difference* line(const Comparison& comparison, const std::string& name) {
+    for (const auto& d : comparison.lines)
+        if (d.name == name) return &d;
+    return nullptr;
+}
+
+} // namespace
+
+TEST_CASE("clouds of as many points differ when a point is elsewhere", "[report]") {
+    const Scene a = cloud_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
+                b = cloud_of({{0, 0, 0}, {1, 0, 0}, {0, 9, 0}});
+    const Comparison same = report::compare(a, a), other = report::compare(a, b);
+    CHECK_FALSE(same.differs());
+    CHECK(same.deviation->forward.vertices == 3);
+    CHECK(different(other) == "geometry: deviation maximum");
+    CHECK(other.deviation->forward.maximum == 1);
+    CHECK(other.deviation->backward.maximum == 8);
+    const Json json = report::to_json(other, "a", "b");
+    CHECK(json["geometry_of"] == Json{{"a", "points"}, {"b", "points"}});
+    ComparisonSettings settings;
+    settings.rms = ComparisonSettings::Limit{4.6, false}; // sqrt(64 / 3) is 4.62
+    CHECK(different(report::compare(a, b, settings)) == "geometry: deviation rms");
+    settings.rms->amount = 4.62;
+    CHECK_FALSE(report::compare(a, b, settings).differs());
+}
+
+TEST_CASE("a cloud is measured against a surface", "[report]") {
+    const Scene sheet = scene_of(shapes::grid(4, 3)), cloud = cloud_of({{1, 1, 0.5}, {2, 1.5, 0.25}});
+    const Comparison d = report::compare(cloud, sheet);
+    CHECK(d.deviation->forward.maximum == 0.5);
+    CHECK(d.deviation->forward.mean == 0.375);
+    CHECK(d.deviation->backward.maximum > 1);
+    CHECK(report::to_json(d, "a", "b")["geometry_of"]["b"] == "surface");
+    CHECK(report::compare(cloud, scene_of({})).differs());
+    CHECK_FALSE(report::compare(scene_of({}), scene_of({})).differs());
+}
+
+TEST_CASE("points beside a surface are measured to all of the other scene", "[report]") {
+    Mesh with_one = shapes::grid(4, 3), with_another = with_one;
+    with_one.positions.push_back({1, 1, 2});
+    with_another.positions.push_back({1, 1, 2.5});
+    ComparisonSettings settings;
+    settings.ignored = {"counts", "topology"};
+    CHECK(different(report::compare(scene_of(with_one), scene_of(with_another))) ==
+          "geometry: loose points maximum");
+    CHECK(line(report::compare(scene_of(with_one), scene_of(with_another)), "loose points maximum")->a ==
+          0.5);
+    const Comparison lost = report::compare(scene_of(with_one), scene_of(shapes::grid(4, 3)), settings);
+    CHECK(line(lost, "loose points maximum")->a == 2);
+    CHECK(line(lost, "loose points maximum")->b == 0);
+    CHECK(lost.deviation->maximum() < 1e-15);
+    CHECK_FALSE(report::compare(scene_of(with_one), scene_of(with_one), settings).differs());
+}
+
+TEST_CASE("numbers that are none agree with themselves alone", "[report]") {
+    const auto with = [](std::vector<double> values) {
+        Scene scene = scene_of(shapes::tetrahedron());
+        scene.parts[0].mesh.attributes.push_back({"q", Domain::vertex, Role::generic, 1, false, values});
+        return scene;
+    };
+    const Scene a = with({NAN, HUGE_VAL, -HUGE_VAL, 1});
+    CHECK_FALSE(report::compare(a, a).differs());
+    for (const auto& values : std::vector<std::vector<double>>{
+             {1, HUGE_VAL, -HUGE_VAL, 1}, {NAN, -HUGE_VAL, -HUGE_VAL, 1}, {NAN, HUGE_VAL, -HUGE_VAL, NAN}}) {
+        CHECK(different(report::compare(a, with(values))) == "attributes: q (vertex)");
+        CHECK(different(report::compare(with(values), a)) == "attributes: q (vertex)");
+    }
+}
+
+TEST_CASE("normals are compared in the world", "[report]") {
+    const Scene a = scene_of(shapes::uv_cube());
+    Scene turned = a, baked = a;
+    Transform quarter;
+    quarter.m[0][0] = 0, quarter.m[0][1] = -1, quarter.m[1][0] = 1, quarter.m[1][1] = 0;
+    turned.parts[0].transform = quarter;
+    apply(baked.parts[0].mesh, quarter);
+    CHECK(different(report::compare(turned, baked)).empty());
+    CHECK(different(report::compare(a, turned)).find("NORMAL") != std::string::npos);
+}
+
+TEST_CASE("what could not be compared is said, and is not the same", "[report]") {
+    Scene a = scene_of(shapes::uv_cube()), b = a;
+    b.parts[0].mesh.find("TEXCOORD_0", Domain::wedge)->resize(7); // as another number of wedges would
+    Comparison d = report::compare(a, b);
+    CHECK_FALSE(d.differs());
+    CHECK_FALSE(d.complete());
+    CHECK_FALSE(line(d, "TEXCOORD_0 (wedge)")->compared);
+    const std::string text = report::to_text(d, "a", "b", false);
+    CHECK(text.starts_with("a and b agree in what was compared\n"));
+    CHECK(text.find("not compared: values of 24 and 7 elements") != std::string::npos);
+    CHECK(report::to_json(d, "a", "b")["complete"] == false);
+    d.ignored = {"attributes"};
+    CHECK(d.complete());
+    d.left_out.push_back({false, "lines"});
+    CHECK_FALSE(d.complete());
+    CHECK(report::to_text(d, "a", "b", false).find("  not compared: b: lines\n") != std::string::npos);
+}
+
+TEST_CASE("materials differ by their looks and by the faces they are on", "[report]") {
+    Scene a = scene_of(shapes::grid(2, 1)); // four triangles
+    a.materials = {{.name = "red"}, {.name = "blue"}};
+    Mesh& mesh = a.parts[0].mesh;
+    mesh.primitives.resize(2);
+    mesh.primitives[0].material = 0, mesh.primitives[1].material = 1;
+    const auto assign = [](Scene& scene, std::vector<std::uint32_t> faces) {
+        auto& m = scene.parts[0].mesh;
+        m.drop(primitive_attribute, Domain::face);
+        m.attributes.push_back(
+            {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(faces)});
+    };
+    assign(a, {0, 0, 1, 1});
+    CHECK_FALSE(report::compare(a, a).differs());
+    Scene looks = a, swapped = a, reordered = a;
+    looks.materials[0].base_colour[1] = 0.5;
+    looks.materials[1].double_sided = true;
+    CHECK(different(report::compare(a, looks)) == "materials: 0 base_colour, materials: 1 double_sided");
+    assign(swapped, {1, 1, 0, 0});
+    CHECK(different(report::compare(a, swapped)) == "materials: 0 faces, materials: 1 faces");
+    assign(reordered, {1, 1, 0, 0});
+    auto& corners = reordered.parts[0].mesh.corners;
+    std::rotate(corners.begin(), corners.begin() + 6, corners.end());
+    CHECK(different(report::compare(a, reordered)).empty());
+    assign(swapped, {0, 0, 0, 0});
+    CHECK(line(report::compare(a, swapped), "1 faces")->a.is_null());
+}

@@ -1,0 +1,170 @@
+#include "support/catch.hpp"
+
+#include "base/parallel.hpp"
+#include "base/random.hpp"
+#include "geometry/deviation/deviation.hpp"
+#include "mesh/unreferenced.hpp"
+#include "mesh/shapes.hpp"
+#include "support/meshes.hpp"
+
+#include <algorithm>
+
+using namespace facetmill;
+
+namespace {
+
+Mesh moved(Mesh mesh, const Vec3& by) {
+    for (auto& p : mesh.positions) p += by;
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("a surface does not deviate from itself", "[geometry]") {
+    const Mesh mesh = testing::noisy_icosphere(3, 0.1, 1);
+    const auto d = deviation(mesh, mesh, {.samples = 2000, .certify = true});
+    CHECK(d.maximum() == 0);
+    CHECK(d.rms() == 0);
+    CHECK(d.forward.samples == 2000);
+    CHECK(d.forward.vertices == mesh.vertex_count());
+    CHECK(*d.bound() <= 1e-6 * d.diagonal);
+}
+
+TEST_CASE("a lifted sheet is apart by the lift, both ways", "[geometry]") {
+    const auto d = deviation(shapes::grid(4, 3), moved(shapes::grid(4, 3), {0, 0, 0.25}));
+    for (const auto* way : {&d.forward, &d.backward}) {
+        CHECK(way->maximum == Approx(0.25));
+        CHECK(way->rms == Approx(0.25));
+        CHECK(way->mean == Approx(0.25));
+    }
+    CHECK(d.diagonal == 5);
+    CHECK(d.percent(d.maximum()) == Approx(5));
+}
+
+TEST_CASE("a surface with a part missing is far one way only", "[geometry]") {
+    const auto d = deviation(shapes::grid(2, 1), shapes::grid(1, 1), {.certify = true});
+    CHECK(d.forward.maximum == 1); // at a vertex: those are samples as well
+    CHECK(d.forward.from.x == 2);
+    CHECK(d.forward.to.x == 1);
+    CHECK(d.forward.face == none);
+    CHECK(d.forward.mean == Approx(0.25).epsilon(1e-3)); // half of the area is 0 away, the rest 0 to 1
+    CHECK(d.forward.rms == Approx(std::sqrt(1.0 / 6)).epsilon(1e-3));
+    CHECK(d.backward.maximum < 1e-15);
+    CHECK(d.maximum() == 1);
+    CHECK(*d.bound() == Approx(1).epsilon(0.011));
+}
+
+TEST_CASE("the farthest point may be inside a face; the bound knows", "[geometry]") {
+    // A flat square against a square with a peak: with no samples at all, the corners alone see 0.
+    Mesh flat = shapes::grid(1, 1), peak;
+    peak.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
+    peak.corners = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+    const auto blind = deviation(flat, peak, {.samples = 0});
+    CHECK(blind.forward.maximum == 0);
+    const auto sure = deviation(flat, peak, {.samples = 0, .certify = true});
+    const double truth = 0.5 / std::sqrt(1.25); // from the middle to the plane of a side, 1 up and 0.5 aside
+    CHECK(sure.forward.maximum <= truth * (1 + 1e-12));
+    CHECK(*sure.forward.bound >= truth * (1 - 1e-12));
+    CHECK(*sure.forward.bound <= truth * 1.011);
+    CHECK(sure.backward.maximum == 1);
+}
+
+TEST_CASE("with no work to spend the bound is loose but holds", "[geometry]") {
+    const Mesh fine = shapes::icosphere(4), coarse = shapes::icosphere(1);
+    const auto loose = deviation(fine, coarse, {.certify = true, .certify_work = 0});
+    const auto tight = deviation(fine, coarse, {.certify = true});
+    CHECK(loose.forward.looked_up == 0);
+    CHECK(*loose.bound() >= *tight.bound());
+    CHECK(*tight.bound() >= tight.maximum());
+    CHECK(*tight.bound() <= tight.maximum() * 1.01 + 1e-6 * tight.diagonal);
+}
+
+TEST_CASE("the samples depend on the seed and not on the threads", "[geometry]") {
+    const Mesh a = testing::noisy_icosphere(3, 0.1, 1), b = testing::noisy_icosphere(3, 0.1, 2);
+    const auto one = deviation(a, b, {.samples = 5000, .certify = true});
+    set_threads(1);
+    const auto same = deviation(a, b, {.samples = 5000, .certify = true});
+    set_threads(0);
+    CHECK(one.rms() == same.rms());
+    CHECK(one.maximum() == same.maximum());
+    CHECK(one.forward.from == same.forward.from);
+    CHECK(*one.bound() == *same.bound());
+    const auto other = deviation(a, b, {.samples = 5000, .seed = 2});
+    CHECK(other.rms() != one.rms());
+    CHECK(other.rms() == Approx(one.rms()).epsilon(0.05));
+}
+
+TEST_CASE("samples are spread by area", "[geometry]") {
+    Mesh mesh = shapes::grid(1, 1); // two triangles of half a square
+    mesh.positions[3] = {1, 1, 0};
+    for (auto& p : mesh.positions) p.x *= 3;
+    const Surface surface = surface_of(mesh);
+    std::size_t left = 0;
+    for (const auto& s : sample_area(surface, 3000, 7)) left += s.point.x < 1;
+    CHECK(left == Approx(1000).margin(60));
+}
+
+TEST_CASE("nothing is infinitely far from something, and not from nothing", "[geometry]") {
+    const auto d = deviation(shapes::cube(), Mesh{}, {.certify = true});
+    CHECK(d.maximum() == HUGE_VAL);
+    CHECK(deviation(Mesh{}, shapes::cube()).rms() == HUGE_VAL);
+    CHECK(deviation(Mesh{}, Mesh{}, {.certify = true}).maximum() == 0);
+}
+
+TEST_CASE("points are measured as points: all of them, to the nearest, by any number of threads",
+          "[geometry]") {
+    const auto cloud = [](std::uint64_t seed, std::size_t count) {
+        Scene scene;
+        for (std::size_t i = 0; i < count; ++i)
+            scene.parts.resize(1), scene.parts[0].mesh.positions.push_back(
+                                       {uniform(hashed(seed, 3 * i)), uniform(hashed(seed, 3 * i + 1)),
+                                        uniform(hashed(seed, 3 * i + 2))});
+        return unreferenced_points_of(scene);
+    };
+    const Surface a = cloud(1, 400), b = cloud(2, 300);
+    const auto nearest = [](const Surface& from, const Surface& to) {
+        std::vector<double> all;
+        for (const Vec3& p : from.positions) {
+            double least = HUGE_VAL;
+            for (const Vec3& q : to.positions) least = std::min(least, length(p - q));
+            all.push_back(least);
+        }
+        return all;
+    };
+    const auto d = deviation(a, b, {.certify = true});
+    for (const auto& [way, all] :
+         {std::pair(d.forward, nearest(a, b)), std::pair(d.backward, nearest(b, a))}) {
+        double sum = 0, squares = 0;
+        for (const double x : all) sum += x, squares += x * x;
+        CHECK(way.maximum == *std::max_element(all.begin(), all.end()));
+        CHECK(way.mean == Approx(sum / static_cast<double>(all.size())).epsilon(1e-12));
+        CHECK(way.rms == Approx(std::sqrt(squares / static_cast<double>(all.size()))).epsilon(1e-12));
+        CHECK(way.samples == 0);
+        CHECK(way.vertices == all.size());
+        CHECK(way.face == none);
+        CHECK(length(way.from - way.to) == way.maximum);
+        CHECK(*way.bound == Approx(way.maximum).epsilon(1e-9));
+    }
+    set_threads(1);
+    const auto alone = deviation(a, b);
+    set_threads(0);
+    CHECK(alone.forward.mean == d.forward.mean);
+    CHECK(alone.backward.rms == d.backward.rms);
+}
+
+TEST_CASE("loose points are the vertices without faces, in the world", "[geometry]") {
+    Scene scene;
+    scene.parts.resize(2);
+    scene.parts[0].mesh = shapes::cube();
+    scene.parts[0].mesh.positions.push_back({1, 2, 3});
+    scene.parts[0].transform.m[0][3] = 10;
+    scene.parts[1].mesh.positions = {{5, 5, 5}};
+    const Surface points = unreferenced_points_of(scene);
+    REQUIRE(points.positions == std::vector<Vec3>{{11, 2, 3}, {5, 5, 5}});
+    CHECK(points.size() == 2);
+    const Surface all = joined(surface_of(scene.parts[0]), points);
+    CHECK(all.size() == 14);
+    CHECK(all.face(11) == 11);
+    CHECK(all.face(12) == none);
+    CHECK(all.point(13, 2) == Vec3{5, 5, 5});
+}

@@ -1,0 +1,235 @@
+#include "support/catch.hpp"
+
+#include "base/parallel.hpp"
+#include "geometry/render/picture.hpp"
+#include "mesh/shapes.hpp"
+#include "support/run_stage.hpp"
+
+using namespace facetmill;
+using test::scene_of;
+
+namespace {
+
+struct Pixel {
+    int r, g, b, a;
+};
+
+Pixel at(const Picture& picture, int x, int y) {
+    const std::uint8_t* p = &picture.rgba[4 * static_cast<std::size_t>(y * picture.width + x)];
+    return {p[0], p[1], p[2], p[3]};
+}
+
+std::size_t covered(const Picture& picture) {
+    std::size_t count = 0;
+    for (std::size_t i = 3; i < picture.rgba.size(); i += 4) count += picture.rgba[i] > 127;
+    return count;
+}
+
+/// Whether the surface's inner side is seen there: more red than blue, by far.
+bool inner(const Pixel& p) { return p.r > p.b + 60; }
+
+} // namespace
+
+TEST_CASE("a sphere is a disc of the area that a disc has", "[geometry]") {
+    const Picture picture = picture_of(scene_of(shapes::icosphere(5)));
+    REQUIRE(picture.rgba.size() == 480U * 360U * 4U);
+    CHECK(at(picture, 0, 0).a == 0);
+    const Pixel middle = at(picture, 240, 180);
+    CHECK(middle.a == 255);
+    CHECK_FALSE(inner(middle));
+    // It fills 92 % of the height.
+    const double radius = 0.46 * 360;
+    CHECK(static_cast<double>(covered(picture)) == Approx(3.14159 * radius * radius).epsilon(0.01));
+    // Lit from the upper left.
+    CHECK(at(picture, 180, 100).r > at(picture, 300, 260).r + 40);
+}
+
+TEST_CASE("the inner side of a surface is orange, unless its material is double-sided", "[geometry]") {
+    Scene scene = scene_of(shapes::icosphere(3));
+    auto& corners = scene.parts[0].mesh.corners;
+    for (std::size_t c = 0; c < corners.size(); c += 3) std::swap(corners[c], corners[c + 1]);
+    CHECK(inner(at(picture_of(scene), 240, 180)));
+    Material& material = scene.materials.emplace_back();
+    material.double_sided = true;
+    material.base_colour[0] = material.base_colour[1] = 0;
+    scene.parts[0].mesh.primitives.resize(1);
+    scene.parts[0].mesh.primitives[0].material = 0;
+    const Pixel blue = at(picture_of(scene), 240, 180);
+    CHECK(blue.r == 0);
+    CHECK(blue.b > 100);
+}
+
+namespace {
+
+/// A flat square in the plane z = 0 that looks towards +z, seen from there at 20 pixels a side or so.
+Scene square(bool turned = false) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    mesh.corners = {0, 1, 2, 3};
+    if (turned) mesh.corners = {3, 2, 1, 0};
+    mesh.face_offsets = {0, 4};
+    return scene_of(mesh);
+}
+
+PictureSettings seen_from(const Vec3& from, Shading shading = Shading::sides) {
+    PictureSettings s;
+    s.width = s.height = 100;
+    s.from = from, s.shading = shading, s.edges = EdgeLines::no;
+    return s;
+}
+
+/// The shade of grey that a cosine gives, by the stated formula.
+int shade(double cosine) {
+    return static_cast<int>(255 * std::sqrt(0.72 * (0.16 + 0.84 * std::max(0.0, cosine))) + 0.5);
+}
+
+/// Width and height of what is covered.
+std::pair<int, int> size_of(const Picture& picture) {
+    int left = picture.width, right = -1, top = picture.height, bottom = -1;
+    for (int y = 0; y < picture.height; ++y)
+        for (int x = 0; x < picture.width; ++x)
+            if (at(picture, x, y).a > 127)
+                left = std::min(left, x), right = std::max(right, x), top = std::min(top, y),
+                bottom = std::max(bottom, y);
+    return {right - left + 1, bottom - top + 1};
+}
+
+} // namespace
+
+TEST_CASE("the cosine between normal and light shades a face, or its absolute value", "[geometry]") {
+    const double facing = 0.75 / std::sqrt(0.35 * 0.35 + 0.55 * 0.55 + 0.75 * 0.75);
+    const auto middle = [](const Scene& scene, Shading shading) {
+        return at(picture_of(scene, seen_from({0, 0, 1}, shading)), 50, 50).r;
+    };
+    CHECK(middle(square(), Shading::one_sided) == shade(facing));
+    CHECK(middle(square(true), Shading::one_sided) == shade(0));
+    CHECK(middle(square(true), Shading::absolute) == shade(facing));
+    Scene both = square(true);
+    both.materials.emplace_back().double_sided = true;
+    both.parts[0].mesh.primitives.resize(1);
+    both.parts[0].mesh.primitives[0].material = 0;
+    CHECK(middle(both, Shading::one_sided) == shade(facing));
+    // Doubled faces: the front is seen, whichever comes first.
+    for (const bool first : {false, true}) {
+        Scene doubled = square(first);
+        append(doubled.parts[0].mesh, square(!first).parts[0].mesh);
+        CHECK(middle(doubled, Shading::one_sided) == shade(facing));
+    }
+}
+
+TEST_CASE("absolute values hide which way faces run", "[geometry]") {
+    Scene good = scene_of(shapes::icosphere(3)), bad = good;
+    auto& corners = bad.parts[0].mesh.corners;
+    for (std::size_t c = 0; c < corners.size(); c += 9) std::swap(corners[c], corners[c + 1]);
+    PictureSettings s;
+    s.shading = Shading::absolute;
+    CHECK(picture_of(good, s).rgba == picture_of(bad, s).rgba);
+    s.shading = Shading::one_sided;
+    CHECK_FALSE(picture_of(good, s).rgba == picture_of(bad, s).rgba);
+}
+
+TEST_CASE("a box has its sides where the viewer stands", "[geometry]") {
+    Mesh box = shapes::cube();
+    for (Vec3& p : box.positions) p = {4e6 + 4.6 * p.x, 2 * p.y, 2.5 * p.z};
+    Scene scene = scene_of(box);
+    scene.up = UpAxis::z;
+    const auto size = [&](Viewpoint viewpoint) {
+        PictureSettings s;
+        s.width = s.height = 1000;
+        s.viewpoint = viewpoint;
+        return size_of(picture_of(scene, s));
+    };
+    using Size = std::pair<int, int>;
+    CHECK(size(Viewpoint::front) == Size{920, 500});
+    CHECK(size(Viewpoint::back) == Size{920, 500});
+    CHECK(size(Viewpoint::left) == Size{736, 920});
+    CHECK(size(Viewpoint::right) == Size{736, 920});
+    CHECK(size(Viewpoint::top) == Size{920, 400});
+    CHECK(size(Viewpoint::bottom) == Size{920, 400});
+    scene.up = UpAxis::y;
+    CHECK(size(Viewpoint::front) == Size{920, 400});
+    CHECK(picture_of(scene, seen_from({0, 0, 5})).scale == Approx(92.0 / 4.6));
+    // Left and right are told apart: a square beside the box on the right is seen on the right.
+    Scene two = square();
+    two.up = UpAxis::y;
+    two.parts[0].mesh.positions[2] = two.parts[0].mesh.positions[1] = {1, 0.5, 0};
+    PictureSettings front;
+    front.viewpoint = Viewpoint::front;
+    const Picture narrow_right = picture_of(two, front);
+    CHECK(at(narrow_right, 240 - 150, 40).a == 255);
+    CHECK(at(narrow_right, 240 + 150, 40).a == 0);
+}
+
+TEST_CASE("edges of polygons are drawn, those of their triangles are not", "[geometry]") {
+    PictureSettings with = seen_from({0, 0, 1});
+    with.edges = EdgeLines::all;
+    const Picture lines = picture_of(square(), with), none_drawn = picture_of(square(), seen_from({0, 0, 1}));
+    CHECK(at(lines, 50, 50).r == at(none_drawn, 50, 50).r);
+    CHECK(at(lines, 4, 50).r < at(none_drawn, 4, 50).r);
+    const Scene cut = scene_of(triangulated(square().parts[0].mesh));
+    CHECK(at(picture_of(cut, with), 50, 50).r < at(none_drawn, 50, 50).r);
+}
+
+TEST_CASE("pictures are painted by attributes", "[geometry]") {
+    Scene scene = square();
+    Mesh& mesh = scene.parts[0].mesh;
+    mesh.attributes.push_back(
+        {"heat", Domain::wedge, Role::generic, 1, false, std::vector<float>{0, 10, 10, 0}});
+    mesh.attributes.push_back({"group", Domain::face, Role::index, 1, false, std::vector<std::uint32_t>{3}});
+    PictureSettings s = seen_from({0, 0, 1});
+    s.attribute = "heat";
+    const Picture heat = picture_of(scene, s);
+    CHECK(heat.has_attribute);
+    CHECK(heat.range == std::array<double, 2>{0, 10});
+    const Pixel cold = at(heat, 6, 50), hot = at(heat, 93, 50);
+    CHECK(cold.b > cold.r + 20);
+    CHECK(hot.r > hot.b + 100);
+    s.attribute = "group";
+    const Pixel red = at(picture_of(scene, s), 50, 50);
+    CHECK(red.r > red.g + 60);
+    s.attribute = "nothing";
+    CHECK_FALSE(picture_of(scene, s).has_attribute);
+    CHECK(picture_of(scene, s).rgba == picture_of(scene, seen_from({0, 0, 1})).rgba);
+    mesh.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 4, false,
+                               std::vector<float>{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}});
+    const Pixel coloured = at(picture_of(scene, seen_from({0, 0, 1})), 50, 50);
+    CHECK(coloured.r > 150);
+    CHECK(coloured.g == 0);
+    s = seen_from({0, 0, 1});
+    s.paint = Paint::normal; // +z: x and y in the middle, blue full
+    const Pixel direction = at(picture_of(scene, s), 50, 50);
+    CHECK(std::abs(direction.r - 128) <= 1);
+    CHECK(std::abs(direction.g - 128) <= 1);
+    CHECK(direction.b == 255);
+    s.shows = [](const Part&) { return false; };
+    CHECK(covered(picture_of(scene, s)) == 0);
+}
+
+TEST_CASE("pictures stand beside each other", "[geometry]") {
+    PictureSettings s = seen_from({0, 0, 1});
+    s.ground = {1, 1, 1};
+    const Picture left = picture_of(square(), s), right = picture_of({}, s), both = beside(left, right);
+    CHECK(both.width == 200);
+    CHECK(both.rgba.size() == 2 * left.rgba.size());
+    CHECK(at(both, 50, 50).r == at(left, 50, 50).r);
+    CHECK(at(both, 150, 50).r == 255);
+    CHECK(at(both, 150, 50).a == 255);
+}
+
+TEST_CASE("pictures of what can hardly be seen", "[geometry]") {
+    CHECK(covered(picture_of({})) == 0);
+    CHECK(covered(picture_of(scene_of({}))) == 0);
+    Mesh points;
+    points.positions = {{0, 0, 0}, {1, 1, 1}, {HUGE_VAL, 0, 0}, {0, NAN, 0}};
+    std::size_t alpha = 0; // of two squares of a pixel each, wherever they fall
+    const Picture dots = picture_of(scene_of(points));
+    for (std::size_t i = 3; i < dots.rgba.size(); i += 4) alpha += dots.rgba[i];
+    CHECK(alpha >= 2 * 4 * (255 / 4));
+    CHECK(alpha <= 2 * 255);
+    Mesh cube = shapes::cube();
+    cube.positions[7].x = NAN;
+    CHECK(covered(picture_of(scene_of(cube))) > 10000);
+    for (Vec3& p : cube.positions) p *= 1e300;
+    CHECK(covered(picture_of(scene_of(cube))) > 10000);
+    CHECK(covered(picture_of(scene_of(shapes::quad_cube()))) > 10000);
+}

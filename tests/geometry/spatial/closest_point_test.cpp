@@ -1,0 +1,187 @@
+#include "support/catch.hpp"
+
+#include "base/parallel.hpp"
+#include "base/random.hpp"
+#include "geometry/spatial/closest_point.hpp"
+#include "geometry/spatial/hilbert_curve.hpp"
+#include "mesh/shapes.hpp"
+#include "support/meshes.hpp"
+
+#include <limits>
+#include <set>
+
+using namespace facetmill;
+
+namespace {
+
+Vec3 random_point(double size, std::uint64_t key) {
+    using testing::between;
+    return {between(-size, size, 5, 3 * key), between(-size, size, 5, 3 * key + 1),
+            between(-size, size, 5, 3 * key + 2)};
+}
+
+/// By trying every triangle.
+double distance_by_trial(const Surface& surface, const Vec3& p) {
+    double least = HUGE_VAL;
+    for (std::size_t t = 0; t < surface.size(); ++t)
+        least = std::min(least, length(closest_on_triangle(p, surface.point(t, 0), surface.point(t, 1),
+                                                           surface.point(t, 2)) -
+                                       p));
+    return least;
+}
+
+} // namespace
+
+TEST_CASE("the closest point of a triangle lies on its corners, edges and inside", "[geometry]") {
+    const Vec3 a{0, 0, 0}, b{2, 0, 0}, c{0, 2, 0};
+    CHECK(closest_on_triangle({-1, -1, 3}, a, b, c) == a);
+    CHECK(closest_on_triangle({4, -1, 1}, a, b, c) == b);
+    CHECK(closest_on_triangle({-1, 5, 1}, a, b, c) == c);
+    CHECK(closest_on_triangle({1, -2, 1}, a, b, c) == Vec3{1, 0, 0});
+    CHECK(closest_on_triangle({2, 2, -1}, a, b, c) == Vec3{1, 1, 0});
+    CHECK(length(closest_on_triangle({0.5, 0.5, 7}, a, b, c) - Vec3{0.5, 0.5, 0}) < 1e-15);
+}
+
+TEST_CASE("the closest point of a degenerate triangle is on its segment or point", "[geometry]") {
+    const Vec3 a{0, 0, 0}, b{1, 0, 0}, c{3, 0, 0};
+    CHECK(closest_on_triangle({2, 1, 0}, a, b, c) == Vec3{2, 0, 0});
+    CHECK(closest_on_triangle({2, 1, 0}, a, c, b) == Vec3{2, 0, 0});
+    CHECK(closest_on_triangle({5, 1, 0}, a, a, a) == a);
+    // A sliver a thousand million times as long as high: as good as its long edge.
+    const Vec3 q = closest_on_triangle({0.5, 1, 0}, a, b, {0.3, 1e-9, 0});
+    CHECK(length(q - Vec3{0.5, 0, 0}) < 2e-9);
+}
+
+TEST_CASE("the tree finds what trying every triangle finds", "[geometry]") {
+    const Mesh shape = GENERATE(as<Mesh>{}, testing::noisy_icosphere(2, 0.1, 3), shapes::quad_cube(),
+                                shapes::torus(20, 9), shapes::tetrahedron());
+    const Surface surface = surface_of(shape);
+    const FaceTree tree(surface);
+    REQUIRE(tree.triangles.size() == surface.size());
+    for (std::uint64_t k = 0; k < 200; ++k) {
+        const Vec3 p = random_point(k % 2 ? 1.5 : 30, k);
+        const Closest found = closest_point(tree, p);
+        CHECK(found.distance == Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-14));
+        CHECK(found.distance == Approx(length(found.point - p)));
+        CHECK(found.face < shape.face_count());
+    }
+}
+
+TEST_CASE("batches give what single queries give, whatever the number of threads", "[geometry]") {
+    const FaceTree tree(surface_of(testing::noisy_icosphere(3, 0.2, 9)));
+    std::vector<Vec3> points;
+    for (std::uint64_t k = 0; k < 5000; ++k) points.push_back(random_point(2, k));
+    const auto all = closest_points(tree, points);
+    set_threads(1);
+    const auto alone = closest_points(tree, points);
+    set_threads(0);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Closest one = closest_point(tree, points[k]);
+        REQUIRE(all[k].distance == one.distance);
+        REQUIRE(all[k].face == one.face);
+        REQUIRE(alone[k].point == all[k].point);
+    }
+}
+
+TEST_CASE("of faces that meet at the closest point the lowest is named", "[geometry]") {
+    const FaceTree tree(surface_of(shapes::cube()));
+    CHECK(closest_point(tree, {-1, -1, -1}).face == 0);
+    CHECK(closest_point(tree, {-1, -1, -1}).point == Vec3{0, 0, 0});
+}
+
+TEST_CASE("faces of a polygon mesh are named by their own number", "[geometry]") {
+    const Mesh cube = shapes::quad_cube();
+    const FaceTree tree(surface_of(cube));
+    for (Index f = 0; f < cube.face_count(); ++f) {
+        Vec3 middle;
+        for (Index c = cube.face_begin(f); c < cube.face_end(f); ++c) middle += cube.point(c) / 4;
+        CHECK(closest_point(tree, middle).face == f);
+        CHECK(closest_point(tree, middle).distance == 0);
+    }
+}
+
+TEST_CASE("numbers that are not finite are left out, and empty surfaces have no closest point",
+          "[geometry]") {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    Mesh mesh = shapes::cube();
+    mesh.positions[0].x = nan;
+    const FaceTree tree(surface_of(mesh));
+    CHECK(tree.triangles.size() < 12);
+    CHECK(closest_point(tree, {2, 0.5, 0.5}).distance == Approx(1));
+    CHECK(closest_point(tree, {nan, 0, 0}).face == none);
+    CHECK(closest_point(FaceTree(Surface{}), {0, 0, 0}).face == none);
+    CHECK(closest_points(FaceTree(Surface{}), std::vector<Vec3>{{0, 0, 0}})[0].distance == HUGE_VAL);
+}
+
+TEST_CASE("tiny, huge and far surfaces lose nothing", "[geometry]") {
+    for (const double size : {1e-30, 1e-6, 1e9, 1e60}) {
+        Mesh mesh = shapes::icosphere(2);
+        for (auto& p : mesh.positions) p = (p + Vec3{1000, -2000, 500}) * size;
+        const Surface surface = surface_of(mesh);
+        const FaceTree tree(surface);
+        for (std::uint64_t k = 0; k < 50; ++k) {
+            const Vec3 p = (random_point(2, k) + Vec3{1000, -2000, 500}) * size;
+            CHECK(closest_point(tree, p).distance ==
+                  Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-11 * size));
+        }
+        // Beyond the reach of squares, too: a corner is a corner.
+        Mesh largest = shapes::octahedron();
+        for (auto& p : largest.positions) p = p * (size * 1e140);
+        CHECK(closest_point(FaceTree(surface_of(largest)), {size * 3e140, 0, 0}).distance ==
+              Approx(size * 2e140));
+        CHECK(closest_point(tree, {1e150, 0, 0}).face != none);
+    }
+}
+
+TEST_CASE("neighbours on the curve are neighbours in space", "[geometry]") {
+    std::vector<std::array<std::uint32_t, 3>> cells(512);
+    std::set<std::uint64_t> seen;
+    constexpr std::uint32_t shift = hilbert::axis_bits - 3;
+    for (std::uint32_t i = 0; i < 512; ++i) {
+        const std::uint32_t x = i & 7, y = i >> 3 & 7, z = i >> 6;
+        const std::uint64_t along = hilbert::index(x << shift, y << shift, z << shift) >> 3 * shift;
+        REQUIRE(along < 512);
+        seen.insert(along);
+        cells[along] = {x, y, z};
+    }
+    CHECK(seen.size() == 512);
+    for (std::size_t i = 1; i < 512; ++i) {
+        int steps = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            steps += std::abs(static_cast<int>(cells[i][axis]) - static_cast<int>(cells[i - 1][axis]));
+        CHECK(steps == 1);
+    }
+}
+
+TEST_CASE("from far away the closest point is still the closest", "[geometry]") {
+    const Surface surface = surface_of(testing::noisy_icosphere(3, 0.05, 4));
+    const FaceTree tree(surface);
+    for (const double far : {50.0, 70.0, 1e3, 1e5, 1e7})
+        for (std::uint64_t k = 0; k < 20; ++k) {
+            const Vec3 p = random_point(far, k);
+            CHECK(closest_point(tree, p).distance == Approx(distance_by_trial(surface, p)).epsilon(1e-14));
+        }
+    const Closest found = closest_point(tree, {1e300, 0, 0});
+    CHECK(found.point.x == Approx(1).epsilon(0.06)); // the side that faces the query
+    CHECK(found.distance == 1e300);
+}
+
+TEST_CASE("slivers, folds and needles are as close as trying each says", "[geometry]") {
+    // Long thin triangles in all directions, some without area.
+    Mesh mesh;
+    for (std::uint64_t k = 0; k < 300; ++k) {
+        const Vec3 a = random_point(1, 7 * k), b = a + random_point(0.5, 7 * k + 1);
+        const Vec3 c = mix(a, b, testing::between(0, 1, 8, k)) + random_point(k % 3 ? 1e-7 : 0, 7 * k + 2);
+        for (const Vec3& p : {a, b, c}) {
+            mesh.corners.push_back(static_cast<Index>(mesh.positions.size()));
+            mesh.positions.push_back(p);
+        }
+    }
+    const Surface surface = surface_of(mesh);
+    const FaceTree tree(surface);
+    for (std::uint64_t k = 0; k < 500; ++k) {
+        const Vec3 p = random_point(1.2, 9000 + k);
+        CHECK(closest_point(tree, p).distance ==
+              Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-14));
+    }
+}
