@@ -1,7 +1,7 @@
 #include "cli/pipe_syntax.hpp"
 
-#include "docs/stages.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "stage/common_keys.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -14,11 +14,7 @@ bool is_separator(const std::string& a) { return a == "!" || a == "+"; }
 bool is_bracket(const std::string& a) { return a == "[" || a == "]"; }
 bool is_option(const std::string& a) { return a.size() > 2 && a.starts_with("--"); }
 
-bool is_common(std::string_view key) {
-    for (const auto& common : docs::common_keys())
-        if (common.name == key) return true;
-    return key == "join";
-}
+bool is_common(std::string_view key) { return is_common_key(key) || key == "join"; }
 
 /// Reads the arguments from left to right; every function leaves at_ behind what it read.
 class Parser {

@@ -24,7 +24,7 @@ Command schema_command() {
                 app.add_option("WHAT", *what, "pipeline (default), report, info or diff.")
                     ->check(CLI::IsMember({"pipeline", "report", "info", "diff"}));
                 return [=](const Invocation&) {
-                    const Json schema = *what == "report" ? report::schema()
+                    const Json schema = *what == "report" ? docs::report_schema()
                                         : *what == "info" ? report::info_schema()
                                         : *what == "diff" ? report::comparison_schema()
                                                           : docs::pipeline_schema();

@@ -1,5 +1,5 @@
 #include "diff/comparison.hpp"
-#include "report/deviation_json.hpp"
+#include "geometry/deviation/deviation_fields.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -34,7 +34,32 @@ void collect(const Declaration& declaration, const std::string& prefix, std::vec
     }
 }
 
+std::string type_text(const Field& field) {
+    if (field.choices.empty()) return field.type + (field.unit.empty() ? "" : ", " + field.unit);
+    std::vector<std::string> names;
+    for (const auto& c : field.choices) names.push_back(c.name);
+    return fmt::format("one of {}", fmt::join(names, ", "));
+}
+
+void collect(const Fields& fields, const std::string& prefix, std::vector<FieldRow>& out) {
+    for (const auto& field : fields.all) {
+        FieldRow row{prefix + field.name + (field.is_list ? "[]" : ""), type_text(field), field.help,
+                     field.choices};
+        if (!field.null_when.empty()) row.help += fmt::format(" Null when {}.", field.null_when);
+        if (!field.only_when.empty()) row.help += fmt::format(" Only when {}.", field.only_when);
+        const std::string inner = row.name + ".";
+        out.push_back(std::move(row));
+        if (field.fields) collect(*field.fields, inner, out);
+    }
+}
+
 } // namespace
+
+std::vector<FieldRow> rows(const Fields& fields) {
+    std::vector<FieldRow> all;
+    collect(fields, "", all);
+    return all;
+}
 
 std::vector<OptionRow> rows(const Declaration& declaration) {
     std::vector<OptionRow> all;

@@ -2,6 +2,7 @@
 // What the generators share: a declaration flattened into rows, and text laid out in columns.
 
 #include "options/declaration.hpp"
+#include "options/fields.hpp"
 
 namespace facetmill::docs {
 
@@ -17,6 +18,15 @@ struct OptionRow {
 };
 
 std::vector<OptionRow> rows(const Declaration& declaration);
+/// A field of a result as people read it. Fields of an object or a list follow it.
+struct FieldRow {
+    std::string name; ///< "parts[].before.area"
+    std::string type; ///< "number, scene units", "one of faces, edges"
+    std::string help; ///< with when it is null or not there
+    std::vector<Choice> choices;
+};
+
+std::vector<FieldRow> rows(const Fields& fields);
 /// "at most one of ratio, faces", one per rule.
 std::vector<std::string> rules(const Declaration& declaration);
 /// How the numbers of a dimension are spelled: "A length is ...", or empty.

@@ -1,7 +1,9 @@
 #include "docs/schema.hpp"
 
-#include "docs/stages.hpp"
+#include "report/render.hpp"
+#include "stage/common_keys.hpp"
 #include "stage/contract.hpp"
+#include "stage/stage.hpp"
 
 namespace facetmill::docs {
 
@@ -95,16 +97,12 @@ Json param_schema() {
 }
 
 Json definitions() {
-    const Json assertions = with_expressions(assertions_schema());
-    const Json names = {{"type", "string"}};
-    return {{"expression", {{"type", "string"}, {"pattern", "\\$\\{"}}},
-            {"name", names},
-            {"only", {{"anyOf", Json::array({names, {{"type", "array"}, {"items", names}}})}}},
-            {"when", {{"anyOf", Json::array({{{"type", Json::array({"boolean", "string"})}}, assertions})}}},
-            {"ensure", with_expressions(contract_schema())},
-            {"param", param_schema()},
-            {"step", step_forms()},
-            {"stages", {{"type", "array"}, {"items", ref("step")}}}};
+    Json all = {{"expression", {{"type", "string"}, {"pattern", "\\$\\{"}}}};
+    for (const auto& key : common_keys()) all[key.name] = with_expressions(key.schema);
+    all["param"] = param_schema();
+    all["step"] = step_forms();
+    all["stages"] = {{"type", "array"}, {"items", ref("step")}};
+    return all;
 }
 
 } // namespace
@@ -126,6 +124,23 @@ Json pipeline_schema() {
         {"patternProperties", {{"^x-", true}}},
         {"additionalProperties", false},
         {"$defs", definitions()}};
+}
+
+Json report_schema() {
+    Json schema = report::schema();
+    Json& definitions = schema["$defs"];
+    Json forms = Json::array();
+    for (const auto& stage : stages()) {
+        const std::string name = "result." + stage.name;
+        definitions[name] = stage.result.schema();
+        definitions[name]["properties"]["deviation"] = contract_result_schema();
+        // A stage that was skipped or has failed leaves no scene, and no result.
+        const Json done = {{"stage", {{"const", stage.name}}}, {"after", {{"type", "object"}}}};
+        forms.push_back(
+            {{"if", {{"properties", done}}}, {"then", {{"properties", {{"result", ref(name.c_str())}}}}}});
+    }
+    definitions["stage"]["allOf"] = std::move(forms);
+    return schema;
 }
 
 } // namespace facetmill::docs

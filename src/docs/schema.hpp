@@ -1,5 +1,6 @@
 #pragma once
-// JSON Schema (2020-12) of the pipeline language, for editors and for checking files elsewhere.
+// JSON Schemas (2020-12) that come from the declarations of the stages: of the pipeline language, for editors
+// and for checking files elsewhere, and of the report.
 
 #include "base/json.hpp"
 
@@ -9,5 +10,9 @@ namespace facetmill::docs {
 /// a value stands, an expression (${x}) may stand too. It accepts what `facetmill check` accepts, and more:
 /// ranges, exclusive options and names are judged by check.
 Json pipeline_schema();
+
+/// The report of a run: that of report::schema(), with the result of each stage that was done as its
+/// declaration says.
+Json report_schema();
 
 } // namespace facetmill::docs

@@ -1,6 +1,7 @@
 #include "docs/describe.hpp"
 #include "docs/stages.hpp"
 #include "report/warnings.hpp"
+#include "stage/common_keys.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -42,6 +43,14 @@ std::string option_entry(const OptionRow& row) {
     return text;
 }
 
+std::string field_entry(const FieldRow& row) {
+    std::string text =
+        fmt::format(".TP\n.BR {} \" ({})\"\n{}\n", roff(row.name), roff(row.type), roff(row.help));
+    for (const auto& c : row.choices)
+        if (!c.help.empty()) text += fmt::format(".br\n.IR {} :\n{}\n", roff(c.name), roff(c.help));
+    return text;
+}
+
 std::string section(const StageInfo& s) {
     std::string text = fmt::format(".SH {}\n{}\n", roff(upper(s.name)), roff(s.about));
     if (!s.details.empty()) text += fmt::format(".PP\n{}\n", roff(s.details));
@@ -49,6 +58,8 @@ std::string section(const StageInfo& s) {
         text += fmt::format(".PP\nA bare value: {}\n", roff(s.options.shorthand_help));
     for (const auto& row : rows(s.options)) text += option_entry(row);
     for (const auto& rule : rules(s.options)) text += fmt::format(".PP\nGiven: {}.\n", roff(rule));
+    if (!s.result.all.empty()) text += ".PP\nResult, in the report:\n";
+    for (const auto& row : rows(s.result)) text += field_entry(row);
     if (!s.examples.empty()) text += ".PP\nExamples:\n.PP\n.nf\n.RS\n";
     for (const auto& example : s.examples) text += fmt::format("\\- {}\n", roff(example));
     if (!s.examples.empty()) text += ".RE\n.fi\n";

@@ -32,6 +32,13 @@ std::string option_row(const OptionRow& row) {
                        cell(row.type), preset, cell(help));
 }
 
+std::string field_row(const FieldRow& row) {
+    std::string help = row.help;
+    for (const auto& c : row.choices)
+        if (!c.help.empty()) help += fmt::format(" `{}`: {}.", c.name, c.help);
+    return fmt::format("| `{}` | {} | {} |\n", row.name, cell(row.type), cell(help));
+}
+
 } // namespace
 
 std::string stages_markdown_table() {
@@ -54,6 +61,8 @@ std::string stages_markdown() {
         for (const auto& row : options) text += option_row(row);
         for (const auto& rule : rules(s.options)) text += fmt::format("\nGiven: {}.\n", rule);
         for (const auto& help : spelling_helps(options)) text += fmt::format("\n{}\n", help);
+        if (!s.result.all.empty()) text += "\n| result | type | |\n|---|---|---|\n";
+        for (const auto& row : rows(s.result)) text += field_row(row);
         if (s.examples.empty()) continue;
         text += "\n```yaml\n";
         for (const auto& example : s.examples) text += fmt::format("- {}\n", example);

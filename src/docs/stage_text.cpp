@@ -1,20 +1,10 @@
 #include "docs/describe.hpp"
 #include "docs/stages.hpp"
+#include "stage/common_keys.hpp"
 
 #include <fmt/format.h>
 
 namespace facetmill::docs {
-
-const std::vector<Choice>& common_keys() {
-    static const std::vector<Choice> keys{
-        {"name", "How the report, --set and messages call this step. Unique in the pipeline."},
-        {"when",
-         "Runs the step only when this holds: a bool param, ${a} == value, or properties as in ensure."},
-        {"only", "The parts it works on: names or globs of parts or materials; \"!glob\" excludes."},
-        {"ensure", "A contract on the scene that leaves the step: {closed: true, faces: {max: 5000}}."},
-    };
-    return keys;
-}
 
 std::string stage_list() {
     std::size_t widest = 0;
@@ -37,6 +27,19 @@ std::string option_text(const OptionRow& row) {
     return text;
 }
 
+std::string common_names() {
+    std::string names;
+    for (const auto& key : common_keys()) names += (names.empty() ? "" : ", ") + key.name;
+    return names;
+}
+
+std::string field_text(const FieldRow& row) {
+    std::string text = fmt::format("  {} ({})\n", row.name, row.type) + wrapped(row.help, 6);
+    for (const auto& c : row.choices)
+        if (!c.help.empty()) text += wrapped(fmt::format("{}: {}", c.name, c.help), 8);
+    return text;
+}
+
 } // namespace
 
 std::string stage_page(const StageInfo& stage) {
@@ -48,11 +51,13 @@ std::string stage_page(const StageInfo& stage) {
     text += options.empty() ? "\nOptions: none\n" : "\nOptions\n";
     for (const auto& row : options) text += option_text(row);
     for (const auto& rule : rules(stage.options)) text += fmt::format("  Given: {}.\n", rule);
-    text += "\nAlso, as for every stage: name, when, only, ensure (see facetmill-pipeline(5)).\n";
+    text += fmt::format("\nAlso, as for every stage: {} (see facetmill-pipeline(5)).\n", common_names());
     if (const auto helps = spelling_helps(options); !helps.empty()) {
         text += "\n";
         for (const auto& help : helps) text += wrapped(help, 0);
     }
+    if (!stage.result.all.empty()) text += "\nResult, in the report\n";
+    for (const auto& row : rows(stage.result)) text += field_text(row);
     if (!stage.examples.empty()) text += "\nExamples\n";
     for (const auto& example : stage.examples) text += fmt::format("  - {}\n", example);
     return text;
@@ -71,11 +76,15 @@ Json stages_json() {
             for (const auto& c : row.choices) option["choices"][c.name] = c.help;
             options.push_back(std::move(option));
         }
+        Json result = Json::array();
+        for (const auto& row : rows(s.result))
+            result.push_back({{"name", row.name}, {"type", row.type}, {"help", row.help}});
         all.push_back({{"name", s.name},
                        {"about", s.about},
                        {"details", s.details},
                        {"options", options},
                        {"rules", rules(s.options)},
+                       {"result", result},
                        {"examples", s.examples}});
     }
     return all;

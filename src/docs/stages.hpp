@@ -10,8 +10,6 @@ namespace facetmill::docs {
 std::string stage_list();
 /// All of one stage: what it does, its options, rules, spelling of quantities and examples.
 std::string stage_page(const StageInfo& stage);
-/// The keys that every step takes besides its stage's options, as name and help.
-const std::vector<Choice>& common_keys();
 /// All stages, as one Markdown page.
 std::string stages_markdown();
 /// A table of name and purpose in Markdown, for the README.

@@ -1,5 +1,6 @@
 #include "base/spelling.hpp"
 #include "pipeline/planner.hpp"
+#include "stage/common_keys.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -7,10 +8,6 @@
 namespace facetmill::pipeline {
 
 namespace {
-
-bool is_common_key(std::string_view key) {
-    return key == "name" || key == "when" || key == "only" || key == "ensure";
-}
 
 /// Keys that belong to an item beside its stage.
 bool belongs(std::string_view key, std::string_view stage) {
@@ -20,7 +17,8 @@ bool belongs(std::string_view key, std::string_view stage) {
 
 std::vector<std::string> keys_beside(const std::string& stage) {
     std::vector<std::string> keys;
-    for (const char* key : {"name", "when", "only", "ensure", "join", "do"})
+    for (const auto& common : common_keys()) keys.push_back(common.name);
+    for (const char* key : {"join", "do"})
         if (belongs(key, stage)) keys.emplace_back(key);
     return keys;
 }

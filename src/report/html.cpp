@@ -1,6 +1,6 @@
 #include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
 #include "report/check_text.hpp"
-#include "report/numbers.hpp"
 #include "report/render.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "report/summary.hpp"
 
-#include "report/numbers.hpp"
+#include "base/readable_numbers.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
+#include "base/readable_numbers.hpp"
 #include "report/check_text.hpp"
-#include "report/numbers.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>

@@ -107,6 +107,11 @@ void Context::warn(std::string id, std::string message, std::string hint) {
         {Severity::warning, std::move(id), std::move(message), where_, std::move(hint)});
 }
 
+void Context::report(const Fields& fields, const void* result) {
+    record_.result.update(fields.json(result));
+    say(fields.lines(result));
+}
+
 void Context::output(const std::string& path, io::Span bytes) {
     const auto& staged = run_.outputs.add(run_.places.output(path), bytes, where_);
     run_.record.outputs.push_back({staged.target.string(), staged.bytes, staged.sha256, {}});

@@ -1,9 +1,10 @@
 #pragma once
 // What a stage gets besides its options and the scene: lengths resolved, warnings, the ledger, files.
 
-#include "mesh/surface.hpp"
 #include "io/outputs.hpp"
 #include "mesh/scene.hpp"
+#include "mesh/surface.hpp"
+#include "options/fields.hpp"
 #include "options/quantities.hpp"
 #include "report/record.hpp"
 
@@ -58,6 +59,8 @@ class Context {
     void ledger(const Part& part, const Fates& fates);
     /// What the stage wants in the report under "result".
     Json& result() { return record_.result; }
+    /// Records the result that a stage has filled, and says its lines on the terminal.
+    void report(const Fields& fields, const void* result);
     void check(report::Check check);
     /// A line for people on the terminal: the main numbers of the result.
     void say(std::string line) { record_.said.push_back(std::move(line)); }

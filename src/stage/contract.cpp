@@ -1,8 +1,8 @@
 #include "stage/contract.hpp"
 
 #include "base/numbers.hpp"
+#include "geometry/deviation/deviation_fields.hpp"
 #include "mesh/unreferenced.hpp"
-#include "report/deviation_json.hpp"
 
 #include <fmt/format.h>
 
@@ -89,6 +89,13 @@ Json contract_schema() {
     return schema;
 }
 
+Json contract_result_schema() {
+    Json schema = deviation_fields().schema();
+    schema["description"] =
+        "How far the scene is from what it is compared with. Only when ensure limits the deviation.";
+    return schema;
+}
+
 std::string to_string(const DeviationLimits& limits) {
     std::string text;
     const auto add = [&](const char* name, const std::optional<Length>& limit) {
@@ -102,7 +109,7 @@ std::string to_string(const DeviationLimits& limits) {
 void check_deviation(const DeviationLimits& limits, const Mark& where, const Surface& before,
                      const Scene& scene, Context& context) {
     const DeviationResult measured = deviation(before, surface_or_points_of(scene), limits.settings());
-    context.result()["deviation"] = report::deviation_json(measured);
+    context.result()["deviation"] = deviation_json(measured);
     const auto check = [&](const std::string& name, const std::optional<Length>& limit, double value,
                            const std::string& found) {
         if (!limit) return;

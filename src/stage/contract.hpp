@@ -29,6 +29,8 @@ struct Contract {
 };
 bool parse_contract(const Value& value, Contract& out, Problems& problems);
 Json contract_schema();
+/// ... and of what a contract on the deviation adds to the result of its stage, under "deviation".
+Json contract_result_schema();
 /// "max 0.5%, rms 0.1%", for plans.
 std::string to_string(const DeviationLimits& limits);
 

@@ -6,9 +6,17 @@
 //   Scene run(Scene scene, const RelaxOptions& o, Context& context) { ... }
 //   const RegisterStage relax = make_stage<RelaxOptions>(
 //       {.name = "relax", .about = "Smooths a surface ...", .examples = {"relax: 3"}}, declare, run);
+//
+// One that has something to report fills a struct of its own as well, whose fields are declared the same way:
+//
+//   struct RelaxReport { ... };
+//   void declare_report(DeclareFields<RelaxReport>& d) { ... }
+//   Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& report) { ... }
+//   const RegisterStage relax = make_stage<RelaxOptions>({...}, declare, declare_report, run);
 
 #include "io/codec.hpp"
 #include "options/declaration.hpp"
+#include "options/fields.hpp"
 #include "stage/context.hpp"
 
 namespace facetmill {
@@ -28,6 +36,7 @@ struct StageInfo {
 
     // Filled by make_stage.
     Declaration options = {};
+    Fields result = {};                                       ///< of what the stage reports; empty: nothing
     std::function<std::shared_ptr<void>()> make_options = {}; ///< a default options struct
     std::function<Scene(Scene, const void* options, Context&)> run = {};
     std::function<StageFiles(const void* options)> files = {}; ///< may be empty
@@ -55,15 +64,11 @@ struct StageHooks {
 };
 
 template <class Options, class DeclareFunction>
-StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene, const Options&, Context&),
-                     StageHooks<Options> hooks = {}) {
+void add_options(StageInfo& info, DeclareFunction declare, StageHooks<Options> hooks) {
     Declare<Options> d;
     declare(d);
     info.options = std::move(d.declaration);
     info.make_options = [] { return std::make_shared<Options>(); };
-    info.run = [run](Scene scene, const void* options, Context& context) {
-        return run(std::move(scene), *static_cast<const Options*>(options), context);
-    };
     if (hooks.files)
         info.files = [f = hooks.files](const void* options) {
             return f(*static_cast<const Options*>(options));
@@ -76,6 +81,31 @@ StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene
         info.verify = [f = hooks.verify](const void* options, const Value& given, Problems& problems) {
             f(*static_cast<const Options*>(options), given, problems);
         };
+}
+
+/// Of a stage that has nothing to report.
+template <class Options, class DeclareFunction>
+StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene, const Options&, Context&),
+                     StageHooks<Options> hooks = {}) {
+    add_options(info, declare, std::move(hooks));
+    info.run = [run](Scene scene, const void* options, Context& context) {
+        return run(std::move(scene), *static_cast<const Options*>(options), context);
+    };
+    return info;
+}
+
+/// Of a stage that fills a report: it is recorded and said when the stage is done.
+template <class Options, class Report, class DeclareFunction>
+StageInfo make_stage(StageInfo info, DeclareFunction declare, void (*declare_report)(DeclareFields<Report>&),
+                     Scene (*run)(Scene, const Options&, Context&, Report&), StageHooks<Options> hooks = {}) {
+    add_options(info, declare, std::move(hooks));
+    info.result = fields_of<Report>(declare_report);
+    info.run = [run, fields = info.result](Scene scene, const void* options, Context& context) {
+        Report report;
+        Scene out = run(std::move(scene), *static_cast<const Options*>(options), context, report);
+        context.report(fields, &report);
+        return out;
+    };
     return info;
 }
 

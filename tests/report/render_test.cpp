@@ -1,8 +1,8 @@
 #include "support/catch.hpp"
 
 #include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
 #include "mesh/shapes.hpp"
-#include "report/numbers.hpp"
 #include "report/render.hpp"
 #include "support/failure.hpp"
 #include "support/temporary.hpp"

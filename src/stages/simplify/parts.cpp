@@ -1,10 +1,10 @@
 #include "stages/simplify/parts.hpp"
 
 #include "geometry/deviation/deviation.hpp"
+#include "geometry/deviation/deviation_fields.hpp"
 #include "geometry/simplify/joint.hpp"
-#include "mesh/stretch.hpp"
 #include "mesh/placement.hpp"
-#include "report/deviation_json.hpp"
+#include "mesh/stretch.hpp"
 #include "stages/simplify/report.hpp"
 
 #include <fmt/format.h>
@@ -175,8 +175,8 @@ class Simplifier {
         if (changes_topology())
             entry["topology"] = report::topology_change_json(before_[number].topology, inspect(part.mesh));
         if (o_.measure || o_.certify)
-            entry["deviation"] = report::deviation_json(
-                deviation(before_[number].surface, surface_of(part), {.certify = o_.certify}));
+            entry["deviation"] =
+                deviation_json(deviation(before_[number].surface, surface_of(part), {.certify = o_.certify}));
         parts_.push_back(std::move(entry));
         warn(part, r, context_);
     }

@@ -1,6 +1,6 @@
 #include "stages/simplify/report.hpp"
 
-#include "report/numbers.hpp"
+#include "base/readable_numbers.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

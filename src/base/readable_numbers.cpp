@@ -1,8 +1,8 @@
-#include "report/numbers.hpp"
+#include "base/readable_numbers.hpp"
 
 #include <fmt/format.h>
 
-namespace facetmill::report {
+namespace facetmill {
 
 std::string grouped(std::uint64_t count) {
     std::string digits = std::to_string(count);
@@ -15,7 +15,10 @@ std::string sized(std::uint64_t bytes) {
     double amount = static_cast<double>(bytes) / 1000;
     const char* unit = "kB";
     for (const char* next : {"MB", "GB"})
-        if (amount >= 999.95) amount /= 1000, unit = next;
+        if (amount >= 999.95) {
+            amount /= 1000;
+            unit = next;
+        }
     return fmt::format("{:.1f} {}", amount, unit);
 }
 
@@ -26,4 +29,4 @@ std::string timed(double seconds) {
                                       static_cast<double>(static_cast<int>(seconds) % 60));
 }
 
-} // namespace facetmill::report
+} // namespace facetmill

@@ -1,0 +1,87 @@
+#include "geometry/deviation/deviation_fields.hpp"
+
+namespace facetmill {
+
+namespace {
+
+constexpr const char* infinite = "one of the surfaces is empty";
+constexpr const char* uncertified = "it was not certified";
+
+void declare_place(DeclareFields<DirectedDeviation>& d) {
+    d.field("from", &DirectedDeviation::from, "The farthest sample.");
+    d.field("to", &DirectedDeviation::to, "The point nearest to it.");
+    const auto face = [](const DirectedDeviation& way) {
+        return way.face == none ? std::optional<Index>() : way.face;
+    };
+    d.field("face", face, "The face that it lies on.").null_when("it is a vertex");
+}
+
+void declare_way(DeclareFields<DirectedDeviation>& d) {
+    d.field("samples", &DirectedDeviation::samples, "Points measured over the area.");
+    d.field("vertices", &DirectedDeviation::vertices, "Vertices measured besides, for the maximum.");
+    d.field("maximum", &DirectedDeviation::maximum, "The largest distance.")
+        .unit("scene units")
+        .null_when(infinite);
+    d.field("rms", &DirectedDeviation::rms, "The root mean square distance.")
+        .unit("scene units")
+        .null_when(infinite);
+    d.field("mean", &DirectedDeviation::mean, "The mean distance.").unit("scene units").null_when(infinite);
+    d.field("bound", &DirectedDeviation::bound, "No point is farther than this.")
+        .unit("scene units")
+        .null_when(uncertified);
+    const auto at = [](const DirectedDeviation& way) {
+        return std::isfinite(way.maximum) && way.vertices > 0 ? std::optional(way) : std::nullopt;
+    };
+    d.object("at", at, "Where the maximum is.", declare_place).null_when("nothing was measured");
+}
+
+/// The four measures in percent of the diagonal.
+void declare_percent(DeclareFields<DeviationResult>& d) {
+    const auto percent = [](double (DeviationResult::*length)() const) {
+        return [length](const DeviationResult& r) { return r.percent((r.*length)()); };
+    };
+    d.field("maximum", percent(&DeviationResult::maximum), "The maximum.").null_when(infinite);
+    d.field("rms", percent(&DeviationResult::rms), "The root mean square.").null_when(infinite);
+    d.field("mean", percent(&DeviationResult::mean), "The mean.").null_when(infinite);
+    const auto bound = [](const DeviationResult& r) {
+        const auto length = r.bound();
+        return length ? std::optional(r.percent(*length)) : std::nullopt;
+    };
+    d.field("bound", bound, "The bound.").null_when(uncertified);
+}
+
+} // namespace
+
+void declare_deviation_fields(DeclareFields<DeviationResult>& d) {
+    d.field("maximum", &DeviationResult::maximum, "The largest distance from either surface to the other.")
+        .unit("scene units")
+        .null_when(infinite);
+    d.field("rms", &DeviationResult::rms, "The larger root mean square distance of both ways.")
+        .unit("scene units")
+        .null_when(infinite);
+    d.field("mean", &DeviationResult::mean, "The larger mean distance of both ways.")
+        .unit("scene units")
+        .null_when(infinite);
+    d.field("bound", &DeviationResult::bound, "No point of either surface is farther than this.")
+        .unit("scene units")
+        .null_when(uncertified);
+    d.field("diagonal", &DeviationResult::diagonal, "Of the box of the surface that is compared with.")
+        .unit("scene units")
+        .null_when("it is beyond the range of numbers");
+    const auto self = [](const DeviationResult& r) -> const DeviationResult& { return r; };
+    d.object("percent", self, "The same in percent of the diagonal.", declare_percent);
+    d.field("seed", &DeviationResult::seed, "Where the samples fall.");
+    d.object("forward", &DeviationResult::forward, "From the first surface, what entered, to the second.",
+             declare_way);
+    d.object("backward", &DeviationResult::backward, "From the second surface, what left, to the first.",
+             declare_way);
+}
+
+const Fields& deviation_fields() {
+    static const Fields all = fields_of<DeviationResult>(declare_deviation_fields);
+    return all;
+}
+
+Json deviation_json(const DeviationResult& deviation) { return deviation_fields().json(&deviation); }
+
+} // namespace facetmill

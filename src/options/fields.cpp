@@ -1,0 +1,117 @@
+#include "options/fields.hpp"
+
+#include "base/readable_numbers.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+Json described(const Field& field) {
+    Json schema = field.schema;
+    if (!field.null_when.empty()) {
+        if (schema.contains("enum"))
+            schema["enum"].push_back(nullptr);
+        else
+            schema["type"] = Json::array({schema["type"], "null"});
+    }
+    std::string about = field.help;
+    if (!field.unit.empty()) about += fmt::format(" In {}.", field.unit);
+    if (!field.null_when.empty()) about += fmt::format(" Null when {}.", field.null_when);
+    if (!field.only_when.empty()) about += fmt::format(" Only when {}.", field.only_when);
+    if (!about.empty()) schema["description"] = about;
+    return schema;
+}
+
+/// "filled holes 2, welded vertices 12" over all items of the list, in the order of their fields.
+std::string tally(const Field& list, const void* record) {
+    std::string text;
+    for (const Field& field : list.fields->all) {
+        if (!field.count) continue;
+        std::uint64_t sum = 0;
+        list.each(record, [&](const void* item) { sum += field.count(item); });
+        if (sum == 0) continue;
+        std::string words = field.name;
+        std::replace(words.begin(), words.end(), '_', ' ');
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", words, grouped(sum));
+    }
+    return text.empty() ? *list.nothing_counted : text;
+}
+
+/// The phrases of the record's fields and of the objects in it.
+void add_phrases(const Fields& fields, const void* record, std::string& line) {
+    for (const Field& field : fields.all) {
+        if (field.phrase && field.name != fields.heading)
+            if (const auto phrase = field.phrase(record)) line += (line.empty() ? "" : ", ") + *phrase;
+        if (field.fields && !field.is_list)
+            field.each(record, [&](const void* object) { add_phrases(*field.fields, object, line); });
+    }
+}
+
+} // namespace
+
+Json Fields::json(const void* record) const {
+    Json object = Json::object();
+    for (const Field& field : all) field.put(field, record, object);
+    return object;
+}
+
+Json Fields::schema() const {
+    Json properties = Json::object(), required = Json::array();
+    for (const Field& field : all) {
+        properties[field.name] = described(field);
+        if (field.only_when.empty()) required.push_back(field.name);
+    }
+    return {{"type", "object"},
+            {"properties", std::move(properties)},
+            {"required", std::move(required)},
+            {"additionalProperties", false}};
+}
+
+std::vector<std::string> Fields::lines(const void* record) const {
+    if (tell) return tell(record);
+    std::vector<std::string> lines;
+    std::string line;
+    add_phrases(*this, record, line);
+    if (!line.empty()) {
+        const auto head =
+            std::find_if(all.begin(), all.end(), [&](const Field& f) { return f.name == heading; });
+        const auto name = head != all.end() && head->phrase ? head->phrase(record) : std::nullopt;
+        lines.push_back(name ? *name + ": " + line : line);
+    }
+    for (const Field& field : all) {
+        if (!field.is_list) continue;
+        if (field.nothing_counted)
+            lines.push_back(tally(field, record));
+        else
+            field.each(record, [&](const void* item) {
+                for (auto& told : field.fields->lines(item)) lines.push_back(std::move(told));
+            });
+    }
+    return lines;
+}
+
+std::string fields::told(const std::string& format, const Told& value) {
+    return std::visit([&](const auto& v) { return fmt::format(fmt::runtime(format), v); }, value);
+}
+
+FieldRef& FieldRef::only_when(std::string text) {
+    Field& f = field();
+    f.only_when = std::move(text);
+    if (f.optionals == 1) f.null_when.clear();
+    return *this;
+}
+
+FieldRef& FieldRef::said(std::string format) {
+    field().phrase = [value = value_,
+                      format = std::move(format)](const void* record) -> std::optional<std::string> {
+        const auto given = value(record);
+        if (!given) return {};
+        return fields::told(format, *given);
+    };
+    return *this;
+}
+
+} // namespace facetmill

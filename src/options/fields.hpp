@@ -1,0 +1,409 @@
+#pragma once
+// The one declaration of a field of a result, as declaration.hpp is of an option. A stage writes
+//
+//   struct RelaxedPart { std::string part; std::size_t iterations; std::optional<double> last_move; };
+//   struct RelaxReport { std::vector<RelaxedPart> parts; };
+//   void declare_report(DeclareFields<RelaxReport>& d) {
+//       d.list("parts", &RelaxReport::parts, "Each part.", [](DeclareFields<RelaxedPart>& p) {
+//           p.field("part", &RelaxedPart::part, "Its name.");
+//           p.field("iterations", &RelaxedPart::iterations, "How many there were.");
+//           p.field("last_move", &RelaxedPart::last_move, "The farthest move in the last of them.")
+//               .unit("scene units").only_when("until is given");
+//       });
+//   }
+//
+// and the JSON of the report, its JSON Schema, the help pages and the lines on the terminal follow.
+
+#include "base/json.hpp"
+#include "base/vec.hpp"
+#include "options/declaration.hpp"
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <functional>
+#include <memory>
+#include <variant>
+
+namespace facetmill {
+
+struct Fields;
+
+/// All that is known of a field, for every consumer.
+struct Field {
+    std::string name;
+    std::string type; ///< for people: "count", "number", "text", "list of objects"
+    std::string unit; ///< "scene units", "degrees"; empty: none
+    std::string help;
+    std::string null_when; ///< what null says; empty: it is never null
+    std::string only_when; ///< when the key is there; empty: always
+    int optionals = 0;     ///< how many may be empty around the value: of two, the outer leaves out the key
+    std::vector<Choice> choices;
+    Json schema;                          ///< of a value that is not null
+    std::shared_ptr<const Fields> fields; ///< of an object, or of the items of a list
+
+    /// Adds the field to the object.
+    std::function<void(const Field&, const void* record, Json& object)> put;
+    /// Its value, as the terminal tells it; none: nothing is said of it.
+    std::function<std::optional<std::string>(const void* record)> phrase;
+    /// Of a count: how many.
+    std::function<std::uint64_t(const void* record)> count;
+    /// Of an object or a list: looks at the object, or at each item.
+    std::function<void(const void* record, const std::function<void(const void*)>&)> each;
+    bool is_list = false;
+    /// Of a list: what is said when all counts of its items are 0; else their sums are said by name.
+    std::optional<std::string> nothing_counted;
+};
+
+/// The fields of a record, type-erased; in the order of the report.
+struct Fields {
+    std::vector<Field> all;
+    std::string heading; ///< the field whose text leads the line of a record: "part"
+    /// What is said on the terminal where phrases of single fields do not do.
+    std::function<std::vector<std::string>(const void* record)> tell;
+
+    Json json(const void* record) const;
+    /// Of an object with these keys and no others.
+    Json schema() const;
+    /// For the terminal: `tell`, or a line of the phrases, and one for each item of a list that has some.
+    std::vector<std::string> lines(const void* record) const;
+};
+
+/// How a C++ type of a field is told and described. Each specialisation has name, schema() and json().
+template <class T>
+struct FieldType;
+
+template <>
+struct FieldType<bool> {
+    static constexpr const char* name = "bool";
+    static Json schema() { return {{"type", "boolean"}}; }
+    static Json json(bool value) { return value; }
+};
+
+template <std::convertible_to<std::string> T>
+struct FieldType<T> {
+    static constexpr const char* name = "text";
+    static Json schema() { return {{"type", "string"}}; }
+    static Json json(const T& value) { return value; }
+};
+
+template <std::integral T>
+struct FieldType<T> {
+    static constexpr const char* name = std::is_signed_v<T> ? "integer" : "count";
+    static Json schema() {
+        Json integer = {{"type", "integer"}};
+        if (!std::is_signed_v<T>) integer["minimum"] = 0;
+        return integer;
+    }
+    static Json json(T value) { return value; }
+};
+
+/// Null beyond the range of numbers; a field that may be so says it (null_when).
+template <>
+struct FieldType<double> {
+    static constexpr const char* name = "number";
+    static Json schema() { return {{"type", "number"}}; }
+    static Json json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+};
+
+template <class T>
+Json list_schema(std::optional<std::size_t> size = {}) {
+    Json list = {{"type", "array"}, {"items", FieldType<T>::schema()}};
+    if (size) list.update({{"minItems", *size}, {"maxItems", *size}});
+    return list;
+}
+
+template <>
+struct FieldType<Vec3> {
+    static constexpr const char* name = "vector";
+    static Json schema() { return list_schema<double>(3); }
+    static Json json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
+};
+
+template <class T>
+struct FieldType<std::vector<T>> {
+    static constexpr const char* name = "list";
+    static Json schema() { return list_schema<T>(); }
+    static Json json(const std::vector<T>& values) {
+        Json list = Json::array();
+        for (const auto& value : values) list.push_back(FieldType<T>::json(value));
+        return list;
+    }
+};
+
+template <class T, std::size_t N>
+struct FieldType<std::array<T, N>> {
+    static constexpr const char* name = "list";
+    static Json schema() { return list_schema<T>(N); }
+    static Json json(const std::array<T, N>& values) {
+        Json list = Json::array();
+        for (const auto& value : values) list.push_back(FieldType<T>::json(value));
+        return list;
+    }
+};
+
+template <class T>
+struct FieldType<std::optional<T>> {
+    static constexpr const char* name = FieldType<T>::name;
+    static Json schema() { return FieldType<T>::schema(); }
+    static Json json(const std::optional<T>& value) {
+        return value ? FieldType<T>::json(*value) : Json(nullptr);
+    }
+};
+
+/// Counts by name, those above 0.
+using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;
+
+namespace fields {
+template <class T>
+inline constexpr int optionals = 0;
+template <class T>
+inline constexpr int optionals<std::optional<T>> = 1 + optionals<T>;
+template <class T>
+inline constexpr bool is_optional = optionals<T> > 0;
+
+template <class T>
+struct Inner {
+    using type = T;
+};
+template <class T>
+struct Inner<std::optional<T>> : Inner<T> {};
+
+using Told = std::variant<std::uint64_t, std::int64_t, double, std::string>;
+/// The value in the place of {} in the format.
+std::string told(const std::string& format, const Told& value);
+} // namespace fields
+
+/// Refines the field declared last.
+class FieldRef {
+  public:
+    FieldRef(Fields& owner, std::size_t index,
+             std::function<std::optional<fields::Told>(const void*)> value = {})
+        : owner_(&owner), index_(index), value_(std::move(value)) {}
+
+    FieldRef& unit(std::string text) {
+        field().unit = std::move(text);
+        return *this;
+    }
+    FieldRef& null_when(std::string text) {
+        field().null_when = std::move(text);
+        return *this;
+    }
+    /// Of an optional value: without one the key is left out, rather than null.
+    FieldRef& only_when(std::string text);
+    /// Leads the line of its record on the terminal.
+    FieldRef& heads() {
+        owner_->heading = field().name;
+        return *this;
+    }
+    /// Is said on the terminal, in the place of {} of the format, unless it has no value.
+    FieldRef& said(std::string format);
+    /// Of a list: the sums of its items' counts are said, or `nothing` when all are 0.
+    FieldRef& tallied(std::string nothing) {
+        field().nothing_counted = std::move(nothing);
+        return *this;
+    }
+    Field& field() { return owner_->all[index_]; }
+
+  private:
+    Fields* owner_;
+    std::size_t index_;
+    std::function<std::optional<fields::Told>(const void*)> value_;
+};
+
+/// Fills Fields for the record R. Getters are members of R or functions of it; what they return may be
+/// optional: null, or no key with only_when, where there is none.
+template <class R>
+class DeclareFields {
+  public:
+    Fields fields;
+
+    template <class Get>
+    FieldRef field(std::string name, Get get, std::string help) {
+        using T = Value<Get>;
+        using Type = FieldType<typename facetmill::fields::Inner<T>::type>;
+        Field& f = start<T>(std::move(name), Type::name, Type::schema(), std::move(help));
+        f.put = putting(get, [](const auto& value) { return to_json(value); });
+        const auto value = told_by(get);
+        if constexpr (std::unsigned_integral<T> && !std::same_as<T, bool>)
+            f.count = [get](const void* record) {
+                return static_cast<std::uint64_t>(std::invoke(get, as_record(record)));
+            };
+        return {fields, fields.all.size() - 1, value};
+    }
+
+    /// A word out of few: value and name of each, and what it means.
+    template <class Get, class E = typename facetmill::fields::Inner<
+                             std::remove_cvref_t<std::invoke_result_t<Get, const R&>>>::type>
+    FieldRef choice(std::string name, Get get, std::vector<NamedChoice<E>> choices, std::string help) {
+        std::vector<Choice> told;
+        for (const auto& c : choices) told.push_back({c.name, c.help});
+        Json schema = choice_schema(told);
+        Field& f = start<Value<Get>>(std::move(name), "choice", std::move(schema), std::move(help));
+        f.choices = std::move(told);
+        f.put = putting(get, [choices](const E& value) {
+            for (const auto& c : choices)
+                if (c.value == value) return Json(c.name);
+            return Json(nullptr);
+        });
+        return {fields, fields.all.size() - 1};
+    }
+
+    /// A nested record, declared by fill(DeclareFields<T>&).
+    template <class Get, class Fill>
+    FieldRef object(std::string name, Get get, std::string help, Fill fill) {
+        using T = typename facetmill::fields::Inner<Value<Get>>::type;
+        const auto inner = nested<T>(fill);
+        Field& f = start<Value<Get>>(std::move(name), "object", inner->schema(), std::move(help));
+        f.fields = inner;
+        f.put = putting(get, [inner](const T& value) { return inner->json(&value); });
+        f.each = [get](const void* record, const std::function<void(const void*)>& look) {
+            const auto& value = std::invoke(get, as_record(record));
+            if constexpr (facetmill::fields::is_optional<Value<Get>>) {
+                if (value) look(&*value);
+            } else {
+                look(&value);
+            }
+        };
+        return {fields, fields.all.size() - 1};
+    }
+
+    /// A list of records, each declared by fill(DeclareFields<item>&).
+    template <class Get, class Fill>
+    FieldRef list(std::string name, Get get, std::string help, Fill fill) {
+        using List = typename facetmill::fields::Inner<Value<Get>>::type;
+        const auto inner = nested<typename List::value_type>(fill);
+        Json schema = {{"type", "array"}, {"items", inner->schema()}};
+        Field& f = start<Value<Get>>(std::move(name), "list of objects", std::move(schema), std::move(help));
+        f.is_list = true;
+        f.fields = inner;
+        f.put = putting(get, [inner](const List& items) {
+            Json all = Json::array();
+            for (const auto& item : items) all.push_back(inner->json(&item));
+            return all;
+        });
+        f.each = [get](const void* record, const std::function<void(const void*)>& look) {
+            const auto& items = std::invoke(get, as_record(record));
+            if constexpr (facetmill::fields::is_optional<Value<Get>>) {
+                if (!items) return;
+                for (const auto& item : *items) look(&item);
+            } else {
+                for (const auto& item : items) look(&item);
+            }
+        };
+        return {fields, fields.all.size() - 1};
+    }
+
+    /// Counts by name (NamedCounts), the names being some of those given.
+    template <class Get>
+    FieldRef counts(std::string name, Get get, const std::vector<std::string>& names, std::string help) {
+        Json schema = {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
+        for (const auto& one : names) schema["properties"][one] = FieldType<std::uint64_t>::schema();
+        Field& f = start<Value<Get>>(std::move(name), "counts by name", std::move(schema), std::move(help));
+        f.put = putting(get, [](const NamedCounts& counts) {
+            Json all = Json::object();
+            for (const auto& [key, count] : counts) all[key] = count;
+            return all;
+        });
+        return {fields, fields.all.size() - 1};
+    }
+
+    /// What the terminal is told of the record: a function that returns lines.
+    template <class Tell>
+    void tell(Tell tell) {
+        fields.tell = [tell](const void* record) -> std::vector<std::string> {
+            return tell(as_record(record));
+        };
+    }
+
+  private:
+    template <class Get>
+    using Value = std::remove_cvref_t<std::invoke_result_t<Get, const R&>>;
+
+    static const R& as_record(const void* record) { return *static_cast<const R*>(record); }
+
+    template <class T>
+    static Json to_json(const T& value) {
+        return FieldType<T>::json(value);
+    }
+
+    template <class T, class Fill>
+    static std::shared_ptr<const Fields> nested(Fill fill) {
+        DeclareFields<T> inner;
+        fill(inner);
+        return std::make_shared<const Fields>(std::move(inner.fields));
+    }
+
+    template <class T>
+    Field& start(std::string name, const char* type, Json schema, std::string help) {
+        Field f;
+        f.name = std::move(name);
+        f.type = type;
+        f.help = std::move(help);
+        f.schema = std::move(schema);
+        f.optionals = facetmill::fields::optionals<T>;
+        if (f.optionals > 0) f.null_when = "there is none";
+        fields.all.push_back(std::move(f));
+        return fields.all.back();
+    }
+
+    /// json: of a value that is not an empty optional.
+    template <class Get, class ToJson>
+    static auto putting(Get get, ToJson json) {
+        return [get, json](const Field& self, const void* record, Json& object) {
+            const auto& value = std::invoke(get, as_record(record));
+            if constexpr (facetmill::fields::is_optional<Value<Get>>) {
+                if (value)
+                    object[self.name] = inner_json(*value, json);
+                else if (self.only_when.empty())
+                    object[self.name] = nullptr;
+            } else {
+                object[self.name] = json(value);
+            }
+        };
+    }
+    template <class T, class ToJson>
+    static Json inner_json(const T& value, const ToJson& json) {
+        if constexpr (facetmill::fields::is_optional<T>)
+            return value ? Json(json(*value)) : Json(nullptr);
+        else
+            return json(value);
+    }
+
+    template <class Get>
+    static std::function<std::optional<facetmill::fields::Told>(const void*)> told_by(Get get) {
+        using T = typename facetmill::fields::Inner<Value<Get>>::type;
+        return [get](const void* record) -> std::optional<facetmill::fields::Told> {
+            const auto& given = std::invoke(get, as_record(record));
+            const T* value = innermost(given);
+            if (!value) return {};
+            if constexpr (std::unsigned_integral<T>)
+                return static_cast<std::uint64_t>(*value);
+            else if constexpr (std::integral<T>)
+                return static_cast<std::int64_t>(*value);
+            else if constexpr (std::same_as<T, double>)
+                return *value;
+            else if constexpr (std::convertible_to<T, std::string>)
+                return std::string(*value);
+            else
+                return {};
+        };
+    }
+    template <class T>
+    static auto innermost(const T& value) {
+        if constexpr (facetmill::fields::is_optional<T>)
+            return value ? innermost(*value) : nullptr;
+        else
+            return &value;
+    }
+};
+
+/// The fields of the record R, as `fill` declares them.
+template <class R, class Fill>
+Fields fields_of(Fill fill) {
+    DeclareFields<R> d;
+    fill(d);
+    return std::move(d.fields);
+}
+
+} // namespace facetmill

@@ -1,0 +1,34 @@
+#include "stage/common_keys.hpp"
+
+#include "stage/contract.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+const std::vector<CommonKey>& common_keys() {
+    static const std::vector<CommonKey> keys = [] {
+        const Json text = {{"type", "string"}};
+        const Json texts = {{"anyOf", Json::array({text, {{"type", "array"}, {"items", text}}})}};
+        const Json condition = {
+            {"anyOf", Json::array({{{"type", Json::array({"boolean", "string"})}}, assertions_schema()})}};
+        return std::vector<CommonKey>{
+            {"name", "How the report, --set and messages call this step. Unique in the pipeline.", text},
+            {"when",
+             "Runs the step only when this holds: a bool param, ${a} == value, or properties as in ensure.",
+             condition},
+            {"only", "The parts it works on: names or globs of parts or materials; \"!glob\" excludes.",
+             texts},
+            {"ensure", "A contract on the scene that leaves the step: {closed: true, faces: {max: 5000}}.",
+             contract_schema()},
+        };
+    }();
+    return keys;
+}
+
+bool is_common_key(std::string_view name) {
+    const auto& keys = common_keys();
+    return std::any_of(keys.begin(), keys.end(), [&](const CommonKey& key) { return key.name == name; });
+}
+
+} // namespace facetmill

@@ -1,0 +1,23 @@
+#pragma once
+// The keys that every step of a pipeline takes beside its stage's options: declared once, for the parser, the
+// one-liner, the help and the schema.
+
+#include "base/json.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace facetmill {
+
+struct CommonKey {
+    std::string name;
+    std::string help;
+    Json schema; ///< of the value, without expressions
+};
+
+/// name, when, only, ensure; in the order of the help.
+const std::vector<CommonKey>& common_keys();
+bool is_common_key(std::string_view name);
+
+} // namespace facetmill
