@@ -2,8 +2,8 @@
 
 #include "base/parallel.hpp"
 #include "cli/command.hpp"
+#include "geometry/triangulate/face_kinds_fields.hpp"
 #include "io/codec.hpp"
-#include "report/face_kinds.hpp"
 #include "report/render.hpp"
 
 #include <fmt/format.h>
@@ -83,7 +83,8 @@ Json info_of(const std::string& mesh, const InfoOptions& options, const Console&
     const Scene scene = io::read_scene(io::Input::open(mesh), {}, log, codec);
     for (const auto& warning : log.warnings) console.diagnostic(warning);
     Json info = report::scene_json(scene, inspect(scene, {options.self_intersections}));
-    info["face_kinds"] = report::face_kinds_json(face_kinds(scene));
+    const FaceKinds kinds = face_kinds(scene);
+    info["face_kinds"] = face_kinds_fields().json(&kinds);
     return info;
 }
 

@@ -25,7 +25,7 @@ Command schema_command() {
                     ->check(CLI::IsMember({"pipeline", "report", "info", "diff"}));
                 return [=](const Invocation&) {
                     const Json schema = *what == "report" ? docs::report_schema()
-                                        : *what == "info" ? report::info_schema()
+                                        : *what == "info" ? docs::info_schema()
                                         : *what == "diff" ? report::comparison_schema()
                                                           : docs::pipeline_schema();
                     print(schema.dump(2) + "\n");

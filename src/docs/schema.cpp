@@ -1,5 +1,6 @@
 #include "docs/schema.hpp"
 
+#include "geometry/triangulate/face_kinds_fields.hpp"
 #include "report/render.hpp"
 #include "stage/common_keys.hpp"
 #include "stage/contract.hpp"
@@ -126,11 +127,18 @@ Json pipeline_schema() {
         {"$defs", definitions()}};
 }
 
+Json info_schema() {
+    Json schema = report::info_schema();
+    schema["properties"]["face_kinds"] = face_kinds_fields().schema();
+    return schema;
+}
+
 Json report_schema() {
     Json schema = report::schema();
     Json& definitions = schema["$defs"];
     Json forms = Json::array();
     for (const auto& stage : stages()) {
+        if (stage.result.all.empty()) continue;
         const std::string name = "result." + stage.name;
         definitions[name] = stage.result.schema();
         definitions[name]["properties"]["deviation"] = contract_result_schema();

@@ -11,6 +11,8 @@ namespace facetmill::docs {
 /// ranges, exclusive options and names are judged by check.
 Json pipeline_schema();
 
+/// What info --json prints: that of report::info_schema(), with the kinds of faces.
+Json info_schema();
 /// The report of a run: that of report::schema(), with the result of each stage that was done as its
 /// declaration says.
 Json report_schema();

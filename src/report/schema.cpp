@@ -1,4 +1,3 @@
-#include "geometry/polygon/polygon.hpp"
 #include "report/render.hpp"
 
 namespace facetmill::report {
@@ -180,13 +179,6 @@ Json schema() {
 Json info_schema() {
     Json out = {{"$schema", dialect}, {"title", "facetmill info"}};
     Json scene = scene_schema();
-    Json kinds = Json::object();
-    for (int k = 0; k < polygon::kinds; ++k)
-        kinds[polygon::to_string(static_cast<polygon::Kind>(k))] = typed("integer");
-    kinds["non_planar"] =
-        typed("integer", "Faces farther from their plane than float32 coordinates would put them");
-    kinds["deviation"] = typed("number", "The farthest that a corner is from its face's plane");
-    scene["properties"]["face_kinds"] = closed_object(std::move(kinds));
     out.update(scene);
     return out;
 }

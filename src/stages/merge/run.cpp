@@ -17,6 +17,19 @@ void declare(Declare<MergeOptions>& d) {
     d.option("weld", &MergeOptions::weld, "Makes vertices at exactly the same place one.");
 }
 
+struct MergeReport {
+    std::optional<std::string> part;
+    std::optional<std::size_t> welded_vertices;
+    std::vector<std::string> merged;
+};
+
+void declare_report(DeclareFields<MergeReport>& d) {
+    d.field("part", &MergeReport::part, "The name of the joined part.").only_when("a part was selected");
+    d.field("welded_vertices", &MergeReport::welded_vertices, "Vertices that became one with others.")
+        .only_when("a part was selected");
+    d.field("merged", &MergeReport::merged, "The names of the parts that were joined, in order.");
+}
+
 /// Drops what means nothing without the skin. Returns what became of it.
 Fates drop_skin(Mesh& mesh) {
     Fates fates;
@@ -45,11 +58,10 @@ std::string free_name(const std::string& name, const std::vector<Part>& others) 
     return free;
 }
 
-Scene run(Scene scene, const MergeOptions& o, Context& context) {
+Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& report) {
     std::vector<Part> rest;
     std::optional<Part> joined;
     std::size_t place = 0;
-    Json names = Json::array();
     for (Part& part : scene.parts) {
         if (!context.selects(part, scene)) {
             rest.push_back(std::move(part));
@@ -57,8 +69,8 @@ Scene run(Scene scene, const MergeOptions& o, Context& context) {
         }
         if (!part.skinned) apply(part.mesh, part.transform);
         context.ledger(part, drop_skin(part.mesh));
-        mark_group(part.mesh, static_cast<std::uint32_t>(names.size()));
-        names.push_back(part.name);
+        mark_group(part.mesh, static_cast<std::uint32_t>(report.merged.size()));
+        report.merged.push_back(part.name);
         for (const auto& a : part.mesh.attributes)
             context.ledger(part, {{a.name, a.domain, Fate::Kind::kept,
                                    "other parts get white, their own normals, or zero"}});
@@ -69,14 +81,13 @@ Scene run(Scene scene, const MergeOptions& o, Context& context) {
         place = rest.size();
         joined = Part{part.name, std::move(part.mesh), {}, -1, -1, -1, false, true};
     }
-    std::size_t welded = 0;
     if (joined) {
-        if (o.weld) welded = weld_exact(joined->mesh);
+        const std::size_t welded = o.weld ? weld_exact(joined->mesh) : 0;
         if (!o.name.empty()) joined->name = free_name(o.name, rest);
-        context.result() = {{"part", joined->name}, {"welded_vertices", welded}};
+        report.part = joined->name;
+        report.welded_vertices = welded;
         rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(place), std::move(*joined));
     }
-    context.result()["merged"] = std::move(names);
     scene.parts = std::move(rest);
     return scene;
 }
@@ -92,7 +103,7 @@ const RegisterStage registered = make_stage<MergeOptions>(
          "Nodes, skins and instances of the parts are gone. Closedness is per part: solids that only "
          "touch are one closed part, and with weld they share vertices.",
      .examples = {"merge", "merge: body", "merge: {weld: true}"}},
-    declare, run);
+    declare, declare_report, run);
 
 } // namespace
 

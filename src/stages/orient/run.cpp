@@ -1,7 +1,6 @@
 #include "geometry/orient/orient.hpp"
 
 #include "mesh/placement.hpp"
-#include "report/summary.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
@@ -24,6 +23,43 @@ void declare(Declare<OrientSettings>& d) {
                      {{"cavities", Nested::cavities, "it is a cavity, its front looks into the hollow"},
                       {"solids", Nested::solids, "it is a solid of its own"}},
                      "What a closed piece inside another is (with outward).");
+}
+
+struct OrientedPart {
+    std::string part;
+    std::size_t flipped_faces = 0, pieces = 0, closed = 0, nested = 0, non_orientable = 0, undecided = 0;
+};
+
+struct OrientReport {
+    std::vector<OrientedPart> parts;
+};
+
+void declare_part(DeclareFields<OrientedPart>& d) {
+    d.field("part", &OrientedPart::part, "Its name.");
+    d.field("flipped_faces", &OrientedPart::flipped_faces, "Faces that were turned round.");
+    d.field("pieces", &OrientedPart::pieces, "Pieces that are connected through edges of two faces.");
+    d.field("closed_pieces", &OrientedPart::closed, "Those of them that are closed.");
+    d.field("nested_pieces", &OrientedPart::nested, "Those that lie inside another.");
+    d.field("non_orientable_pieces", &OrientedPart::non_orientable, "Those that stayed as they were.");
+    d.field("undecided_pieces", &OrientedPart::undecided, "Those without a side that is the outside.");
+}
+
+void declare_report(DeclareFields<OrientReport>& d) {
+    d.list("parts", &OrientReport::parts, "Each part that was oriented.", declare_part).tallied("no faces");
+}
+
+OrientedPart counted(const Part& part, const OrientResult& r) {
+    const auto count = [&](auto&& is) {
+        return static_cast<std::size_t>(std::count_if(r.pieces.begin(), r.pieces.end(), is));
+    };
+    using Piece = OrientedPiece;
+    return {part.name,
+            r.flipped,
+            r.pieces.size(),
+            count([](const Piece& p) { return p.closed; }),
+            count([](const Piece& p) { return p.depth > 0; }),
+            count([](const Piece& p) { return !p.orientable; }),
+            count([](const Piece& p) { return p.undecided; })};
 }
 
 /// Pieces that could not be oriented, or whose outside could not be told.
@@ -52,27 +88,14 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
             "flip turns them round");
 }
 
-Scene run(Scene scene, const OrientSettings& settings, Context& context) {
-    Json parts = Json::array();
+Scene run(Scene scene, const OrientSettings& settings, Context& context, OrientReport& report) {
     context.for_each_part(scene, [&](Part& part) {
         OrientResult r = orient(std::move(part.mesh), settings);
         part.mesh = std::move(r.mesh);
         context.ledger(part, r.fates);
         warn(part, r, context);
-        const auto count = [&](auto&& is) {
-            return std::count_if(r.pieces.begin(), r.pieces.end(),
-                                 [&](const OrientedPiece& p) { return is(p); });
-        };
-        parts.push_back({{"part", part.name},
-                         {"flipped_faces", r.flipped},
-                         {"pieces", r.pieces.size()},
-                         {"closed_pieces", count([](const auto& p) { return p.closed; })},
-                         {"nested_pieces", count([](const auto& p) { return p.depth > 0; })},
-                         {"non_orientable_pieces", count([](const auto& p) { return !p.orientable; })},
-                         {"undecided_pieces", count([](const auto& p) { return p.undecided; })}});
+        report.parts.push_back(counted(part, r));
     });
-    context.result()["parts"] = std::move(parts);
-    context.say(report::counts_summary(context.result(), "no faces"));
     return scene;
 }
 
@@ -98,7 +121,7 @@ const RegisterStage registered = make_stage<OrientSettings>(
                 "kept.\n\n"
                 "Source: the note on facets, normals and vertex order.",
      .examples = {"orient", "orient: consistent", "orient: flip", "orient: {nested: solids}"}},
-    declare, run);
+    declare, declare_report, run);
 
 } // namespace
 

@@ -11,14 +11,52 @@ namespace facetmill {
 
 namespace {
 
-Json size_json(const SurfaceSize& size) {
-    return {{"area", size.area}, {"volume", size.volume ? Json(*size.volume) : Json()}};
+struct RelaxedPart : RelaxResult {
+    std::string part;
+    SurfaceSize before, after;
+    bool until = false; ///< it was asked for
+};
+
+struct RelaxReport {
+    std::vector<RelaxedPart> parts;
+};
+
+void declare_size(DeclareFields<SurfaceSize>& d) {
+    d.field("area", &SurfaceSize::area, "Of the surface.").unit("square scene units");
+    d.field("volume", &SurfaceSize::volume, "Of the inside.")
+        .unit("cubic scene units")
+        .null_when("the surface is not closed");
 }
 
-Scene run(Scene scene, const RelaxOptions& o, Context& context) {
+void declare_part(DeclareFields<RelaxedPart>& d) {
+    d.field("part", &RelaxedPart::part, "Its name.");
+    d.field("iterations", &RelaxedPart::iterations, "How many times all vertices moved.");
+    d.field("moved_vertices", &RelaxedPart::moved, "Vertices that are elsewhere than before.");
+    d.field("held_vertices", &RelaxedPart::held,
+            "Vertices that had to stay: on the boundary, at corners of features, out of the mask.");
+    d.field("largest_move", &RelaxedPart::largest_move, "The farthest that a vertex came from its place.")
+        .unit("scene units");
+    d.object("before", &RelaxedPart::before, "The size of the surface that entered.", declare_size);
+    d.object("after", &RelaxedPart::after, "The size of the surface that left.", declare_size);
+    const auto last = [](const RelaxedPart& p) {
+        return p.until ? std::optional(p.last_move) : std::nullopt;
+    };
+    d.field("last_move", last, "The farthest move in the last iteration.")
+        .unit("scene units")
+        .only_when("until is given");
+    const auto settled = [](const RelaxedPart& p) {
+        return p.until ? std::optional(p.settled) : std::nullopt;
+    };
+    d.field("settled", settled, "Whether until was reached.").only_when("until is given");
+}
+
+void declare_report(DeclareFields<RelaxReport>& d) {
+    d.list("parts", &RelaxReport::parts, "Each part that was relaxed.", declare_part);
+}
+
+Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& report) {
     RelaxSettings settings = relax_settings(o);
     MaskOfParts masks(scene, o.mask);
-    Json parts = Json::array();
     context.for_each_part(scene, [&](Part& part) {
         settings.to_world = effective(part);
         if (o.until) // above 0 in a part that is a single point too, which settles at once
@@ -29,25 +67,16 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context) {
         RelaxResult r = relax(std::move(part.mesh), settings);
         part.mesh = std::move(r.mesh);
         context.ledger(part, r.fates);
-        Json entry = {
-            {"part", part.name},
-            {"iterations", r.iterations},
-            {"moved_vertices", r.moved},
-            {"held_vertices", r.held},
-            {"largest_move", r.largest_move},
-            {"before", size_json(before)},
-            {"after", size_json(surface_size(part.mesh, settings.to_world, before.volume.has_value()))}};
-        if (o.until) entry["last_move"] = r.last_move, entry["settled"] = r.settled;
+        const SurfaceSize after = surface_size(part.mesh, settings.to_world, before.volume.has_value());
         if (o.until && !r.settled && r.iterations > 0)
             context.warn("W-RELAX-STOPPED",
                          fmt::format("part '{}' did not settle: the last of {} iterations moved a vertex by "
                                      "{:.4g}, more than until {:.4g}",
                                      part.name, r.iterations, r.last_move, settings.until),
                          "allow more iterations, or a larger until");
-        parts.push_back(std::move(entry));
+        report.parts.push_back({std::move(r), part.name, before, after, o.until.has_value()});
     });
     masks.warn_if_idle(context);
-    context.result()["parts"] = std::move(parts);
     return scene;
 }
 
@@ -71,7 +100,7 @@ const RegisterStage registered = make_stage<RelaxOptions>(
                   "relax: {method: taubin, iterations: 20, features: 30deg}",
                   "relax: {method: implicit, factor: 20}",
                   "relax: {until: 0.01%, mask: {material: \"skin*\"}}"}},
-    declare_relax, run, {.verify = verify_relax});
+    declare_relax, declare_report, run, {.verify = verify_relax});
 
 } // namespace
 

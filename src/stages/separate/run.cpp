@@ -8,6 +8,25 @@ namespace facetmill {
 
 namespace {
 
+struct SeparatedPart {
+    std::string part;
+    std::size_t pieces = 0;
+};
+
+struct SeparateReport {
+    std::size_t parts = 0;
+    std::vector<SeparatedPart> separated;
+};
+
+void declare_report(DeclareFields<SeparateReport>& d) {
+    d.field("parts", &SeparateReport::parts, "How many parts the scene has now.");
+    d.list("separated", &SeparateReport::separated, "Each part that came apart.",
+           [](DeclareFields<SeparatedPart>& p) {
+               p.field("part", &SeparatedPart::part, "The name that it had.");
+               p.field("pieces", &SeparatedPart::pieces, "How many parts it became.");
+           });
+}
+
 std::string unique_name(std::string name, std::set<std::string>& taken) {
     std::string free = name;
     for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{}_{}", name, n);
@@ -25,17 +44,20 @@ void require_few(std::size_t parts, std::int64_t most) {
 /// The first piece keeps the part's node, the others stand beside it; all keep its skin and its animation.
 Part piece_of(const Part& part, Mesh mesh, std::string name) {
     Part piece;
-    piece.name = std::move(name), piece.mesh = std::move(mesh);
-    piece.transform = part.transform, piece.skinned = part.skinned;
-    piece.document = part.document, piece.node = part.node, piece.source_mesh = part.source_mesh;
+    piece.name = std::move(name);
+    piece.mesh = std::move(mesh);
+    piece.transform = part.transform;
+    piece.skinned = part.skinned;
+    piece.document = part.document;
+    piece.node = part.node;
+    piece.source_mesh = part.source_mesh;
     piece.changed = true;
     return piece;
 }
 
-Scene run(Scene scene, const SeparateOptions& o, Context& context) {
+Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateReport& report) {
     std::vector<Part> parts;
     std::set<std::string> taken;
-    Json result = Json::array();
     for (const Part& part : scene.parts)
         if (!context.selects(part, scene)) taken.insert(part.name);
     for (Part& part : scene.parts) {
@@ -51,12 +73,12 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context) {
         Fates fates;
         for (const auto& a : part.mesh.attributes) fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
         context.ledger(part, fates);
-        result.push_back({{"part", part.name}, {"pieces", labels.names.size()}});
+        report.separated.push_back({part.name, labels.names.size()});
         for (std::size_t i = 0; i < pieces.size(); ++i)
             parts.push_back(piece_of(part, std::move(pieces[i]), unique_name(labels.names[i], taken)));
     }
     scene.parts = std::move(parts);
-    context.result() = {{"parts", scene.parts.size()}, {"separated", std::move(result)}};
+    report.parts = scene.parts.size();
     return scene;
 }
 
@@ -70,7 +92,7 @@ const RegisterStage registered = make_stage<SeparateOptions>(
                 "animation. A part of one "
                 "piece stays as it is.",
      .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"}},
-    declare_separate, run, {.verify = verify_separate});
+    declare_separate, declare_report, run, {.verify = verify_separate});
 
 } // namespace
 

@@ -1,8 +1,8 @@
 #include "geometry/triangulate/triangulate.hpp"
 
 #include "base/portable_math.hpp"
+#include "geometry/triangulate/face_kinds_fields.hpp"
 #include "geometry/triangulate/pair_triangles.hpp"
-#include "report/face_kinds.hpp"
 #include "stage/stage.hpp"
 
 #include <fmt/format.h>
@@ -29,28 +29,49 @@ void declare(Declare<TriangulateOptions>& d) {
         .between(0, 90);
 }
 
-Scene run(Scene scene, const TriangulateOptions& o, Context& context) {
-    Json parts = Json::array();
+struct TriangulatedPart {
+    std::string part;
+    FaceKinds kinds;
+    std::size_t cut = 0, fans = 0;
+    std::optional<std::size_t> quads, triangles; ///< of pairing
+};
+
+struct TriangulateReport {
+    std::vector<TriangulatedPart> parts;
+};
+
+void declare_part(DeclareFields<TriangulatedPart>& d) {
+    d.field("part", &TriangulatedPart::part, "Its name.");
+    d.object("faces", &TriangulatedPart::kinds, "The faces that came in.", declare_face_kinds);
+    d.field("cut", &TriangulatedPart::cut, "Faces that were cut into triangles.");
+    d.field("fans", &TriangulatedPart::fans, "Those of them that were cut as fans, which may overlap.");
+    d.field("quads", &TriangulatedPart::quads, "Pairs of triangles that became quads.")
+        .only_when("quads are asked for");
+    d.field("triangles", &TriangulatedPart::triangles, "Triangles that are left.")
+        .only_when("quads are asked for");
+}
+
+void declare_report(DeclareFields<TriangulateReport>& d) {
+    d.list("parts", &TriangulateReport::parts, "Each part that was triangulated.", declare_part);
+}
+
+Scene run(Scene scene, const TriangulateOptions& o, Context& context, TriangulateReport& report) {
     std::size_t fans = 0;
     context.for_each_part(scene, [&](Part& part) {
         auto result = triangulate(part.mesh);
-        Json entry = {{"part", part.name},
-                      {"faces", report::face_kinds_json(result.kinds)},
-                      {"cut", result.cut},
-                      {"fans", result.fans}};
+        TriangulatedPart entry{part.name, result.kinds, result.cut, result.fans, {}, {}};
         fans += result.fans;
         part.mesh = std::move(result.mesh);
         if (o.to == To::quads) {
             auto paired = pair_triangles(part.mesh, {.cos_bend = cosine(o.bend.radians)});
             part.mesh = std::move(paired.mesh);
-            entry["quads"] = paired.quads;
-            entry["triangles"] = paired.triangles;
+            entry.quads = paired.quads;
+            entry.triangles = paired.triangles;
             result.fates = std::move(paired.fates);
         }
         context.ledger(part, result.fates);
-        parts.push_back(std::move(entry));
+        report.parts.push_back(std::move(entry));
     });
-    context.result()["parts"] = std::move(parts);
     if (fans > 0)
         context.warn(
             "W-FANS",
@@ -80,7 +101,7 @@ const RegisterStage registered{make_stage<TriangulateOptions>(
          "attributes stay "
          "as they are; face attributes are copied. Source: the note on polygon types.",
      .examples = {"triangulate", "triangulate: quads", "triangulate: {to: quads, bend: 5deg}"}},
-    declare, run)};
+    declare, declare_report, run)};
 
 } // namespace
 

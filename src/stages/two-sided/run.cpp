@@ -21,13 +21,35 @@ void declare(Declare<TwoSidedOptions>& d) {
         .primary();
 }
 
+struct DoubledPart {
+    std::string part;
+    std::size_t new_faces = 0;
+};
+
+struct TwoSidedReport {
+    std::optional<std::size_t> marked_materials;
+    std::optional<std::vector<DoubledPart>> parts;
+};
+
+void declare_report(DeclareFields<TwoSidedReport>& d) {
+    d.field("marked_materials", &TwoSidedReport::marked_materials,
+            "Materials that were not double-sided before.")
+        .only_when("by: material");
+    d.list("parts", &TwoSidedReport::parts, "Each part whose faces were doubled.",
+           [](DeclareFields<DoubledPart>& p) {
+               p.field("part", &DoubledPart::part, "Its name.");
+               p.field("new_faces", &DoubledPart::new_faces, "Faces in reversed order that were added.");
+           })
+        .only_when("by: faces");
+}
+
 /// The number of the material, made when there is none.
 Index plain_material(Scene& scene) {
     scene.materials.push_back({.name = "two-sided"});
     return static_cast<Index>(scene.materials.size() - 1);
 }
 
-void mark_materials(Scene& scene, Context& context) {
+std::size_t mark_materials(Scene& scene, Context& context) {
     std::size_t marked = 0;
     Index plain = none;
     context.for_each_part(scene, [&](Part& part) {
@@ -40,22 +62,21 @@ void mark_materials(Scene& scene, Context& context) {
             material.double_sided = true;
         }
     });
-    context.result()["marked_materials"] = marked;
+    return marked;
 }
 
-Scene run(Scene scene, const TwoSidedOptions& o, Context& context) {
+Scene run(Scene scene, const TwoSidedOptions& o, Context& context, TwoSidedReport& report) {
     if (o.by == By::material) {
-        mark_materials(scene, context);
+        report.marked_materials = mark_materials(scene, context);
         return scene;
     }
-    Json parts = Json::array();
+    auto& parts = report.parts.emplace();
     context.for_each_part(scene, [&](Part& part) {
         TwoSidedResult r = two_sided(part.mesh);
         context.ledger(part, r.fates);
-        parts.push_back({{"part", part.name}, {"new_faces", r.mesh.face_count() - part.mesh.face_count()}});
+        parts.push_back({part.name, r.mesh.face_count() - part.mesh.face_count()});
         part.mesh = std::move(r.mesh);
     });
-    context.result()["parts"] = std::move(parts);
     return scene;
 }
 
@@ -72,7 +93,7 @@ const RegisterStage registered = make_stage<TwoSidedOptions>(
                 "thicken gives a "
                 "surface a real back.\n\nSource: the note on facets.",
      .examples = {"two-sided", "two-sided: material"}},
-    declare, run);
+    declare, declare_report, run);
 
 } // namespace
 
