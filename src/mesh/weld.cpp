@@ -102,6 +102,8 @@ std::uint32_t position_hash(const Vec3& p) {
 
 constexpr int bucket_bits = 11; // one pass of the radix sort
 
+constexpr std::size_t few = 4096; // vertices that are one bucket: buckets cost more than they save
+
 /// Sets first[v] to the first vertex at v's position, for the vertices of one bucket (ascending).
 void find_firsts(std::span<const HashedVertex> bucket, const std::vector<Vec3>& positions,
                  std::vector<Index>& first) {
@@ -124,10 +126,14 @@ std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
     parallel_for(items.size(), [&](std::size_t v) {
         items[v] = {static_cast<Index>(v), position_hash(positions[v])};
     });
+    std::vector<Index> first(positions.size());
+    if (items.size() <= few) {
+        find_firsts(items, positions, first);
+        return first;
+    }
     constexpr std::uint32_t buckets = 1u << bucket_bits;
     const auto bucket_of = [](const HashedVertex& item) { return item.hash & (buckets - 1); };
     radix_sort(items, bucket_of, bucket_bits);
-    std::vector<Index> first(positions.size());
     parallel_for(
         buckets,
         [&](std::size_t b) {

@@ -103,7 +103,13 @@ std::vector<HashedFace> hashed_faces(const Mesh& mesh) {
             faces[f] = {h, static_cast<Index>(f)};
         }
     });
-    radix_sort(faces, [](const HashedFace& f) { return f.hash; });
+    constexpr std::size_t few = 2048; // a radix sort of fewer counts more buckets than faces
+    if (faces.size() <= few)
+        std::sort(faces.begin(), faces.end(), [](const HashedFace& a, const HashedFace& b) {
+            return a.hash != b.hash ? a.hash < b.hash : a.face < b.face;
+        });
+    else
+        radix_sort(faces, [](const HashedFace& f) { return f.hash; });
     return faces;
 }
 
