@@ -1,14 +1,23 @@
 #pragma once
 // What clean did, and what it did not, for reports.
 
-#include "base/json.hpp"
 #include "geometry/clean/clean.hpp"
+#include "options/fields.hpp"
 
-namespace facetmill::report {
+namespace facetmill {
 
-/// Every count by its name.
-Json counts_json(const CleanCounts& counts);
-/// The first few repairs not done, [{step, why, at}], in the world.
-Json not_done_json(const std::vector<NotDone>& all, const Transform& to_world);
+struct CleanedPart {
+    std::string part;
+    CleanCounts counts;
+    std::vector<NotDone> not_done; ///< the first few, in the world
+};
 
-} // namespace facetmill::report
+struct CleanReport {
+    std::vector<CleanedPart> parts;
+};
+void declare_clean_report(DeclareFields<CleanReport>& d);
+
+/// The first few repairs that were not done, with their places in the world.
+std::vector<NotDone> first_not_done(const std::vector<NotDone>& all, const Transform& to_world);
+
+} // namespace facetmill

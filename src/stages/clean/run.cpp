@@ -1,7 +1,6 @@
 #include "mesh/placement.hpp"
-#include "stages/clean/report.hpp"
-#include "report/summary.hpp"
 #include "stages/clean/options.hpp"
+#include "stages/clean/report.hpp"
 
 #include <fmt/format.h>
 
@@ -17,20 +16,14 @@ void warn(const Part& part, const std::vector<NotDone>& all, Context& context) {
                  "the report lists the first of them with their places");
 }
 
-Scene run(Scene scene, const CleanOptions& o, Context& context) {
-    Json parts = Json::array();
+Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& report) {
     context.for_each_part(scene, [&](Part& part) {
         CleanResult r = clean(std::move(part.mesh), clean_settings(o, scene, part, context));
         part.mesh = std::move(r.mesh);
         context.ledger(part, r.fates);
         warn(part, r.not_done, context);
-        Json entry = {{"part", part.name}, {"changed", r.counts.total() > 0}};
-        entry.update(report::counts_json(r.counts));
-        entry["not_done"] = report::not_done_json(r.not_done, effective(part));
-        parts.push_back(std::move(entry));
+        report.parts.push_back({part.name, r.counts, first_not_done(r.not_done, effective(part))});
     });
-    context.result()["parts"] = std::move(parts);
-    context.say(report::counts_summary(context.result(), "nothing to mend"));
     return scene;
 }
 
@@ -72,7 +65,7 @@ const RegisterStage registered = make_stage<CleanOptions>(
      .examples = {"clean", "clean: {holes: minimal, components: {faces: 10}}",
                   "clean: {self_intersections: union}", "clean: {weld: near, stitch: near, within: 0.01%}",
                   "clean: {holes: {method: smooth, edges: 50}, shells: true}"}},
-    declare_clean, run, StageHooks<CleanOptions>{.files = {}, .verify = verify_clean});
+    declare_clean, declare_clean_report, run, StageHooks<CleanOptions>{.files = {}, .verify = verify_clean});
 
 } // namespace
 

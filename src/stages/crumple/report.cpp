@@ -22,17 +22,47 @@ Box world_box(const Part& part) {
     return box;
 }
 
+void declare_shares(DeclareFields<AvoidResult>& d) {
+    const std::size_t last = AvoidResult{}.shares.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i)
+        d.field(
+            i == 0      ? "1"
+            : i == last ? "0"
+                        : fmt::format("1/{}", 1 << i),
+            [i](const AvoidResult& r) { return r.shares[i]; }, "Vertices that moved by this share.");
+}
+
+void declare_avoided(DeclareFields<AvoidResult>& d) {
+    d.field(
+        "kept_apart", [](const AvoidResult&) { return "faces of the same part"; }, "What was kept apart.");
+    d.field("before", &AvoidResult::exempt, "Pairs of faces that met before.");
+    d.field("found", &AvoidResult::found,
+            "New pairs that the full moves would make, and faces that would lose their area.");
+    d.field("rounds", &AvoidResult::rounds, "How many times shares were lowered.");
+    const auto self = [](const AvoidResult& r) -> const AvoidResult& { return r; };
+    d.object("vertices_by_share", self, "Vertices by the share of their move that they took.",
+             declare_shares);
+}
+
+void declare_part(DeclareFields<CrumpleReportPart>& d) {
+    d.field("part", &CrumpleReportPart::part, "Its name.");
+    d.field("added_faces", &CrumpleReportPart::added_faces, "How many faces it has more than before.");
+    d.field("moved_vertices", &CrumpleReportPart::moved, "Vertices that are elsewhere than before.");
+    d.field("held_vertices", &CrumpleReportPart::held_vertices,
+            "Vertices that had to stay: on the boundary, out of the mask.");
+    d.field("largest_move", &CrumpleReportPart::largest_move, "The farthest that a vertex moved.")
+        .unit("scene units");
+    d.field("root_mean_square_move", &CrumpleReportPart::root_mean_square, "Of all vertices.")
+        .unit("scene units");
+}
+
 } // namespace
 
-Json described(const AvoidResult& r) {
-    Json shares = Json::object();
-    for (std::size_t i = 0; i < r.shares.size(); ++i)
-        shares[i == 0 ? "1" : i + 1 == r.shares.size() ? "0" : fmt::format("1/{}", 1 << i)] = r.shares[i];
-    return {{"kept_apart", "faces of the same part"},
-            {"before", r.exempt},
-            {"found", r.found},
-            {"rounds", r.rounds},
-            {"vertices_by_share", shares}};
+void declare_crumple_report(DeclareFields<CrumpleReport>& d) {
+    d.object("self_intersections", &CrumpleReport::self_intersections, "What keeping faces apart came to.",
+             declare_avoided)
+        .only_when("self_intersections is avoid or forbid");
+    d.list("parts", &CrumpleReport::parts, "Each part that was crumpled.", declare_part);
 }
 
 void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> parts, std::int64_t grid) {

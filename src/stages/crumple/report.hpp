@@ -17,8 +17,16 @@ struct CrumpledPart {
     Transform to_world;
 };
 
-/// What keeping faces apart came to, for the report.
-Json described(const AvoidResult& r);
+struct CrumpleReportPart : CrumpleResult {
+    std::string part;
+    std::size_t added_faces = 0, held_vertices = 0;
+};
+
+struct CrumpleReport {
+    std::optional<AvoidResult> self_intersections;
+    std::vector<CrumpleReportPart> parts;
+};
+void declare_crumple_report(DeclareFields<CrumpleReport>& d);
 
 /// Throws stage (E-INTERSECTS): the first pair of faces that would meet, by the faces that came in, of which
 /// each became grid * grid.

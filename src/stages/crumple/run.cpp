@@ -44,13 +44,13 @@ void require_room(const Scene& scene, const CrumpleOptions& o, const Context& co
 
 /// Moves all vertices, as far as self_intersections lets them.
 void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, const CrumpleOptions& o,
-          Context& context) {
+          CrumpleReport& report) {
     hold_together(sheets);
     if (o.self_intersections != Intersections::allow) {
         const bool forbid = o.self_intersections == Intersections::forbid;
         const AvoidResult r = move_apart(sheets, forbid);
         if (r.left > 0) refuse_intersections(r, works, o.grid);
-        context.result()["self_intersections"] = described(r);
+        report.self_intersections = r;
         return;
     }
     for (auto& sheet : sheets)
@@ -58,7 +58,7 @@ void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, c
             sheet.mesh->positions[v] += sheet.moves.moves[v];
 }
 
-Scene run(Scene scene, const CrumpleOptions& o, Context& context) {
+Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport& report) {
     CrumpleSettings settings = crumple_settings(o, scene);
     require_room(scene, o, context);
     std::vector<CrumpledPart> works;
@@ -77,22 +77,15 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context) {
             warn_of_tangles(works.back(), settings.amplitude, context);
     });
     masks.warn_if_idle(context);
-    move(works, sheets, o, context);
+    move(works, sheets, o, report);
     if (o.self_intersections != Intersections::allow) warn_of_parts(scene, context);
-    Json parts = Json::array();
     for (std::size_t i = 0; i < works.size(); ++i) {
         Part& part = *works[i].part;
         CrumpleResult r = crumple_settled(std::move(part.mesh), works[i].before, works[i].to_world);
         part.mesh = o.triangulate ? triangulated(r.mesh) : std::move(r.mesh);
         context.ledger(part, joined(works[i].pieces.fates, std::move(r.fates)));
-        parts.push_back({{"part", part.name},
-                         {"added_faces", works[i].pieces.added},
-                         {"moved_vertices", r.moved},
-                         {"held_vertices", sheets[i].moves.held},
-                         {"largest_move", r.largest_move},
-                         {"root_mean_square_move", r.root_mean_square}});
+        report.parts.push_back({std::move(r), part.name, works[i].pieces.added, sheets[i].moves.held});
     }
-    context.result()["parts"] = std::move(parts);
     return scene;
 }
 
@@ -125,7 +118,7 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
                   "crumple: {grid: 1, amplitude: 1%, direction: normal, boundary: fixed}",
                   "crumple: {grid: 4, amplitude: 1%, self_intersections: avoid}",
                   "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"}},
-    declare_crumple, run, {.verify = verify_crumple});
+    declare_crumple, declare_crumple_report, run, {.verify = verify_crumple});
 
 } // namespace
 

@@ -72,7 +72,20 @@ double noise_of(const GenerateOptions& o, const Made& made, const Part& part, Co
     return context.resolve(of_shape, made.scene, "noise", &part);
 }
 
-Scene run(Scene scene, const GenerateOptions& o, Context& context) {
+struct GenerateReport {
+    std::string shape;
+    std::size_t vertices = 0, faces = 0;
+    std::string part;
+};
+
+void declare_report(DeclareFields<GenerateReport>& d) {
+    d.field("shape", &GenerateReport::shape, "What was made.");
+    d.field("vertices", &GenerateReport::vertices, "Its vertices.");
+    d.field("faces", &GenerateReport::faces, "Its faces.");
+    d.field("part", &GenerateReport::part, "The name of the part.");
+}
+
+Scene run(Scene scene, const GenerateOptions& o, Context& context, GenerateReport& report) {
     Made made = made_for(scene, o.unit);
     Part& part = made.scene.parts.emplace_back();
     part.name = o.name.empty() ? to_string(o.shape) : o.name;
@@ -80,12 +93,9 @@ Scene run(Scene scene, const GenerateOptions& o, Context& context) {
     part.mesh = generate(resolved(o, made, context));
     const double noise = noise_of(o, made, part, context);
     part.mesh = with_noise(std::move(part.mesh), noise, static_cast<std::uint64_t>(o.seed));
-    const Json result = {{"shape", to_string(o.shape)},
-                         {"vertices", part.mesh.vertex_count()},
-                         {"faces", part.mesh.face_count()}};
+    report = {to_string(o.shape), part.mesh.vertex_count(), part.mesh.face_count(), {}};
     io::add_scene(scene, std::move(made.scene));
-    context.result() = result;
-    context.result()["part"] = scene.parts.back().name;
+    report.part = scene.parts.back().name;
     context.run().load_diagonal = diagonal(scene.bounds());
     return scene;
 }
@@ -108,7 +118,7 @@ const RegisterStage registered = make_stage<GenerateOptions>(
                   "generate: {shape: gaussian, cells: 60, noise: 0.3%, seed: 4}",
                   "generate: {shape: cylinder, radius: 5mm, height: 20mm, unit: mm}"},
      .loads = true},
-    declare_generate, run, {.verify = verify_generate});
+    declare_generate, declare_report, run, {.verify = verify_generate});
 
 } // namespace
 

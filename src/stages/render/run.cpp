@@ -22,31 +22,55 @@ Picture taken(const RenderOptions& o, const Scene& scene, PictureSettings s) {
     return beside(left, picture_of(scene, s));
 }
 
-void report(const RenderOptions& o, const Picture& picture, Context& context) {
-    Json& r = context.result();
-    r = {{"path", o.path.text},
-         {"width", picture.width},
-         {"height", picture.height},
-         {"faces", picture.faces},
-         {"pixels_per_unit", picture.scale}};
-    std::string line = fmt::format("{}: {} x {} pixels, {:.6g} a unit", o.path.text, picture.width,
-                                   picture.height, picture.scale);
-    if (picture.range[0] < picture.range[1]) {
-        r["range"] = {picture.range[0], picture.range[1]};
-        line += fmt::format(", {} from {:.6g} (blue) to {:.6g} (yellow)", o.attribute, picture.range[0],
-                            picture.range[1]);
+struct RenderReport {
+    std::string path, attribute;
+    int width = 0, height = 0;
+    std::size_t faces = 0;
+    double scale = 0;
+    std::array<double, 2> range{};
+
+    std::optional<std::array<double, 2>> painted() const {
+        return range[0] < range[1] ? std::optional(range) : std::nullopt;
     }
-    context.say(std::move(line));
+};
+
+void declare_report(DeclareFields<RenderReport>& d) {
+    d.field("path", &RenderReport::path, "The file, as it was given.");
+    d.field("width", &RenderReport::width, "Of the picture.").unit("pixels");
+    d.field("height", &RenderReport::height, "Of the picture.").unit("pixels");
+    d.field("faces", &RenderReport::faces, "Faces of the parts that were drawn.");
+    d.field("pixels_per_unit", &RenderReport::scale, "Pixels to a unit of the scene.");
+    d.field("range", &RenderReport::painted,
+            "The least and the greatest value of the attribute: blue and yellow.")
+        .only_when("an attribute of different numbers was painted");
+    d.tell([](const RenderReport& r) {
+        std::string line =
+            fmt::format("{}: {} x {} pixels, {:.6g} a unit", r.path, r.width, r.height, r.scale);
+        if (const auto range = r.painted())
+            line += fmt::format(", {} from {:.6g} (blue) to {:.6g} (yellow)", r.attribute, (*range)[0],
+                                (*range)[1]);
+        return std::vector<std::string>{line};
+    });
+}
+
+void warn(const RenderOptions& o, const Picture& picture, Context& context) {
     if (!o.attribute.empty() && !picture.has_attribute)
         context.warn("W-NO-ATTRIBUTE", fmt::format("render: no part has an attribute '{}'", o.attribute),
                      "facetmill info lists them");
 }
 
-Scene run(Scene scene, const RenderOptions& o, Context& context) {
+Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& report) {
     const Picture picture = taken(o, scene, picture_settings(o, scene, context));
     const io::Bytes bytes = io::png(picture);
     context.output(o.path.text, bytes);
-    report(o, picture, context);
+    report = {o.path.text,
+              o.attribute,
+              picture.width,
+              picture.height,
+              picture.faces,
+              picture.scale,
+              {picture.range[0], picture.range[1]}};
+    warn(o, picture, context);
     return scene;
 }
 
@@ -70,7 +94,7 @@ const RegisterStage registered{make_stage<RenderOptions>(
      .examples = {"render: view.png", "render: {path: sides.png, shading: beside, background: white}",
                   "render: {path: top.png, view: top, width: 2000, height: 2000, edges: all}",
                   "render: {path: failed.png, attribute: failed}"}},
-    declare_render, run,
+    declare_render, declare_report, run,
     StageHooks<RenderOptions>{.files =
                                   [](const RenderOptions& o) {
                                       return StageFiles{{}, {o.path}};

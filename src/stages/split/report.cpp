@@ -8,6 +8,43 @@ namespace facetmill {
 
 namespace {
 
+/// A measure of the shape before and after.
+template <class Get>
+auto change_of(Get get, const char* unit) {
+    return [get, unit](DeclareFields<SplitPart>& d) {
+        const auto before = [get](const SplitPart& p) { return get(p.before); };
+        const auto after = [get](const SplitPart& p) { return get(p.after); };
+        d.field("before", before, "Of the part that entered.").unit(unit);
+        d.field("after", after, "Of the part that left.").unit(unit);
+    };
+}
+
+void declare_part(DeclareFields<SplitPart>& d) {
+    d.field("part", &SplitPart::part, "Its name.");
+    d.field("added_faces", &SplitPart::added_faces, "How many faces it has more than before.");
+    d.field("passes", &SplitPart::passes, "How many times it was split.");
+    d.choice("stopped_by", &SplitPart::stopped_by,
+             {{"passes", "passes", "as many as were asked for"},
+              {"max_edge", "max_edge", "no edge is longer"},
+              {"min_angle", "min_angle", "no triangle has a smaller angle"},
+              {"faces", "faces", "the next cut would have made more"},
+              {"nothing", "nothing", "no edge has a length"}},
+             "What ended the work.");
+    const auto self = [](const SplitPart& p) -> const SplitPart& { return p; };
+    const auto longest = [](const FacetShape& s) { return s.longest_edge; };
+    const auto smallest = [](const FacetShape& s) { return s.smallest_angle * (180 / pi); };
+    d.object("longest_edge", self, "The longest edge.", change_of(longest, "scene units"));
+    d.object("smallest_angle", self, "The smallest angle.", change_of(smallest, "degrees"));
+}
+
+} // namespace
+
+void declare_split_report(DeclareFields<SplitReport>& d) {
+    d.field("added_faces", &SplitReport::added_faces,
+            "How many faces there are more than before, in all parts.");
+    d.list("parts", &SplitReport::parts, "Each part that was split.", declare_part);
+}
+
 const char* stopped_by(const SplitOptions& o, SplitResult::Stop stop) {
     switch (stop) {
     case SplitResult::Stop::passes:
@@ -20,20 +57,6 @@ const char* stopped_by(const SplitOptions& o, SplitResult::Stop stop) {
         break;
     }
     return "nothing";
-}
-
-} // namespace
-
-Json described(const SplitOptions& o, const Part& part, const SplitResult& r, const FacetShape& before,
-               const FacetShape& after) {
-    const auto degrees = [](double radians) { return radians * (180 / pi); };
-    return {{"part", part.name},
-            {"added_faces", r.added},
-            {"passes", r.passes},
-            {"stopped_by", stopped_by(o, r.stop)},
-            {"longest_edge", {{"before", before.longest_edge}, {"after", after.longest_edge}}},
-            {"smallest_angle",
-             {{"before", degrees(before.smallest_angle)}, {"after", degrees(after.smallest_angle)}}}};
 }
 
 void warn_of_targets(const Part& part, const SplitResult& r, const SplitSettings& s, double longest,

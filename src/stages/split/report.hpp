@@ -5,9 +5,22 @@
 
 namespace facetmill {
 
-/// The part's entry in the report.
-Json described(const SplitOptions& o, const Part& part, const SplitResult& r, const FacetShape& before,
-               const FacetShape& after);
+struct SplitPart {
+    std::string part;
+    std::size_t added_faces = 0;
+    int passes = 0;
+    std::string stopped_by;
+    FacetShape before, after;
+};
+
+struct SplitReport {
+    std::size_t added_faces = 0;
+    std::vector<SplitPart> parts;
+};
+void declare_split_report(DeclareFields<SplitReport>& d);
+
+/// What ended the work, by the option that asked for it.
+const char* stopped_by(const SplitOptions& o, SplitResult::Stop stop);
 
 /// Says which target was not reached; `longest`: the longest edge that is left, in world units.
 void warn_of_targets(const Part& part, const SplitResult& r, const SplitSettings& s, double longest,

@@ -28,13 +28,11 @@ SplitResult split_part(const Part& part, const SplitSettings& settings) {
     }
 }
 
-Scene run(Scene scene, const SplitOptions& o, Context& context) {
+Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& report) {
     SplitSettings settings = split_settings(o);
     double total = 0;
     for (const Part& part : scene.parts)
         if (context.selects(part, scene)) total += static_cast<double>(part.mesh.face_count());
-    std::size_t added = 0;
-    Json parts = Json::array();
     context.for_each_part(scene, [&](Part& part) {
         if (o.max_edge) settings.max_edge = context.resolve(*o.max_edge, scene, "max_edge", &part);
         if (o.max_edge && settings.max_edge <= 0) settings.passes = 0; // a percentage of a single point
@@ -43,15 +41,14 @@ Scene run(Scene scene, const SplitOptions& o, Context& context) {
         const FacetShape before = facet_shape(part.mesh, settings.to_world);
         SplitResult result = split_part(part, settings);
         part.mesh = std::move(result.mesh);
-        added += result.added;
+        report.added_faces += result.added;
         const FacetShape after = facet_shape(part.mesh, settings.to_world);
         warn_of_targets(part, result, settings, after.longest_edge, context);
         warn_of_spots(part, result, settings.method, context);
-        parts.push_back(described(o, part, result, before, after));
+        report.parts.push_back(
+            {part.name, result.added, result.passes, stopped_by(o, result.stop), before, after});
         context.ledger(part, result.fates);
     });
-    context.result()["added_faces"] = added;
-    context.result()["parts"] = std::move(parts);
     return scene;
 }
 
@@ -88,7 +85,7 @@ const RegisterStage split_stage = make_stage<SplitOptions>(
          "Catmull and J. Clark (1978), H. Hoppe and others (1994) for creases.",
      .examples = {"split: midpoint", "split: {method: bisect, passes: 3}", "split: {grid: 3}",
                   "split: {max_edge: 2%}", "split: {method: loop, passes: 2, creases: 30deg}"}},
-    declare_split, run, {.verify = verify_split});
+    declare_split, declare_split_report, run, {.verify = verify_split});
 
 } // namespace
 

@@ -6,6 +6,94 @@ namespace facetmill {
 
 namespace {
 
+/// The member of the surface's result, where the part is one.
+template <class T>
+auto of_surface(T ThickenResult::*member) {
+    return [member](const ThickenedPart& part) {
+        const auto* surface = std::get_if<ThickenedSurface>(&part);
+        return surface ? std::optional<T>(surface->result.*member) : std::nullopt;
+    };
+}
+template <class T>
+auto of_edges(T ThickenedEdges::*member) {
+    return [member](const ThickenedPart& part) {
+        const auto* edges = std::get_if<ThickenedEdges>(&part);
+        return edges ? std::optional<T>(edges->*member) : std::nullopt;
+    };
+}
+
+std::optional<ThickenResult> wall_of(const ThickenedPart& part) {
+    const auto* surface = std::get_if<ThickenedSurface>(&part);
+    if (!surface) return {};
+    ThickenResult wall;
+    wall.thinnest = surface->result.thinnest;
+    wall.mean = surface->result.mean;
+    return wall;
+}
+
+void declare_wall(DeclareFields<ThickenResult>& d) {
+    d.field("min", &ThickenResult::thinnest, "The least.").unit("scene units");
+    d.field("mean", &ThickenResult::mean, "The mean.").unit("scene units");
+}
+
+void declare_part(DeclareFields<ThickenedPart>& d) {
+    constexpr const char* surface = "a surface became thick";
+    d.field(
+        "part", [](const ThickenedPart& p) { return std::visit([](const auto& x) { return x.part; }, p); },
+        "Its name.");
+    d.field("wall_faces", of_surface(&ThickenResult::wall_faces), "Faces along open edges.")
+        .only_when(surface);
+    d.field("limited_vertices", of_surface(&ThickenResult::limited),
+            "Vertices that were held back at corners.")
+        .only_when(surface);
+    d.field("unmoved_vertices", of_surface(&ThickenResult::still),
+            "Vertices without a normal, which did not move.")
+        .only_when(surface);
+    d.field("unbalanced_edges", of_surface(&ThickenResult::unbalanced),
+            "Edges at which the solid is not closed, as the surface was not oriented there.")
+        .only_when(surface);
+    d.object("wall_thickness", wall_of, "From the front to the back.", declare_wall).only_when(surface);
+    const auto pairs = [](const ThickenedPart& p) {
+        const auto* s = std::get_if<ThickenedSurface>(&p);
+        return s && s->looked && s->has_faces ? std::optional(s->result.self_intersections) : std::nullopt;
+    };
+    d.field("self_intersections", pairs, "Pairs of faces that run into each other.")
+        .only_when("self_intersections is on and the part has faces")
+        .null_when("the part is smaller than its thickness, so they were not looked for");
+    constexpr const char* edges = "edges became cylinders";
+    d.field("cylinders", of_edges(&ThickenedEdges::cylinders), "Edges that became cylinders.")
+        .only_when(edges);
+    d.field("without_length", of_edges(&ThickenedEdges::without_length), "Edges without length, which went.")
+        .only_when(edges);
+}
+
+std::string line_of(const ThickenedEdges& edges) {
+    return fmt::format("{}: {} cylinders", edges.part, edges.cylinders);
+}
+
+std::string line_of(const ThickenedSurface& surface) {
+    const ThickenResult& r = surface.result;
+    const std::string pairs =
+        r.self_intersections ? fmt::format(", {} self-intersections", *r.self_intersections) : "";
+    return fmt::format("{}: wall thickness {:.6g} at least, {:.6g} in the mean{}", surface.part, r.thinnest,
+                       r.mean, pairs);
+}
+
+} // namespace
+
+void declare_thicken_report(DeclareFields<ThickenReport>& d) {
+    d.list("parts", &ThickenReport::parts, "Each part that became thick.", declare_part);
+    d.tell([](const ThickenReport& report) {
+        std::vector<std::string> lines;
+        for (const auto& part : report.parts) {
+            const auto* surface = std::get_if<ThickenedSurface>(&part);
+            if (!surface || surface->has_faces)
+                lines.push_back(std::visit([](const auto& p) { return line_of(p); }, part));
+        }
+        return lines;
+    });
+}
+
 void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, bool looked,
                    Context& context) {
     if (r.unbalanced > 0)
@@ -32,32 +120,6 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, b
                         "through for self-intersections",
                         part.name, thickness),
             "is the thickness in the right unit?");
-}
-
-} // namespace
-
-Json described(const ThickenOptions& o, const Part& part, const ThickenResult& r, double thickness,
-               Context& context) {
-    Json entry = {{"part", part.name},
-                  {"wall_faces", r.wall_faces},
-                  {"limited_vertices", r.limited},
-                  {"unmoved_vertices", r.still},
-                  {"unbalanced_edges", r.unbalanced},
-                  {"wall_thickness", {{"min", r.thinnest}, {"mean", r.mean}}}};
-    if (part.mesh.face_count() == 0) return entry;
-    if (o.self_intersections)
-        entry["self_intersections"] = r.self_intersections ? Json(*r.self_intersections) : Json(nullptr);
-    warn_of_walls(part, r, thickness, o.self_intersections, context);
-    context.say(
-        fmt::format("{}: wall thickness {:.6g} at least, {:.6g} in the mean{}", part.name, r.thinnest, r.mean,
-                    r.self_intersections ? fmt::format(", {} self-intersections", *r.self_intersections)
-                                         : std::string()));
-    return entry;
-}
-
-Json described(const Part& part, const WiresResult& r, Context& context) {
-    context.say(fmt::format("{}: {} cylinders", part.name, r.edges));
-    return {{"part", part.name}, {"cylinders", r.edges}, {"without_length", r.skipped}};
 }
 
 } // namespace facetmill

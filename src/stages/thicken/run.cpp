@@ -11,15 +11,17 @@ namespace {
 
 using What = ThickenOptions::What;
 
-Json thicken_surface(Part& part, const ThickenOptions& o, double thickness, Context& context) {
+ThickenedPart thicken_surface(Part& part, const ThickenOptions& o, double thickness, Context& context) {
     ThickenResult r =
         thicken(part.mesh, {thickness, o.side, o.corner_limit, o.self_intersections, effective(part)});
     part.mesh = std::move(r.mesh);
     context.ledger(part, r.fates);
-    return described(o, part, r, thickness, context);
+    const bool has_faces = part.mesh.face_count() > 0;
+    if (has_faces) warn_of_walls(part, r, thickness, o.self_intersections, context);
+    return ThickenedSurface{part.name, std::move(r), has_faces, o.self_intersections};
 }
 
-Json thicken_edges(Part& part, const ThickenOptions& o, double thickness, Context& context) {
+ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thickness, Context& context) {
     WiresResult r =
         wires(part.mesh, {thickness, static_cast<int>(o.sides), o.what == What::open_edges, effective(part)});
     Fates fates;
@@ -33,11 +35,10 @@ Json thicken_edges(Part& part, const ThickenOptions& o, double thickness, Contex
                      fmt::format("thicken: the cylinders of part '{}' stand in bind pose, without its skin",
                                  part.name));
     }
-    return described(part, r, context);
+    return ThickenedEdges{part.name, r.edges, r.skipped};
 }
 
-Scene run(Scene scene, const ThickenOptions& o, Context& context) {
-    Json parts = Json::array();
+Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport& report) {
     context.for_each_part(scene, [&](Part& part) {
         const double thickness = context.resolve(o.thickness, scene, "thickness", &part);
         if (!inverse(effective(part)))
@@ -47,10 +48,9 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context) {
         if (!(thickness > 0))
             throw Error(ErrorKind::stage, "E-THICKEN", "thicken: the thickness is 0 in this scene",
                         "give a length in scene units");
-        parts.push_back(o.what == What::surface ? thicken_surface(part, o, thickness, context)
-                                                : thicken_edges(part, o, thickness, context));
+        report.parts.push_back(o.what == What::surface ? thicken_surface(part, o, thickness, context)
+                                                       : thicken_edges(part, o, thickness, context));
     });
-    context.result()["parts"] = std::move(parts);
     return scene;
 }
 
@@ -72,7 +72,7 @@ const RegisterStage registered = make_stage<ThickenOptions>(
          "Source: the note on facets, which doubles a surface and makes cylinders of lines.",
      .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
                   "thicken: {thickness: 0.5%, what: edges, sides: 6}"}},
-    declare_thicken, run);
+    declare_thicken, declare_thicken_report, run);
 
 } // namespace
 

@@ -4,13 +4,17 @@
 
 namespace facetmill {
 
-Json described(const Scene& scene, const io::Conversion& converted, const Transform& all) {
-    Json rows = Json::array();
-    for (const auto& row : all.m) rows.push_back({row[0], row[1], row[2], row[3]});
-    return {{"matrix", rows},
-            {"unit_factor", converted.factor},
-            {"unit", to_string(scene.unit)},
-            {"up", to_string(scene.up)}};
+void declare_transform_report(DeclareFields<TransformReport>& d) {
+    const auto rows = [](const TransformReport& r) {
+        std::array<std::array<double, 4>, 3> m{};
+        for (std::size_t i = 0; i < m.size(); ++i) std::copy_n(r.all.m[i], m[i].size(), m[i].begin());
+        return m;
+    };
+    d.field("matrix", rows,
+            "All moves after the conversion of unit and up axis: the three rows of a matrix.");
+    d.field("unit_factor", &TransformReport::unit_factor, "What lengths were multiplied by for the unit.");
+    d.field("unit", &TransformReport::unit, "The unit of the scene now; unknown: none.");
+    d.field("up", &TransformReport::up, "The axis that points up now; unknown: none.");
 }
 
 void warn_of_conversion(const io::Conversion& converted, const TransformOptions& o, Context& context) {

@@ -6,8 +6,12 @@
 
 namespace facetmill {
 
-/// The stage's result: all that moved the parts as one matrix, and the convention the scene is in now.
-Json described(const Scene& scene, const io::Conversion& converted, const Transform& all);
+struct TransformReport {
+    Transform all; ///< that moved the parts, as one
+    double unit_factor = 1;
+    std::string unit, up; ///< of the scene now
+};
+void declare_transform_report(DeclareFields<TransformReport>& d);
 
 /// Says what was guessed, and which skins are lost, when units or the up axis were converted.
 void warn_of_conversion(const io::Conversion& converted, const TransformOptions& o, Context& context);

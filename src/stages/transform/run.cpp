@@ -19,7 +19,7 @@ class Mover {
     Mover(Scene& scene, const TransformOptions& o, Context& context)
         : scene_(scene), o_(o), context_(context) {}
 
-    void run() {
+    TransformReport run() {
         const io::Conversion converted = io::convert(scene_, {o_.unit, o_.up});
         warn_of_conversion(converted, o_, context_);
         const Transform spin = spin_of(o_);
@@ -30,7 +30,7 @@ class Mover {
         if (o_.centre && !box().empty()) move(moved(-box().centre()));
         if (o_.ground && !box().empty()) move(moved(drop()));
         if (o_.bake) bake();
-        context_.result() = described(scene_, converted, all_);
+        return {all_, converted.factor, to_string(scene_.unit), to_string(scene_.up)};
     }
 
   private:
@@ -73,8 +73,10 @@ class Mover {
         context_.for_each_part(scene_, [&](Part& part) {
             if (animated[static_cast<std::size_t>(&part - scene_.parts.data())])
                 warn_of_animation(part.name, context_);
-            else if (!part.skinned)
-                apply(part.mesh, part.transform), part.transform = {};
+            else if (!part.skinned) {
+                apply(part.mesh, part.transform);
+                part.transform = {};
+            }
         });
     }
 
@@ -84,8 +86,8 @@ class Mover {
     Transform all_;
 };
 
-Scene run(Scene scene, const TransformOptions& o, Context& context) {
-    Mover(scene, o, context).run();
+Scene run(Scene scene, const TransformOptions& o, Context& context, TransformReport& report) {
+    report = Mover(scene, o, context).run();
     return scene;
 }
 
@@ -101,7 +103,7 @@ const RegisterStage registered = make_stage<TransformOptions>(
                   "transform: {rotate: {axis: [1, 0, 0], angle: 90deg}, ground: true}",
                   "transform: {unit: m, up: y, centre: true, ground: true}",
                   "transform: {translate: [0, 0, 2mm]}"}},
-    declare_transform, run, {.verify = verify_transform});
+    declare_transform, declare_transform_report, run, {.verify = verify_transform});
 
 } // namespace
 
