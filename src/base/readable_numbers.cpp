@@ -1,5 +1,6 @@
 #include "base/readable_numbers.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -27,6 +28,24 @@ std::string timed(double seconds) {
                         : fmt::format("{:.0f} min {:02.0f} s",
                                       (seconds - static_cast<double>(static_cast<int>(seconds) % 60)) / 60,
                                       static_cast<double>(static_cast<int>(seconds) % 60));
+}
+
+std::string readable(double number) {
+    return std::isfinite(number) ? fmt::format("{:.6g}", number) : "out of range";
+}
+
+std::string readable(const Vec3& point) {
+    return fmt::format("{} {} {}", readable(point.x), readable(point.y), readable(point.z));
+}
+
+std::string join_texts(const std::vector<std::string>& texts, std::string_view between) {
+    std::string all;
+    for (const auto& text : texts) {
+        if (text.empty()) continue;
+        if (!all.empty()) all += between;
+        all += text;
+    }
+    return all;
 }
 
 } // namespace facetmill

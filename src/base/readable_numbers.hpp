@@ -1,13 +1,29 @@
 #pragma once
 // Numbers as people read them, in reports and messages.
 
+#include "base/vec.hpp"
+
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace facetmill {
 
 std::string grouped(std::uint64_t count); ///< 1234567 -> "1,234,567"
 std::string sized(std::uint64_t bytes);   ///< 12345 -> "12.3 kB"
 std::string timed(double seconds);        ///< 0.1234 -> "0.12 s"
+
+/// Six digits, or "out of range".
+std::string readable(double number);
+std::string readable(const Vec3& point); ///< "0.5 1 2"
+/// ... and "-" for none.
+template <class T>
+std::string readable(const std::optional<T>& value) {
+    return value ? readable(*value) : "-";
+}
+/// Those that are not empty, one after the other.
+std::string join_texts(const std::vector<std::string>& texts, std::string_view between = ", ");
 
 } // namespace facetmill

@@ -69,6 +69,23 @@ struct Fields {
     std::vector<std::string> lines(const void* record) const;
 };
 
+namespace fields {
+template <class T>
+inline constexpr int optionals = 0;
+template <class T>
+inline constexpr int optionals<std::optional<T>> = 1 + optionals<T>;
+template <class T>
+inline constexpr bool is_optional = optionals<T> > 0;
+
+template <class T>
+struct Inner {
+    using type = T;
+};
+template <class T>
+struct Inner<std::optional<T>> : Inner<T> {};
+
+} // namespace fields
+
 /// How a C++ type of a field is told and described. Each specialisation has name, schema() and json().
 template <class T>
 struct FieldType;
@@ -109,6 +126,7 @@ struct FieldType<double> {
 template <class T>
 Json list_schema(std::optional<std::size_t> size = {}) {
     Json list = {{"type", "array"}, {"items", FieldType<T>::schema()}};
+    if (fields::is_optional<T>) list["items"]["type"] = Json::array({list["items"]["type"], "null"});
     if (size) list.update({{"minItems", *size}, {"maxItems", *size}});
     return list;
 }
@@ -155,20 +173,6 @@ struct FieldType<std::optional<T>> {
 using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;
 
 namespace fields {
-template <class T>
-inline constexpr int optionals = 0;
-template <class T>
-inline constexpr int optionals<std::optional<T>> = 1 + optionals<T>;
-template <class T>
-inline constexpr bool is_optional = optionals<T> > 0;
-
-template <class T>
-struct Inner {
-    using type = T;
-};
-template <class T>
-struct Inner<std::optional<T>> : Inner<T> {};
-
 using Told = std::variant<std::uint64_t, std::int64_t, double, std::string>;
 /// The value in the place of {} in the format.
 std::string told(const std::string& format, const Told& value);

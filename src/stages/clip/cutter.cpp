@@ -1,5 +1,4 @@
 #include "stages/clip/cutter.hpp"
-#include "base/point_json.hpp"
 
 namespace facetmill {
 
@@ -37,9 +36,6 @@ Cutter::Cutter(const CutterOption& option, const Scene& scene, Context& context)
     : option_(option), scene_(scene), context_(context) {
     if (option.space == Space::local) return;
     world_ = resolved(option, scene, context, nullptr);
-    for (const Plane& p : world_)
-        context.result()["planes"].push_back(
-            {{"normal", point_json(p.normal)}, {"through", point_json(p.through)}, {"offset", p.offset}});
 }
 
 std::vector<Plane> Cutter::planes_for(const Part& part) const {

@@ -42,11 +42,13 @@ void declare_space(Declare<S>& d) {
 /// Adds E-PLANE and E-BOX for what is none.
 void verify_cutter(const CutterOption& option, const Value& given, Problems& problems);
 
-/// The planes that they are in a scene. Planes in the world go into the stage's result.
+/// The planes that they are in a scene.
 class Cutter {
   public:
     /// Throws usage (E-UNIT, E-PLANE), as planes_for does.
     Cutter(const CutterOption& option, const Scene& scene, Context& context);
+    /// With space: world, as they stand in the scene.
+    const std::vector<Plane>& world() const { return world_; }
     /// In the part's own space.
     std::vector<Plane> planes_for(const Part& part) const;
 

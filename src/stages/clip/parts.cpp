@@ -21,12 +21,12 @@ void warn(const Part& part, const ClipResult& r, bool had_faces, Context& contex
 
 } // namespace
 
-void clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context) {
+ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context) {
     ClipSettings settings = how.settings;
     if (settings.cap) set_cap(settings, scene, how.cap_material);
     BothSides sides(scene);
-    ClipResult count; // sums of its counts
-    std::size_t open = 0;
+    ClipReport report;
+    if (!cutter.world().empty()) report.planes = cutter.world();
     context.for_each_part(scene, [&](Part& part) {
         const bool had_faces = part.mesh.face_count() > 0;
         settings.planes = cutter.planes_for(part);
@@ -34,22 +34,20 @@ void clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Cont
         ClipResult r = clip(std::move(part.mesh), settings);
         warn(part, r, had_faces, context);
         context.ledger(part, r.fates);
-        count.cut_faces += r.cut_faces, count.cap_faces += r.cap_faces, open += r.open.size();
-        count.on_plane += r.on_plane, count.snapped += r.snapped, count.remembered += r.remembered;
+        report.cut_faces += r.cut_faces;
+        report.cap_faces += r.cap_faces;
+        report.open_contours += r.open.size();
+        report.on_plane += r.on_plane;
+        report.snapped += r.snapped;
+        report.remembered += r.remembered;
         if (!r.memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(r.memory));
         part.mesh = {};
         if (settings.keep == Keep::both) sides.part_in_two(part, how.front, how.back, std::move(r.back));
         part.mesh = std::move(settings.keep == Keep::back ? r.back : r.front);
     });
-    if (count.cap_faces > 0) add_material(scene, how.cap_material);
+    if (report.cap_faces > 0) add_material(scene, how.cap_material);
     sides.insert();
-    Json& result = context.result();
-    result["cut_faces"] = count.cut_faces;
-    result["cap_faces"] = count.cap_faces;
-    result["open_contours"] = open;
-    result["on_plane"] = count.on_plane;
-    result["snapped"] = count.snapped;
-    result["remembered"] = count.remembered;
+    return report;
 }
 
 } // namespace facetmill

@@ -12,9 +12,14 @@ struct PartsToClip {
     const char *front = ".front", *back = ".back"; ///< added to the names of both sides
 };
 
-/// Clips the parts selected by the cutter's planes; with Keep::both the back of each comes behind it. Counts
-/// go into the stage's result. Warns of open contours (W-CAP-OPEN), of parts that no plane met (W-CLIP-ALL)
-/// and of which nothing is left (W-CLIP-NOTHING).
-void clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context);
+struct ClipReport {
+    std::optional<std::vector<Plane>> planes; ///< in the world
+    std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0, on_plane = 0, snapped = 0, remembered = 0;
+};
+
+/// Clips the parts selected by the cutter's planes; with Keep::both the back of each comes behind it. Warns
+/// of open contours (W-CAP-OPEN), of parts that no plane met (W-CLIP-ALL) and of which nothing is left
+/// (W-CLIP-NOTHING).
+ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context);
 
 } // namespace facetmill

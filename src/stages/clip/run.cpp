@@ -39,7 +39,25 @@ void declare(Declare<ClipOptions>& d) {
     declare_snap(d, &ClipOptions::snap, "a plane");
 }
 
-Scene run(Scene scene, const ClipOptions& o, Context& context) {
+void declare_plane_field(DeclareFields<Plane>& d) {
+    d.field("normal", &Plane::normal, "The way that its front looks.");
+    d.field("through", &Plane::through, "A point on it.");
+    d.field("offset", &Plane::offset, "How far it stands from that point along the normal.")
+        .unit("scene units");
+}
+
+void declare_report(DeclareFields<ClipReport>& d) {
+    d.list("planes", &ClipReport::planes, "The planes, in the world.", declare_plane_field)
+        .only_when("they stand in the world (space: world)");
+    d.field("cut_faces", &ClipReport::cut_faces, "Faces that were cut.");
+    d.field("cap_faces", &ClipReport::cap_faces, "Faces of caps.");
+    d.field("open_contours", &ClipReport::open_contours, "Contours that were not capped, as they are open.");
+    d.field("on_plane", &ClipReport::on_plane, "Vertices that lie on a plane.");
+    d.field("snapped", &ClipReport::snapped, "Those of them that do so within the rounding of float32.");
+    d.field("remembered", &ClipReport::remembered, "Those of them that a clip before put there.");
+}
+
+Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& report) {
     PartsToClip how;
     how.settings.keep = o.keep;
     how.settings.convex = o.box || (o.keep == Keep::both && o.planes.size() > 1);
@@ -48,8 +66,11 @@ Scene run(Scene scene, const ClipOptions& o, Context& context) {
     how.settings.coplanar = o.coplanar;
     how.settings.snap = o.snap == Snap::automatic;
     how.cap_material = o.cap_material;
-    if (o.box) how.front = ".inside", how.back = ".outside";
-    clip_parts(scene, Cutter(o, scene, context), how, context);
+    if (o.box) {
+        how.front = ".inside";
+        how.back = ".outside";
+    }
+    report = clip_parts(scene, Cutter(o, scene, context), how, context);
     return scene;
 }
 
@@ -82,7 +103,7 @@ const RegisterStage clip_stage = make_stage<ClipOptions>(
                   "clip: {planes: [x=20%, y=20%], keep: both, cap: true}",
                   "clip: {box: {min: [0, 0, 0], max: [1, 1, 0.5]}, cap: true}",
                   "clip: {box: {centre: [0, 0, 0], size: [2, 1, 1], angle: 30deg}, keep: outside}"}},
-    declare, run, StageHooks<ClipOptions>{.files = {}, .verify = verify_cutter});
+    declare, declare_report, run, StageHooks<ClipOptions>{.files = {}, .verify = verify_cutter});
 
 } // namespace
 

@@ -18,19 +18,14 @@ class CropRun {
         if (settings_.cap) set_cap(settings_, scene, how.cap_material);
     }
 
-    void run(const std::string& cap_material) {
+    CropReport run(const std::string& cap_material) {
+        report_.rings = footprint_.rings().size();
+        report_.footprint_area = footprint_.area();
+        report_.axis = std::string(1, "xyz"[settings_.axis]);
         context_.for_each_part(scene_, [&](Part& part) { crop_part(part); });
-        if (caps_ > 0) add_material(scene_, cap_material);
+        if (report_.cap_faces > 0) add_material(scene_, cap_material);
         sides_.insert();
-        context_.result() = {{"rings", footprint_.rings().size()},
-                             {"footprint_area", footprint_.area()},
-                             {"axis", std::string(1, "xyz"[settings_.axis])},
-                             {"cut_faces", cut_},
-                             {"cap_faces", caps_},
-                             {"open_contours", open_},
-                             {"snapped", snapped_},
-                             {"faces_before", before_},
-                             {"faces_after", after_}};
+        return report_;
     }
 
   private:
@@ -44,10 +39,14 @@ class CropRun {
         else
             sides.push_back(crop(part.mesh, footprint_, settings_));
         warn(part, sides, faces);
-        before_ += faces, cut_ += sides[0].cut_faces, snapped_ += sides[0].snapped;
+        report_.faces_before += faces;
+        report_.cut_faces += sides[0].cut_faces;
+        report_.snapped += sides[0].snapped;
         CutMemory memory;
         for (CropResult& r : sides) {
-            after_ += r.mesh.face_count(), caps_ += r.cap_faces, open_ += r.open.size();
+            report_.faces_after += r.mesh.face_count();
+            report_.cap_faces += r.cap_faces;
+            report_.open_contours += r.open.size();
             context_.ledger(part, r.fates);
             for (auto& entry : r.memory.entries) memory.add(entry.plane, std::move(entry.points));
         }
@@ -63,7 +62,8 @@ class CropRun {
         bool changed = false;
         for (const CropResult& r : sides) {
             warn_of_open("crop", part, r.open, context_);
-            left += r.mesh.face_count(), changed |= r.mesh.face_count() > 0 && r.changed;
+            left += r.mesh.face_count();
+            changed |= r.mesh.face_count() > 0 && r.changed;
         }
         if (faces > 0 && left == 0)
             context_.warn("W-CROP-NOTHING", fmt::format("crop: nothing of part '{}' was kept", part.name),
@@ -81,13 +81,13 @@ class CropRun {
     CropSettings settings_;
     Context& context_;
     BothSides sides_;
-    std::size_t cut_ = 0, before_ = 0, after_ = 0, caps_ = 0, open_ = 0, snapped_ = 0;
+    CropReport report_;
 };
 
 } // namespace
 
-void crop_parts(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context) {
-    CropRun(scene, footprint, how, context).run(how.cap_material);
+CropReport crop_parts(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context) {
+    return CropRun(scene, footprint, how, context).run(how.cap_material);
 }
 
 } // namespace facetmill

@@ -13,8 +13,16 @@ struct PartsToCrop {
     std::string cap_material;
 };
 
-/// Crops the parts selected. Counts go into the stage's result. Warns of open contours (W-CAP-OPEN), of parts
+struct CropReport {
+    std::size_t rings = 0;
+    double footprint_area = 0;
+    std::string axis;
+    std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0, snapped = 0, faces_before = 0,
+                faces_after = 0;
+};
+
+/// Crops the parts selected. Warns of open contours (W-CAP-OPEN), of parts
 /// that the outline does not meet (W-CROP-ALL) and of which nothing is left (W-CROP-NOTHING).
-void crop_parts(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context);
+CropReport crop_parts(Scene& scene, const Footprint& footprint, const PartsToCrop& how, Context& context);
 
 } // namespace facetmill

@@ -62,13 +62,27 @@ std::size_t axis_of(const CropOptions& o, const Scene& scene) {
     return o.axis == Axis::x ? 0 : o.axis == Axis::y ? 1 : 2;
 }
 
-Scene run(Scene scene, const CropOptions& o, Context& context) {
+void declare_report(DeclareFields<CropReport>& d) {
+    d.field("rings", &CropReport::rings, "Rings of the footprint.");
+    d.field("footprint_area", &CropReport::footprint_area, "What is inside of it.")
+        .unit("square scene units");
+    d.field("axis", &CropReport::axis, "The axis that it was seen along: x, y or z.");
+    d.field("cut_faces", &CropReport::cut_faces, "Faces that were cut.");
+    d.field("cap_faces", &CropReport::cap_faces, "Faces of walls on the outline.");
+    d.field("open_contours", &CropReport::open_contours, "Contours that were not capped, as they are open.");
+    d.field("snapped", &CropReport::snapped,
+            "Vertices that count as on the outline within the rounding of float32.");
+    d.field("faces_before", &CropReport::faces_before, "Faces that came in.");
+    d.field("faces_after", &CropReport::faces_after, "Faces that are left, of both sides with keep: both.");
+}
+
+Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& report) {
     PartsToCrop how;
     how.settings.axis = axis_of(o, scene), how.settings.by = o.by, how.settings.inside_by = o.inside_by;
     how.settings.keep = o.keep == CropKeep::outside ? polygon::Keep::outside : polygon::Keep::inside;
     how.settings.cap = o.cap, how.settings.snap = o.snap == Snap::automatic;
     how.both = o.keep == CropKeep::both, how.cap_material = o.cap_material;
-    crop_parts(scene, resolve_footprint(o.footprint, context), how, context);
+    report = crop_parts(scene, resolve_footprint(o.footprint, context), how, context);
     return scene;
 }
 
@@ -113,7 +127,7 @@ const RegisterStage registered{make_stage<CropOptions>(
                   "crop: {footprint: parcel.geojson, keep: outside, axis: z}",
                   "crop: {footprint: parcel.geojson, keep: both, cap: true}",
                   "crop: {footprint: [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]], cap: true}"}},
-    declare, run, StageHooks<CropOptions>{.files = files, .verify = verify})};
+    declare, declare_report, run, StageHooks<CropOptions>{.files = files, .verify = verify})};
 
 } // namespace
 

@@ -21,37 +21,33 @@ class TileRun {
   public:
     TileRun(const TileSettings& settings, Context& context) : context_(context), settings_(settings) {}
 
-    Scene run(Scene scene, const std::string& cap_material) {
+    Scene run(Scene scene, const std::string& cap_material, TileReport& report) {
         if (settings_.clip.cap) set_cap(settings_.clip, scene, cap_material);
         std::vector<Part> parts;
         std::vector<const Part*> cut;
         context_.for_each_part(scene, [&](Part& part) { cut.push_back(&part); });
-        Json tiles = Json::array();
         for (Part& part : scene.parts) {
             if (std::find(cut.begin(), cut.end(), &part) == cut.end())
                 parts.push_back(std::move(part));
             else
-                cut_part(part, parts, tiles);
+                cut_part(part, parts, report);
         }
         scene.parts = std::move(parts);
-        if (cap_faces_ > 0) add_material(scene, cap_material);
-        Json& result = context_.result();
-        result["tiles"] = std::move(tiles);
-        result["cut_faces"] = cut_faces_;
-        result["cap_faces"] = cap_faces_;
-        result["open_contours"] = open_;
+        if (report.cap_faces > 0) add_material(scene, cap_material);
         return scene;
     }
 
   private:
-    void cut_part(Part& part, std::vector<Part>& parts, Json& tiles) {
+    void cut_part(Part& part, std::vector<Part>& parts, TileReport& report) {
         settings_.to_world = effective(part);
         settings_.clip.memory = part.cuts ? *part.cuts : CutMemory{};
         TileResult r = tile(std::move(part.mesh), settings_);
         part.mesh = {};
         warn_of_open("tile", part, r.open, context_);
         context_.ledger(part, r.fates);
-        cut_faces_ += r.cut_faces, cap_faces_ += r.cap_faces, open_ += r.open.size();
+        report.cut_faces += r.cut_faces;
+        report.cap_faces += r.cap_faces;
+        report.open_contours += r.open.size();
         if (r.tiles.empty())
             context_.warn("W-TILE-NOTHING",
                           fmt::format("tile: part '{}' has no faces and gives no tile", part.name));
@@ -61,24 +57,22 @@ class TileRun {
             piece.name = name_of(part, t, settings_.axes);
             piece.mesh = std::move(t.mesh);
             piece.cuts = cuts;
-            Json entry = {{"part", piece.name}};
-            for (const TileAxis& a : settings_.axes)
-                entry[std::string("tile_") + "xyz"[a.axis]] = t.cell[a.axis];
-            entry["faces"] = piece.mesh.face_count();
-            tiles.push_back(std::move(entry));
+            auto& entry = report.tiles.emplace_back();
+            entry.part = piece.name;
+            for (const TileAxis& a : settings_.axes) entry.cell[a.axis] = t.cell[a.axis];
+            entry.faces = piece.mesh.face_count();
         }
     }
 
     Context& context_;
     TileSettings settings_;
-    std::size_t cut_faces_ = 0, cap_faces_ = 0, open_ = 0;
 };
 
 } // namespace
 
-Scene tile_parts(Scene scene, const TileSettings& settings, const std::string& cap_material,
-                 Context& context) {
-    return TileRun(settings, context).run(std::move(scene), cap_material);
+Scene tile_parts(Scene scene, const TileSettings& settings, const std::string& cap_material, Context& context,
+                 TileReport& report) {
+    return TileRun(settings, context).run(std::move(scene), cap_material, report);
 }
 
 } // namespace facetmill

@@ -66,12 +66,29 @@ std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context&
     return axes;
 }
 
-Scene run(Scene scene, const TileOptions& o, Context& context) {
+void declare_tile(DeclareFields<ReportedTile>& d) {
+    d.field("part", &ReportedTile::part, "Its name.");
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        d.field(
+             std::string("tile_") + "xyz"[axis], [axis](const ReportedTile& t) { return t.cell[axis]; },
+             "Its number along that axis.")
+            .only_when("that axis is cut");
+    d.field("faces", &ReportedTile::faces, "Its faces.");
+}
+
+void declare_report(DeclareFields<TileReport>& d) {
+    d.list("tiles", &TileReport::tiles, "Each tile that has faces.", declare_tile);
+    d.field("cut_faces", &TileReport::cut_faces, "Faces that were cut.");
+    d.field("cap_faces", &TileReport::cap_faces, "Faces of caps.");
+    d.field("open_contours", &TileReport::open_contours, "Contours that were not capped, as they are open.");
+}
+
+Scene run(Scene scene, const TileOptions& o, Context& context, TileReport& report) {
     TileSettings settings;
     settings.axes = axes_of(o, scene, context);
     settings.clip.snap = true;
     settings.clip.cap = o.cap;
-    return tile_parts(std::move(scene), settings, o.cap_material, context);
+    return tile_parts(std::move(scene), settings, o.cap_material, context, report);
 }
 
 const RegisterStage registered{make_stage<TileOptions>(
@@ -87,7 +104,7 @@ const RegisterStage registered{make_stage<TileOptions>(
          "tiles, whose volumes add up.",
      .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",
                   "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"}},
-    declare, run, StageHooks<TileOptions>{.files = {}, .verify = verify})};
+    declare, declare_report, run, StageHooks<TileOptions>{.files = {}, .verify = verify})};
 
 } // namespace
 

@@ -58,7 +58,8 @@ std::string reason(const io::VertexChanges& changes, const io::Codec& codec,
 
 } // namespace
 
-void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context) {
+void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context,
+                   WriteReport& report) {
     const io::Convention target{o.unit != Unit::unknown ? o.unit : codec.unit,
                                 o.up != UpAxis::unknown ? o.up : codec.up};
     if (o.unit != Unit::unknown && scene.unit == Unit::unknown)
@@ -80,12 +81,12 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
                          fmt::format("part '{}' is converted to {} and {} up in bind pose and loses its skin",
                                      name, to_string(target.unit), to_string(target.up)),
                          "write it in the unit and up axis that it was loaded in");
-    if (done.factor != 1) context.result()["factor"] = done.factor;
-    if (done.turned) context.result()["up"] = to_string(target.up);
+    if (done.factor != 1) report.factor = done.factor;
+    if (done.turned) report.up = to_string(target.up);
 }
 
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
-                 Context& context) {
+                 WriteReport& report) {
     if (!s.draco.on) return;
     const char* why = "as given";
     if (!o.draco || !o.draco->position_bits) {
@@ -101,7 +102,7 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
         s.draco.position_bits = most.value_or(usual);
         why = most ? "the fewest from 14 that keep vertices apart" : "24 would not keep all vertices apart";
     }
-    context.result()["draco"] = {{"position_bits", s.draco.position_bits}, {"why", why}};
+    report.draco = WriteReport::Bits{s.draco.position_bits, why};
 }
 
 void stage_files(const io::Written& written, const std::filesystem::path& target, const io::Codec& codec,

@@ -5,13 +5,24 @@
 
 namespace facetmill {
 
+struct WriteReport {
+    struct Bits {
+        int position_bits = 0;
+        std::string why;
+    };
+    std::optional<double> factor;
+    std::optional<std::string> up;
+    std::optional<Bits> draco;
+};
+
 /// Converts to the file's convention, which the option or else the format says. Throws stage (E-UNIT, E-UP)
 /// when the option asks for one and the scene has none; warns of guesses and of skins that are lost.
-void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context);
+void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context,
+                   WriteReport& report);
 
 /// Bits of position for a file that is compressed by Draco: those given, or as many as keep vertices apart.
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
-                 Context& context);
+                 WriteReport& report);
 
 /// Stages the files, the first as the target and the others beside it, and reads the first back. Warns when
 /// what is read is less sound than the scene.

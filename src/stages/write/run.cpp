@@ -26,7 +26,20 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     }
 }
 
-Scene run(Scene scene, const WriteOptions& o, Context& context) {
+void declare_report(DeclareFields<WriteReport>& d) {
+    d.field("factor", &WriteReport::factor, "What lengths were multiplied by for the file's unit.")
+        .only_when("it is not 1");
+    d.field("up", &WriteReport::up, "The axis that points up in the file.")
+        .only_when("the scene was turned for it");
+    d.object("draco", &WriteReport::draco, "How positions were rounded.",
+             [](DeclareFields<WriteReport::Bits>& b) {
+                 b.field("position_bits", &WriteReport::Bits::position_bits, "Bits of each coordinate.");
+                 b.field("why", &WriteReport::Bits::why, "Why so many.");
+             })
+        .only_when("the file is compressed by Draco");
+}
+
+Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& report) {
     const io::Codec* codec = codec_of(o);
     if (!codec || !codec->write)
         throw Error(ErrorKind::usage, "E-FORMAT",
@@ -44,10 +57,10 @@ Scene run(Scene scene, const WriteOptions& o, Context& context) {
                     "see what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
                     context.where());
     give_normals(out, lent, o, context);
-    to_convention(out, o, *codec, context);
+    to_convention(out, o, *codec, context, report);
     const std::filesystem::path target = context.places().output(o.path.text);
     io::WriteSettings settings = settings_of(o, *codec, target);
-    choose_bits(settings, o, *codec, out, context);
+    choose_bits(settings, o, *codec, out, report);
     const io::Written written = codec->write(out, settings);
     for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.ledger(out.parts.front(), written.fates);
@@ -72,7 +85,7 @@ const RegisterStage registered = make_stage<WriteOptions>(
      .examples = {"write: part.glb", "write: {path: part.glb, draco: true}",
                   "write: {path: print.stl, unit: mm, up: z}",
                   "write: {path: web.glb, normals: smooth, crease: 40deg}"}},
-    declare_write, run, {.files = files_of_write, .verify = verify_write});
+    declare_write, declare_report, run, {.files = files_of_write, .verify = verify_write});
 
 } // namespace
 
