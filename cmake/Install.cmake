@@ -6,15 +6,21 @@ install(DIRECTORY pipelines examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES man/facetmill.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES man/facetmill-pipeline.5 DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
 
-# The page of the stages comes from their declarations, so the executable writes it.
-set(stages_page ${CMAKE_CURRENT_BINARY_DIR}/man/facetmill-stages.7)
-add_custom_command(OUTPUT ${stages_page}
-  COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/man
-  COMMAND $<TARGET_FILE:facetmill> stages --man > ${stages_page}.part
-  COMMAND ${CMAKE_COMMAND} -E rename ${stages_page}.part ${stages_page}
-  DEPENDS facetmill COMMENT "Writing the manual page of the stages" VERBATIM)
-add_custom_target(manual ALL DEPENDS ${stages_page})
-install(FILES ${stages_page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man7)
+# The pages of the stages and of the messages come from their declarations, so the executable writes them.
+set(pages)
+foreach(page stages:stages messages:explain)
+  string(REGEX REPLACE ":.*" "" name ${page})
+  string(REGEX REPLACE ".*:" "" command ${page})
+  set(file ${CMAKE_CURRENT_BINARY_DIR}/man/facetmill-${name}.7)
+  add_custom_command(OUTPUT ${file}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_CURRENT_BINARY_DIR}/man
+    COMMAND $<TARGET_FILE:facetmill> ${command} --man > ${file}.part
+    COMMAND ${CMAKE_COMMAND} -E rename ${file}.part ${file}
+    DEPENDS facetmill COMMENT "Writing the manual page facetmill-${name}(7)" VERBATIM)
+  list(APPEND pages ${file})
+endforeach()
+add_custom_target(manual ALL DEPENDS ${pages})
+install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man7)
 
 install(FILES tools/completion/facetmill.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME facetmill)

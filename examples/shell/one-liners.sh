@@ -1,4 +1,4 @@
-# One-liners, the same in bash, zsh and fish. Stages are parted by ! or +; what a shell might expand is quoted.
+# One-liners, the same in bash, zsh and fish. Stages are separated by ! or +; what a shell might expand is quoted.
 
 # A scan becomes a small GLB.
 facetmill pipe load ../data/nefertiti.ply --unit mm ! simplify 10% ! write web.glb --draco

@@ -51,6 +51,7 @@ Command diff_command();
 Command stages_command();
 Command schema_command();
 Command formats_command();
+Command explain_command();
 
 /// --quiet, -v, --log.
 void add_message_options(CLI::App& app, Console& console);

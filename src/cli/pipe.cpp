@@ -13,7 +13,7 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* pipe_examples =
-    R"(The same language as a pipeline file. Options of facetmill pipe itself come first; then the stages, parted by ! or +.
+    R"(The same language as a pipeline file. Options of facetmill pipe itself come first; then the stages, separated by ! or +.
 A stage is its name, a bare value for its primary option, and --key value, --key=value or --flag for the others.
 Nested keys are dotted (--plane.normal=0,0,1), and so are --ensure.closed and --when.closed; --name and --only as in
 a file. Lists are given by commas or by repetition; paths, which may hold commas, by repetition. @{x} stands for ${x},

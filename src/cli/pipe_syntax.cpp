@@ -80,7 +80,7 @@ class Parser {
             if (primary && !primary->repeatable && primary->type != "vector")
                 problems_.add(bare[1].mark, "E-PIPE",
                               fmt::format("'{}' takes one value, found {}", stage->name, bare.size()),
-                              "stages are parted by ! or +");
+                              "stages are separated by ! or +");
             Value list = Value::list({}, bare[0].mark);
             for (auto& b : bare)
                 if (b.is_list())

@@ -1,12 +1,12 @@
 #include "cli/pipeline_options.hpp"
 
+#include "base/message_ids.hpp"
 #include "base/parallel.hpp"
 #include "base/spelling.hpp"
 #include "cli/depfile.hpp"
 #include "docs/ready.hpp"
 #include "io/outputs.hpp"
 #include "report/render.hpp"
-#include "report/warnings.hpp"
 
 #include <algorithm>
 
@@ -72,12 +72,11 @@ Pairs split_pairs(const std::vector<std::string>& texts, const char* option, con
 
 /// A misspelled id would switch a gate off without a word.
 void check_strict(const PipelineOptions& options, const CommandLine& line, Problems& problems) {
-    std::vector<std::string> ids;
-    for (const auto& known : report::known_warnings()) ids.emplace_back(known.id);
+    const auto ids = warning_ids();
     for (const auto& id : options.strict)
         if (id != "*" && std::find(ids.begin(), ids.end(), id) == ids.end())
             problems.add(line.find("--strict=" + id), "E-STRICT", fmt::format("there is no warning '{}'", id),
-                         did_you_mean(id, ids, "facetmill-stages(7) lists the warnings"));
+                         did_you_mean(id, ids, "facetmill explain lists the warnings"));
 }
 
 } // namespace
@@ -166,7 +165,9 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
 
 void refuse(const std::vector<pipeline::Plan>& plans, const Problems& problems) {
     if (!problems.any_errors()) return; // warnings come with the run
-    for (const auto& plan : plans) pipeline::report_refusal(plan, problems);
+    const auto collides = [](const pipeline::Plan& plan) { return plan.files_collide; };
+    if (std::none_of(plans.begin(), plans.end(), collides)) // else a report might replace an input
+        for (const auto& plan : plans) pipeline::report_refusal(plan, problems);
     problems.throw_if_any(ErrorKind::usage);
 }
 

@@ -11,7 +11,8 @@ namespace facetmill::cli {
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{run_command(),    plan_command(),   pipe_command(),
                                           check_command(),  info_command(),   diff_command(),
-                                          stages_command(), schema_command(), formats_command()};
+                                          stages_command(), schema_command(), formats_command(),
+                                          explain_command()};
     return all;
 }
 
@@ -39,8 +40,8 @@ std::string help_text() {
                   "  facetmill diff scan.ply web.glb --max 0.5%\n"
                   "  facetmill stages simplify\n\n"
                   "facetmill COMMAND --help tells more; so do the manual pages facetmill(1), "
-                  "facetmill-pipeline(5) and\n"
-                  "facetmill-stages(7).\n\n"
+                  "facetmill-pipeline(5),\n"
+                  "facetmill-stages(7) and facetmill-messages(7).\n\n"
                   "Exit codes: 0 done, 1 a check did not hold, 2 the command line or the pipeline is wrong, "
                   "3 an input is\n"
                   "missing, 4 an output cannot be written, 5 a stage could not do its work, 6 an input is "

@@ -21,16 +21,18 @@ Examples
 )";
 
 /// Two pipelines of one run must not write the same file: the second would replace what the first one made.
-void refuse_common_outputs(const std::vector<pipeline::Plan>& plans, Problems& problems) {
+void refuse_common_outputs(std::vector<pipeline::Plan>& plans, Problems& problems) {
     std::set<std::filesystem::path> seen;
-    for (const auto& plan : plans) {
+    for (auto& plan : plans) {
         auto outputs = pipeline::planned_outputs(plan);
         for (const auto& report : plan.reports) outputs.push_back(plan.places.output(report));
         for (const auto& output : outputs)
-            if (output != "-" && !seen.insert(output.lexically_normal()).second)
-                problems.add({}, "E-TWICE",
+            if (output != "-" && !seen.insert(output.lexically_normal()).second) {
+                plan.files_collide = true;
+                problems.add({}, "E-DUPLICATE-OUTPUT",
                              fmt::format("{}: '{}' is written by another pipeline of this run too", plan.name,
                                          output.string()));
+            }
     }
 }
 

@@ -38,4 +38,7 @@ std::vector<std::string> spelling_helps(const std::vector<OptionRow>& rows);
 /// a line stand alone; line breaks in the text are kept.
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width = 100);
 
+/// A text as roff shows it: no requests, no escapes, hyphens that can be copied.
+std::string roff(std::string_view text);
+
 } // namespace facetmill::docs

@@ -1,6 +1,5 @@
 #include "docs/describe.hpp"
 #include "docs/stages.hpp"
-#include "report/warnings.hpp"
 #include "stage/common_keys.hpp"
 
 #include <algorithm>
@@ -9,22 +8,6 @@
 namespace facetmill::docs {
 
 namespace {
-
-/// A text as roff shows it: no requests, no escapes, hyphens that can be copied.
-std::string roff(std::string_view text) {
-    std::string out;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if ((c == '.' || c == '\'') && (i == 0 || text[i - 1] == '\n')) out += "\\&";
-        if (c == '\\')
-            out += "\\e";
-        else if (c == '-')
-            out += "\\-";
-        else
-            out += c;
-    }
-    return out;
-}
 
 std::string upper(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -82,10 +65,8 @@ std::string stages_man() {
     for (const auto d : {Dimension::length, Dimension::angle, Dimension::ratio})
         text += fmt::format(".PP\n{}\n", roff(spelling_help(d)));
     for (const auto& s : stages()) text += section(s);
-    text += ".SH WARNINGS\nEach has an id that\n.B \\-\\-strict=ID\nmakes fail.\n";
-    for (const auto& w : report::known_warnings())
-        text += fmt::format(".TP\n.B {}\n{}\n", roff(w.id), roff(w.about));
-    return text + ".SH SEE ALSO\n.BR facetmill (1),\n.BR facetmill\\-pipeline (5)\n";
+    return text + ".SH SEE ALSO\n.BR facetmill (1),\n.BR facetmill\\-pipeline (5),\n"
+                  ".BR facetmill\\-messages (7)\n";
 }
 
 } // namespace facetmill::docs

@@ -10,7 +10,7 @@
 
 namespace facetmill::io {
 
-/// Reads rows of `columns` numbers each, one row a line, parted by commas, semicolons, tabs or blanks;
+/// Reads rows of `columns` numbers each, one row a line, separated by commas, semicolons, tabs or blanks;
 /// further columns are left alone. Empty lines and what follows # are skipped, and so is a first line without
 /// a number at its start (a heading). When the heading has all of `names`, in upper or lower case, their
 /// columns are read wherever they stand; else the first ones. The numbers come row by row. Throws malformed

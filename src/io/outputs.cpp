@@ -120,7 +120,7 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
         if (self != (other->temporary.empty() ? other->target : identity(other->resolved))) continue;
         // Two glTF files in one folder share their textures.
         if (!stream && other->bytes == file->bytes && other->sha256 == file->sha256) return *other;
-        throw Error(ErrorKind::output, "E-TWICE",
+        throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
                     fmt::format("'{}' is written twice in one run, with different contents", target.string()),
                     "give the second a name or a folder of its own");
     }

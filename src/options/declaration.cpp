@@ -102,7 +102,7 @@ bool check_exclusion(const Exclusion& rule, const Value& map, std::string_view o
             if (given.size() == 2) second = &e;
         }
     if (given.size() > 1 && rule.rule != Exclusion::Rule::at_least_one) {
-        problems.add(second->key_mark, "E-EXCLUSIVE",
+        problems.add(second->key_mark, "E-CONFLICT",
                      fmt::format("{}: at most one of {} may be given, found {}", owner,
                                  fmt::join(rule.names, ", "), fmt::join(given, " and ")));
         return false;

@@ -4,7 +4,7 @@
 
 namespace facetmill::pipeline {
 
-void Failures::add(ErrorKind kind, Diagnostic why) {
+void Failures::add(ErrorKind kind, report::RunError why) {
     const bool only_checks = record_.exit_code == static_cast<int>(ErrorKind::check);
     if (!any_ || (only_checks && kind != ErrorKind::check)) record_.exit_code = static_cast<int>(kind);
     any_ = true;
@@ -12,7 +12,7 @@ void Failures::add(ErrorKind kind, Diagnostic why) {
 }
 
 void Failures::add(const Error& error) {
-    for (const auto& d : error.diagnostics()) add(error.kind(), d);
+    for (const auto& d : error.diagnostics()) add(error.kind(), {d});
 }
 
 void Failures::warn(const Diagnostic& warning) {
@@ -22,8 +22,8 @@ void Failures::warn(const Diagnostic& warning) {
         std::find(strict.begin(), strict.end(), warning.id) == strict.end())
         return;
     add(ErrorKind::check,
-        {Severity::error, "E-STRICT", fmt::format("--strict makes {} fail: {}", warning.id, warning.message),
-         warning.where, warning.hint});
+        {{Severity::error, "E-STRICT", fmt::format("--strict makes {} fail: {}", warning.id, warning.message),
+          warning.where, warning.hint}});
 }
 
 bool Failures::judge_checks(std::size_t first) {
@@ -36,7 +36,7 @@ bool Failures::judge_checks(std::size_t first) {
                         check.part.empty() ? "" : fmt::format(" in part '{}'", check.part));
         if (check.severity == Severity::error) {
             all_hold = false;
-            add(ErrorKind::check, {Severity::error, "E-CHECK", text, check.where, {}});
+            add(ErrorKind::check, {{Severity::error, "E-CHECK", text, check.where, {}}, true});
         } else {
             const Diagnostic warning{Severity::warning, "W-CHECK", text, check.where, {}};
             record_.warnings.push_back(warning);

@@ -19,7 +19,7 @@ class Failures {
 
     /// The first failure decides the exit code; a check that did not hold gives way to what went wrong in
     /// earnest.
-    void add(ErrorKind kind, Diagnostic why);
+    void add(ErrorKind kind, report::RunError why);
     void add(const Error& error);
     /// Tells the warning, and fails when --strict says so.
     void warn(const Diagnostic& warning);
@@ -36,12 +36,12 @@ class Failures {
         } catch (Error& e) {
             add(e.at(where));
         } catch (const std::bad_alloc&) {
-            add(ErrorKind::limit, {Severity::error, "E-MEMORY", fmt::format("not enough memory for {}", what),
-                                   where, "simplify earlier, or use a machine with more memory"});
+            add(ErrorKind::limit, {{Severity::error, "E-MEMORY", fmt::format("not enough memory for {}", what),
+                                   where, "simplify earlier, or use a machine with more memory"}});
         } catch (const std::exception& e) {
-            add(ErrorKind::bug, {Severity::error, "E-BUG",
+            add(ErrorKind::bug, {{Severity::error, "E-BUG",
                                  fmt::format("{} failed in a way it never should: {}", what, e.what()), where,
-                                 "please report it, with the pipeline and the input"});
+                                 "please report it, with the pipeline and the input"}});
         }
         return false;
     }

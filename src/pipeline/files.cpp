@@ -91,13 +91,14 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places)
     return files;
 }
 
-void check_collisions(const std::vector<PlannedFile>& files, Problems& problems) {
+bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems) {
+    const std::size_t before = problems.size();
     std::map<std::string, const PlannedFile*> inputs, outputs;
     for (const auto& file : files) {
         if (file.written) continue;
         const auto [first, is_new] = inputs.emplace(identity(file.path), &file);
         if (!is_new && file.path == "-")
-            problems.add(file.where, "E-TWICE", "standard input can be read only once",
+            problems.add(file.where, "E-DUPLICATE-INPUT", "standard input can be read only once",
                          fmt::format("the first is at {}", to_string(first->second->where)));
     }
     for (const auto& file : files) {
@@ -112,12 +113,13 @@ void check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
         const auto [first, is_new] = outputs.emplace(lower_case(path), &file);
         if (is_new) continue;
         const bool same = identity(first->second->path) == path;
-        problems.add(file.where, "E-TWICE",
+        problems.add(file.where, "E-DUPLICATE-OUTPUT",
                      same ? fmt::format("'{}' is written twice", file.path.string())
                           : fmt::format("'{}' and '{}' are one file where case does not count",
                                         first->second->path.string(), file.path.string()),
                      fmt::format("the first is at {}", to_string(first->second->where)));
     }
+    return problems.size() == before;
 }
 
 std::vector<Diagnostic> missing_inputs(const Plan& plan) {

@@ -120,7 +120,7 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
     plan.reports = read_reports(document.find("report"), scope, settings, plan.others, problems);
     auto files = planned_files(plan.steps, plan.places);
     files.insert(files.end(), plan.others.begin(), plan.others.end());
-    check_collisions(files, problems);
+    plan.files_collide = !check_collisions(files, problems);
     for (const auto& d : problems.all())
         if (d.severity == Severity::warning) plan.warnings.push_back(d);
     return plan;
@@ -147,10 +147,12 @@ Plan load_plan(const fs::path& file, PlanSettings settings, Problems& problems) 
     if (settings.places.input_base.empty() && !streamed) settings.places.input_base = file.parent_path();
     Plan plan = plan_text(std::string(io::as_text(input.bytes())), settings, problems);
     for (const auto& read : planned_files(plan.steps, plan.places))
-        if (streamed && !read.written && read.path == "-")
-            problems.add(read.where, "E-TWICE",
+        if (streamed && !read.written && read.path == "-") {
+            plan.files_collide = true;
+            problems.add(read.where, "E-DUPLICATE-INPUT",
                          "standard input holds the pipeline, so no mesh can come from it",
                          "give one of the two as a file");
+        }
     return plan;
 }
 

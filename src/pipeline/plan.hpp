@@ -74,6 +74,7 @@ struct Plan {
     std::vector<std::string> reports;
     std::vector<PlannedFile> others; ///< what is read and written besides by steps: reports, the pipeline ...
     Places places;
+    bool files_collide = false; ///< a file would be read and written, or used twice (check_collisions)
     std::vector<Diagnostic> warnings;
 };
 
@@ -88,9 +89,10 @@ Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problem
 /// The files of these steps in their order, as far as they are known (globs expanded); without those of a
 /// step that will be skipped.
 std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places);
-/// Adds E-TWICE and E-OVERWRITE: two writes to one path (also by case), two readings of standard input, an
-/// output that is an input.
-void check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
+/// Adds E-DUPLICATE-OUTPUT and E-OVERWRITE: two writes to one path (also by case), an output
+/// that is an input, and E-DUPLICATE-INPUT: two readings of standard input.
+/// Whether there is none.
+bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
 /// An E-FILE for every input that does not exist, at its place; exit code 3. run_plan begins with it.
 std::vector<Diagnostic> missing_inputs(const Plan& plan);
 

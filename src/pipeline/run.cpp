@@ -92,7 +92,7 @@ class Runner {
                                       [](const std::string& path) { return path.ends_with(".html"); });
         for (const auto& warning : plan_.warnings)
             failures_.warn(warning), record().warnings.push_back(warning);
-        for (const auto& missing : missing_inputs(plan_)) failures_.add(ErrorKind::missing, missing);
+        for (const auto& missing : missing_inputs(plan_)) failures_.add(ErrorKind::missing, {missing});
         for (const auto& error : read_headers(plan_).errors) failures_.add(error);
         Scene scene;
         if (!failures_.any() && run_steps(plan_.steps, scene, true) && !plan_.reports.empty())
@@ -299,7 +299,7 @@ class Runner {
         const auto arms = step.arms_of_parts(names, problems);
         check_new_files(arms, problems);
         for (const auto& d : problems.all())
-            if (d.severity == Severity::error) failures_.add(ErrorKind::usage, d);
+            if (d.severity == Severity::error) failures_.add(ErrorKind::usage, {d});
         if (problems.any_errors()) return false;
 
         std::vector<std::vector<NamedScene>> results(scene.parts.size());
@@ -371,10 +371,11 @@ void report_refusal(const Plan& plan, const Problems& problems) {
     report::RunRecord record;
     record.pipeline = plan.name, record.about = plan.about, record.params = plan.params;
     record.exit_code = static_cast<int>(ErrorKind::usage);
-    for (const auto& d : problems.all()) {
-        if (d.id == "E-OVERWRITE" || d.id == "E-TWICE") return;
-        (d.severity == Severity::error ? record.errors : record.warnings).push_back(d);
-    }
+    for (const auto& d : problems.all())
+        if (d.severity == Severity::error)
+            record.errors.push_back({d});
+        else
+            record.warnings.push_back(d);
     write_reports(plan, record);
 }
 

@@ -17,8 +17,8 @@ struct RunSettings {
     std::function<void(const Diagnostic&)> on_warning;
 };
 
-/// Writes the reports of a pipeline that is not run because of these problems (exit code 2); none when one of
-/// them is that a file would be overwritten. Throws output when a report cannot be written.
+/// Writes the reports of a pipeline that is not run because of these problems (exit code 2). Not for a plan
+/// whose files collide: a report may be one of them. Throws output when a report cannot be written.
 void report_refusal(const Plan& plan, const Problems& problems);
 
 /// Runs the plan, writes its outputs (all or none) and its reports (always), and returns the record;

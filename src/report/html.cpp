@@ -48,7 +48,8 @@ std::string count(const Json& brief, const char* key) {
     return brief.is_object() ? grouped(brief.value(key, std::uint64_t{0})) : "";
 }
 
-std::string diagnostics(const std::vector<Diagnostic>& all, const char* kind) {
+template <class Diagnostics>
+std::string diagnostics(const Diagnostics& all, const char* kind) {
     std::string rows;
     for (const auto& d : all)
         rows += fmt::format("<tr>{}{}{}{}</tr>\n",
@@ -162,9 +163,9 @@ std::string to_html(const RunRecord& record) {
         "report</title>\n<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p class=\"soft\">{2}</p>\n",
         escaped(record.pipeline), style, escaped(record.about));
     out += verdict(record);
-    out += table("Errors", heads({"", "what", "where", "the way out"}), diagnostics(record.errors, "bad"));
+    out += table("Errors", heads({"", "what", "where", "hint"}), diagnostics(record.errors, "bad"));
     out +=
-        table("Warnings", heads({"", "what", "where", "the way out"}), diagnostics(record.warnings, "warn"));
+        table("Warnings", heads({"", "what", "where", "hint"}), diagnostics(record.warnings, "warn"));
     out +=
         table("Stages", heads({"name", "stage", "#faces before", "#faces after", "#vertices after", "notes"}),
               stage_rows(record));

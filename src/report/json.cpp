@@ -10,7 +10,8 @@ const char* to_string(Severity severity) {
     return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
 }
 
-Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
+template <class Diagnostics>
+Json diagnostics_json(const Diagnostics& diagnostics) {
     Json all = Json::array();
     for (const auto& d : diagnostics)
         all.push_back({{"id", d.id},

@@ -35,7 +35,7 @@ std::string to_junit(const RunRecord& record) {
         failures += !check.passed && check.severity == Severity::error;
     }
     for (const auto& d : record.errors) {
-        if (d.id == "E-CHECK") continue; // a case of its own already
+        if (d.of_check) continue; // a case of its own already
         cases += fmt::format("    <testcase classname=\"run\" name=\"{}\">\n      <error "
                              "message=\"{}\">{}</error>\n    </testcase>\n",
                              escaped(d.id), escaped(d.message), escaped(to_string(d.where)));

@@ -57,6 +57,11 @@ struct FileRecord {
                     ///< positions moved
 };
 
+/// Why a run failed.
+struct RunError : Diagnostic {
+    bool of_check = false; ///< a check that did not hold, which is among the checks, too
+};
+
 struct RunRecord {
     std::string pipeline; ///< the file's name as given, or "pipe"
     std::string about;
@@ -65,7 +70,7 @@ struct RunRecord {
     std::vector<StageRecord> stages;
     std::vector<Check> checks;
     std::vector<Diagnostic> warnings; ///< of the run as a whole
-    std::vector<Diagnostic> errors;   ///< why it failed
+    std::vector<RunError> errors;     ///< why it failed
     int exit_code = 0;
     double seconds = 0;
     std::size_t peak_memory = 0; ///< bytes

@@ -163,10 +163,10 @@ class Process(Case):
 
     def test_standard_input_is_read_once(self):
         twice = self.mill("pipe", "load", "-", "!", "load", "-", stdin=TRIANGLE, expect=2)
-        self.assertIn("error[E-TWICE]: standard input can be read only once", twice.stderr)
+        self.assertIn("error[E-DUPLICATE-INPUT]: standard input can be read only once", twice.stderr)
         pipeline = 'facetmill: 1\nstages: [{load: "-"}]\n'
         both = self.mill("run", "-", stdin=pipeline, expect=2)
-        self.assertIn("error[E-TWICE]: standard input holds the pipeline", both.stderr)
+        self.assertIn("error[E-DUPLICATE-INPUT]: standard input holds the pipeline", both.stderr)
 
     def test_no_output_replaces_what_is_read_or_written_besides(self):
         scan = self.write("t.off", TRIANGLE)
@@ -177,7 +177,7 @@ class Process(Case):
                           ["pipe", "--report", "r.json", "--depfile", "r.json", "load", "t.off"],
                           ["pipe", "--save", "-", "load", "t.off", "!", "write", "-", "--format", "ply"]):
             run = self.mill(*arguments, expect=2)
-            self.assertTrue("E-OVERWRITE" in run.stderr or "E-TWICE" in run.stderr, run.stderr)
+            self.assertTrue("E-OVERWRITE" in run.stderr or "E-DUPLICATE-OUTPUT" in run.stderr, run.stderr)
         for name, text in {"self.yaml": "facetmill: 1\nstages: [{load: t.off}, {write: {path: self.yaml, format: ply}}]\n",
                            "self.json": "facetmill: 1\nstages: [{load: t.off}]\nreport: self.json\n",
                            "dep.yaml": "facetmill: 1\nstages: [{load: t.off}]\n"}.items():
@@ -241,7 +241,7 @@ class Process(Case):
         self.mill("pipe", "load", "t.off", "!", "write", "t.drc")
         for bad in (["a.ply", "--draco"], ["a.glb", "--ascii"], ["a.stl", "--mesh_manifold"], ["a.glb", "--big_endian"],
                     ["a.stl", "--precision", "full"]):
-            self.assertIn("E-EXCLUSIVE", self.mill("pipe", "load", "t.off", "!", "write", *bad, expect=2).stderr)
+            self.assertIn("E-CONFLICT", self.mill("pipe", "load", "t.off", "!", "write", *bad, expect=2).stderr)
         self.assertIn("format: glb", self.mill("pipe", "load", "t.off", "!", "write", "-", "--format", "gltf", expect=2).stderr)
 
     def test_messages_as_json_and_quiet(self):
@@ -261,7 +261,7 @@ class Process(Case):
         self.assertTrue((self.dir / "a.ply").exists() and (self.dir / "b.ply").exists())
         self.write("c.yaml", "facetmill: 1\nstages: [{load: t.off}, {write: a.ply}]\n")
         run = self.mill("run", "a.yaml", "c.yaml", expect=2)
-        self.assertIn("E-TWICE", run.stderr)
+        self.assertIn("E-DUPLICATE-OUTPUT", run.stderr)
         for name in "fg":
             self.write(f"{name}.yaml", "facetmill: 1\nstages: [{load: t.off}]\nreport: r.json\n")
         self.assertIn("'r.json' is written by another pipeline", self.mill("run", "f.yaml", "g.yaml", expect=2).stderr)

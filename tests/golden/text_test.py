@@ -1,6 +1,7 @@
 """What `facetmill stages` says of every stage is a golden file: a change of an option's name, default or help is seen
 in review. tools/update_golden.sh writes them anew."""
 
+import json
 import pathlib
 import re
 import subprocess
@@ -22,7 +23,7 @@ class Text(Case):
 
     def test_help_everywhere(self):
         self.assertIn("Examples", self.mill("--help").stdout)
-        for command in ("run", "plan", "pipe", "check", "info", "diff", "stages", "schema", "formats"):
+        for command in ("run", "plan", "pipe", "check", "info", "diff", "stages", "schema", "formats", "explain"):
             text = self.mill(command, "--help").stdout
             self.assertIn("Examples", text, command)
             self.assertIn(f"facetmill {command}", text)
@@ -34,21 +35,37 @@ class Text(Case):
         for line in self.mill("stages").stdout.splitlines():
             self.assertIn(f"| `{line.split()[0]}` |", readme, "the table of stages: facetmill stages --markdown")
 
-    def test_every_warning_is_known(self):
-        """A warning that is not in the list could not be made to fail by --strict=ID."""
+    def test_every_message_is_known(self):
+        """The ids in the source are those that `facetmill explain` knows, with the exit codes that they come with."""
+        codes = {"check": 1, "usage": 2, "missing": 3, "output": 4, "stage": 5, "malformed": 6, "limit": 7, "bug": 70}
+        known = {m["id"]: m for m in json.loads(self.mill("explain", "--json").stdout)}
+        self.assertEqual(list(known), sorted(known))
         used = set()
-        for path in (SOURCE / "src").rglob("*.cpp"):
-            if path.name != "warnings.cpp":
-                used |= set(re.findall(r'"(W-[A-Z0-9-]+)"', path.read_text()))
-        table = re.findall(r'\{"(W-[A-Z0-9-]+)"', (SOURCE / "src/report/warnings.cpp").read_text())
-        self.assertEqual(table, sorted(used), "src/report/warnings.cpp")
+        for path in (SOURCE / "src").rglob("*.[ch]pp"):
+            if path.name == "message_ids.cpp":
+                continue
+            text = path.read_text()
+            used |= set(re.findall(r'"([EW]-[A-Z0-9-]+)"', text))
+            for kind, message in re.findall(r'\bErrorKind::(\w+),\s*"(E-[A-Z0-9-]+)"', text):
+                self.assertIn(codes[kind], known.get(message, {}).get("exit_codes", []), f"{path}: {message}")
+            for message in re.findall(r"\b[EW]-[A-Z][A-Z0-9-]*[A-Z]\b", text):
+                self.assertIn(message, known, f"{path}: add it to src/base/message_ids.cpp")
+        self.assertEqual(sorted(used), list(known), "src/base/message_ids.cpp")
+
+    def test_explain(self):
+        self.assertIn("exit code 2", self.mill("explain", "E-KEY").stdout)
+        self.assertIn("--strict=W-UNITS", self.mill("explain", "w-units").stdout)
+        self.assertEqual(len(self.mill("explain").stdout.splitlines()),
+                         self.mill("explain", "--markdown").stdout.count("\n## "))
+        self.assertIn("did you mean 'W-UNITS'?", self.mill("explain", "W-UNIT", expect=2).stderr)
         run = self.mill("run", "quickstart", "-D", "input=a.ply", "--strict=W-UNIT", expect=2)
         self.assertIn("did you mean 'W-UNITS'?", run.stderr)
 
     def test_manual_pages_are_clean(self):
         mandoc = self.need("mandoc")
         page = self.write("facetmill-stages.7", self.mill("stages", "--man").stdout)
-        for path in (page, SOURCE / "man/facetmill.1", SOURCE / "man/facetmill-pipeline.5"):
+        messages = self.write("facetmill-messages.7", self.mill("explain", "--man").stdout)
+        for path in (page, messages, SOURCE / "man/facetmill.1", SOURCE / "man/facetmill-pipeline.5"):
             run = subprocess.run([mandoc, "-T", "lint", "-W", "warning", str(path)], capture_output=True, text=True)
             self.assertEqual(run.stdout, "", path)
 

@@ -88,7 +88,7 @@ TEST_CASE("every wrong option is reported at once", "[options]") {
 
 TEST_CASE("options that exclude each other", "[options]") {
     CHECK(complaints(map({{"ratio", Value::scalar("10%")}, {"faces", Value::scalar("10")}})) ==
-          "E-EXCLUSIVE relax: at most one of ratio, faces may be given, found ratio and faces\n");
+          "E-CONFLICT relax: at most one of ratio, faces may be given, found ratio and faces\n");
 }
 
 TEST_CASE("nested groups say what they miss", "[options]") {

@@ -46,10 +46,10 @@ TEST_CASE("headers tell formats, units and the names of parts", "[pipeline]") {
     const auto plan = ground.plan("  - load: [body.gltf, good.off]\n");
     const auto headers = read_headers(plan);
     REQUIRE(headers.inputs.size() == 2);
-    CHECK(headers.inputs[0].outline.format == "gltf");
-    CHECK(headers.inputs[0].outline.unit == Unit::m);
-    CHECK(headers.inputs[0].outline.parts == Texts{"hull", "mast"});
-    CHECK(headers.inputs[1].outline.unit == Unit::unknown);
+    CHECK(headers.inputs[0].header.format == "gltf");
+    CHECK(headers.inputs[0].header.unit == Unit::m);
+    CHECK(headers.inputs[0].header.parts == Texts{"hull", "mast"});
+    CHECK(headers.inputs[1].header.unit == Unit::unknown);
     CHECK(headers.errors.empty());
     const std::string text = describe(plan, headers);
     CHECK(text.find("body.gltf  (gltf, in m, y up; parts: hull, mast)\n") != std::string::npos);

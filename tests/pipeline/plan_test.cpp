@@ -101,7 +101,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and the way out"
          "    - test-cut: 101\n"
          "                ^~~"},
         {stages("  - test-cut: {faces: 3, ratio: 10%}\n"),
-         "p.yaml:4:26: error[E-EXCLUSIVE]: test-cut: at most one of faces, ratio may be given, found faces "
+         "p.yaml:4:26: error[E-CONFLICT]: test-cut: at most one of faces, ratio may be given, found faces "
          "and ratio\n"
          "    - test-cut: {faces: 3, ratio: 10%}\n"
          "                           ^~~~~"},
@@ -136,7 +136,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and the way out"
          "      ^~~~~~~~\n"
          "  hint: begin with load: FILE"},
         {stages("  - test-write: o.glb\n  - branch:\n      far: [test-write: ./O.glb]\n"),
-         "p.yaml:6:25: error[E-TWICE]: 'o.glb' and 'O.glb' are one file where case does not count\n"
+         "p.yaml:6:25: error[E-DUPLICATE-OUTPUT]: 'o.glb' and 'O.glb' are one file where case does not count\n"
          "        far: [test-write: ./O.glb]\n"
          "                          ^~~~~~~\n"
          "  hint: the first is at p.yaml:4:17"},
@@ -146,12 +146,12 @@ TEST_CASE("what is wrong with a pipeline is said with its place and the way out"
          "                  ^~~~~~~~~~\n"
          "  hint: it is read at p.yaml:3:16; give the output another name"},
         {stages("  - foreach: {lod: [50%, 25%]}\n    do: [test-write: o.glb]\n"),
-         "p.yaml:5:22: error[E-TWICE]: 'o.glb' is written twice\n"
+         "p.yaml:5:22: error[E-DUPLICATE-OUTPUT]: 'o.glb' is written twice\n"
          "      do: [test-write: o.glb]\n"
          "                       ^~~~~\n"
          "  hint: the first is at p.yaml:5:22"},
         {stages("  - test-load: \"-\"\n  - test-load: \"-\"\n"),
-         "p.yaml:5:16: error[E-TWICE]: standard input can be read only once\n"
+         "p.yaml:5:16: error[E-DUPLICATE-INPUT]: standard input can be read only once\n"
          "    - test-load: \"-\"\n"
          "                 ^~~\n"
          "  hint: the first is at p.yaml:4:16"},

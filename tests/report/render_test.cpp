@@ -78,7 +78,7 @@ RunRecord full_record() {
          {},
          true,
          {}}};
-    record.errors = {{Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), ""},
+    record.errors = {{Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), "", true},
                      {Severity::error, "E-WRITE", "the disk is full", {}, "make room"}};
     record.exit_code = 4;
     record.seconds = 1.5;

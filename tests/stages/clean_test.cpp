@@ -96,7 +96,7 @@ TEST_CASE("clean refuses options that make no sense together", "[stages]") {
     CHECK(refusal("{weld: near}") ==
           "usage [E-MISSING] test.yaml:1:1: clean: near needs a length | within: 0.01% (or 0.1mm)");
     CHECK(refusal("{within: 1}") ==
-          "usage [E-CLEAN] test.yaml:1:1: clean: within has no effect on exact steps | "
+          "usage [E-CONFLICT] test.yaml:1:1: clean: within has no effect on exact steps | "
           "weld: near, stitch: near or t_vertices: near");
     CHECK(refusal("{components: {}}") == "usage [E-MISSING] test.yaml:1:1: clean: components needs to know "
                                          "which are small | components: {faces: "

@@ -243,7 +243,7 @@ TEST_CASE("split takes a method or a grid", "[stages]") {
         test::failure([&] {
             faces(map({{"method", text("bisect")}, {"grid", text("3")}}));
         }) ==
-        "usage [E-EXCLUSIVE] split: 'grid' goes with the method grid only | leave out either method or grid");
+        "usage [E-CONFLICT] split: 'grid' goes with the method grid only | leave out either method or grid");
     CHECK(test::failure([&] { faces(text("grid")); }) ==
           "usage [E-MISSING] split: the method grid needs 'grid', the number of pieces per edge | for "
           "example split: "

@@ -106,7 +106,7 @@ TEST_CASE("crop stands walls on the outline on request", "[stages]") {
     CHECK(open.record.warnings[0].id == "W-CAP-OPEN");
     CHECK(open.scene.materials.empty());
     CHECK(refusal("crop", "{footprint: [[0, 0], [1, 0], [1, 1]], cap: true, by: whole}") ==
-          "usage [E-CROP] crop: walls stand on the outline, and by whole faces nothing is cut there | leave "
+          "usage [E-CONFLICT] crop: walls stand on the outline, and by whole faces nothing is cut there | leave "
           "out "
           "cap, or take by: cut");
 }

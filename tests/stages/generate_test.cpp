@@ -42,9 +42,9 @@ TEST_CASE("generate: a percentage of noise is of the shape itself", "[stages]") 
 
 TEST_CASE("generate: options of other shapes are refused", "[stages]") {
     CHECK(problems_of("generate", options({{"shape", "cube"}, {"level", "2"}})) ==
-          "E-EXCLUSIVE generate: 'level' goes with icosphere, menger, not with cube | leave it out");
+          "E-CONFLICT generate: 'level' goes with icosphere, menger, not with cube | leave it out");
     CHECK(problems_of("generate", options({{"shape", "sphere"}, {"faces", "100"}, {"around", "9"}})) ==
-          "E-EXCLUSIVE generate: 'faces' stands for 'around' and 'across' | give either faces, or around and "
+          "E-CONFLICT generate: 'faces' stands for 'around' and 'across' | give either faces, or around and "
           "across");
     CHECK(problems_of("generate", options({{"shape", "menger"}, {"level", "5"}})) ==
           "E-RANGE 'level' of menger must be 1 <= x <= 4, not 5");

@@ -263,10 +263,10 @@ TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages
         CHECK((mesh.find("NORMAL", Domain::wedge) != nullptr) == (std::string_view(normals) != "keep"));
     }
     CHECK(problems_of("write", options({{"path", "a.glb"}, {"crease", "30"}})) ==
-          "E-EXCLUSIVE write: 'crease' goes with normals: smooth only | add normals: smooth");
+          "E-CONFLICT write: 'crease' goes with normals: smooth only | add normals: smooth");
     CHECK(problems_of("write", options({{"path", "a.stl"}, {"normals", "smooth"}}))
               .starts_with(
-                  "E-EXCLUSIVE write: 'normals' goes with ply, obj, off, gltf, glb, drc, not with stl"));
+                  "E-CONFLICT write: 'normals' goes with ply, obj, off, gltf, glb, drc, not with stl"));
 }
 
 TEST_CASE("write refuses what it cannot mean", "[stages]") {

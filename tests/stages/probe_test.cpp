@@ -163,10 +163,10 @@ TEST_CASE("probe refuses what it cannot use", "[stages]") {
     CHECK(refusal("{}") == "E-MISSING probe: one of points, points_of, segments, rays, along is needed");
     CHECK(refusal("[1, 2]") == "E-TYPE expected rows of 3 numbers or a .csv file, found a list of 2");
     CHECK(refusal("[1, 2, x]") == "E-TYPE expected rows of 3 numbers or a .csv file, found 'x'");
-    CHECK(refusal("{points: [0, 0, 0], face: 1}") == "E-FACE 'face' goes with segments or rays");
+    CHECK(refusal("{points: [0, 0, 0], face: 1}") == "E-CONFLICT 'face' goes with segments or rays");
     CHECK(refusal("{points: [0, 0, 0], to: a.txt}") == "E-FORMAT probe cannot write 'a.txt'");
-    CHECK(refusal("{points: [0, 0, 0], reverse: true}") == "E-PROBE 'reverse' goes with along");
-    CHECK(refusal("{points: [0, 0, 0], hits: first}") == "E-PROBE 'hits' goes with segments or rays");
+    CHECK(refusal("{points: [0, 0, 0], reverse: true}") == "E-CONFLICT 'reverse' goes with along");
+    CHECK(refusal("{points: [0, 0, 0], hits: first}") == "E-CONFLICT 'hits' goes with segments or rays");
     CHECK(refusal("{points_of: part}") == "E-PART 'points_of' leaves no part to ask");
     CHECK(refusal("none.csv").starts_with("E-FILE"));
 }

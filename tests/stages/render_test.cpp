@@ -69,7 +69,7 @@ TEST_CASE("render says what it was not given", "[stages]") {
     CHECK(problems_of("render", options({{"path", "a.png"}, {"from", "0,0,0"}}))
               .starts_with("E-DIRECTION render: 'from' needs a direction"));
     CHECK(problems_of("render", options({{"path", "a.png"}, {"from", "0,0,1"}, {"view", "top"}}))
-              .starts_with("E-EXCLUSIVE"));
+              .starts_with("E-CONFLICT"));
     CHECK(problems_of("render", options({{"path", "a.png"}, {"width", "100000"}})).starts_with("E-RANGE"));
     CHECK(problems_of("render", options({{"path", "a.png"}, {"height", "0"}})).starts_with("E-RANGE"));
     CHECK(problems_of("render", options({})).starts_with("E-MISSING"));

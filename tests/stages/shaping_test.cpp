@@ -138,7 +138,7 @@ TEST_CASE("crumple: parts near each other are warned of when faces are kept apar
 TEST_CASE("crumple: octaves go with a frequency, and refusals speak of crumple", "[stages]") {
     for (const char* name : {"octaves", "roughness"})
         CHECK(problems_of("crumple", options({{name, "1"}})) ==
-              std::string("E-EXCLUSIVE crumple: '") + name +
+              std::string("E-CONFLICT crumple: '") + name +
                   "' goes with a frequency above 0 only | for example frequency: 4, or leave it out");
     CHECK(problems_of("crumple", options({{"octaves", "2"}, {"frequency", "3"}})) == "");
     const std::string giant = test::failure([] {
@@ -233,12 +233,12 @@ TEST_CASE("split: targets and what they report", "[stages]") {
     CHECK(few.mesh().face_count() <= 100);
     CHECK(few.mesh().face_count() > 92);
     CHECK(few.record.result["parts"][0]["stopped_by"] == "faces");
-    CHECK(problems_of("split", options({{"method", "core"}, {"max_edge", "1"}})).substr(0, 9) == "E-TARGET ");
-    CHECK(problems_of("split", options({{"min_angle", "20"}, {"faces", "9"}})).substr(0, 12) ==
-          "E-EXCLUSIVE ");
-    CHECK(problems_of("split", options({{"method", "sqrt3"}, {"creases", "20"}})).substr(0, 12) ==
-          "E-EXCLUSIVE ");
-    CHECK(problems_of("split", options({{"cut", "widest-angle"}})).substr(0, 12) == "E-EXCLUSIVE ");
+    CHECK(problems_of("split", options({{"method", "core"}, {"max_edge", "1"}})).substr(0, 11) == "E-CONFLICT ");
+    CHECK(problems_of("split", options({{"min_angle", "20"}, {"faces", "9"}})).substr(0, 11) ==
+          "E-CONFLICT ");
+    CHECK(problems_of("split", options({{"method", "sqrt3"}, {"creases", "20"}})).substr(0, 11) ==
+          "E-CONFLICT ");
+    CHECK(problems_of("split", options({{"cut", "widest-angle"}})).substr(0, 11) == "E-CONFLICT ");
 }
 
 TEST_CASE("split: a target that is not reached is warned of", "[stages]") {
@@ -256,7 +256,7 @@ TEST_CASE("split: a target that is not reached is warned of", "[stages]") {
     CHECK(run_stage("split", options({{"max_edge", "9"}}), scene_of(shapes::cube())).warnings().empty());
     for (const char* target : {"max_edge", "min_angle", "faces"})
         CHECK(problems_of("split", options({{"cut", "widest-angle"}, {"method", "bisect"}, {target, "9"}})) ==
-              std::string("E-EXCLUSIVE split: 'cut: widest-angle' does not go with the target '") + target +
+              std::string("E-CONFLICT split: 'cut: widest-angle' does not go with the target '") + target +
                   "', which its cuts may never reach | leave out cut, or give passes and no target");
 }
 
@@ -285,7 +285,7 @@ TEST_CASE("relax: area and volume before and after; options that go with methods
     CHECK(problems_of("relax", options({{"method", "taubin"}, {"factor", "0.9"}})).substr(0, 8) ==
           "E-RANGE ");
     CHECK(problems_of("relax", options({{"pass_band", "0.2"}})) ==
-          "E-EXCLUSIVE relax: 'pass_band' goes with the method taubin only");
+          "E-CONFLICT relax: 'pass_band' goes with the method taubin only");
 }
 
 TEST_CASE("simplify: a bare ratio, and what is reported", "[stages]") {

@@ -2,11 +2,13 @@
 _facetmill() {
     local word=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} previous=${COMP_WORDS[COMP_CWORD-1]} words
     if [ "$COMP_CWORD" = 1 ]; then
-        words="run plan pipe check info diff stages schema formats --help --version"
+        words="run plan pipe check info diff stages schema formats explain --help --version"
     elif [ "$command" = stages ] || { [ "$command" = pipe ] && [[ $previous =~ ^[!+\[]$ || $previous = pipe ]]; }; then
         words=$(facetmill stages 2>/dev/null | sed 's/ .*//')
+    elif [ "$command" = explain ]; then
+        words=$(facetmill explain 2>/dev/null | sed "s/ .*//")
     elif [ "$command" = schema ]; then
-        words="pipeline report info"
+        words="pipeline report info diff"
     elif [[ $word = -* ]]; then
         words=$(facetmill "$command" --help 2>/dev/null | grep -oE -- '--[a-z-]+' | sort -u)
     fi

@@ -123,7 +123,7 @@ ClipResult clip(Mesh mesh, const ClipSettings& settings) {
         return result;
     }
     if (settings.keep == Keep::both && settings.planes.size() != 1)
-        throw Error(ErrorKind::usage, "E-PLANE", "keeping both sides takes exactly one plane",
+        throw Error(ErrorKind::usage, "E-CONFLICT", "keeping both sides takes exactly one plane",
                     "clip once for every plane, or keep the front or the back");
     return Clipper(settings).run(std::move(mesh));
 }

@@ -232,8 +232,8 @@ std::vector<CropResult> crop_sides(const Mesh& mesh, const Footprint& footprint,
     };
     try {
         return run();
-    } catch (const Error& error) { // needles of an outline may be finer than snap; pure, they can be closed
-        if (!settings.snap || error.diagnostics().front().id != "E-CROP-CAP") throw;
+    } catch (const UnclosedWalls&) { // needles of an outline may be finer than snap; pure, they can be closed
+        if (!settings.snap) throw;
     }
     settings.snap = false;
     return run();

@@ -16,7 +16,7 @@ namespace {
 
 [[noreturn]] void refuse(const Walls& walls, Index wall) {
     const auto& e = walls.edges()[wall];
-    throw Error(
+    throw UnclosedWalls(
         ErrorKind::stage, "E-CROP-CAP",
         fmt::format("the cut along the outline from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) cannot be closed",
                     e.a.x, e.a.y, e.b.x, e.b.y),

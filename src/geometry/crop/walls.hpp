@@ -1,10 +1,16 @@
 #pragma once
 // Walls that close what a crop cuts open. For crop only.
 
+#include "base/error.hpp"
 #include "geometry/clip/clip.hpp"
 #include "geometry/polygon/footprint.hpp"
 
 namespace facetmill {
+
+/// A cut that cannot be closed (E-CROP-CAP).
+struct UnclosedWalls : Error {
+    using Error::Error;
+};
 
 struct WallSettings {
     std::size_t axis = 2; ///< as CropSettings::axis
@@ -35,7 +41,7 @@ struct WalledCrop {
 /// triangles, turned, but for those without area between points at one place.
 ///
 /// Attributes: walls have their own as caps of clip have. Of a mesh that was open, only edges on the outline
-/// count, and contours that do not close are left and reported. Throws stage (E-CROP-CAP) for a closed mesh
+/// count, and contours that do not close are left and reported. Throws UnclosedWalls (stage, E-CROP-CAP) for a closed mesh
 /// when the walls cannot be completed.
 WalledCrop close_crop(Mesh kept, const Footprint& footprint, const WallSettings& settings);
 

@@ -147,7 +147,7 @@ const char* to_string(SplitMethod method) {
 
 void check_split_targets(const SplitSettings& s) {
     const auto refuse = [&](const char* target, const char* knows) {
-        throw Error(ErrorKind::usage, "E-TARGET",
+        throw Error(ErrorKind::usage, "E-CONFLICT",
                     fmt::format("split: {} cannot reach the target {}", to_string(s.method), target),
                     fmt::format("use {}", knows));
     };
@@ -156,10 +156,10 @@ void check_split_targets(const SplitSettings& s) {
     if (s.min_angle > 0 && s.method != SplitMethod::bisect && s.method != SplitMethod::notch)
         refuse("min_angle", "bisect or notch");
     if (s.cut == SplitSettings::Cut::widest_angle && (s.max_edge > 0 || s.min_angle > 0 || s.faces > 0))
-        throw Error(ErrorKind::usage, "E-TARGET", "split: the cut at the widest angle reaches no target",
+        throw Error(ErrorKind::usage, "E-CONFLICT", "split: the cut at the widest angle reaches no target",
                     "cut in the middle of the longest edge, or give passes and no target");
     if (s.min_angle > 0 && (s.max_edge > 0 || s.faces > 0))
-        throw Error(ErrorKind::usage, "E-TARGET", "split: min_angle goes with no other target",
+        throw Error(ErrorKind::usage, "E-CONFLICT", "split: min_angle goes with no other target",
                     "use two split stages");
 }
 

@@ -103,14 +103,14 @@ struct SplitResult {
 ///
 /// Requires a valid mesh. Refuses (stage, E-POLYGON) faces that the method does not know: more than four
 /// corners for grid, halve and diagonal, more than three for bisect, notch, loop, sqrt3, butterfly; (stage,
-/// E-MANIFOLD) smooth methods on non-manifold or inconsistently oriented meshes; (usage, E-TARGET) targets
+/// E-MANIFOLD) smooth methods on non-manifold or inconsistently oriented meshes; (usage, E-CONFLICT) targets
 /// that the method cannot reach. Throws limit before anything is built when the result would have more than
 /// 2^31 corners (E-LIMIT) or not fit into memory (E-MEMORY). Vertex and wedge attributes are interpolated,
 /// with the smooth methods normals recomputed; face attributes are copied. Source: the note "Splitting
 /// facets" (1991).
 SplitResult split(const Mesh& mesh, const SplitSettings& settings);
 
-/// Throws usage (E-TARGET) for targets that the method cannot reach; split does it first of all.
+/// Throws usage (E-CONFLICT) for targets that the method cannot reach; split does it first of all.
 void check_split_targets(const SplitSettings& settings);
 
 /// split with SplitMethod::grid: each triangle into n * n, each quad into n x n; shared edges get the same n

@@ -115,7 +115,7 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
     if (near && !o.within)
         problems.add(given.mark, "E-MISSING", "clean: near needs a length", "within: 0.01% (or 0.1mm)");
     if (!near && o.within)
-        problems.add(given.mark, "E-CLEAN", "clean: within has no effect on exact steps",
+        problems.add(given.mark, "E-CONFLICT", "clean: within has no effect on exact steps",
                      "weld: near, stitch: near or t_vertices: near");
     const auto& c = o.components;
     if (c && c->faces == 0 && !c->size && !c->area && c->keep == 0)

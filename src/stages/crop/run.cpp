@@ -91,7 +91,7 @@ void verify(const CropOptions& o, const Value& given, Problems& problems) {
     const Value* footprint = given.is_map() ? find("footprint") : &given;
     if (footprint) verify_footprint(o.footprint, *footprint, "crop", problems);
     if (o.cap && o.by != CropBy::cut)
-        problems.add(find("cap")->mark, "E-CROP",
+        problems.add(find("cap")->mark, "E-CONFLICT",
                      "crop: walls stand on the outline, and by whole faces nothing is cut there",
                      "leave out cap, or take by: cut");
 }

@@ -76,7 +76,7 @@ void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& probl
     if (frequency && frequency->deferred) return;
     for (const char* name : {"octaves", "roughness"})
         if (const Value* value = given.find(name))
-            problems.add(value->mark, "E-EXCLUSIVE",
+            problems.add(value->mark, "E-CONFLICT",
                          fmt::format("crumple: '{}' goes with a frequency above 0 only", name),
                          "for example frequency: 4, or leave it out");
 }

@@ -155,14 +155,14 @@ void verify_generate(const GenerateOptions& o, const Value& given, Problems& pro
             if (takes(s, entry.key)) others += (others.empty() ? "" : ", ") + std::string(s.name);
         if (!others.empty() && !takes(mine, entry.key))
             problems.add(
-                entry.key_mark, "E-EXCLUSIVE",
+                entry.key_mark, "E-CONFLICT",
                 fmt::format("generate: '{}' goes with {}, not with {}", entry.key, others, mine.name),
                 "leave it out");
     }
     verify_counts(o, given, problems);
     verify_torus(o, given, problems);
     if (o.faces && (o.around || o.across))
-        problems.add(given.mark, "E-EXCLUSIVE", "generate: 'faces' stands for 'around' and 'across'",
+        problems.add(given.mark, "E-CONFLICT", "generate: 'faces' stands for 'around' and 'across'",
                      "give either faces, or around and across");
 }
 

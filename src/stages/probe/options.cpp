@@ -58,11 +58,11 @@ void verify_probe(const ProbeOptions& o, const Value& given, Problems& problems)
             problems.add(given.mark, "E-FORMAT", fmt::format("probe cannot write '{}'", path.text),
                          "a name that ends in .csv or .json");
     if (given.find("reverse") && o.along.empty())
-        problems.add(given.mark, "E-PROBE", "'reverse' goes with along");
+        problems.add(given.mark, "E-CONFLICT", "'reverse' goes with along");
     if (given.find("hits") && !o.segments && !o.rays)
-        problems.add(given.mark, "E-PROBE", "'hits' goes with segments or rays");
+        problems.add(given.mark, "E-CONFLICT", "'hits' goes with segments or rays");
     if (o.face && !o.segments && !o.rays)
-        problems.add(given.mark, "E-FACE", "'face' goes with segments or rays");
+        problems.add(given.mark, "E-CONFLICT", "'face' goes with segments or rays");
 }
 
 } // namespace facetmill

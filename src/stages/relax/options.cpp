@@ -100,7 +100,7 @@ void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems)
     }
     const auto belongs = [&](const char* name, Method method, const char* to) {
         if (given.is_map() && given.find(name) && o.method != method)
-            problems.add(mark_at(given, name), "E-EXCLUSIVE",
+            problems.add(mark_at(given, name), "E-CONFLICT",
                          std::string("relax: '") + name + "' goes with the method " + to + " only");
     };
     belongs("pass_band", Method::taubin, "taubin");
@@ -108,7 +108,7 @@ void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems)
     belongs("push_back", Method::hc, "hc");
     if (given.is_map() && given.find("neighbours") && o.method == Method::cotangent)
         problems.add(
-            mark_at(given, "neighbours"), "E-EXCLUSIVE",
+            mark_at(given, "neighbours"), "E-CONFLICT",
             "relax: 'neighbours' does not go with the method cotangent, which weights those by angles");
 }
 

@@ -80,9 +80,9 @@ void declare_separate(Declare<SeparateOptions>& d) {
 
 void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems) {
     if (given.find("attribute") && o.by != By::group)
-        problems.add(given.mark, "E-SEPARATE", "separate: 'attribute' goes with by: group");
+        problems.add(given.mark, "E-CONFLICT", "separate: 'attribute' goes with by: group");
     if (given.find("cavities") && o.by != By::component)
-        problems.add(given.mark, "E-SEPARATE", "separate: 'cavities' goes with by: component");
+        problems.add(given.mark, "E-CONFLICT", "separate: 'cavities' goes with by: component");
 }
 
 PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {

@@ -15,7 +15,7 @@ struct SeparateOptions {
 };
 
 void declare_separate(Declare<SeparateOptions>& d);
-/// Names what has no effect (E-SEPARATE).
+/// Names what has no effect (E-CONFLICT).
 void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems);
 
 /// What a part is taken apart into: a label for each face, and a name for each label, in the order of their

@@ -80,18 +80,18 @@ void declare_split(Declare<SplitOptions>& d) {
 void verify_split(const SplitOptions& o, const Value& given, Problems& problems) {
     const SplitMethod method = o.chosen();
     if (o.grid && o.method && o.method != SplitMethod::grid)
-        problems.add(mark_at(given, "method"), "E-EXCLUSIVE", "split: 'grid' goes with the method grid only",
+        problems.add(mark_at(given, "method"), "E-CONFLICT", "split: 'grid' goes with the method grid only",
                      "leave out either method or grid");
     if (o.method == SplitMethod::grid && !o.grid)
         problems.add(given.mark, "E-MISSING",
                      "split: the method grid needs 'grid', the number of pieces per edge",
                      "for example split: {grid: 3}");
     if (o.cut != Cut::longest_edge && method != SplitMethod::bisect)
-        problems.add(mark_at(given, "cut"), "E-EXCLUSIVE",
+        problems.add(mark_at(given, "cut"), "E-CONFLICT",
                      fmt::format("split: 'cut' goes with the method bisect, not with {}", to_string(method)));
     if (o.cut != Cut::longest_edge && o.has_target())
         problems.add(
-            mark_at(given, "cut"), "E-EXCLUSIVE",
+            mark_at(given, "cut"), "E-CONFLICT",
             fmt::format("split: 'cut: widest-angle' does not go with the target '{}', which its cuts "
                         "may never reach",
                         o.max_edge    ? "max_edge"
@@ -99,11 +99,11 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
                                       : "faces"),
             "leave out cut, or give passes and no target");
     if (o.creases && (!is_smooth(method) || method == SplitMethod::sqrt3))
-        problems.add(mark_at(given, "creases"), "E-EXCLUSIVE",
+        problems.add(mark_at(given, "creases"), "E-CONFLICT",
                      fmt::format("split: 'creases' goes with loop, butterfly and catmull-clark, not with {}",
                                  to_string(method)));
     if (o.min_angle && (o.max_edge || o.faces))
-        problems.add(mark_at(given, "min_angle"), "E-EXCLUSIVE",
+        problems.add(mark_at(given, "min_angle"), "E-CONFLICT",
                      "split: 'min_angle' goes with no other target", "use two split stages");
     try {
         SplitSettings s;

@@ -87,7 +87,8 @@ void verify_transform(const TransformOptions& o, const Value& given, Problems& p
         (o.matrix[12] != 0 || o.matrix[13] != 0 || o.matrix[14] != 0 || o.matrix[15] != 1))
         refuse("matrix", "the last row of a matrix is 0, 0, 0, 1");
     if (given.find("about") && o.scale.empty() && !o.rotate)
-        refuse("about", "about goes with scale or rotate");
+        problems.add(mark_at(given, "about"), "E-CONFLICT",
+                     "transform: about goes with scale or rotate");
     if (o.rotate && !(length(o.rotate->axis) > 0)) refuse("rotate", "the axis of a rotation has no length");
 }
 

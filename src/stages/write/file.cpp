@@ -18,7 +18,7 @@ Mesh in_one(const Scene& scene) {
     return all;
 }
 
-/// Why rounding put points on others or faces on lines, and the way out.
+/// Why rounding put points on others or faces on lines, and the hint.
 std::string rounding(std::size_t points, const io::Codec& codec, const io::WriteSettings& settings) {
     const std::string what = points > 0
                                  ? fmt::format("put {} point{} on others", points, points == 1 ? "" : "s")
@@ -34,7 +34,7 @@ std::string rounding(std::size_t points, const io::Codec& codec, const io::Write
                        codec.name, what);
 }
 
-/// Why a file is less sound than the scene, and the way out.
+/// Why a file is less sound than the scene, and the hint.
 std::string reason(const io::VertexChanges& changes, const io::Codec& codec,
                    const io::WriteSettings& settings) {
     std::vector<std::string> reasons;

@@ -54,11 +54,11 @@ void verify_options(const WriteOptions& o, const std::string& format, const Valu
     for (const auto& [name, formats, asked] : format_options(o))
         if (asked && std::find(formats.begin(), formats.end(), format) == formats.end())
             problems.add(
-                given.find_entry(name)->key_mark, "E-EXCLUSIVE",
+                given.find_entry(name)->key_mark, "E-CONFLICT",
                 fmt::format("write: '{}' goes with {}, not with {}", name, fmt::join(formats, ", "), format),
                 "leave it out");
     if (o.crease && o.normals != NormalKind::smooth)
-        problems.add(mark_at(given, "crease"), "E-EXCLUSIVE",
+        problems.add(mark_at(given, "crease"), "E-CONFLICT",
                      "write: 'crease' goes with normals: smooth only", "add normals: smooth");
 }
 

@@ -1,0 +1,62 @@
+// facetmill explain: what the id of an error or warning means, and what to do.
+
+#include "base/spelling.hpp"
+#include "cli/command.hpp"
+#include "docs/messages.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* explain_examples = R"(Examples
+  facetmill explain W-UNITS
+  facetmill explain
+  facetmill explain --markdown > messages.md
+)";
+
+struct ExplainOptions {
+    std::string id;
+    bool markdown = false, man = false, json = false;
+};
+
+const MessageId& message_asked_for(const std::string& text, const CommandLine& line) {
+    std::string id = text;
+    for (char& c : id) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+    if (const auto* known = message_id(id)) return *known;
+    std::vector<std::string> ids;
+    for (const auto& m : message_ids()) ids.emplace_back(m.id);
+    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no error or warning '{}'", text),
+                did_you_mean(id, ids, "facetmill explain lists them all"), line.find(text));
+}
+
+int explain(const ExplainOptions& options, const CommandLine& line) {
+    if (!options.id.empty())
+        print(docs::message_page(message_asked_for(options.id, line)));
+    else if (options.json)
+        print(docs::messages_json().dump(2) + "\n");
+    else if (options.markdown)
+        print(docs::messages_markdown());
+    else if (options.man)
+        print(docs::messages_man());
+    else
+        print(docs::message_list());
+    return 0;
+}
+
+} // namespace
+
+Command explain_command() {
+    return {"explain", "Tells what the id of an error or warning means.", explain_examples, false,
+            [](CLI::App& app, Console&) {
+                auto options = std::make_shared<ExplainOptions>();
+                app.add_option("ID", options->id, "E-KEY, W-UNITS ... Without it: all of them.");
+                app.add_flag("--json", options->json, "All of them as JSON.");
+                app.add_flag("--markdown", options->markdown, "All of them as a Markdown page.");
+                app.add_flag("--man", options->man, "All of them as the manual page facetmill-messages(7).");
+                return [=](const Invocation& invocation) { return explain(*options, invocation.line); };
+            }};
+}
+
+} // namespace facetmill::cli

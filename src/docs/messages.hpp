@@ -1,0 +1,21 @@
+#pragma once
+// The ids of errors and warnings as people read them: `facetmill explain`, its Markdown, and the manual page
+// of section 7. All of it comes from base/message_ids.
+
+#include "base/json.hpp"
+#include "base/message_ids.hpp"
+
+namespace facetmill::docs {
+
+/// One line per id.
+std::string message_list();
+/// All of one id: what it means, its exit code, what to do.
+std::string message_page(const MessageId& message);
+/// All ids, as one Markdown page.
+std::string messages_markdown();
+/// All ids as a manual page, facetmill-messages(7).
+std::string messages_man();
+/// The registry as JSON: id, severity, exit codes, meaning, hint.
+Json messages_json();
+
+} // namespace facetmill::docs
