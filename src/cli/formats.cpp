@@ -23,19 +23,54 @@ std::string directions(const io::Codec& codec) {
     return fmt::format("{}{}", codec.read ? "r" : "-", codec.write ? "w" : "-");
 }
 
+const char* draco_word(io::Capabilities::Draco draco) {
+    switch (draco) {
+    case io::Capabilities::Draco::never:
+        return "never";
+    case io::Capabilities::Draco::on_request:
+        return "on request";
+    case io::Capabilities::Draco::always:
+        break;
+    }
+    return "always";
+}
+
+/// "in m, y up; polygons, text, draco on request; attributes: all".
+std::string abilities_text(const io::Codec& codec) {
+    std::vector<std::string> words;
+    for (const auto& capability : io::capabilities())
+        if (codec.can.*capability.flag) words.emplace_back(capability.name);
+    if (codec.can.draco != io::Capabilities::Draco::never)
+        words.push_back(fmt::format("draco {}", draco_word(codec.can.draco)));
+    const std::string unit =
+        codec.unit == Unit::unknown ? "no unit" : "in " + std::string(to_string(codec.unit));
+    const std::string up = codec.up == UpAxis::unknown ? "" : fmt::format(", {} up", to_string(codec.up));
+    return fmt::format("{}{}; {}; attributes: {}", unit, up, fmt::join(words, ", "), codec.can.attributes);
+}
+
+Json format_json(const io::Codec& codec) {
+    Json can = Json::object();
+    for (const auto& capability : io::capabilities()) can[capability.name] = codec.can.*capability.flag;
+    can["draco"] = draco_word(codec.can.draco);
+    can["attributes"] = codec.can.attributes;
+    can["companion"] = codec.can.companion.empty() ? Json() : Json(codec.can.companion);
+    return {{"name", codec.name},
+            {"about", codec.about},
+            {"extensions", codec.extensions},
+            {"read", static_cast<bool>(codec.read)},
+            {"write", static_cast<bool>(codec.write)},
+            {"unit", to_string(codec.unit)},
+            {"up", to_string(codec.up)},
+            {"can", can}};
+}
+
 int list_formats(bool json) {
     Json all = Json::array();
     std::string text;
     for (const auto& c : io::codecs()) {
-        all.push_back({{"name", c.name},
-                       {"about", c.about},
-                       {"extensions", c.extensions},
-                       {"read", static_cast<bool>(c.read)},
-                       {"write", static_cast<bool>(c.write)},
-                       {"unit", to_string(c.unit)},
-                       {"up", to_string(c.up)}});
-        text += fmt::format("{:<6} {}  .{:<14} {}\n", c.name, directions(c), fmt::join(c.extensions, " ."),
-                            c.about);
+        all.push_back(format_json(c));
+        text += fmt::format("{:<6} {}  .{:<14} {}\n{:<26}{}\n", c.name, directions(c),
+                            fmt::join(c.extensions, " ."), c.about, "", abilities_text(c));
     }
     print(json ? all.dump(2) + "\n" : text);
     return 0;

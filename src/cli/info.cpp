@@ -102,13 +102,6 @@ int info(const InfoOptions& options, const Console& console) {
     return 0;
 }
 
-std::vector<std::string> readable_formats() {
-    std::vector<std::string> names;
-    for (const auto& codec : io::codecs())
-        if (codec.read) names.push_back(codec.name);
-    return names;
-}
-
 } // namespace
 
 Command info_command() {
@@ -120,7 +113,7 @@ Command info_command() {
                 app.add_flag("--self-intersections", options->self_intersections,
                              "Count them too; it costs time.");
                 app.add_option("--format", options->format, "Read as this format, whatever the content says.")
-                    ->check(CLI::IsMember(readable_formats()));
+                    ->check(CLI::IsMember(io::names_of_readers()));
                 app.add_option("-j,--threads", options->threads, "How many threads. Default: all cores.")
                     ->check(CLI::Range(1, 4096));
                 add_message_options(app, console);

@@ -1,9 +1,9 @@
 #include "io/codec.hpp"
 
 #include "base/parallel.hpp"
-#include "mesh/power_scale.hpp"
 #include "io/attributes.hpp"
 #include "mesh/invariants.hpp"
+#include "mesh/power_scale.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -23,10 +23,12 @@ std::string lower(std::string text) {
     return text;
 }
 
-std::string known_formats() {
+template <class Condition>
+std::vector<std::string> names_where(Condition&& condition) {
     std::vector<std::string> names;
-    for (const auto& c : codecs()) names.push_back(c.name);
-    return fmt::format("{}", fmt::join(names, ", "));
+    for (const auto& c : codecs())
+        if (condition(c)) names.push_back(c.name);
+    return names;
 }
 
 /// The codec that the content asks for; else the one that the name asks for.
@@ -51,7 +53,7 @@ const Codec& choose(const Input& input, ReadLog& log) {
     if (perhaps) return *perhaps;
     throw Error(ErrorKind::usage, "E-FORMAT",
                 fmt::format("the format of '{}' is not recognised", input.name()),
-                fmt::format("say it with 'format', one of: {}", known_formats()));
+                fmt::format("say it with 'format', one of: {}", fmt::join(names_of_readers(), ", ")));
 }
 
 /// Throws malformed (E-EMPTY) for a file without bytes, usage (E-FORMAT) when no codec reads it.
@@ -130,6 +132,30 @@ const Codec* codec_named(std::string_view name) {
     for (const auto& codec : codecs())
         if (codec.name == name) return &codec;
     return nullptr;
+}
+
+std::vector<std::string> names_of_readers() {
+    return names_where([](const Codec& c) { return c.read != nullptr; });
+}
+
+std::vector<std::string> names_of_writers() {
+    return names_where([](const Codec& c) { return c.write != nullptr; });
+}
+
+const std::vector<Capability>& capabilities() {
+    static const std::vector<Capability> all{
+        {"polygons", &Capabilities::polygons},
+        {"shares_vertices", &Capabilities::shares_vertices},
+        {"normals", &Capabilities::normals},
+        {"transforms", &Capabilities::transforms},
+        {"skins", &Capabilities::skins},
+        {"text", &Capabilities::text},
+        {"big_endian", &Capabilities::big_endian},
+        {"full_precision", &Capabilities::full_precision},
+        {"mesh_manifold", &Capabilities::mesh_manifold},
+        {"lods", &Capabilities::lods},
+    };
+    return all;
 }
 
 FileHeader file_header(const Input& input, const ReadSettings& settings, const Codec* forced) {

@@ -56,12 +56,40 @@ struct Written {
     Fates fates; ///< what the format cannot hold is dropped, and said
 };
 
+/// What a format can hold, and in which ways it is written. `write` refuses options by it, and `facetmill
+/// formats` prints it; nothing asks for a format by its name.
+struct Capabilities {
+    enum class Draco { never, on_request, always };
+
+    bool polygons = false;       ///< faces of any size; else triangles
+    bool shares_vertices = true; ///< faces name common vertices; else a reader welds them
+    bool normals = true;
+    bool transforms = false; ///< parts keep their transforms and names; else all are in world space
+    bool skins = false;
+    bool text = false;           ///< WriteSettings::ascii
+    bool big_endian = false;     ///< WriteSettings::big_endian
+    bool full_precision = false; ///< WriteSettings::double_positions
+    bool mesh_manifold = false;  ///< WriteSettings::mesh_manifold
+    bool lods = false;           ///< WriteSettings::lods
+    Draco draco = Draco::never;  ///< WriteSettings::draco
+    std::string attributes{};    ///< which it holds, in words
+    std::string companion{};     ///< the suffix of a file beside it that it cannot do without: ".bin"
+};
+
+/// A capability that is there or not, by its name.
+struct Capability {
+    const char* name;
+    bool Capabilities::* flag;
+};
+const std::vector<Capability>& capabilities();
+
 struct Codec {
     std::string name;                    ///< "ply"
     std::string about;                   ///< one line, for `facetmill formats`
     std::vector<std::string> extensions; ///< lower case, without the dot; the first is the usual one
     Unit unit = Unit::unknown;           ///< what a written file's numbers mean; unknown: as the scene has it
     UpAxis up = UpAxis::unknown;
+    Capabilities can{};
     /// Whether the bytes are of this format, whatever the name says; 0 no, 1 perhaps, 2 surely (a magic
     /// number).
     std::function<int(Span)> sniff;
@@ -86,6 +114,9 @@ const std::vector<Codec>& codecs();
 /// The codec for a file name's extension (.gz ignored), or null.
 const Codec* codec_for(const std::filesystem::path& path);
 const Codec* codec_named(std::string_view name);
+/// The names of all codecs that read, or that write, sorted.
+std::vector<std::string> names_of_readers();
+std::vector<std::string> names_of_writers();
 
 /// Reads a mesh file: by content where it is sure, else by extension. Throws as Codec::read, usage (E-FORMAT)
 /// when no codec takes it. Positions that are not finite are malformed (E-NAN) with the vertex and file.

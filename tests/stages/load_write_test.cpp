@@ -266,7 +266,7 @@ TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages
           "E-CONFLICT write: 'crease' goes with normals: smooth only | add normals: smooth");
     CHECK(problems_of("write", options({{"path", "a.stl"}, {"normals", "smooth"}}))
               .starts_with(
-                  "E-CONFLICT write: 'normals' goes with ply, obj, off, gltf, glb, drc, not with stl"));
+                  "E-CONFLICT write: 'normals' goes with drc, glb, gltf, obj, off, ply, not with stl"));
 }
 
 TEST_CASE("write refuses what it cannot mean", "[stages]") {

@@ -20,25 +20,41 @@ int sniff_gltf(Span bytes) {
     return asset ? 2 : 1;
 }
 
-const RegisterCodec glb{{"glb",
-                         "glTF 2.0 in one binary file, with Draco on request",
-                         {"glb"},
-                         Unit::m,
-                         UpAxis::y,
-                         sniff_glb,
-                         read,
-                         [](const Scene& scene, const WriteSettings& s) { return write(scene, s, true); },
-                         peek}};
+Capabilities abilities(std::string companion) {
+    return {.transforms = true,
+            .skins = true,
+            .mesh_manifold = true,
+            .lods = true,
+            .draco = Capabilities::Draco::on_request,
+            .attributes = "all at vertices, with materials and textures",
+            .companion = std::move(companion)};
+}
 
-const RegisterCodec gltf{{"gltf",
-                          "glTF 2.0 as JSON with a .bin and images beside it",
-                          {"gltf"},
-                          Unit::m,
-                          UpAxis::y,
-                          sniff_gltf,
-                          read,
-                          [](const Scene& scene, const WriteSettings& s) { return write(scene, s, false); },
-                          peek}};
+const RegisterCodec glb({
+    .name = "glb",
+    .about = "glTF 2.0 in one binary file, with Draco on request",
+    .extensions = {"glb"},
+    .unit = Unit::m,
+    .up = UpAxis::y,
+    .can = abilities(""),
+    .sniff = sniff_glb,
+    .read = read,
+    .write = [](const Scene& scene, const WriteSettings& s) { return write(scene, s, true); },
+    .peek = peek,
+});
+
+const RegisterCodec gltf({
+    .name = "gltf",
+    .about = "glTF 2.0 as JSON with a .bin and images beside it",
+    .extensions = {"gltf"},
+    .unit = Unit::m,
+    .up = UpAxis::y,
+    .can = abilities(".bin"),
+    .sniff = sniff_gltf,
+    .read = read,
+    .write = [](const Scene& scene, const WriteSettings& s) { return write(scene, s, false); },
+    .peek = peek,
+});
 
 } // namespace
 

@@ -231,6 +231,11 @@ const RegisterCodec codec({
     .name = "ply",
     .about = "Stanford polygon file, text or binary; all attributes are kept",
     .extensions = {"ply"},
+    .can = {.polygons = true,
+            .text = true,
+            .big_endian = true,
+            .full_precision = true,
+            .attributes = "all, one value at a vertex"},
     .sniff =
         [](Span bytes) {
             const std::string_view text = as_text(bytes);

@@ -169,6 +169,7 @@ const RegisterCodec codec({
     .name = "stl",
     .about = "Stereolithography, text or binary; triangles only, welded exactly",
     .extensions = {"stl"},
+    .can = {.shares_vertices = false, .normals = false, .text = true, .attributes = "none"},
     .sniff =
         [](Span bytes) {
             if (is_text(bytes))

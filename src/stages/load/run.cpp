@@ -1,8 +1,8 @@
 #include "base/glob.hpp"
 #include "base/hash.hpp"
 #include "base/spelling.hpp"
-#include "mesh/power_scale.hpp"
 #include "io/convert.hpp"
+#include "mesh/power_scale.hpp"
 #include "stage/options/convention.hpp"
 #include "stage/stage.hpp"
 
@@ -42,12 +42,11 @@ void declare(Declare<LoadOptions>& d) {
 
 void verify(const LoadOptions& o, const Value& given, Problems& problems) {
     if (o.format.empty() || io::codec_named(o.format)) return;
-    std::vector<std::string> names;
-    for (const auto& c : io::codecs()) names.push_back(c.name);
     const Value* value = given.is_map() ? given.find("format") : nullptr;
     if (value && value->deferred) return;
     problems.add(value ? value->mark : given.mark, "E-FORMAT",
-                 fmt::format("there is no format '{}'", o.format), suggestion(o.format, names));
+                 fmt::format("there is no format '{}'", o.format),
+                 suggestion(o.format, io::names_of_readers()));
 }
 
 void record_input(Context& context, const std::string& path, io::Span bytes) {

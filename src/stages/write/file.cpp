@@ -26,8 +26,7 @@ std::string rounding(std::size_t points, const io::Codec& codec, const io::Write
     if (settings.draco.on)
         return fmt::format("Draco's {} bits {}: more draco.position_bits, or no draco",
                            settings.draco.position_bits, what);
-    const bool has_full = codec.name == "ply" || codec.name == "obj" || codec.name == "off";
-    if (has_full && !settings.double_positions)
+    if (codec.can.full_precision && !settings.double_positions)
         return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
     return fmt::format("the 32-bit floats of {} {}: put clean before write, or write PLY, OBJ or OFF with "
                        "precision: full",
@@ -42,10 +41,10 @@ std::string reason(const io::VertexChanges& changes, const io::Codec& codec,
         reasons.push_back(fmt::format("{} has one set of attributes at a vertex, so seams came apart and {} "
                                       "vertices were added: write OBJ or glTF, or weld after loading (clean)",
                                       codec.name, changes.added));
-    if (changes.merged > 0 && codec.name == "stl")
-        reasons.push_back(fmt::format("STL has no shared vertices, so corners at the same place are one when "
+    if (changes.merged > 0 && !codec.can.shares_vertices)
+        reasons.push_back(fmt::format("{} has no shared vertices, so corners at the same place are one when "
                                       "it is read ({} fewer): write PLY, OBJ or OFF",
-                                      changes.merged));
+                                      codec.name, changes.merged));
     else if (changes.merged > 0)
         reasons.push_back(
             fmt::format("vertices of {} at the same place are one when it is read ({} fewer): "
@@ -75,7 +74,7 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
                      fmt::format("the scene has no unit: '{}' gets its numbers as they are, and {} means {}",
                                  o.path.text, codec.name, to_string(target.unit)),
                      "say what was loaded: load: {path: ..., unit: mm, up: z}");
-    if (codec.name == "glb" || codec.name == "gltf")
+    if (codec.can.skins)
         for (const auto& name : done.lost_skins)
             context.warn("W-SKIN",
                          fmt::format("part '{}' is converted to {} and {} up in bind pose and loses its skin",
@@ -95,7 +94,7 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
         const auto look = [&](const Mesh& mesh) {
             if (most) most = io::bits_that_keep_apart(mesh, *most);
         };
-        if (codec.name == "drc")
+        if (!codec.can.transforms)
             look(in_one(scene));
         else
             for (const Part& part : scene.parts) look(part.mesh);

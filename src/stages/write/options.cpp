@@ -34,32 +34,36 @@ void declare_draco(Declare<DracoOptions>& d) {
 /// An option that only some formats know, and whether it asks for something.
 struct FormatOption {
     const char* name;
-    std::vector<std::string> formats;
     bool asked;
+    std::function<bool(const io::Capabilities&)> known;
 };
 
 std::vector<FormatOption> format_options(const WriteOptions& o) {
-    return {{"ascii", {"ply", "stl"}, o.ascii},
-            {"big_endian", {"ply"}, o.big_endian},
-            {"precision", {"ply", "obj", "off"}, o.precision == Precision::full},
-            {"draco", {"gltf", "glb", "drc"}, o.draco && o.draco->on},
-            {"mesh_manifold", {"gltf", "glb"}, o.mesh_manifold},
-            {"lods", {"gltf", "glb"}, o.lods},
-            {"normals", {"ply", "obj", "off", "gltf", "glb", "drc"}, o.normals != NormalKind::keep}};
+    using Can = io::Capabilities;
+    return {{"ascii", o.ascii, &Can::text},
+            {"big_endian", o.big_endian, &Can::big_endian},
+            {"precision", o.precision == Precision::full, &Can::full_precision},
+            {"draco", o.draco && o.draco->on, [](const Can& can) { return can.draco != Can::Draco::never; }},
+            {"mesh_manifold", o.mesh_manifold, &Can::mesh_manifold},
+            {"lods", o.lods, &Can::lods},
+            {"normals", o.normals != NormalKind::keep, &Can::normals}};
 }
 
 /// Options that say something another format knows.
-void verify_options(const WriteOptions& o, const std::string& format, const Value& given,
-                    Problems& problems) {
-    for (const auto& [name, formats, asked] : format_options(o))
-        if (asked && std::find(formats.begin(), formats.end(), format) == formats.end())
-            problems.add(
-                given.find_entry(name)->key_mark, "E-CONFLICT",
-                fmt::format("write: '{}' goes with {}, not with {}", name, fmt::join(formats, ", "), format),
-                "leave it out");
+void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& given, Problems& problems) {
+    for (const auto& [name, asked, known] : format_options(o)) {
+        if (!asked || known(codec.can)) continue;
+        std::vector<std::string> formats;
+        for (const auto& other : io::codecs())
+            if (other.write && known(other.can)) formats.push_back(other.name);
+        problems.add(
+            given.find_entry(name)->key_mark, "E-CONFLICT",
+            fmt::format("write: '{}' goes with {}, not with {}", name, fmt::join(formats, ", "), codec.name),
+            "leave it out");
+    }
     if (o.crease && o.normals != NormalKind::smooth)
-        problems.add(mark_at(given, "crease"), "E-CONFLICT",
-                     "write: 'crease' goes with normals: smooth only", "add normals: smooth");
+        problems.add(mark_at(given, "crease"), "E-CONFLICT", "write: 'crease' goes with normals: smooth only",
+                     "add normals: smooth");
 }
 
 /// The file's name without suffix and .gz.
@@ -110,9 +114,7 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
     const Value* format = given.is_map() ? given.find("format") : nullptr;
     if ((path && path->deferred) || (format && format->deferred)) return;
     const io::Codec* codec = codec_of(o);
-    std::vector<std::string> names;
-    for (const auto& c : io::codecs())
-        if (c.write) names.push_back(c.name);
+    const auto names = io::names_of_writers();
     const Mark& mark = format ? format->mark : path ? path->mark : given.mark;
     if (!codec && format)
         problems.add(mark, "E-FORMAT", fmt::format("there is no format '{}'", o.format),
@@ -123,11 +125,12 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
     else if (!codec->write)
         problems.add(mark, "E-FORMAT", fmt::format("{} is read but not written", codec->name),
                      suggestion("", names));
-    else if (codec->name == "gltf" && o.path.text == "-")
-        problems.add(mark, "E-FORMAT", "a gltf has a file beside it, which standard output cannot hold",
+    else if (!codec->can.companion.empty() && o.path.text == "-")
+        problems.add(mark, "E-FORMAT",
+                     fmt::format("a {} has a file beside it, which standard output cannot hold", codec->name),
                      "format: glb");
     else
-        verify_options(o, codec->name, given, problems);
+        verify_options(o, *codec, given, problems);
 }
 
 const io::Codec* codec_of(const WriteOptions& o) {
@@ -151,15 +154,15 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
                    .colour_bits = static_cast<int>(o.draco->colour_bits),
                    .generic_bits = static_cast<int>(o.draco->generic_bits),
                    .speed = static_cast<int>(o.draco->speed)};
-    s.draco.on |= codec.name == "drc";
+    s.draco.on |= codec.can.draco == io::Capabilities::Draco::always;
     return s;
 }
 
 StageFiles files_of_write(const WriteOptions& o) {
     const io::Codec* codec = codec_of(o);
     const std::filesystem::path path = o.path.text;
-    if (!codec || codec->name != "gltf" || o.path.text == "-") return {{}, {o.path}};
-    return {{}, {o.path, {(path.parent_path() / (title_of(path) + ".bin")).string()}}};
+    if (!codec || codec->can.companion.empty() || o.path.text == "-") return {{}, {o.path}};
+    return {{}, {o.path, {(path.parent_path() / (title_of(path) + codec->can.companion)).string()}}};
 }
 
 } // namespace facetmill

@@ -1,7 +1,7 @@
 // Plain Draco files: one mesh, without materials or nodes.
 
-#include "io/gltf/draco/draco.hpp"
 #include "io/flatten.hpp"
+#include "io/gltf/draco/draco.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -155,14 +155,15 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     return written;
 }
 
-const RegisterCodec drc{{"drc",
-                         "Draco's compressed meshes",
-                         {"drc"},
-                         Unit::unknown,
-                         UpAxis::unknown,
-                         [](Span bytes) { return is_draco(bytes) ? 2 : 0; },
-                         read,
-                         write}};
+const RegisterCodec drc({
+    .name = "drc",
+    .about = "Draco's compressed meshes",
+    .extensions = {"drc"},
+    .can = {.draco = Capabilities::Draco::always, .attributes = "all at vertices"},
+    .sniff = [](Span bytes) { return is_draco(bytes) ? 2 : 0; },
+    .read = read,
+    .write = write,
+});
 
 } // namespace
 
