@@ -46,12 +46,12 @@ int check(const std::vector<std::string>& pipelines, const PipelineOptions& opti
 
 Command check_command() {
     return {"check", "Checks pipeline files, and the headers of their inputs.", check_examples, false,
-            [](CLI::App& app, Console& console) {
+            [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto pipelines = std::make_shared<std::vector<std::string>>();
-                app.add_option("PIPELINE", *pipelines, "YAML files, - or ready pipelines.")->required();
-                add_value_options(app, *options);
-                add_message_options(app, console);
+                arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines.").required();
+                add_value_options(arguments, *options);
+                add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
                     return check(*pipelines, *options, invocation.line, console);
                 };

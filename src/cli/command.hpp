@@ -1,10 +1,11 @@
 #pragma once
 // A command of the command line: one file each, one entry in commands().
 
+#include "cli/arguments.hpp"
 #include "cli/console.hpp"
 
-#include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -28,15 +29,15 @@ class CommandLine {
 /// What a command's work gets.
 struct Invocation {
     const CommandLine& line;
-    std::size_t rest = 0; ///< for pipe: index of the first argument that CLI11 did not take
+    std::size_t rest = 0; ///< for pipe: index of the first argument that is not an option of pipe itself
 };
 
 struct Command {
     std::string name, about;
     std::string examples;        ///< worked examples and whatever else --help says at its end
-    bool takes_the_rest = false; ///< pipe: CLI11 reads options only up to the first stage
-    /// Adds the options to the command's parser; what it returns is called after parsing, for the exit code.
-    std::function<std::function<int(const Invocation&)>(CLI::App&, Console&)> declare;
+    bool takes_the_rest = false; ///< pipe: options are read only up to the first stage
+    /// Declares the arguments; what it returns is called after they are read, for the exit code.
+    std::function<std::function<int(const Invocation&)>(Arguments&, Console&)> declare;
 };
 
 /// In the order of --help.
@@ -54,7 +55,7 @@ Command formats_command();
 Command explain_command();
 
 /// --quiet, -v, --log.
-void add_message_options(CLI::App& app, Console& console);
+void add_message_options(Arguments& arguments, Console& console);
 
 /// The whole program. Throws Error; the exit code is returned. quiet, colours and so on are left in console
 /// for whoever catches.

@@ -21,8 +21,8 @@ void print(std::string_view text) {
 
 namespace {
 
-/// A message on standard error. When nobody reads it any more (facetmill run ... 2>&1 | head), the run goes on: what
-/// counts is the outputs and the exit code.
+/// A message on standard error. When nobody reads it any more (facetmill run ... 2>&1 | head), the run goes
+/// on: what counts is the outputs and the exit code.
 template <class... Args>
 void tell(fmt::format_string<Args...> format, Args&&... args) {
     const std::string text = fmt::format(format, std::forward<Args>(args)...);
@@ -46,8 +46,8 @@ class Bar : public Progress {
     void stage(int number, int number_of, const std::string& name) override {
         constexpr int width = 24;
         const int filled = number_of > 0 ? width * (number - 1) / number_of : 0;
-        tell("\r\033[K[{}{}] {}/{} {}", std::string(filled, '#'),
-                   std::string(width - filled, '.'), number, number_of, name);
+        tell("\r\033[K[{}{}] {}/{} {}", std::string(filled, '#'), std::string(width - filled, '.'), number,
+             number_of, name);
         std::fflush(stderr);
         drawn_ = true;
     }

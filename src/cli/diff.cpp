@@ -1,12 +1,11 @@
 // facetmill diff: two mesh files side by side.
 
-#include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "cli/command.hpp"
+#include "diff/comparison.hpp"
 #include "io/codec.hpp"
 #include "io/convert.hpp"
 #include "options/types.hpp"
-#include "diff/comparison.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -39,13 +38,6 @@ struct DiffOptions {
     bool json = false, all = false;
     int threads = 0;
 };
-
-/// What is wrong with a number that must be 0 or more, or nothing.
-std::string not_negative(const std::string& text) {
-    const auto number = parse_real(text);
-    if (number && *number >= 0) return {};
-    return fmt::format("expected a number of 0 or more, found '{}'", text);
-}
 
 /// A length on the command line, in A's units or in percent.
 std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& text, const std::string& option,
@@ -112,40 +104,41 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
 } // namespace
 
 Command diff_command() {
-    return {"diff", "Compares two mesh files; exit code 1 when they differ.", diff_examples, false,
-            [](CLI::App& app, Console& console) {
-                auto options = std::make_shared<DiffOptions>();
-                auto& settings = options->settings;
-                app.add_option("A", options->a, "The mesh file to compare with, or - for standard input.")
-                    ->required();
-                app.add_option("B", options->b, "The other mesh file.")->required();
-                app.add_option("--max", options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
-                app.add_option("--rms", options->rms,
-                               "The largest root mean square distance over the area allowed.");
-                app.add_option("--mean", options->mean, "The largest mean distance over the area allowed.");
-                app.add_option("--values", settings.attribute_limit,
-                               "How far attribute values may be apart. Default: 1e-6.")
-                    ->check(not_negative);
-                app.add_option(
-                       "--ignore", options->ignored,
-                       "Do not decide: counts, topology, geometry, attributes, materials, parts, document.")
-                    ->delimiter(',')
-                    ->check(CLI::IsMember(std::vector<std::string>(std::begin(report::comparison_sections),
-                                                                   std::end(report::comparison_sections))));
-                app.add_option("--samples", settings.deviation.samples,
-                               "Points of the area measured each way. Default: 100000.")
-                    ->check(CLI::Range(0, 1000000000));
-                app.add_option("--seed", settings.deviation.seed, "Where they fall. Default: 1.")
-                    ->check(not_negative);
-                app.add_flag("--certify", settings.deviation.certify,
-                             "Also give a guaranteed bound of the distance, and hold --max against it.");
-                app.add_flag("--all", options->all, "Also show what is the same.");
-                app.add_flag("--json", options->json, "As JSON (facetmill schema diff).");
-                app.add_option("-j,--threads", options->threads, "How many threads. Default: all cores.")
-                    ->check(CLI::Range(1, 4096));
-                add_message_options(app, console);
-                return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
-            }};
+    return {
+        "diff", "Compares two mesh files; exit code 1 when they differ.", diff_examples, false,
+        [](Arguments& arguments, Console& console) {
+            auto options = std::make_shared<DiffOptions>();
+            auto& settings = options->settings;
+            arguments.add("A", &options->a, "The mesh file to compare with, or - for standard input.")
+                .required();
+            arguments.add("B", &options->b, "The other mesh file.").required();
+            arguments.add("--max", &options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
+            arguments.add("--rms", &options->rms,
+                          "The largest root mean square distance over the area allowed.");
+            arguments.add("--mean", &options->mean, "The largest mean distance over the area allowed.");
+            arguments
+                .add("--values", &settings.attribute_limit,
+                     "How far attribute values may be apart. Default: 1e-6.")
+                .not_negative();
+            arguments
+                .add("--ignore", &options->ignored,
+                     "Do not decide: counts, topology, geometry, attributes, materials, parts, document.")
+                .separated_by_commas()
+                .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
+            arguments
+                .add("--samples", &settings.deviation.samples,
+                     "Points of the area measured each way. Default: 100000.")
+                .between(0, 1000000000);
+            arguments.add("--seed", &settings.deviation.seed, "Where they fall. Default: 1.").not_negative();
+            arguments.add("--certify", &settings.deviation.certify,
+                          "Also give a guaranteed bound of the distance, and hold --max against it.");
+            arguments.add("--all", &options->all, "Also show what is the same.");
+            arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
+            arguments.add("-j,--threads", &options->threads, "How many threads. Default: all cores.")
+                .between(1, 4096);
+            add_message_options(arguments, console);
+            return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
+        }};
 }
 
 } // namespace facetmill::cli

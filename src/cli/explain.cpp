@@ -49,12 +49,13 @@ int explain(const ExplainOptions& options, const CommandLine& line) {
 
 Command explain_command() {
     return {"explain", "Tells what the id of an error or warning means.", explain_examples, false,
-            [](CLI::App& app, Console&) {
+            [](Arguments& arguments, Console&) {
                 auto options = std::make_shared<ExplainOptions>();
-                app.add_option("ID", options->id, "E-KEY, W-UNITS ... Without it: all of them.");
-                app.add_flag("--json", options->json, "All of them as JSON.");
-                app.add_flag("--markdown", options->markdown, "All of them as a Markdown page.");
-                app.add_flag("--man", options->man, "All of them as the manual page facetmill-messages(7).");
+                arguments.add("ID", &options->id, "E-KEY, W-UNITS ... Without it: all of them.");
+                arguments.add("--json", &options->json, "All of them as JSON.");
+                arguments.add("--markdown", &options->markdown, "All of them as a Markdown page.");
+                arguments.add("--man", &options->man,
+                              "All of them as the manual page facetmill-messages(7).");
                 return [=](const Invocation& invocation) { return explain(*options, invocation.line); };
             }};
 }

@@ -80,9 +80,9 @@ int list_formats(bool json) {
 
 Command formats_command() {
     return {"formats", "Lists the formats that are read and written.", formats_examples, false,
-            [](CLI::App& app, Console&) {
+            [](Arguments& arguments, Console&) {
                 auto json = std::make_shared<bool>(false);
-                app.add_flag("--json", *json, "As JSON.");
+                arguments.add("--json", json.get(), "As JSON.");
                 return [=](const Invocation&) { return list_formats(*json); };
             }};
 }

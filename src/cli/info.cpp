@@ -106,17 +106,17 @@ int info(const InfoOptions& options, const Console& console) {
 
 Command info_command() {
     return {"info", "Shows the properties of mesh files.", info_examples, false,
-            [](CLI::App& app, Console& console) {
+            [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<InfoOptions>();
-                app.add_option("MESH", options->meshes, "Mesh files, or - for standard input.")->required();
-                app.add_flag("--json", options->json, "As JSON (facetmill schema info).");
-                app.add_flag("--self-intersections", options->self_intersections,
-                             "Count them too; it costs time.");
-                app.add_option("--format", options->format, "Read as this format, whatever the content says.")
-                    ->check(CLI::IsMember(io::names_of_readers()));
-                app.add_option("-j,--threads", options->threads, "How many threads. Default: all cores.")
-                    ->check(CLI::Range(1, 4096));
-                add_message_options(app, console);
+                arguments.add("MESH", &options->meshes, "Mesh files, or - for standard input.").required();
+                arguments.add("--json", &options->json, "As JSON (facetmill schema info).");
+                arguments.add("--self-intersections", &options->self_intersections,
+                              "Count them too; it costs time.");
+                arguments.add("--format", &options->format, "Read as this format, whatever the content says.")
+                    .one_of(io::names_of_readers());
+                arguments.add("-j,--threads", &options->threads, "How many threads. Default: all cores.")
+                    .between(1, 4096);
+                add_message_options(arguments, console);
                 return [=, &console](const Invocation&) { return info(*options, console); };
             }};
 }

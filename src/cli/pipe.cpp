@@ -79,12 +79,12 @@ int pipe(const PipelineOptions& options, const std::string& save_to, const Invoc
 
 Command pipe_command() {
     return {"pipe", "Runs a pipeline written on the command line.", pipe_examples, true,
-            [](CLI::App& app, Console& console) {
+            [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto save_to = std::make_shared<std::string>();
-                app.add_option("--save", *save_to, "Also write the pipeline as a file that run takes.");
-                add_run_options(app, *options);
-                add_message_options(app, console);
+                arguments.add("--save", save_to.get(), "Also write the pipeline as a file that run takes.");
+                add_run_options(arguments, *options);
+                add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
                     return pipe(*options, *save_to, invocation, console);
                 };

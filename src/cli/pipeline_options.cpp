@@ -16,39 +16,37 @@ namespace facetmill::cli {
 
 namespace fs = std::filesystem;
 
-void add_message_options(CLI::App& app, Console& console) {
-    app.add_flag("-q,--quiet", console.quiet, "Only warnings and errors.")->group("Messages");
-    app.add_flag("-v,--verbose", console.verbose, "Also every stage as it starts, and what was resolved.")
-        ->group("Messages");
-    app.add_option_function<std::string>(
-           "--log", [&console](const std::string& form) { console.json = form == "json"; },
-           "How messages are written: text, or json (one object per line).")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->group("Messages");
+void add_message_options(Arguments& arguments, Console& console) {
+    arguments.add("-q,--quiet", &console.quiet, "Only warnings and errors.").under("Messages");
+    arguments.add("-v,--verbose", &console.verbose, "Also every stage as it starts, and what was resolved.")
+        .under("Messages");
+    arguments
+        .add(
+            "--log", [&console](const std::string& form) { console.json = form == "json"; },
+            "How messages are written: text, or json (one object per line).")
+        .one_of({"text", "json"})
+        .under("Messages");
 }
 
-void add_value_options(CLI::App& app, PipelineOptions& options) {
-    app.add_option("-D,--define", options.defines, "A param of the pipeline: -D name=value.")
-        ->allow_extra_args(false);
-    app.add_option("--set", options.sets, "An option of a stage: --set simplify.ratio=10%.")
-        ->allow_extra_args(false);
-    app.add_flag("--update-baseline", options.update_baseline,
-                 "Stages with a baseline write what fails now to it, and pass.");
+void add_value_options(Arguments& arguments, PipelineOptions& options) {
+    arguments.add("-D,--define", &options.defines, "A param of the pipeline: -D name=value.");
+    arguments.add("--set", &options.sets, "An option of a stage: --set simplify.ratio=10%.");
+    arguments.add("--update-baseline", &options.update_baseline,
+                  "Stages with a baseline write what fails now to it, and pass.");
 }
 
-void add_run_options(CLI::App& app, PipelineOptions& options) {
-    app.add_option("-j,--threads", options.threads,
-                   "How many threads; the result is the same. Default: all cores.")
-        ->check(CLI::Range(1, 4096));
-    app.add_option("-o,--output-dir", options.output_dir, "Where written paths start. Default: here.");
-    app.add_option("--report", options.reports,
-                   "Also write a report: F.json, F.html, F.xml (JUnit) or F.txt.")
-        ->allow_extra_args(false);
-    app.add_option("--depfile", options.depfile, "Write what was read and written as a Make rule.");
-    app.add_option("--strict", options.strict, "Make warnings fail: --strict for all, --strict=ID for one.")
-        ->allow_extra_args(false);
-    app.add_flag("--check-invariants", options.check_invariants, "Check every mesh after every stage.")
-        ->group("");
+void add_run_options(Arguments& arguments, PipelineOptions& options) {
+    arguments
+        .add("-j,--threads", &options.threads,
+             "How many threads; the result is the same. Default: all cores.")
+        .between(1, 4096);
+    arguments.add("-o,--output-dir", &options.output_dir, "Where written paths start. Default: here.");
+    arguments.add("--report", &options.reports,
+                  "Also write a report: F.json, F.html, F.xml (JUnit) or F.txt.");
+    arguments.add("--depfile", &options.depfile, "Write what was read and written as a Make rule.");
+    arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
+    arguments.add("--check-invariants", &options.check_invariants, "Check every mesh after every stage.")
+        .hidden();
 }
 
 namespace {

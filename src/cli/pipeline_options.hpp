@@ -15,9 +15,9 @@ struct PipelineOptions {
 };
 
 /// -D, --set and --update-baseline.
-void add_value_options(CLI::App& app, PipelineOptions& options);
+void add_value_options(Arguments& arguments, PipelineOptions& options);
 /// -j, --output-dir, --report, --depfile, --strict.
-void add_run_options(CLI::App& app, PipelineOptions& options);
+void add_run_options(Arguments& arguments, PipelineOptions& options);
 
 /// Settings for a plan: values split at "=", with problems that point into the command line.
 pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,

@@ -45,16 +45,16 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
 Command plan_command() {
     return {
         "plan", "Shows what a pipeline would do, everything resolved; runs nothing.", plan_examples, false,
-        [](CLI::App& app, Console& console) {
+        [](Arguments& arguments, Console& console) {
             auto options = std::make_shared<PlanOptions>();
-            app.add_option("PIPELINE", options->pipeline, "A YAML file, - or a ready pipeline.")->required();
-            app.add_flag("--inputs", options->inputs, "Only the files it reads, one per line.");
-            app.add_flag("--outputs", options->outputs, "Only the files it writes, one per line.");
-            app.add_flag("--json", options->json, "As JSON.");
-            app.add_option("-o,--output-dir", options->common.output_dir,
-                           "Where written paths start. Default: here.");
-            add_value_options(app, options->common);
-            add_message_options(app, console);
+            arguments.add("PIPELINE", &options->pipeline, "A YAML file, - or a ready pipeline.").required();
+            arguments.add("--inputs", &options->inputs, "Only the files it reads, one per line.");
+            arguments.add("--outputs", &options->outputs, "Only the files it writes, one per line.");
+            arguments.add("--json", &options->json, "As JSON.");
+            arguments.add("-o,--output-dir", &options->common.output_dir,
+                          "Where written paths start. Default: here.");
+            add_value_options(arguments, options->common);
+            add_message_options(arguments, console);
             return [=, &console](const Invocation& invocation) {
                 return plan(*options, invocation.line, console);
             };

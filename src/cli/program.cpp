@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <stdexcept>
 
 namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
-    static const std::vector<Command> all{run_command(),    plan_command(),   pipe_command(),
-                                          check_command(),  info_command(),   diff_command(),
-                                          stages_command(), schema_command(), formats_command(),
-                                          explain_command()};
+    static const std::vector<Command> all{
+        run_command(),  plan_command(),   pipe_command(),   check_command(),   info_command(),
+        diff_command(), stages_command(), schema_command(), formats_command(), explain_command()};
     return all;
 }
 
@@ -62,90 +62,78 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
                 suggestion(name, names), line.mark(0));
 }
 
-/// Long names without their dashes, which would make any two options seem alike.
-std::vector<std::string> option_names(const CLI::App& app) {
-    std::vector<std::string> names;
-    for (const auto* option : app.get_options())
-        for (const auto& name : option->get_lnames()) names.push_back(name);
-    return names;
-}
-
-std::string option_hint(const CLI::App& app, const std::string& given) {
+std::string option_hint(const Command& command, const Arguments& arguments, const std::string& given) {
+    // Without the dashes, which would make any two options seem alike.
     const std::string near =
-        nearest(given.substr(std::min(given.size(), given.find_first_not_of('-'))), option_names(app));
-    return near.empty() ? fmt::format("see facetmill {} --help", app.get_name())
+        nearest(given.substr(std::min(given.size(), given.find_first_not_of('-'))), arguments.long_names());
+    return near.empty() ? fmt::format("see facetmill {} --help", command.name)
                         : fmt::format("did you mean '--{}'?", near);
 }
 
-/// What CLI11 could not place. An option that begins with a dash is unknown; anything else is one value too
+/// What belongs to no argument. What begins with a dash is an unknown option; anything else is one value too
 /// many.
-void refuse_extras(const CLI::App& app, const CommandLine& line) {
+void refuse_extras(const Command& command, const Arguments& arguments, const std::vector<std::string>& extras,
+                   const CommandLine& line) {
     Problems problems;
-    for (const auto& extra : app.remaining()) {
+    for (const auto& extra : extras) {
         if (extra.starts_with("-") && extra.size() > 1) {
             const std::string name = extra.substr(0, extra.find('='));
             problems.add(line.find(extra), "E-OPTION",
-                         fmt::format("'{}' has no option '{}'", app.get_name(), name),
-                         option_hint(app, name));
+                         fmt::format("'{}' has no option '{}'", command.name, name),
+                         option_hint(command, arguments, name));
         } else
             problems.add(line.find(extra), "E-ARGUMENT",
-                         fmt::format("'{}' does not take '{}'", app.get_name(), extra),
-                         fmt::format("see facetmill {} --help", app.get_name()));
+                         fmt::format("'{}' does not take '{}'", command.name, extra),
+                         fmt::format("see facetmill {} --help", command.name));
     }
     problems.throw_if_any(ErrorKind::usage);
 }
 
-/// --strict alone means all warnings; CLI11 would take the next argument for its value.
-std::vector<std::string> spelled_out(std::vector<std::string> arguments, bool takes_the_rest) {
-    for (auto& a : arguments) {
-        if (takes_the_rest && !a.starts_with("-")) break;
-        if (a == "--strict") a = "--strict=*";
+/// --strict alone means all warnings; else the next argument would be taken for its value.
+std::vector<std::string> spelled_out(std::vector<std::string> words, bool takes_the_rest) {
+    for (auto& word : words) {
+        if (takes_the_rest && !word.starts_with("-")) break;
+        if (word == "--strict") word = "--strict=*";
     }
-    return arguments;
+    return words;
 }
 
-/// How many of the arguments are options that come before the first stage of a pipe.
-std::size_t leading_options(const CLI::App& app, const std::vector<std::string>& arguments) {
+/// How many of the words are options that come before the first stage of a pipe.
+std::size_t leading_options(const Arguments& arguments, const std::vector<std::string>& words) {
     std::size_t i = 0;
-    while (i < arguments.size() && arguments[i].size() > 1 && arguments[i].starts_with("-")) {
-        const std::string& a = arguments[i];
-        const bool attached = a.starts_with("--") ? a.find('=') != a.npos : a.size() > 2;
+    while (i < words.size() && words[i].size() > 1 && words[i].starts_with("-")) {
+        const std::string& word = words[i];
+        const bool attached = word.starts_with("--") ? word.find('=') != word.npos : word.size() > 2;
         const auto* option =
-            app.get_option_no_throw(a.starts_with("--") ? a.substr(0, a.find('=')) : a.substr(0, 2));
-        i += option && !attached && option->get_items_expected_max() > 0 ? 2 : 1;
+            arguments.find(word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2));
+        i += option && !attached && !option->is_flag() ? 2 : 1;
     }
-    return std::min(i, arguments.size());
-}
-
-/// CLI11's message, as ours.
-Error usage_error(const CLI::App& app, const CLI::ParseError& e, const CommandLine& line) {
-    return Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("{}: {}", app.get_name(), e.what()),
-                 fmt::format("see facetmill {} --help", app.get_name()), line.mark(0));
+    return std::min(i, words.size());
 }
 
 int execute(const Command& command, const CommandLine& line, Console& console) {
-    CLI::App app{command.about, command.name};
-    app.allow_extras();
-    app.set_help_flag("-h,--help", "Print this and leave.");
-    const auto work = command.declare(app, console);
-    std::vector<std::string> options(line.arguments().begin() + 1, line.arguments().end());
-    options = spelled_out(std::move(options), command.takes_the_rest);
+    Arguments arguments;
+    const auto work = command.declare(arguments, console);
+    std::vector<std::string> words(line.arguments().begin() + 1, line.arguments().end());
+    words = spelled_out(std::move(words), command.takes_the_rest);
     Invocation invocation{line, 0};
     if (command.takes_the_rest) {
-        const auto count = leading_options(app, options);
-        options.resize(count);
+        const auto count = leading_options(arguments, words);
+        words.resize(count);
         invocation.rest = 1 + count;
     }
-    std::reverse(options.begin(), options.end()); // as CLI11 takes them
+    Parsed parsed;
     try {
-        app.parse(options);
-    } catch (const CLI::CallForHelp&) {
-        print(app.help("facetmill") + "\n" + command.examples);
-        return 0;
-    } catch (const CLI::ParseError& e) {
-        throw usage_error(app, e, line);
+        parsed = arguments.parse(command.name, command.about, std::move(words));
+    } catch (const std::invalid_argument& e) {
+        throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("{}: {}", command.name, e.what()),
+                    fmt::format("see facetmill {} --help", command.name), line.mark(0));
     }
-    refuse_extras(app, line);
+    if (parsed.help_wanted) {
+        print(parsed.help + "\n" + command.examples);
+        return 0;
+    }
+    refuse_extras(command, arguments, parsed.extras, line);
     return work(invocation);
 }
 
@@ -158,9 +146,14 @@ int program(std::vector<std::string> arguments, Console& console) {
         console.say(help_text());
         return static_cast<int>(ErrorKind::usage);
     }
-    if (all[0] == "--help" || all[0] == "-h" || all[0] == "help") return print(help_text()), 0;
-    if (all[0] == "--version" || all[0] == "-V")
-        return print(version_text(all.size() > 1 && all[1] == "--json")), 0;
+    if (all[0] == "--help" || all[0] == "-h" || all[0] == "help") {
+        print(help_text());
+        return 0;
+    }
+    if (all[0] == "--version" || all[0] == "-V") {
+        print(version_text(all.size() > 1 && all[1] == "--json"));
+        return 0;
+    }
     return execute(command_named(all[0], line), line, console);
 }
 

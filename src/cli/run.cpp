@@ -61,13 +61,13 @@ int run(const std::vector<std::string>& pipelines, const PipelineOptions& option
 } // namespace
 
 Command run_command() {
-    return {"run", "Runs pipelines.", run_examples, false, [](CLI::App& app, Console& console) {
+    return {"run", "Runs pipelines.", run_examples, false, [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto pipelines = std::make_shared<std::vector<std::string>>();
-                app.add_option("PIPELINE", *pipelines, "YAML files, - or ready pipelines.")->required();
-                add_value_options(app, *options);
-                add_run_options(app, *options);
-                add_message_options(app, console);
+                arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines.").required();
+                add_value_options(arguments, *options);
+                add_run_options(arguments, *options);
+                add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
                     return run(*pipelines, *options, invocation.line, console);
                 };

@@ -19,10 +19,10 @@ constexpr const char* schema_examples = R"(Examples
 
 Command schema_command() {
     return {"schema", "Prints the JSON Schema of pipelines, reports, info or diff.", schema_examples, false,
-            [](CLI::App& app, Console&) {
+            [](Arguments& arguments, Console&) {
                 auto what = std::make_shared<std::string>("pipeline");
-                app.add_option("WHAT", *what, "pipeline (default), report, info or diff.")
-                    ->check(CLI::IsMember({"pipeline", "report", "info", "diff"}));
+                arguments.add("WHAT", what.get(), "pipeline (default), report, info or diff.")
+                    .one_of({"pipeline", "report", "info", "diff"});
                 return [=](const Invocation&) {
                     const Json schema = *what == "report" ? docs::report_schema()
                                         : *what == "info" ? docs::info_schema()

@@ -43,12 +43,12 @@ int list_stages(const StagesOptions& options, const CommandLine& line) {
 
 Command stages_command() {
     return {"stages", "Lists the stages, or tells all about one.", stages_examples, false,
-            [](CLI::App& app, Console&) {
+            [](Arguments& arguments, Console&) {
                 auto options = std::make_shared<StagesOptions>();
-                app.add_option("NAME", options->name, "A stage.");
-                app.add_flag("--json", options->json, "All of them as JSON.");
-                app.add_flag("--markdown", options->markdown, "All of them as a Markdown page.");
-                app.add_flag("--man", options->man, "All of them as the manual page facetmill-stages(7).");
+                arguments.add("NAME", &options->name, "A stage.");
+                arguments.add("--json", &options->json, "All of them as JSON.");
+                arguments.add("--markdown", &options->markdown, "All of them as a Markdown page.");
+                arguments.add("--man", &options->man, "All of them as the manual page facetmill-stages(7).");
                 return [=](const Invocation& invocation) { return list_stages(*options, invocation.line); };
             }};
 }

@@ -206,7 +206,7 @@ TEST_CASE("write says of vertices that the format makes one that it does", "[sta
     b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = touching_cubes();
     CHECK(told_of(b, Value::scalar("c.stl")) ==
-          "STL has no shared vertices, so corners at the same place are one when it is read (2 fewer): write "
+          "stl has no shared vertices, so corners at the same place are one when it is read (2 fewer): write "
           "PLY, OBJ or OFF");
     b.record.warnings.clear();
     CHECK(

@@ -1,0 +1,101 @@
+#include "cli/arguments.hpp"
+
+#include "base/numbers.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace facetmill::cli {
+
+namespace {
+
+std::vector<std::string> split_names(const std::string& names) {
+    std::vector<std::string> all;
+    for (std::size_t at = 0; at <= names.size();) {
+        const auto end = std::min(names.find(',', at), names.size());
+        all.push_back(names.substr(at, end - at));
+        at = end + 1;
+    }
+    return all;
+}
+
+/// What is wrong with a number that must be 0 or more, or nothing.
+std::string negative(const std::string& text) {
+    const auto number = parse_real(text);
+    if (number && *number >= 0) return {};
+    return fmt::format("expected a number of 0 or more, found '{}'", text);
+}
+
+CLI::Option* make(CLI::App& app, const Argument& a) {
+    if (const auto* flag = std::get_if<bool*>(&a.target)) return app.add_flag(a.names, **flag, a.help);
+    if (const auto* call = std::get_if<std::function<void(const std::string&)>>(&a.target))
+        return app.add_option_function<std::string>(a.names, *call, a.help);
+    if (const auto* list = std::get_if<std::vector<std::string>*>(&a.target)) {
+        CLI::Option* option = app.add_option(a.names, **list, a.help);
+        if (a.at_commas)
+            option->delimiter(',');
+        else if (a.names.starts_with("-"))
+            option->allow_extra_args(false);
+        return option;
+    }
+    if (const auto* number = std::get_if<int*>(&a.target)) return app.add_option(a.names, **number, a.help);
+    if (const auto* number = std::get_if<std::size_t*>(&a.target))
+        return app.add_option(a.names, **number, a.help);
+    if (const auto* number = std::get_if<double*>(&a.target))
+        return app.add_option(a.names, **number, a.help);
+    return app.add_option(a.names, *std::get<std::string*>(a.target), a.help);
+}
+
+void declare(CLI::App& app, const Argument& a) {
+    CLI::Option* option = make(app, a);
+    if (a.needed) option->required();
+    if (!a.choices.empty()) option->check(CLI::IsMember(a.choices));
+    if (a.range) option->check(CLI::Range(a.range->first, a.range->second));
+    if (a.at_least_0) option->check(negative);
+    if (a.is_hidden)
+        option->group("");
+    else if (!a.heading.empty())
+        option->group(a.heading);
+}
+
+} // namespace
+
+Argument& Arguments::add(std::string names, Argument::Target target, std::string help) {
+    return all_.emplace_back(Argument{std::move(names), std::move(target), std::move(help)});
+}
+
+std::vector<std::string> Arguments::long_names() const {
+    std::vector<std::string> names{"help"};
+    for (const auto& a : all_)
+        for (const auto& name : split_names(a.names))
+            if (name.starts_with("--")) names.push_back(name.substr(2));
+    return names;
+}
+
+const Argument* Arguments::find(const std::string& name) const {
+    for (const auto& a : all_)
+        for (const auto& known : split_names(a.names))
+            if (known == name) return &a;
+    return nullptr;
+}
+
+Parsed Arguments::parse(const std::string& command, const std::string& about,
+                        std::vector<std::string> words) const {
+    CLI::App app{about, command};
+    app.allow_extras();
+    app.set_help_flag("-h,--help", "Print this and leave.");
+    for (const auto& a : all_) declare(app, a);
+    std::reverse(words.begin(), words.end()); // as CLI11 takes them
+    try {
+        app.parse(words);
+    } catch (const CLI::CallForHelp&) {
+        return {true, app.help("facetmill"), {}};
+    } catch (const CLI::ParseError& e) {
+        throw std::invalid_argument(e.what());
+    }
+    return {false, {}, app.remaining()};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,81 @@
+#pragma once
+// The arguments of a command as it declares them. What reads them (CLI11) is met in arguments.cpp only, so
+// that no command is compiled with it.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace facetmill::cli {
+
+/// A flag, an option with a value, or a positional argument, and the variable that it sets.
+struct Argument {
+    using Target = std::variant<bool*, int*, std::size_t*, double*, std::string*, std::vector<std::string>*,
+                                std::function<void(const std::string&)>>;
+    std::string names; ///< "-j,--threads"; "MESH" for a positional one
+    Target target;
+    std::string help;
+    bool needed = false, is_hidden = false, at_commas = false;
+    std::string heading{}; ///< in --help; empty: the general one
+    std::vector<std::string> choices{};
+    std::optional<std::pair<int, int>> range{};
+    bool at_least_0 = false;
+
+    Argument& required() {
+        needed = true;
+        return *this;
+    }
+    Argument& hidden() {
+        is_hidden = true;
+        return *this;
+    }
+    Argument& under(std::string title) {
+        heading = std::move(title);
+        return *this;
+    }
+    Argument& one_of(std::vector<std::string> names) {
+        choices = std::move(names);
+        return *this;
+    }
+    Argument& between(int least, int most) {
+        range = {least, most};
+        return *this;
+    }
+    Argument& not_negative() {
+        at_least_0 = true;
+        return *this;
+    }
+    /// A list whose values may also be separated by commas.
+    Argument& separated_by_commas() {
+        at_commas = true;
+        return *this;
+    }
+    bool is_flag() const { return std::holds_alternative<bool*>(target); }
+};
+
+/// What parsing found besides values.
+struct Parsed {
+    bool help_wanted = false;
+    std::string help;                ///< the text of --help, when it is wanted
+    std::vector<std::string> extras; ///< what belongs to no argument
+};
+
+class Arguments {
+  public:
+    /// Declares one; refine what is returned at once, the next declaration may move it.
+    Argument& add(std::string names, Argument::Target target, std::string help);
+    /// The long names of options, without their dashes.
+    std::vector<std::string> long_names() const;
+    /// The option of this name ("-j", "--threads"), or null.
+    const Argument* find(const std::string& name) const;
+    /// Reads words into the targets. Throws std::invalid_argument, with the reason, when they cannot be read.
+    Parsed parse(const std::string& command, const std::string& about, std::vector<std::string> words) const;
+
+  private:
+    std::vector<Argument> all_;
+};
+
+} // namespace facetmill::cli
