@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""Fails when an include breaks the layers of the house, a library is included outside its place, or two headers
-define types of one name in one namespace (which no compiler sees, and no program survives).
+"""Fails when an include breaks the layers of the house or the privacy of a room, a library is included outside its
+place, two headers define types of one name in one namespace (which no compiler sees, and no program survives), or a
+folder of tests has no folder of sources that it tests.
 
-A layer includes itself and the layers above it in LAYERS, never one below. main.cpp of the command line is no
-exception; tests may include everything."""
+A layer includes itself and the layers above it in LAYERS, never one below; nor does it declare their types ahead.
+A room is a folder in geometry/, io/ or stages/. Others include its header of the same name (geometry/clip/clip.hpp),
+or one of PUBLIC; all else in it is private. main.cpp of the command line is no exception; tests may include
+everything."""
 
 import pathlib
 import re
@@ -13,6 +16,37 @@ LAYERS = ["base", "options", "mesh", "geometry", "io", "report", "diff", "stage"
 
 # A layer that must not include another although it stands below it.
 FORBIDDEN = {"pipeline": {"stages"}, "docs": {"stages"}, "cli": {"stages"}}
+
+# Layers whose folders are rooms.
+ROOMED = ("geometry", "io", "stages")
+
+# What others may include of a room besides the header that is named after it, and why. A folder's name stands for all
+# headers in it.
+PUBLIC = {
+    "geometry/cgal": "bridges to CGAL, each called by the room that needs it",
+    "geometry/openmesh": "bridges to OpenMesh",
+    "geometry/spatial": "trees, rays, closest points: tools, used one by one",
+    "geometry/intersect": "pairs of faces that meet: tools, used one by one",
+    "geometry/polygon": "polygons in the plane: tools, used one by one",
+    "geometry/edit": "changes of a mesh: tools, used one by one",
+    "geometry/cut": "what clip and crop have in common",
+    "geometry/clean/solid_pieces.hpp": "the solids of a part, for separate and validate",
+    "geometry/clean/steps.hpp": "single repairs, which others make, too",
+    "geometry/inspect/boundary.hpp": "the edges of the boundary, for verdicts",
+    "geometry/inspect/connectivity.hpp": "components of a mesh",
+    "geometry/inspect/evidence.hpp": "where a property fails",
+    "geometry/inspect/place_keys.hpp": "names of places that last",
+    "geometry/measure/statistics.hpp": "least, most, mean of numbers",
+    "geometry/normals/give_normals.hpp": "normals for a file",
+    "geometry/normals/normal_seams.hpp": "where normals part, for simplify",
+    "geometry/relax/neighbours.hpp": "the neighbours of a vertex, for crumple",
+    "geometry/render/picture.hpp": "the picture that io writes",
+    "geometry/section/stack.hpp": "the planes of a stack of sections",
+    "geometry/simplify/joint.hpp": "several parts simplified together",
+    "geometry/simplify/work.hpp": "the state that OpenMesh's decimater works on",
+    "geometry/triangulate/pair_triangles.hpp": "the other way round",
+    "stages/measure/report.hpp": "measures in a report, for probe",
+}
 
 # First path component (or whole name) of a library's headers, and the only places that may include it.
 LIBRARIES = {
@@ -28,6 +62,7 @@ LIBRARIES = {
 # The version of a library is no use of it: these headers hold only macros.
 VERSION_HEADERS = {"CGAL/version.h", "CLI/Version.hpp", "draco/core/draco_version.h", "OpenMesh/Core/System/config.h"}
 
+AHEAD = re.compile(r"^\s*(?:struct|class|enum class) (\w+);", re.M)
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^">]+)[">]', re.M)
 
 
@@ -43,6 +78,30 @@ def types_in(text):
         yield around[-1] if around else "", match.group(1), text.count("\n", 0, match.start()) + 1
 
 
+def room_of(name):
+    """("geometry", "clip") of geometry/clip/walls.hpp; none for what lies in no room."""
+    parts = name.split("/")
+    return parts[:2] if len(parts) > 2 and parts[0] in ROOMED else None
+
+
+def is_private(header, includer):
+    """Whether the header is private to a room that the includer is not in. Both without src/."""
+    room = room_of(header)
+    if room is None or room_of(includer) == room:
+        return False
+    return header not in PUBLIC and "/".join(room) not in PUBLIC and header != "/".join([*room, room[1] + ".hpp"])
+
+
+def types_ahead(name, text, layers_of):
+    """Types that are declared ahead although another layer defines them, and which."""
+    layer = name.split("/")[1]
+    for match in AHEAD.finditer(text):
+        layers = layers_of.get(match.group(1), set())
+        if layers and layer not in layers:
+            yield (f"{name}:{text.count(chr(10), 0, match.start(1)) + 1}: {match.group(1)} is of "
+                   f"{', '.join(sorted(layers))}/: include its header, or move it")
+
+
 def problems_in(path, name, text):
     layer = name.split("/")[1]
     for match in INCLUDE.finditer(text):
@@ -51,6 +110,8 @@ def problems_in(path, name, text):
         if top in LAYERS and layer in LAYERS and (path.parents[len(name.split("/")) - 2] / header).exists():
             if LAYERS.index(top) > LAYERS.index(layer) or top in FORBIDDEN.get(layer, ()):
                 yield f"{name}:{line}: {layer}/ must not include {header}: {top}/ is a layer below it"
+        if is_private(header, name.removeprefix("src/")):
+            yield f"{name}:{line}: {header} is private to its room (PUBLIC in tools/check_layers.py lists exceptions)"
         allowed = LIBRARIES.get(top)
         if allowed is None or header in VERSION_HEADERS:
             continue
@@ -61,7 +122,10 @@ def problems_in(path, name, text):
 def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent).resolve()
     files = sorted(p for p in (root / "src").rglob("*") if p.suffix in (".hpp", ".cpp", ".h"))
-    found, types = [], {}
+    found, types, layers_of = [], {}, {}
+    for path in files:
+        for _, type_name, _ in types_in(path.read_text(encoding="utf-8")) if path.suffix != ".cpp" else ():
+            layers_of.setdefault(type_name, set()).add(path.relative_to(root).parts[1])
     for path in files:
         name = path.relative_to(root).as_posix()
         if name.count("/") < 2:
@@ -70,6 +134,7 @@ def main():
             found.append(f"{name}: {name.split('/')[1]}/ is no layer")
         text = path.read_text(encoding="utf-8")
         found.extend(problems_in(path, name, text))
+        found.extend(types_ahead(name, text, layers_of))
         for space, type_name, line in types_in(text) if path.suffix != ".cpp" else ():
             first = types.setdefault((space, type_name), f"{name}:{line}")
             if first != f"{name}:{line}":
@@ -80,6 +145,10 @@ def main():
             first = types.setdefault((space, type_name), f"{name}:{line}")
             if first != f"{name}:{line}":
                 found.append(f"{name}:{line}: {space}::{type_name} is also defined at {first}")
+    for path in sorted({p.parent for p in (root / "tests").rglob("*_test.cpp")}):
+        folder = path.relative_to(root / "tests").as_posix()
+        if folder.split("/")[0] in LAYERS and not (root / "src" / folder).is_dir():
+            found.append(f"tests/{folder}: there is no src/{folder}")
     for problem in found:
         print(problem)
     print(f"layers: {len(files)} files, {len(found)} problems")

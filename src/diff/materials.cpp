@@ -1,6 +1,6 @@
-#include "mesh/surface.hpp"
-#include "io/gltf/contents.hpp"
 #include "diff/lines.hpp"
+#include "io/gltf/gltf.hpp"
+#include "mesh/surface.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,13 @@
 #pragma once
-// What codecs share about attributes: roles by name, numbers from one array type to another, finite values.
+// What codecs share about attributes and corners: roles by name, numbers from one array type to another,
+// finite values, and wedges from corners that name a vertex and a key (what else the corner has: indices of a
+// texture point and a normal): corners that agree in both share one.
 
 #include "io/codec.hpp"
+#include "mesh/mesh.hpp"
+
+#include <cstdint>
+#include <span>
 
 namespace facetmill::io {
 
@@ -26,5 +32,17 @@ void mend_attributes(Part& part, const std::string& file, ReadLog& log);
 
 /// Drops faces of fewer than three corners (face attributes follow) and warns (W-FACES).
 void drop_short_faces(Mesh& mesh, const std::string& file, ReadLog& log);
+
+inline constexpr std::uint64_t no_key = UINT64_MAX;
+
+struct Wedges {
+    std::vector<Index> corners;      ///< [corners] -> wedge
+    std::vector<Index> wedge_vertex; ///< [wedges] -> vertex; empty when there are no seams
+    std::vector<std::uint64_t> keys; ///< [wedges]; no_key for vertices that no corner uses
+};
+
+/// Wedge v is the first one of vertex v; further ones follow in the order of their first corner. O(corners).
+Wedges make_wedges(std::size_t vertices, std::vector<Index> corner_vertex,
+                   std::span<const std::uint64_t> corner_key);
 
 } // namespace facetmill::io

@@ -2,6 +2,9 @@
 
 #include <cstring>
 #include <fmt/format.h>
+#include <fstream>
+#include <system_error>
+#include <tiny_gltf.h>
 
 namespace facetmill::io::gltf {
 
@@ -76,6 +79,216 @@ Bytes join_glb(std::string_view json, Span binary) {
     put_chunk(out, json_chunk, std::as_bytes(std::span(json.data(), json.size())), std::byte{' '});
     if (!binary.empty()) put_chunk(out, binary_chunk, binary, std::byte{0});
     return out;
+}
+
+// --- The only user of tinygltf. It resolves buffers: it knows data URIs and asks our callbacks for files. It
+// is handed one buffer at a time and never the document itself, because its parser keeps references
+// unchecked, refuses buffers that only EXT_meshopt_compression needs, and its model loses what it does not
+// know (64-bit integers, nulls, empty objects). Images never reach it.
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// What the callbacks may read: one file, already checked, and at most so many bytes of it.
+struct Neighbour {
+    fs::path path;
+    std::size_t bytes = 0;
+};
+
+bool file_exists(const std::string&, void* user) {
+    std::error_code ignored;
+    return fs::is_regular_file(static_cast<const Neighbour*>(user)->path, ignored);
+}
+
+std::string same_path(const std::string& path, void*) { return path; }
+
+bool read_file(std::vector<unsigned char>* out, std::string* error, const std::string&, void* user) {
+    const auto& neighbour = *static_cast<const Neighbour*>(user);
+    std::error_code failed;
+    const auto size = fs::file_size(neighbour.path, failed);
+    std::ifstream file(neighbour.path, std::ios::binary);
+    if (failed || !file) return *error = "cannot be opened", false;
+    // glTF allows files longer than byteLength; tinygltf does not.
+    out->resize(std::min<std::size_t>(size, neighbour.bytes));
+    file.read(reinterpret_cast<char*>(out->data()), static_cast<std::streamsize>(out->size()));
+    return static_cast<bool>(file);
+}
+
+bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+}
+
+[[maybe_unused]] bool file_size(std::size_t* out, std::string*, const std::string&, void* user) {
+    *out = static_cast<const Neighbour*>(user)->bytes;
+    return true;
+}
+
+/// tinygltf's callbacks; newer ones ask for the size first.
+template <class Callbacks>
+Callbacks callbacks_for(Neighbour& neighbour) {
+    Callbacks callbacks{};
+    callbacks.FileExists = file_exists;
+    callbacks.ExpandFilePath = same_path;
+    callbacks.ReadWholeFile = read_file;
+    callbacks.WriteWholeFile = write_nothing;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; }) callbacks.GetFileSizeInBytes = file_size;
+    callbacks.user_data = &neighbour;
+    return callbacks;
+}
+
+int hex(char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+std::string percent_decoded(std::string_view uri) {
+    std::string out;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] == '%' && i + 2 < uri.size() && hex(uri[i + 1]) >= 0 && hex(uri[i + 2]) >= 0) {
+            out += static_cast<char>(hex(uri[i + 1]) * 16 + hex(uri[i + 2]));
+            i += 2;
+        } else {
+            out += uri[i];
+        }
+    }
+    return out;
+}
+
+/// The file beside the input, with links resolved: a link may not lead out of the directory either.
+std::optional<fs::path> neighbour_path(const Input& input, const fs::path& relative) {
+    // Absolute first: weakly_canonical leaves a relative path as it is when nothing of it exists yet.
+    std::error_code failed;
+    const fs::path directory = fs::absolute(input.path().empty() ? "." : input.path(), failed);
+    if (failed) return std::nullopt;
+    const fs::path base =
+        fs::weakly_canonical(input.path().empty() ? directory : directory.parent_path(), failed);
+    if (failed) return std::nullopt;
+    const fs::path real = fs::weakly_canonical(base / relative, failed);
+    if (failed) return std::nullopt;
+    const auto mismatch = std::mismatch(base.begin(), base.end(), real.begin(), real.end());
+    if (mismatch.first != base.end()) return std::nullopt;
+    return input.path_beside(relative);
+}
+
+Bytes resolve_with_tinygltf(const Place& buffer, const std::string& uri, Neighbour neighbour) {
+    const Json document = {{"asset", {{"version", "2.0"}}},
+                           {"buffers", {{{"uri", uri}, {"byteLength", neighbour.bytes}}}}};
+    const std::string text = document.dump();
+    tinygltf::TinyGLTF loader;
+    loader.SetFsCallbacks(callbacks_for<tinygltf::FsCallbacks>(neighbour));
+    loader.SetImageLoader([](tinygltf::Image*, int, std::string*, std::string*, int, int,
+                             const unsigned char*, int, void*) { return true; },
+                          nullptr);
+    tinygltf::Model model;
+    std::string error, warning;
+    const bool loaded =
+        text.size() <= UINT32_MAX &&
+        loader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
+                                   "", tinygltf::NO_REQUIRE);
+    if (!loaded || model.buffers.size() != 1)
+        buffer.fail(fmt::format("expected {} bytes, and {} does not hold as many", neighbour.bytes,
+                                is_data_uri(uri) ? "the data URI" : "the file \"" + uri + "\""),
+                    "E-BUFFER");
+    const auto& data = model.buffers[0].data;
+    Bytes bytes(data.size());
+    if (!data.empty()) std::memcpy(bytes.data(), data.data(), data.size());
+    return bytes;
+}
+
+Bytes load_uri(const Place& buffer, const std::string& uri, std::size_t length, const Input& input,
+               ReadLog& log) {
+    if (is_data_uri(uri)) return resolve_with_tinygltf(buffer, uri, {{}, length});
+    const auto relative = relative_path(uri);
+    const auto path = relative ? neighbour_path(input, *relative) : std::nullopt;
+    if (!path)
+        throw Error(
+            ErrorKind::malformed, "E-URI",
+            fmt::format("{}.uri: \"{}\" is not a file in the document's directory", buffer.path(), uri),
+            "only relative URIs to files beside or below the glTF are read");
+    std::error_code ignored;
+    if (!fs::is_regular_file(*path, ignored))
+        throw Error(ErrorKind::missing, "E-FILE",
+                    fmt::format("{}.uri: the file \"{}\" is missing", buffer.path(), path->string()));
+    Bytes bytes = resolve_with_tinygltf(buffer, uri, {*path, length});
+    log.files.push_back(*path);
+    return bytes;
+}
+
+bool is_fallback(const Place& buffer) {
+    const auto extensions = buffer.find("extensions");
+    const auto meshopt = extensions ? extensions->find("EXT_meshopt_compression") : std::nullopt;
+    return meshopt && meshopt->boolean_or("fallback", false);
+}
+
+} // namespace
+
+bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
+
+std::optional<fs::path> relative_path(std::string_view uri) {
+    for (const char c : uri) { // a scheme ends at a colon before any slash
+        if (c == ':') return std::nullopt;
+        if (c == '/') break;
+    }
+    const std::string text = percent_decoded(uri);
+    if (text.empty() || text.find('\0') != std::string::npos || text.find('\\') != std::string::npos)
+        return std::nullopt;
+    const fs::path path = fs::path(text).lexically_normal();
+    if (path.is_absolute() || path.empty() || *path.begin() == ".." || path == "." || !path.has_filename())
+        return std::nullopt;
+    return path;
+}
+
+std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary_chunk, const Input& input,
+                                ReadLog& log) {
+    std::vector<Bytes> buffers(count_of(document, "buffers"));
+    for (std::size_t i = 0; i < buffers.size(); ++i) {
+        const Place buffer = item(document, "buffers", i);
+        const std::size_t length = buffer.at("byteLength").natural();
+        const auto uri = buffer.find("uri");
+        if (is_fallback(buffer)) continue;
+        if (uri) {
+            buffers[i] = load_uri(buffer, uri->text(), length, input, log);
+        } else if (i == 0 && binary_chunk) {
+            if (length > binary_chunk->size())
+                buffer.fail(fmt::format("expected {} bytes, and the binary chunk has {}", length,
+                                        binary_chunk->size()),
+                            "E-BUFFER");
+            buffers[i].assign(binary_chunk->begin(),
+                              binary_chunk->begin() + static_cast<std::ptrdiff_t>(length));
+        }
+        // A buffer without data is legal as long as nothing reads from it; whoever does says so.
+    }
+    return buffers;
+}
+
+std::map<std::string, Bytes> load_images(const Json& document, const Input& input, ReadLog& log) {
+    std::map<std::string, Bytes> files;
+    const auto warn = [&](const std::string& message) {
+        log.warnings.push_back({Severity::warning, "W-IMAGE", message, file_mark(input.name()), ""});
+    };
+    for (std::size_t i = 0; i < count_of(document, "images"); ++i) {
+        const auto uri = item(document, "images", i).find("uri");
+        if (!uri || is_data_uri(uri->text()) || files.count(uri->text())) continue;
+        const auto relative = relative_path(uri->text());
+        const auto path = relative ? neighbour_path(input, *relative) : std::nullopt;
+        std::error_code ignored;
+        if (!path) {
+            warn(fmt::format("{}: \"{}\" is not a file in the document's directory and is not read",
+                             uri->path(), uri->text()));
+        } else if (!fs::is_regular_file(*path, ignored)) {
+            warn(fmt::format("{}: the file \"{}\" is missing", uri->path(), path->string()));
+        } else {
+            std::ifstream file(*path, std::ios::binary);
+            const std::string data(std::istreambuf_iterator<char>(file), {});
+            const auto bytes = std::as_bytes(std::span(data));
+            files[uri->text()].assign(bytes.begin(), bytes.end());
+            log.files.push_back(*path);
+        }
+    }
+    return files;
 }
 
 } // namespace facetmill::io::gltf

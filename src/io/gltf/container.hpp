@@ -1,7 +1,11 @@
 #pragma once
-// The GLB container: a header of 12 bytes, a JSON chunk and perhaps a binary one, each padded to 4 bytes.
+// The files of a glTF: the GLB container (a header of 12 bytes, a JSON chunk and perhaps a binary one, each
+// padded to 4 bytes), and the buffers and images that a document names by URI. The directory rule holds for
+// all of them: only files in the document's own directory or below, named by relative URIs.
 
 #include "io/bytes.hpp"
+#include "io/codec.hpp"
+#include "io/gltf/json.hpp"
 
 #include <optional>
 
@@ -20,5 +24,21 @@ Chunks split_glb(Span bytes);
 /// The container of a document and its buffer (none when empty). Throws limit (E-SIZE) beyond 4 GiB, which
 /// the header cannot say.
 Bytes join_glb(std::string_view json, Span binary);
+
+/// True for "data:..." URIs.
+bool is_data_uri(std::string_view uri);
+/// The relative path that a URI names, percent-decoded and normalised; none when it is absolute, remote, or
+/// leaves the directory.
+std::optional<std::filesystem::path> relative_path(std::string_view uri);
+
+/// Reads all buffers of the document. Buffer 0 without a URI is the binary chunk; buffers that exist only for
+/// readers without meshopt decoding stay empty. Throws malformed (E-URI for a URI that breaks the directory
+/// rule, E-BUFFER for too few bytes), missing (E-FILE).
+std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary_chunk, const Input& input,
+                                ReadLog& log);
+
+/// Reads the images beside the file, by their URI as spelled. What cannot be read is a warning (W-IMAGE):
+/// nothing here looks into images, so a missing one only fails to come along.
+std::map<std::string, Bytes> load_images(const Json& document, const Input& input, ReadLog& log);
 
 } // namespace facetmill::io::gltf

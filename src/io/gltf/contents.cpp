@@ -1,8 +1,8 @@
-#include "io/gltf/contents.hpp"
+#include "io/gltf/gltf.hpp"
 
 #include "base/hash.hpp"
 #include "io/gltf/accessor.hpp"
-#include "io/gltf/files.hpp"
+#include "io/gltf/container.hpp"
 
 #include <fmt/format.h>
 

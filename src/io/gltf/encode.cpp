@@ -1,6 +1,7 @@
 #include "io/gltf/encode.hpp"
 
 #include "base/parallel.hpp"
+#include "io/gltf/draco/draco.hpp"
 
 #include <cstring>
 #include <fmt/format.h>
@@ -286,6 +287,158 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
         out.primitives.push_back(std::move(primitive));
     }
     return out;
+}
+
+// --- encode draco
+
+namespace {
+
+DracoKind kind_of(const std::string& semantic) {
+    if (semantic == "NORMAL") return DracoKind::normal;
+    if (semantic.rfind("TEXCOORD_", 0) == 0) return DracoKind::uv;
+    return semantic.rfind("COLOR_", 0) == 0 ? DracoKind::colour : DracoKind::generic;
+}
+
+/// Positions once per vertex, so that Draco sees seams as seams and not as gaps.
+void set_positions(const Mesh& mesh, const Table& table, DracoInput& input) {
+    std::vector<std::pair<Index, Index>> order; // vertex, point
+    for (Index p = 0; p < table.wedges.size(); ++p)
+        order.emplace_back(mesh.vertex_of_wedge(table.wedges[p]), p);
+    std::sort(order.begin(), order.end());
+    std::vector<Index> one_wedge_each;
+    input.point_vertex.resize(table.wedges.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i == 0 || order[i].first != order[i - 1].first)
+            one_wedge_each.push_back(table.wedges[order[i].second]);
+        input.point_vertex[order[i].second] = static_cast<Index>(one_wedge_each.size() - 1);
+    }
+    input.vertices = positions_of(mesh, one_wedge_each);
+}
+
+const DracoColumn& decoded_column(const DracoOutput& output, std::uint32_t id) {
+    for (const auto& column : output.decoded.columns)
+        if (column.id == id) return column;
+    throw Error(ErrorKind::bug, "E-DRACO", "Draco lost an attribute that it was given");
+}
+
+} // namespace
+
+void encode_draco_primitive(Builder& builder, const Mesh& mesh, const Table& table,
+                            const std::vector<Column>& columns, const EncodeSettings& settings,
+                            Json& primitive) {
+    DracoInput input;
+    set_draco_grid(mesh, input); // of the mesh, not the primitive: common borders fall on the same points
+    set_positions(mesh, table, input);
+    input.triangles = table.indices;
+    std::vector<const Column*> used;
+    for (const auto& column : columns) {
+        if (column.target >= 0) input.keep_order = true;
+        if (column.target >= 0 || !has_column(mesh, table.primitive, column)) continue;
+        used.push_back(&column);
+        input.columns.push_back({"", kind_of(column.semantic), 0, column.data.components,
+                                 column.data.normalised, gathered(mesh, column, table.wedges)});
+    }
+    DracoOutput output = encode_draco(input, settings.draco);
+
+    Json ids = {{"POSITION", output.position_id}};
+    const auto& positions = decoded_column(output, output.position_id);
+    primitive["attributes"] = {
+        {"POSITION", builder.add_accessor(accessor_json(positions.data, 3, false, true))}};
+    for (std::size_t c = 0; c < used.size(); ++c) {
+        const auto& decoded = decoded_column(output, output.ids[c]);
+        ids[used[c]->semantic] = output.ids[c];
+        primitive["attributes"][used[c]->semantic] = builder.add_accessor(
+            accessor_json(decoded.data, decoded.components, used[c]->data.normalised, false));
+    }
+    const bool wide = output.decoded.points > 65535;
+    primitive["indices"] = builder.add_accessor({{"componentType", wide ? int(uint32) : int(uint16)},
+                                                 {"count", output.decoded.triangles.size()},
+                                                 {"type", "SCALAR"}});
+    if (input.keep_order) primitive["targets"] = add_targets(builder, mesh, columns, table.wedges);
+    primitive["extensions"]["KHR_draco_mesh_compression"] = {
+        {"bufferView", builder.add_view(std::move(output.bytes))}, {"attributes", ids}};
+    builder.use_extension("KHR_draco_mesh_compression", true);
+}
+
+// --- manifold
+
+namespace {
+
+/// True when every directed edge is there once and its opposite once: what the extension calls manifold.
+bool is_manifold(const Mesh& mesh) {
+    std::vector<std::uint64_t> edges, opposite;
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        for (Index k = 0; k < 3; ++k) {
+            const std::uint64_t a = mesh.vertex(3 * f + k), b = mesh.vertex(3 * f + (k + 1) % 3);
+            if (a == b) return false;
+            edges.push_back(a << 32 | b);
+            opposite.push_back(b << 32 | a);
+        }
+    radix_sort(edges, [](std::uint64_t e) { return e; });
+    radix_sort(opposite, [](std::uint64_t e) { return e; });
+    return edges == opposite && std::adjacent_find(edges.begin(), edges.end()) == edges.end();
+}
+
+std::size_t add_numbers(Builder& builder, std::size_t view, std::size_t offset, std::size_t count) {
+    Json accessor = {{"bufferView", view}};
+    if (offset > 0) accessor["byteOffset"] = offset;
+    accessor.update({{"componentType", int(uint32)}, {"count", count}, {"type", "SCALAR"}});
+    return builder.add_accessor(std::move(accessor));
+}
+
+} // namespace
+
+Json manifold_extension(Builder& builder, const Mesh& mesh, const std::vector<Index>& wedges,
+                        const std::vector<Index>& indices, std::size_t index_view, const Json& position,
+                        Written& written, const std::string& name) {
+    if (!is_manifold(mesh)) {
+        written.warnings.push_back(
+            {Severity::warning,
+             "W-MANIFOLD",
+             fmt::format("part '{}' is no closed manifold, so EXT_mesh_manifold is not written", name),
+             {},
+             ""});
+        return nullptr;
+    }
+    // The first wedge written of a vertex stands for it.
+    std::vector<Index> first(mesh.vertex_count(), none), at, to;
+    for (Index i = 0; i < wedges.size(); ++i) {
+        Index& v = first[mesh.vertex_of_wedge(wedges[i])];
+        if (v == none) v = i;
+    }
+    for (std::size_t c = 0; c < indices.size(); ++c) {
+        const Index v = first[mesh.vertex_of_wedge(wedges[indices[c]])];
+        if (v != indices[c]) at.push_back(static_cast<Index>(c)), to.push_back(v);
+    }
+    const bool wide = wedges.size() > 65535;
+    Json accessor = {{"bufferView", index_view},
+                     {"componentType", wide ? int(uint32) : int(uint16)},
+                     {"count", indices.size()},
+                     {"type", "SCALAR"}};
+    Json extension = Json::object();
+    if (!at.empty()) {
+        Bytes places(4 * at.size()), values(at.size() * (wide ? 4 : 2)), wide_values(4 * at.size());
+        std::memcpy(places.data(), at.data(), places.size());
+        std::memcpy(wide_values.data(), to.data(), wide_values.size());
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            const auto narrow = static_cast<std::uint16_t>(to[i]);
+            std::memcpy(&values[i * (wide ? 4 : 2)], wide ? static_cast<const void*>(&to[i]) : &narrow,
+                        wide ? 4 : 2);
+        }
+        const std::size_t places_view = builder.add_view(std::move(places));
+        const std::size_t values_view = builder.add_view(std::move(values));
+        accessor["sparse"] = {{"count", at.size()},
+                              {"indices", {{"bufferView", places_view}, {"componentType", int(uint32)}}},
+                              {"values", {{"bufferView", values_view}}}};
+        extension["mergeIndices"] = add_numbers(builder, places_view, 0, at.size());
+        extension["mergeValues"] =
+            add_numbers(builder, wide ? values_view : builder.add_view(std::move(wide_values)), 0, at.size());
+    }
+    extension["manifoldPrimitive"] = {{"indices", builder.add_accessor(std::move(accessor))},
+                                      {"mode", 4},
+                                      {"attributes", {{"POSITION", position}}}};
+    builder.use_extension("EXT_mesh_manifold", false);
+    return extension;
 }
 
 } // namespace facetmill::io::gltf

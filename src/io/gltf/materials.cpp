@@ -1,4 +1,4 @@
-#include "io/gltf/files.hpp"
+#include "io/gltf/container.hpp"
 #include "io/gltf/patch.hpp"
 
 #include <algorithm>
@@ -118,7 +118,8 @@ Json new_material(const Material& material) {
 
 /// Stages may change which sides are seen; all else of a document's material is as it was.
 void patch_sides(const Material& material, Json& json) {
-    if (json.value("doubleSided", false) != material.double_sided) json["doubleSided"] = material.double_sided;
+    if (json.value("doubleSided", false) != material.double_sided)
+        json["doubleSided"] = material.double_sided;
 }
 
 } // namespace

@@ -1,16 +1,276 @@
-#include "io/ply/ply.hpp"
-
 #include "base/parallel.hpp"
 #include "io/attributes.hpp"
-#include "io/ply/columns.hpp"
+#include "io/ply/ply.hpp"
 #include "io/text.hpp"
-#include "io/wedges.hpp"
 
 #include <array>
 #include <bit>
 #include <fmt/format.h>
+#include <limits>
+#include <type_traits>
 
 namespace facetmill::io::ply {
+
+namespace {
+
+std::optional<Type> type_named(std::string_view name) {
+    static constexpr std::pair<std::string_view, Type> names[] = {
+        {"float", Type::float32},   {"float32", Type::float32}, {"double", Type::float64},
+        {"float64", Type::float64}, {"uchar", Type::uint8},     {"uint8", Type::uint8},
+        {"char", Type::int8},       {"int8", Type::int8},       {"ushort", Type::uint16},
+        {"uint16", Type::uint16},   {"short", Type::int16},     {"int16", Type::int16},
+        {"uint", Type::uint32},     {"uint32", Type::uint32},   {"int", Type::int32},
+        {"int32", Type::int32}};
+    for (const auto& [known, type] : names)
+        if (known == name) return type;
+    return {};
+}
+
+Type read_type(Text& text) {
+    const std::string_view word = text.word_on_line();
+    if (const auto type = type_named(word)) return *type;
+    text.fail(fmt::format("expected a type (char, uchar, short, ushort, int, uint, float, double), found {}",
+                          in_quotes(word)));
+}
+
+Property read_property(Text& text) {
+    Property p;
+    Text ahead = text;
+    if (ahead.word_on_line() == "list") {
+        text = ahead;
+        p.list = true;
+        p.count_type = read_type(text);
+        if (p.count_type == Type::float32 || p.count_type == Type::float64)
+            text.fail("expected an integer type for the length of a list");
+    }
+    p.type = read_type(text);
+    p.name = text.rest_of_line();
+    if (p.name.empty()) text.fail("expected the name of a property");
+    return p;
+}
+
+Element read_element(Text& text) {
+    Element e;
+    e.name = text.word_on_line();
+    e.line = text.line();
+    if (text.at_line_end()) text.fail("expected the name and the count of an element");
+    const std::int64_t count = text.integer("a count");
+    if (count < 0) text.fail(fmt::format("expected a count, found {}", count));
+    e.count = static_cast<std::size_t>(count);
+    return e;
+}
+
+Encoding read_encoding(Text& text) {
+    const std::string_view word = text.word_on_line();
+    if (word == "ascii") return Encoding::ascii;
+    if (word == "binary_little_endian") return Encoding::little_endian;
+    if (word == "binary_big_endian") return Encoding::big_endian;
+    text.fail(
+        fmt::format("expected ascii, binary_little_endian or binary_big_endian, found {}", in_quotes(word)));
+}
+
+} // namespace
+
+std::size_t size_of(Type type) {
+    static constexpr std::size_t sizes[] = {4, 8, 1, 1, 2, 2, 4, 4};
+    return sizes[static_cast<std::size_t>(type)];
+}
+
+AttributeData array_of(Type type) {
+    switch (type) {
+    case Type::float32:
+        return std::vector<float>{};
+    case Type::float64:
+        return std::vector<double>{};
+    case Type::uint8:
+        return std::vector<std::uint8_t>{};
+    case Type::int8:
+        return std::vector<std::int8_t>{};
+    case Type::uint16:
+        return std::vector<std::uint16_t>{};
+    case Type::int16:
+        return std::vector<std::int16_t>{};
+    case Type::uint32:
+        return std::vector<std::uint32_t>{};
+    default:
+        return std::vector<std::int32_t>{};
+    }
+}
+
+Header read_header(const Input& input) {
+    Text text(as_text(input.bytes()), input.name(), "E-PLY");
+    Header header;
+    if (text.word_on_line() != "ply") text.fail("expected 'ply' as the first word");
+    bool format = false;
+    while (text.next_line()) {
+        const std::string_view word = text.word_on_line();
+        if (word == "format") {
+            header.encoding = read_encoding(text);
+            format = true;
+        } else if (word == "element") {
+            header.elements.push_back(read_element(text));
+        } else if (word == "property") {
+            if (header.elements.empty()) text.fail("a property without an element");
+            header.elements.back().properties.push_back(read_property(text));
+        } else if (word == "end_header") {
+            if (!format) text.fail("the header has no 'format' line");
+            header.lines = text.line();
+            text.next_line();
+            header.size = text.offset();
+            return header;
+        } else if (word == "comment") {
+            if (text.word_on_line() == "TextureFile") header.textures.emplace_back(text.rest_of_line());
+        } else if (word != "obj_info" && !word.empty()) {
+            text.fail(
+                fmt::format("expected element, property, comment or end_header, found {}", in_quotes(word)));
+        }
+    }
+    text.fail("the header does not end: there is no 'end_header'");
+}
+
+// --- The properties of an element as attributes of a mesh
+
+/// An element with its values; properties are taken out of it one after another.
+struct Table {
+    const Element* element = nullptr;
+    std::vector<Column> columns;
+    std::vector<bool> taken;
+
+    std::size_t count() const { return element ? element->count : 0; }
+    const Property& property(std::size_t p) const { return element->properties[p]; }
+
+    /// The columns of these names, when all are there; they are taken then.
+    std::vector<std::size_t> take(std::initializer_list<std::string_view> names, bool list = false);
+};
+
+namespace {
+
+/// A number of a file as T: what is beyond T's range becomes its nearest end.
+template <class T, class S>
+T fitted(S value) {
+    if constexpr (std::is_same_v<T, S> || std::is_floating_point_v<T>) {
+        return static_cast<T>(value);
+    } else {
+        const auto x = static_cast<double>(value);
+        constexpr auto low = static_cast<double>(std::numeric_limits<T>::min());
+        constexpr auto high = static_cast<double>(std::numeric_limits<T>::max());
+        return x >= low ? static_cast<T>(std::min(x, high))
+                        : std::numeric_limits<T>::min(); // not a number: the lowest
+    }
+}
+
+/// Columns side by side, as T.
+template <class T>
+std::vector<T> interleaved(const Table& table, const std::vector<std::size_t>& columns) {
+    std::vector<T> all(table.count() * columns.size());
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        std::visit(
+            [&](const auto& values) {
+                parallel_for(table.count(),
+                             [&](std::size_t i) { all[i * columns.size() + c] = fitted<T>(values[i]); });
+            },
+            table.columns[columns[c]].values);
+    return all;
+}
+
+Attribute attribute_of(const Table& table, const std::vector<std::size_t>& columns, std::string name,
+                       Domain domain) {
+    Attribute a;
+    a.name = std::move(name);
+    a.domain = domain;
+    a.components = static_cast<int>(columns.size());
+    const AttributeData& first = table.columns[columns[0]].values;
+    std::visit(
+        [&](const auto& values) {
+            using T = typename std::decay_t<decltype(values)>::value_type;
+            a.data = interleaved<T>(table, columns);
+        },
+        first);
+    a.role = role_of(a.name, a.components, a.data);
+    a.normalised =
+        a.data.index() > 1 && (a.role == Role::colour || a.role == Role::uv || a.role == Role::weights);
+    return a;
+}
+
+bool same_type(const Table& table, const std::vector<std::size_t>& columns) {
+    for (const std::size_t c : columns)
+        if (table.property(c).type != table.property(columns[0]).type) return false;
+    return true;
+}
+
+} // namespace
+
+std::vector<std::size_t> Table::take(std::initializer_list<std::string_view> names, bool list) {
+    std::vector<std::size_t> found;
+    for (const auto name : names)
+        for (std::size_t p = 0; p < columns.size(); ++p)
+            if (!taken[p] && property(p).name == name && property(p).list == list) {
+                found.push_back(p);
+                break;
+            }
+    if (found.size() != names.size()) return {};
+    for (const std::size_t p : found) taken[p] = true;
+    return found;
+}
+
+void add_colours(Table& table, Mesh& mesh, Domain domain) {
+    for (const auto& [r, g, b, a] :
+         {std::array{"red", "green", "blue", "alpha"}, std::array{"r", "g", "b", "a"},
+          std::array{"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}}) {
+        auto columns = table.take({r, g, b, a});
+        if (columns.empty()) columns = table.take({r, g, b});
+        if (columns.empty()) continue;
+        const Type type = table.property(columns[0]).type;
+        Attribute colour{"COLOR_0", domain, Role::colour, static_cast<int>(columns.size()), false, {}};
+        if (same_type(table, columns) && type == Type::uint16)
+            colour.data = interleaved<std::uint16_t>(table, columns), colour.normalised = true;
+        else if (type == Type::float32 || type == Type::float64)
+            colour.data = interleaved<float>(table, columns);
+        else
+            colour.data = interleaved<std::uint8_t>(table, columns), colour.normalised = true;
+        add_attribute(mesh, std::move(colour));
+        return;
+    }
+}
+
+void add_normals(Table& table, Mesh& mesh) {
+    if (const auto columns = table.take({"nx", "ny", "nz"}); !columns.empty())
+        add_attribute(mesh,
+                      {"NORMAL", Domain::wedge, Role::normal, 3, false, interleaved<float>(table, columns)});
+}
+
+void add_uvs(Table& table, Mesh& mesh) {
+    for (const auto& [u, v] : {std::pair{"s", "t"}, std::pair{"u", "v"}, std::pair{"texture_u", "texture_v"},
+                               std::pair{"texture_s", "texture_t"}}) {
+        const auto columns = table.take({u, v});
+        if (columns.empty()) continue;
+        auto uv = interleaved<float>(table, columns);
+        for (std::size_t i = 1; i < uv.size(); i += 2) uv[i] = 1 - uv[i];
+        add_attribute(mesh, {"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::move(uv)});
+        return;
+    }
+}
+
+void add_others(Table& table, Mesh& mesh, Domain domain) {
+    for (std::size_t p = 0; p < table.columns.size(); ++p) {
+        if (table.taken[p] || table.property(p).list) continue;
+        std::vector<std::size_t> columns{p};
+        std::string name = table.property(p).name;
+        if (name.ends_with("_0")) {
+            const std::string stem = name.substr(0, name.size() - 2);
+            for (std::size_t q = p + 1; q < table.columns.size() && columns.size() < 16; ++q)
+                if (!table.taken[q] && !table.property(q).list &&
+                    table.property(q).type == table.property(p).type &&
+                    table.property(q).name == fmt::format("{}_{}", stem, columns.size()))
+                    columns.push_back(q);
+            if (columns.size() > 1) name = stem;
+        }
+        for (const std::size_t q : columns) table.taken[q] = true;
+        add_attribute(mesh, attribute_of(table, columns, name, domain));
+    }
+}
+
+// --- read
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What is said of the sections of a scene: their sums beside its volume, and what is wrong with them.
 
-#include "io/drawing/summary.hpp"
+#include "io/drawing/drawing.hpp"
 #include "stage/context.hpp"
 
 namespace facetmill {

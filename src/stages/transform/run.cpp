@@ -1,4 +1,4 @@
-#include "io/gltf/animated.hpp"
+#include "io/gltf/gltf.hpp"
 #include "mesh/placement.hpp"
 #include "stages/transform/report.hpp"
 

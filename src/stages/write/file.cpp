@@ -1,7 +1,7 @@
 #include "stages/write/file.hpp"
 
 #include "io/convert.hpp"
-#include "io/gltf/draco/draco.hpp"
+#include "io/gltf/gltf.hpp"
 #include "io/read_back.hpp"
 
 #include <fmt/format.h>

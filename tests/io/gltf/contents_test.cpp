@@ -1,6 +1,6 @@
 // What a glTF says beside meshes, without its indices.
 #include "io/codec.hpp"
-#include "io/gltf/contents.hpp"
+#include "io/gltf/gltf.hpp"
 #include "support/catch.hpp"
 #include "support/gltf.hpp"
 

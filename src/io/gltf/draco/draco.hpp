@@ -46,10 +46,6 @@ struct DracoInput {
 /// Sets the quantisation grid to the cube of the mesh's bounds, rounded outwards to float32.
 void set_draco_grid(const Mesh& mesh, DracoInput& input);
 
-/// The fewest bits of position, from `least` to 24, at which vertices of the mesh that are at different
-/// places (in float32) stay at different places of its grid; none when 24 are not enough.
-std::optional<int> bits_that_keep_apart(const Mesh& mesh, int least);
-
 struct DracoOutput {
     Bytes bytes;
     DracoMesh decoded; ///< what a reader will see

@@ -1,0 +1,32 @@
+#pragma once
+// What others may ask of glTF besides reading and writing, which the registry of codecs gives (io/codec.hpp):
+// what a document says beside meshes, which parts move by themselves, and how many bits Draco needs. A
+// document is told without indices into it, so that two files can be compared: a texture is its sampler and
+// the digest of its image, an accessor its type and the digest of its numbers, a node its name (or its
+// number where it has none).
+
+#include "base/json.hpp"
+#include "mesh/scene.hpp"
+
+#include <optional>
+
+namespace facetmill::io {
+
+/// The material of the document; null when the material is of none. Throws malformed as reading does.
+Json material_contents(const Scene& scene, const Material& material);
+
+/// One entry for each animation, skin, camera and light of the scene's first document: {animations: [...],
+/// skins: [...], cameras: [...], lights: [...]}; null when there is no document. Throws malformed as reading
+/// does.
+Json document_contents(const Scene& scene);
+
+/// For each part, whether an animation of its document drives the node it stands at, or one above it. Such a
+/// node has to keep its transform, which is that of one moment only. Morph weights do not count. Throws
+/// malformed when the document's nodes or animations are.
+std::vector<bool> animated_parts(const Scene& scene);
+
+/// The fewest bits of position, from `least` to 24, at which vertices of the mesh that are at different
+/// places (in float32) stay at different places of its grid; none when 24 are not enough.
+std::optional<int> bits_that_keep_apart(const Mesh& mesh, int least);
+
+} // namespace facetmill::io
