@@ -40,8 +40,8 @@ struct Argument {
         choices = std::move(names);
         return *this;
     }
-    Argument& between(int least, int most) {
-        range = {least, most};
+    Argument& between(int min, int max) {
+        range = {min, max};
         return *this;
     }
     Argument& not_negative() {

@@ -61,14 +61,11 @@ std::optional<report::ComparisonSettings::Limit> limit_of(const std::string& tex
 /// Reads a file; what its reader could not keep is noted, so that it is not taken for the same.
 Scene read(const std::string& name, bool is_a, std::vector<report::LeftOut>& left_out,
            const Console& console) {
-    static const std::set<std::string> not_kept{"W-ATTRIBUTE", "W-EXTENSION",  "W-FACES",   "W-GROUPS",
-                                                "W-IMAGE",     "W-INCOMPLETE", "W-INDEX",   "W-MTL",
-                                                "W-NAN",       "W-SKIPPED",    "W-TRAILING"};
     io::ReadLog log;
     Scene scene = io::read_scene(io::Input::open(name), {}, log);
     for (const auto& warning : log.warnings) {
         console.diagnostic(warning);
-        if (not_kept.contains(warning.id)) left_out.push_back({is_a, warning.message});
+        if (warning.is_loss) left_out.push_back({is_a, warning.message});
     }
     return scene;
 }

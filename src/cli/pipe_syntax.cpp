@@ -1,12 +1,97 @@
 #include "cli/pipe_syntax.hpp"
 
+#include "base/numbers.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "stage/common_keys.hpp"
 #include "stage/stage.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::cli {
+
+namespace {
+
+/// @{x} -> ${x}; @@{ stays @{.
+std::string expressions(std::string text) {
+    for (std::size_t at = 0; (at = text.find("@{", at)) != text.npos;) {
+        if (at > 0 && text[at - 1] == '@') {
+            text.erase(at - 1, 1);
+            ++at;
+        } else {
+            text[at] = '$';
+            at += 2;
+        }
+    }
+    return text;
+}
+
+/// "0.5pct of part" -> "0.5% of part".
+std::string percent(std::string text) {
+    const auto at = text.find("pct");
+    if (at == text.npos || !parse_real(text.substr(0, at))) return text;
+    const std::string rest = text.substr(at + 3);
+    return rest.empty() || rest.starts_with(" of ") ? text.substr(0, at) + "%" + rest : text;
+}
+
+Value scalar(const std::string& text, const Mark& mark) {
+    return Value::scalar(percent(text), mark, text.empty());
+}
+
+/// "1,2,3", or "[1, 2, 3]" as help shows it.
+Value split(std::string text, const Mark& mark) {
+    if (text.starts_with('[') && text.ends_with(']') && text.find('[', 1) == text.npos) {
+        text = text.substr(1, text.size() - 2);
+        std::erase(text, ' ');
+    }
+    Value list = Value::list({}, mark);
+    for (std::size_t at = 0; at <= text.size();) {
+        const auto end = std::min(text.find(',', at), text.size());
+        list.items.push_back(scalar(text.substr(at, end - at), mark));
+        at = end + 1;
+    }
+    return list;
+}
+
+/// Whether the short form of a group is a list, or one word of such a list.
+bool short_list(const Declaration& group) {
+    const Json& schema = group.shorthand_schema;
+    if (!schema.contains("anyOf")) return schema.contains("type") && schema["type"] == "array";
+    const auto is_list = [](const Json& form) { return form.contains("type") && form["type"] == "array"; };
+    const auto is_word = [](const Json& form) { return form.contains("enum"); };
+    bool any = false;
+    for (const Json& form : schema["anyOf"]) {
+        if (!is_list(form) && !is_word(form)) return false;
+        any |= is_list(form);
+    }
+    return any;
+}
+
+/// Whether commas part the values of the option.
+bool comma_list(const Option& option) {
+    if (option.type == "vector") return true;
+    if (option.fields && short_list(*option.fields)) return true;
+    if (!option.repeatable || !option.schema.contains("anyOf")) return false;
+    const Json& one = option.schema["anyOf"][0];
+    return one != OptionType<PathText>::schema() && one != OptionType<Vec3>::schema();
+}
+
+} // namespace
+
+Value pipe_value(std::string text, const Option* option, const Mark& mark) {
+    text = expressions(std::move(text));
+    const bool list = option && comma_list(*option) && text.find(',') != text.npos;
+    return list ? split(text, mark) : scalar(text, mark);
+}
+
+const Option* find_dotted(const Declaration& declaration, std::string_view name) {
+    const auto dot = name.find('.');
+    const Option* option = declaration.find(name.substr(0, dot));
+    if (!option || dot == name.npos) return option;
+    return option->fields ? find_dotted(*option->fields, name.substr(dot + 1)) : nullptr;
+}
+
+// --- pipe syntax
 
 namespace {
 
@@ -63,10 +148,13 @@ class Parser {
         while (!at_end_of_step()) {
             if (is_option(all_[at_]))
                 option(item, stage);
-            else if (all_[at_] == "[")
-                wrong(fmt::format("'{}' takes no '['", name)), ++at_;
-            else
-                bare.push_back(pipe_value(all_[at_], primary, mark())), ++at_;
+            else if (all_[at_] == "[") {
+                wrong(fmt::format("'{}' takes no '['", name));
+                ++at_;
+            } else {
+                bare.push_back(pipe_value(all_[at_], primary, mark()));
+                ++at_;
+            }
         }
         if (!bare.empty()) set_bare(item.entries[0].value, std::move(bare), stage, where);
         return item;
@@ -112,11 +200,16 @@ class Parser {
         Mark key_mark = mark();
         if (equals != argument.npos) key_mark.length = static_cast<int>(key.size()) + 2;
         const Option* known = stage ? find_dotted(stage->options, key) : nullptr;
-        if (std::string name = with_underscores(key); !known && stage && find_dotted(stage->options, name))
-            key = std::move(name), known = find_dotted(stage->options, key); // as other programs spell them
+        if (std::string name = with_underscores(key); !known && stage && find_dotted(stage->options, name)) {
+            key = std::move(name);
+            known = find_dotted(stage->options, key);
+        } // as other programs spell them
         const bool negated =
             !known && key.starts_with("no-") && stage && find_dotted(stage->options, key.substr(3));
-        if (negated) key = key.substr(3), known = find_dotted(stage->options, key);
+        if (negated) {
+            key = key.substr(3);
+            known = find_dotted(stage->options, key);
+        }
         const bool common = !known && is_common(key.substr(0, key.find('.')));
         Value value;
         if (equals != argument.npos)
@@ -124,9 +217,10 @@ class Parser {
         ++at_;
         if (negated)
             value = Value::scalar("false", key_mark);
-        else if (equals == argument.npos && wants_value(key, known))
-            value = given(all_[at_], key, known, mark()), ++at_;
-        else if (equals == argument.npos)
+        else if (equals == argument.npos && wants_value(key, known)) {
+            value = given(all_[at_], key, known, mark());
+            ++at_;
+        } else if (equals == argument.npos)
             value = flag(key, known, key_mark);
         if (!common && item.entries[0].value.is_null()) {
             const Mark where = item.entries[0].value.mark;
@@ -297,10 +391,13 @@ class Parser {
     }
 
     void trailing_option(Value& item) {
-        if (is_option(all_[at_]))
-            option_of_block(item), ++at_;
-        else
-            wrong(fmt::format("expected ! or the end, found '{}'", all_[at_])), ++at_;
+        if (is_option(all_[at_])) {
+            option_of_block(item);
+            ++at_;
+        } else {
+            wrong(fmt::format("expected ! or the end, found '{}'", all_[at_]));
+            ++at_;
+        }
     }
 
     /// A common key of a branch or foreach; at_ ends on its last argument.
@@ -323,7 +420,8 @@ class Parser {
     Mark inside(std::size_t offset) const {
         Mark m = mark();
         if (m.length != static_cast<int>(all_[at_].size()) || m.length <= static_cast<int>(offset)) return m;
-        m.column += static_cast<int>(offset), m.length -= static_cast<int>(offset);
+        m.column += static_cast<int>(offset);
+        m.length -= static_cast<int>(offset);
         return m;
     }
     void wrong(std::string message, std::string hint = {}) {

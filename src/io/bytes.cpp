@@ -101,9 +101,11 @@ Bytes inflated(Span bytes, std::size_t limit, const std::string& name) {
         const uInt room = static_cast<uInt>(std::min<std::size_t>(out.size() - size, 1 << 30));
         z.stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data() + at));
         z.stream.next_out = reinterpret_cast<Bytef*>(out.data() + size);
-        z.stream.avail_in = in, z.stream.avail_out = room;
+        z.stream.avail_in = in;
+        z.stream.avail_out = room;
         const int state = ::inflate(&z.stream, Z_NO_FLUSH);
-        at += in - z.stream.avail_in, size += room - z.stream.avail_out;
+        at += in - z.stream.avail_in;
+        size += room - z.stream.avail_out;
         if (size > limit) too_large(name, limit);
         if (state == Z_STREAM_END) {
             if (!is_gzip(bytes.subspan(at))) break;
@@ -201,9 +203,11 @@ Bytes gzipped(Span bytes) {
         const uInt room = static_cast<uInt>(std::min<std::size_t>(out.size() - size, 1 << 30));
         z.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data() + at));
         z.next_out = reinterpret_cast<Bytef*>(out.data() + size);
-        z.avail_in = in, z.avail_out = room;
+        z.avail_in = in;
+        z.avail_out = room;
         state = ::deflate(&z, at + in == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
-        at += in - z.avail_in, size += room - z.avail_out;
+        at += in - z.avail_in;
+        size += room - z.avail_out;
     }
     ::deflateEnd(&z);
     out.resize(size);

@@ -46,7 +46,7 @@ const Codec& choose(const Input& input, ReadLog& log) {
             log.warnings.push_back({Severity::warning, "W-FORMAT",
                                     fmt::format("'{}' is read as {}, which it is, whatever its name",
                                                 input.name(), surely->name),
-                                    file_mark(input.name()), ""});
+                                    file_mark(input.name()), "", false});
         return *surely;
     }
     if (by_name) return *by_name;
@@ -97,7 +97,8 @@ void warn_of_size(const Part& part, ReadLog& log) {
                      "the range of numbers (null, or 0), and stages may round badly",
                      part.name, length),
          {},
-         "transform: {scale: ...} brings it near 1"});
+         "transform: {scale: ...} brings it near 1",
+         false});
 }
 
 /// The file's name without directory, .gz and suffix, for parts that bear none.

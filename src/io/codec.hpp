@@ -10,9 +10,14 @@
 
 namespace facetmill::io {
 
+/// A warning of a reader.
+struct ReadWarning : Diagnostic {
+    bool is_loss = true; ///< something of the file is not in the scene, or not as the file has it
+};
+
 /// What a reader wants to tell besides the scene: warnings with stable ids, and other files it read.
 struct ReadLog {
-    std::vector<Diagnostic> warnings;
+    std::vector<ReadWarning> warnings;
     std::vector<std::filesystem::path> files; ///< neighbours that were read (buffers, images, .mtl)
 };
 
@@ -79,7 +84,7 @@ struct Capabilities {
 /// A capability that is there or not, by its name.
 struct Capability {
     const char* name;
-    bool Capabilities::* flag;
+    bool Capabilities::*flag;
 };
 const std::vector<Capability>& capabilities();
 

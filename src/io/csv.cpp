@@ -88,9 +88,10 @@ class Table {
             if (line.empty()) continue;
             double value = 0;
             std::string_view peek = line;
-            if (first && !take_number(peek, value))
-                delimiter_ = delimiter_of(whole), places_ = places_of(names_, cells_of(whole, delimiter_));
-            else if (places_.empty())
+            if (first && !take_number(peek, value)) {
+                delimiter_ = delimiter_of(whole);
+                places_ = places_of(names_, cells_of(whole, delimiter_));
+            } else if (places_.empty())
                 read_first(line);
             else
                 read_places(whole);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Temporaries held open with a lock at a time; beyond it the process id alone says that they are alive.
-constexpr std::size_t most_locks = 128;
+constexpr std::size_t max_locks = 128;
 
 [[noreturn]] void cannot_write(const Outputs::File& file, int error) {
     try {
@@ -96,7 +96,7 @@ void Outputs::stage(File& file, Span bytes) {
         keep(file.clean_up);
         throw;
     }
-    if (files_.size() >= most_locks) ::close(std::exchange(file.lock, -1));
+    if (files_.size() >= max_locks) ::close(std::exchange(file.lock, -1));
 }
 
 void Outputs::protect(const fs::path& input, std::string sum) {

@@ -204,7 +204,10 @@ double allowed(const Scene& scene, const WriteSettings& settings) {
     for (const auto& part : scene.parts) {
         Box own;
         const Transform to_world = effective(part);
-        for (const Vec3& p : part.mesh.positions) own.add(p), world.add(to_world.point(p));
+        for (const Vec3& p : part.mesh.positions) {
+            own.add(p);
+            world.add(to_world.point(p));
+        }
         if (own.empty()) continue;
         double scale = 0; // the longest column is at most this times a unit of the part
         for (const auto& row : to_world.m)

@@ -80,7 +80,10 @@ bool scan_real(const char*& at, const char* end, double& value) {
         int power = 0;
         const char* const first = q;
         for (; q < end && is_digit(*q) && q - first < 5; ++q) power = power * 10 + (*q - '0');
-        if (q > first) exponent += down ? -power : power, p = q;
+        if (q > first) {
+            exponent += down ? -power : power;
+            p = q;
+        }
     }
     const bool more = p < end && (is_digit(*p) || *p == '+' || *p == '-');
     if (more || exponent < -22 || exponent > 22) return scan_real_slowly(at, end, value);
@@ -150,7 +153,10 @@ double Text::real(const char* what) {
     skip_space();
     double value = 0;
     const char* const first = at_;
-    if (!scan_real(at_, end_, value) || !ends_word()) at_ = first, expected(what);
+    if (!scan_real(at_, end_, value) || !ends_word()) {
+        at_ = first;
+        expected(what);
+    }
     return value;
 }
 
@@ -166,7 +172,10 @@ std::int64_t Text::integer(const char* what) {
     skip_space();
     std::int64_t value = 0;
     const char* const first = at_;
-    if (!scan_integer(at_, end_, value) || !ends_word()) at_ = first, expected(what);
+    if (!scan_integer(at_, end_, value) || !ends_word()) {
+        at_ = first;
+        expected(what);
+    }
     return value;
 }
 

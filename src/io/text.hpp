@@ -30,15 +30,27 @@ class Text {
         : begin_(text.data()), at_(text.data()), end_(text.data() + text.size()), name_(&name), id_(id),
           comment_(comment) {}
 
-    bool at_end() { return skip_space(), at_ == end_; }
+    bool at_end() {
+        skip_space();
+        return at_ == end_;
+    }
     /// Whether nothing is left on this line.
-    bool at_line_end() { return skip_blanks(), at_ == end_ || is_line_end(*at_); }
+    bool at_line_end() {
+        skip_blanks();
+        return at_ == end_ || is_line_end(*at_);
+    }
     /// Goes to the next line, whatever is left on this one; false at the end of the text.
     bool next_line();
     /// The next word, lines crossed; empty at the end.
-    std::string_view word() { return skip_space(), take_word(); }
+    std::string_view word() {
+        skip_space();
+        return take_word();
+    }
     /// The next word on this line; empty at its end.
-    std::string_view word_on_line() { return skip_blanks(), take_word(); }
+    std::string_view word_on_line() {
+        skip_blanks();
+        return take_word();
+    }
     /// What is left of this line without blanks at both ends.
     std::string_view rest_of_line();
 

@@ -7,7 +7,7 @@ namespace facetmill::pipeline {
 
 namespace {
 
-constexpr std::size_t most_arms = 10'000;
+constexpr std::size_t max_arms = 10'000;
 
 /// A variable of a foreach and the values it runs over.
 struct Axis {
@@ -82,8 +82,8 @@ std::vector<Arm> Planner::foreach_arms(const Value& variables, const Value& body
         combinations *= static_cast<double>(axes.back().values.size());
     }
     std::vector<Arm> arms;
-    if (combinations > static_cast<double>(most_arms)) {
-        problems_.add(variables.mark, "E-FOREACH", fmt::format("more than {} combinations", most_arms));
+    if (combinations > static_cast<double>(max_arms)) {
+        problems_.add(variables.mark, "E-FOREACH", fmt::format("more than {} combinations", max_arms));
         return arms;
     }
     for_each_combination(axes, [&](const std::vector<std::size_t>& at) {

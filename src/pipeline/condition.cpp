@@ -85,7 +85,10 @@ Condition read_condition(const Value& value, const Scope& scope, Problems& probl
     if (!found) {
         const Value is = resolved(value, scope, problems);
         if (is.deferred) return condition;
-        if (const auto truth = is.as_bool()) return condition.known = truth, condition;
+        if (const auto truth = is.as_bool()) {
+            condition.known = truth;
+            return condition;
+        }
         problems.add(
             value.mark, "E-WHEN",
             fmt::format("expected true, false, a comparison or properties, found {}", is.described()),

@@ -116,9 +116,10 @@ Json steps_json(const Steps& steps, const Headers& headers) {
     Json all = Json::array();
     for (const auto& step : steps) {
         Json one = {{"name", step.name}, {"path", step.path}};
-        if (step.stage)
-            one["stage"] = step.stage->name, one["options"] = options_json(step);
-        else
+        if (step.stage) {
+            one["stage"] = step.stage->name;
+            one["options"] = options_json(step);
+        } else
             one["stage"] = step.kind == Step::Kind::branch ? "branch" : "foreach";
         if (const auto lengths = headers.lengths.find(step.path); lengths != headers.lengths.end())
             one["resolved"] = lengths->second;
@@ -154,11 +155,11 @@ std::string header_text(const Headers& headers, const std::filesystem::path& pat
     std::string text = header.format;
     text += header.unit == Unit::unknown ? ", no unit" : fmt::format(", in {}", to_string(header.unit));
     if (header.up != UpAxis::unknown) text += fmt::format(", {} up", to_string(header.up));
-    constexpr std::size_t most = 8;
+    constexpr std::size_t max_parts = 8;
     const std::vector<std::string> named(header.parts.begin(),
-                                         header.parts.begin() + std::min(most, header.parts.size()));
+                                         header.parts.begin() + std::min(max_parts, header.parts.size()));
     if (!named.empty()) text += "; parts: " + list_of(named);
-    if (header.parts.size() > most) text += fmt::format(" and {} more", header.parts.size() - most);
+    if (header.parts.size() > max_parts) text += fmt::format(" and {} more", header.parts.size() - max_parts);
     return fmt::format("  ({})", text);
 }
 

@@ -14,7 +14,7 @@ namespace facetmill::pipeline {
 
 namespace {
 
-constexpr std::size_t most_nodes = 100'000; ///< with all aliases written out
+constexpr std::size_t max_nodes = 100'000; ///< with all aliases written out
 constexpr std::size_t deepest = 64;
 
 /// Ends the parse after a problem that makes the rest worthless.
@@ -154,9 +154,10 @@ class Builder : public YAML::EventHandler {
             value.quoted = true;
         else if ((name == "int" || name == "float" || name == "bool") && value.is_scalar())
             value.quoted = false;
-        else if (name == "null" && value.is_scalar())
-            value.kind = Value::Kind::null, value.text.clear();
-        else if (!((name == "seq" && value.is_list()) || (name == "map" && value.is_map())))
+        else if (name == "null" && value.is_scalar()) {
+            value.kind = Value::Kind::null;
+            value.text.clear();
+        } else if (!((name == "seq" && value.is_list()) || (name == "map" && value.is_map())))
             problems_.add(
                 value.mark, "E-YAML",
                 fmt::format("the tag {} has no meaning here", name.empty() ? tag : fmt::format("!!{}", name)),
@@ -166,11 +167,11 @@ class Builder : public YAML::EventHandler {
     /// Counts what is about to be added.
     void grow(Size size, const Mark& where) {
         nodes_ += size.nodes;
-        if (nodes_ > most_nodes || stack_.size() + size.depth > deepest) {
+        if (nodes_ > max_nodes || stack_.size() + size.depth > deepest) {
             problems_.add(
                 where, "E-EXPANSION",
-                nodes_ > most_nodes
-                    ? fmt::format("with its aliases written out the file has more than {} values", most_nodes)
+                nodes_ > max_nodes
+                    ? fmt::format("with its aliases written out the file has more than {} values", max_nodes)
                     : fmt::format("nested more than {} levels deep", deepest));
             throw Stop{};
         }
@@ -295,12 +296,12 @@ Value parse_text(const std::string& text, const SourceIndex& index, const std::s
 Value parse_yaml(std::shared_ptr<const SourceText> source, Problems& problems) {
     const SourceIndex index(std::move(source));
     if (!check_text(index, problems)) return {};
-    constexpr std::size_t most_unquoted = 100; // then the others wait for the next run
+    constexpr std::size_t max_unquoted = 100; // then the others wait for the next run
     std::string text = index.text();
     std::set<std::size_t> unknown;
     std::vector<Diagnostic> found;
     Value root;
-    for (bool whole = false; !whole && unknown.size() < most_unquoted;) {
+    for (bool whole = false; !whole && unknown.size() < max_unquoted;) {
         Problems of_this_parse;
         try {
             root = parse_text(text, index, unknown, of_this_parse);

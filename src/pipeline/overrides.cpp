@@ -90,7 +90,7 @@ void Overrides::apply(const std::vector<std::string>& names, const StageInfo& st
 }
 
 void Overrides::check_all_used(const std::set<std::string>& names, Problems& problems) const {
-    constexpr std::size_t most_listed = 20;
+    constexpr std::size_t max_listed = 20;
     const std::vector<std::string> all(names.begin(), names.end());
     if (update_baselines_ && !any_baseline_)
         problems.add(command_line_mark("--update-baseline", ""), "E-BASELINE",
@@ -99,7 +99,7 @@ void Overrides::check_all_used(const std::set<std::string>& names, Problems& pro
         if (!change.used)
             problems.add(change.where, "E-SET", fmt::format("the pipeline has no stage '{}'", change.target),
                          all.empty() ? ""
-                         : all.size() <= most_listed
+                         : all.size() <= max_listed
                              ? suggestion(change.target, all)
                              : did_you_mean(change.target, all, "facetmill plan lists them"));
 }

@@ -168,11 +168,11 @@ class Params {
                        "leave it out, or say type: number");
         if (!good || !options.min || !options.max) return good;
         bool readable = true;
-        const auto least =
+        const auto min =
             checked(options.type, Value::scalar(*options.min, place("min")), readable, problems_);
-        const auto most =
+        const auto max =
             checked(options.type, Value::scalar(*options.max, place("max")), readable, problems_);
-        if (least && most && *least > *most)
+        if (min && max && *min > *max)
             refuse(
                 "min",
                 fmt::format("no value of '{}' is between {} and {}", entry.key, *options.min, *options.max),
@@ -219,13 +219,13 @@ class Params {
                 *limit = checked(options.type, Value::scalar(**text, entry.key_mark), limit_good, problems_);
             }
         if (!magnitude || range.holds(*magnitude)) return;
-        const std::string limits = options.min && options.max
+        const std::string bounds = options.min && options.max
                                        ? fmt::format("between {} and {}", *options.min, *options.max)
                                    : options.min ? fmt::format("at least {}", *options.min)
                                                  : fmt::format("at most {}", *options.max);
         problems_.add(
             value.mark, "E-RANGE",
-            fmt::format("the parameter '{}' must be {}, found {}", entry.key, limits, value.described()));
+            fmt::format("the parameter '{}' must be {}, found {}", entry.key, bounds, value.described()));
     }
 
     static std::optional<Comparable> comparable(const Value::Entry& entry, const ParamOptions& options,

@@ -3,10 +3,10 @@
 #include "base/parallel.hpp"
 #include "base/point_json.hpp"
 #include "geometry/inspect/inspect.hpp"
-#include "mesh/unreferenced.hpp"
-#include "mesh/power_scale.hpp"
 #include "io/png.hpp"
 #include "mesh/invariants.hpp"
+#include "mesh/power_scale.hpp"
+#include "mesh/unreferenced.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
 #include "report/render.hpp"
@@ -90,8 +90,10 @@ class Runner {
         keeps_loaded_ = compares_with_load(plan_.steps);
         takes_pictures_ = std::any_of(plan_.reports.begin(), plan_.reports.end(),
                                       [](const std::string& path) { return path.ends_with(".html"); });
-        for (const auto& warning : plan_.warnings)
-            failures_.warn(warning), record().warnings.push_back(warning);
+        for (const auto& warning : plan_.warnings) {
+            failures_.warn(warning);
+            record().warnings.push_back(warning);
+        }
         for (const auto& missing : missing_inputs(plan_)) failures_.add(ErrorKind::missing, {missing});
         for (const auto& error : read_headers(plan_).errors) failures_.add(error);
         Scene scene;
@@ -202,8 +204,8 @@ class Runner {
 
     /// A page shows what a stage changed, as long as it stays small.
     void add_picture(const Scene& scene, report::StageRecord& stage) {
-        constexpr std::size_t most_bytes = 4 << 20;
-        if (picture_bytes_ > most_bytes) return;
+        constexpr std::size_t max_bytes = 4 << 20;
+        if (picture_bytes_ > max_bytes) return;
         failures_.guarded({}, "a picture", [&] {
             std::string picture = io::base64(io::png(picture_of(scene)));
             if (picture == last_picture_) return;
@@ -292,8 +294,10 @@ class Runner {
         std::vector<std::string> names;
         std::vector<std::size_t> parts;
         for (std::size_t p = 0; p < scene.parts.size(); ++p)
-            if (step.parts.selects(scene.parts[p], scene))
-                names.push_back(scene.parts[p].name), parts.push_back(p);
+            if (step.parts.selects(scene.parts[p], scene)) {
+                names.push_back(scene.parts[p].name);
+                parts.push_back(p);
+            }
         if (names.empty()) warn_of_no_parts(step, scene);
         Problems problems;
         const auto arms = step.arms_of_parts(names, problems);
@@ -369,7 +373,9 @@ class Runner {
 
 void report_refusal(const Plan& plan, const Problems& problems) {
     report::RunRecord record;
-    record.pipeline = plan.name, record.about = plan.about, record.params = plan.params;
+    record.pipeline = plan.name;
+    record.about = plan.about;
+    record.params = plan.params;
     record.exit_code = static_cast<int>(ErrorKind::usage);
     for (const auto& d : problems.all())
         if (d.severity == Severity::error)

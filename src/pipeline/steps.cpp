@@ -107,11 +107,11 @@ Steps Planner::steps(const Value& list, const Scope& scope, const Position& posi
 }
 
 bool Planner::count_step(const Mark& where) {
-    constexpr std::size_t most_steps = 50'000;
-    if (steps_ > most_steps) return false; // said once
-    if (++steps_ <= most_steps) return true;
+    constexpr std::size_t max_steps = 50'000;
+    if (steps_ > max_steps) return false; // said once
+    if (++steps_ <= max_steps) return true;
     problems_.add(where, "E-FOREACH",
-                  fmt::format("with every foreach written out there are more than {} stages", most_steps),
+                  fmt::format("with every foreach written out there are more than {} stages", max_steps),
                   "foreach inside foreach multiplies; take fewer values");
     return false;
 }
@@ -120,7 +120,10 @@ std::optional<Step> Planner::step(const Value& item, const Scope& scope, const P
                                   std::size_t index, bool& has_scene) {
     Value as_map = item;
     if (item.is_scalar()) {
-        if (!is_stage(item.text)) return no_such_stage(item.text, item.mark, problems_), std::nullopt;
+        if (!is_stage(item.text)) {
+            no_such_stage(item.text, item.mark, problems_);
+            return std::nullopt;
+        }
         as_map = Value::map({{item.text, item.mark, Value{}}}, item.mark);
         as_map.entries[0].value.mark = item.mark;
     }

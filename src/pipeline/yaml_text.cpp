@@ -5,6 +5,81 @@
 
 namespace facetmill::pipeline {
 
+namespace {
+
+constexpr std::size_t max_text = std::size_t{4} << 20;
+
+/// Bytes of the UTF-8 sequence at i; 0 when it is none (cut short, overlong, a surrogate, beyond U+10FFFF).
+std::size_t sequence_length(std::string_view text, std::size_t i) {
+    const auto byte = [&](std::size_t k) {
+        return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U;
+    };
+    const unsigned first = byte(i);
+    if (first < 0x80) return 1;
+    const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
+                               : (first & 0xF0) == 0xE0        ? 3
+                               : first >= 0xF0 && first < 0xF5 ? 4
+                                                               : 0;
+    for (std::size_t k = 1; k < length; ++k)
+        if ((byte(i + k) & 0xC0) != 0x80) return 0;
+    const unsigned second = byte(i + 1);
+    const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
+                     (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
+    return bad ? 0 : length;
+}
+
+bool is_forbidden_control(char c) {
+    const auto u = static_cast<unsigned char>(c);
+    return (u < 0x20 && c != '\t' && c != '\n' && c != '\r') || u == 0x7F;
+}
+
+} // namespace
+
+SourceIndex::SourceIndex(std::shared_ptr<const SourceText> source)
+    : source_(std::move(source)), line_begins_{0} {
+    for (std::size_t i = 0; i < text().size(); ++i)
+        if (text()[i] == '\n') line_begins_.push_back(i + 1);
+}
+
+int SourceIndex::characters(std::size_t begin, std::size_t end) const {
+    const auto from = text().begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto to = text().begin() + static_cast<std::ptrdiff_t>(end);
+    return static_cast<int>(std::count_if(from, to, [](unsigned char c) { return (c & 0xC0) != 0x80; }));
+}
+
+Mark SourceIndex::mark(std::size_t offset, int length) const {
+    offset = std::min(offset, text().size());
+    const auto next = std::upper_bound(line_begins_.begin(), line_begins_.end(), offset);
+    const auto line = static_cast<int>(next - line_begins_.begin());
+    return {source_, line, characters(*(next - 1), offset) + 1, std::max(1, length)};
+}
+
+bool check_text(const SourceIndex& source, Problems& problems) {
+    const std::string& text = source.text();
+    if (text.size() > max_text) {
+        problems.add(source.mark(0), "E-YAML",
+                     fmt::format("a pipeline of {} bytes is too large", text.size()),
+                     fmt::format("the limit is {} bytes; is this a pipeline?", max_text));
+        return false;
+    }
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = sequence_length(text, i);
+        if (length == 0 || is_forbidden_control(text[i])) {
+            const auto byte = static_cast<unsigned>(static_cast<unsigned char>(text[i]));
+            problems.add(source.mark(i), "E-YAML",
+                         length == 0
+                             ? fmt::format("the byte 0x{:02x} is no UTF-8", byte)
+                             : fmt::format("the control character 0x{:02x} may not be in a pipeline", byte),
+                         "a pipeline is a text in UTF-8");
+            return false;
+        }
+        i += length;
+    }
+    return true;
+}
+
+// --- yaml text
+
 std::size_t content_at(const std::string& text, std::size_t at) {
     while (at < text.size() && (text[at] == '&' || text[at] == '!')) {
         at = std::min(text.size(), text.find_first_of(" \t\r\n,[]{}", at));

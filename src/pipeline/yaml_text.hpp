@@ -1,13 +1,37 @@
 #pragma once
-// What stands in the text of a YAML file where its parser points.
+// The text of a pipeline as a person sees it: offsets to places, what no text may hold, and what stands where
+// the parser of YAML points.
 
-#include "pipeline/source.hpp"
+#include "base/error.hpp"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace facetmill::pipeline {
+
+/// Turns byte offsets of a text into marks.
+class SourceIndex {
+  public:
+    explicit SourceIndex(std::shared_ptr<const SourceText> source);
+
+    const std::string& text() const { return source_->text; }
+    /// The place of the byte at offset (clamped to the text), underlining so many characters.
+    Mark mark(std::size_t offset, int length = 1) const;
+    /// Characters (UTF-8) in the bytes [begin, end).
+    int characters(std::size_t begin, std::size_t end) const;
+
+  private:
+    std::shared_ptr<const SourceText> source_;
+    std::vector<std::size_t> line_begins_;
+};
+
+/// Whether the text is UTF-8 without control characters and of bearable size; adds E-YAML at the first place
+/// that is not. YAML allows no control characters, and a NUL or EOT would end some parsers early without a
+/// word.
+bool check_text(const SourceIndex& source, Problems& problems);
 
 /// Where the content of a node begins, behind its anchor and tag.
 std::size_t content_at(const std::string& text, std::size_t at);

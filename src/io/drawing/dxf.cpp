@@ -50,15 +50,22 @@ class Writer {
 };
 
 void layers(Writer& w, std::size_t sheets) {
-    w.group(0, "SECTION"), w.group(2, "TABLES");
-    w.group(0, "TABLE"), w.group(2, "LAYER"), w.group(70, 2 * sheets);
+    w.group(0, "SECTION");
+    w.group(2, "TABLES");
+    w.group(0, "TABLE");
+    w.group(2, "LAYER");
+    w.group(70, 2 * sheets);
     for (std::size_t i = 1; i <= sheets; ++i)
         for (const auto& [name, colour] :
              {std::pair{"SECTION_", std::size_t{7}}, std::pair{"HATCH_", std::size_t{8}}}) {
-            w.group(0, "LAYER"), w.group(2, name + std::to_string(i)), w.group(70, std::size_t{0});
-            w.group(62, colour), w.group(6, "CONTINUOUS");
+            w.group(0, "LAYER");
+            w.group(2, name + std::to_string(i));
+            w.group(70, std::size_t{0});
+            w.group(62, colour);
+            w.group(6, "CONTINUOUS");
         }
-    w.group(0, "ENDTAB"), w.group(0, "ENDSEC");
+    w.group(0, "ENDTAB");
+    w.group(0, "ENDSEC");
 }
 
 void polyline(Writer& w, polygon::Ring ring, bool closed, const std::string& layer, double z) {
@@ -79,12 +86,16 @@ std::string to_dxf(const Drawing& drawing) {
     Writer w;
     w.group(999, "sections by facetmill, in the frame of their plane; unit: " +
                      std::string(to_string(drawing.unit)));
-    w.group(0, "SECTION"), w.group(2, "HEADER");
-    w.group(9, "$ACADVER"), w.group(1, "AC1009");
-    w.group(9, "$INSUNITS"), w.group(70, static_cast<std::size_t>(insunits(drawing.unit)));
+    w.group(0, "SECTION");
+    w.group(2, "HEADER");
+    w.group(9, "$ACADVER");
+    w.group(1, "AC1009");
+    w.group(9, "$INSUNITS");
+    w.group(70, static_cast<std::size_t>(insunits(drawing.unit)));
     w.group(0, "ENDSEC");
     layers(w, drawing.sheets.size());
-    w.group(0, "SECTION"), w.group(2, "ENTITIES");
+    w.group(0, "SECTION");
+    w.group(2, "ENTITIES");
     for (std::size_t i = 0; i < drawing.sheets.size(); ++i) {
         const Sheet& sheet = drawing.sheets[i];
         const double z = dot(sheet.frame.origin, sheet.frame.normal);
@@ -99,7 +110,8 @@ std::string to_dxf(const Drawing& drawing) {
             }
         }
     }
-    w.group(0, "ENDSEC"), w.group(0, "EOF");
+    w.group(0, "ENDSEC");
+    w.group(0, "EOF");
     return std::move(w.text);
 }
 

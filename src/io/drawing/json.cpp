@@ -102,7 +102,8 @@ std::string to_json(const Drawing& drawing) {
             Json hatch = Json::array();
             for (const auto& s : part.hatch) hatch.push_back(Json::array({s.a.x, s.a.y, s.b.x, s.b.y}));
             Json j = section_json(part.section, true);
-            j["name"] = part.name, j["hatch"] = std::move(hatch);
+            j["name"] = part.name;
+            j["hatch"] = std::move(hatch);
             parts.push_back(std::move(j));
         }
         sheets.push_back(
@@ -131,7 +132,7 @@ std::string drawing_for(const std::string& path, const Drawing& drawing) {
 
 namespace {
 
-constexpr std::size_t most_listed = 200;
+constexpr std::size_t max_listed = 200;
 
 void add(DrawingTotals& totals, const Section& s) {
     totals.area += s.area;
@@ -154,7 +155,7 @@ Json sheet_json(const Sheet& sheet, std::size_t& listed) {
         area += part.section.area;
         contours += count;
         listed += count;
-        if (listed > most_listed || count == 0) continue;
+        if (listed > max_listed || count == 0) continue;
         parts.push_back(section_json(part.section, false));
         parts.back()["part"] = part.name;
     }

@@ -36,9 +36,15 @@ Box bounds_of(const Drawing& drawing) {
     for (const auto& sheet : drawing.sheets)
         for (const auto& part : sheet.parts) {
             for (const Vec2& p : part.section.points) box.add(Vec3{p.x, p.y, 0});
-            for (const auto& s : part.hatch) box.add(Vec3{s.a.x, s.a.y, 0}), box.add(Vec3{s.b.x, s.b.y, 0});
+            for (const auto& s : part.hatch) {
+                box.add(Vec3{s.a.x, s.a.y, 0});
+                box.add(Vec3{s.b.x, s.b.y, 0});
+            }
         }
-    if (box.empty()) box.add(Vec3{}), box.add(Vec3{1, 1, 0});
+    if (box.empty()) {
+        box.add(Vec3{});
+        box.add(Vec3{1, 1, 0});
+    }
     return box;
 }
 
@@ -65,7 +71,8 @@ void draw(std::string& out, const DrawnPart& part) {
     if (!part.hatch.empty()) {
         out += "<path class=\"hatch\" d=\"";
         for (const auto& h : part.hatch)
-            out += "M" + to_string(h.a.x) + ' ' + to_string(h.a.y) + "L" + to_string(h.b.x) + ' ' + to_string(h.b.y);
+            out += "M" + to_string(h.a.x) + ' ' + to_string(h.a.y) + "L" + to_string(h.b.x) + ' ' +
+                   to_string(h.b.y);
         out += "\"/>\n";
     }
     out += "</g>\n";

@@ -28,7 +28,8 @@ void append_arc(const Corner& a, const Vec2& b, std::vector<Vec2>& out) {
     const Vec2 chord = b - a.at;
     // From the chord's middle, the centre is off by (1 - bulge^2) / (4 bulge) of the chord, to the left.
     const double off = (1 - a.bulge * a.bulge) / (4 * a.bulge);
-    const Vec2 centre = (a.at + b) * 0.5 + Vec2{-chord.y, chord.x} * off, from = a.at - centre;
+    const Vec2 centre = (a.at + b) * 0.5 + Vec2{-chord.y, chord.x} * off;
+    const Vec2 from = a.at - centre;
     const int pieces = static_cast<int>(std::ceil(std::fabs(angle) / step));
     for (int i = 1; i < pieces; ++i) {
         const double c = cosine(angle * i / pieces), s = sine(angle * i / pieces);
@@ -279,7 +280,10 @@ class Wkt {
     void skip() {
         while (at_ < end_ && (*at_ == ' ' || *at_ == '\t' || *at_ == '\n' || *at_ == '\r')) ++at_;
     }
-    bool at_end() { return skip(), at_ == end_; }
+    bool at_end() {
+        skip();
+        return at_ == end_;
+    }
     [[noreturn]] void fail(const std::string& message) const {
         malformed(name_, 1 + static_cast<int>(std::count(begin_, at_, '\n')), "E-WKT",
                   fmt::format("{} at character {}", message, at_ - begin_ + 1));

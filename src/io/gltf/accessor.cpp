@@ -9,7 +9,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-constexpr std::size_t most_zeros = std::size_t{256} << 20;
+constexpr std::size_t max_zeros = std::size_t{256} << 20;
 
 /// Copies count elements of `components` numbers, `stride` bytes apart, to where they belong.
 template <class T, class Where>
@@ -172,7 +172,7 @@ AttributeData decode(Source& source, const Accessor& a) {
         stride = stride_of(source, a.place, size);
         from =
             elements(a.place, source.view(*view), a.place.natural_or("byteOffset", 0), a.count, stride, size);
-    } else if (a.count > most_zeros / size) {
+    } else if (a.count > max_zeros / size) {
         throw Error(
             ErrorKind::limit, "E-LIMIT",
             fmt::format("{}: {} elements of zeros, without bytes in the file", a.place.path(), a.count));

@@ -80,7 +80,7 @@ void unmerge(Mesh& mesh) {
 
 void read_parts(Scene& scene, Source& source, const ReadSettings& settings, ReadLog& log) {
     const auto frames = node_frames(source.json(), [&](const char* id, std::string message) {
-        log.warnings.push_back({Severity::warning, id, std::move(message), {}, ""});
+        log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
     std::map<int, std::size_t> first_part; // of each mesh: instances copy it
     std::size_t vertices = 0;

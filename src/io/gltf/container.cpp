@@ -108,7 +108,10 @@ bool read_file(std::vector<unsigned char>* out, std::string* error, const std::s
     std::error_code failed;
     const auto size = fs::file_size(neighbour.path, failed);
     std::ifstream file(neighbour.path, std::ios::binary);
-    if (failed || !file) return *error = "cannot be opened", false;
+    if (failed || !file) {
+        *error = "cannot be opened";
+        return false;
+    }
     // glTF allows files longer than byteLength; tinygltf does not.
     out->resize(std::min<std::size_t>(size, neighbour.bytes));
     file.read(reinterpret_cast<char*>(out->data()), static_cast<std::streamsize>(out->size()));

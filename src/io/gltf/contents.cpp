@@ -25,7 +25,8 @@ Bytes decoded(std::string_view uri) {
                         : c == '/'             ? 63
                                                : -1;
         if (six < 0) continue;
-        bits = bits << 6 | static_cast<std::uint32_t>(six), count += 6;
+        bits = bits << 6 | static_cast<std::uint32_t>(six);
+        count += 6;
         if (count < 8) continue;
         count -= 8;
         bytes.push_back(static_cast<std::byte>(bits >> count & 0xff));

@@ -26,7 +26,10 @@ std::vector<Table> tables_of(const Mesh& mesh, bool shared) {
     std::vector<Table> tables;
     const auto collect = [&](Table& table, const std::vector<Index>& corners) {
         for (const Index w : corners)
-            if (number[w] == none) number[w] = 0, table.wedges.push_back(w);
+            if (number[w] == none) {
+                number[w] = 0;
+                table.wedges.push_back(w);
+            }
         std::sort(table.wedges.begin(), table.wedges.end());
         for (Index i = 0; i < table.wedges.size(); ++i) number[table.wedges[i]] = i;
     };
@@ -48,10 +51,10 @@ std::vector<Table> tables_of(const Mesh& mesh, bool shared) {
 }
 
 void check_range(const Mesh& mesh, const std::string& name) {
-    constexpr double most = 3.4028234663852886e38;
+    constexpr double max_float = 3.4028234663852886e38;
     const Box box = mesh.bounds();
     for (std::size_t i = 0; i < 3 && !box.empty(); ++i)
-        if (!(box.min[i] >= -most && box.max[i] <= most))
+        if (!(box.min[i] >= -max_float && box.max[i] <= max_float))
             throw Error(ErrorKind::stage, "E-RANGE",
                         fmt::format("part '{}' has positions that float32 cannot hold, up to {}", name,
                                     std::max(-box.min[i], box.max[i])));
@@ -408,7 +411,10 @@ Json manifold_extension(Builder& builder, const Mesh& mesh, const std::vector<In
     }
     for (std::size_t c = 0; c < indices.size(); ++c) {
         const Index v = first[mesh.vertex_of_wedge(wedges[indices[c]])];
-        if (v != indices[c]) at.push_back(static_cast<Index>(c)), to.push_back(v);
+        if (v != indices[c]) {
+            at.push_back(static_cast<Index>(c));
+            to.push_back(v);
+        }
     }
     const bool wide = wedges.size() > 65535;
     Json accessor = {{"bufferView", index_view},

@@ -31,7 +31,7 @@ class Place {
     Place at(std::size_t i) const;   ///< an item of an array
     std::size_t size() const;        ///< items of an array
 
-    std::uint64_t natural(std::uint64_t most = UINT64_MAX) const; ///< an integer from 0 to most
+    std::uint64_t natural(std::uint64_t max = UINT64_MAX) const;  ///< an integer from 0 to max
     std::size_t index(std::size_t count, const char* what) const; ///< a reference to one of count things
     double real() const;
     bool boolean() const;

@@ -406,7 +406,10 @@ Groups wedges_of_vertices(const Mesh& mesh) {
 void keep_representatives(Mesh& mesh, const std::vector<Index>& representative) {
     std::vector<Index> kept, number(representative.size());
     for (Index w = 0; w < representative.size(); ++w)
-        if (representative[w] == w) number[w] = static_cast<Index>(kept.size()), kept.push_back(w);
+        if (representative[w] == w) {
+            number[w] = static_cast<Index>(kept.size());
+            kept.push_back(w);
+        }
     if (kept.size() == representative.size()) return;
     parallel_for(mesh.corners.size(),
                  [&](std::size_t c) { mesh.corners[c] = number[representative[mesh.corners[c]]]; });
@@ -456,7 +459,7 @@ void merge_equal_wedges(Mesh& mesh) {
     drop_identity(mesh);
 }
 
-bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vector<Diagnostic>& warnings) {
+bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vector<ReadWarning>& warnings) {
     const auto extensions = mesh_place.find("extensions");
     const auto extension = extensions ? extensions->find("EXT_mesh_manifold") : std::nullopt;
     if (!extension) return false;
@@ -465,7 +468,8 @@ bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vec
                             "W-MANIFOLD",
                             extension->path() + ": " + why + ", so vertices are merged by position",
                             {},
-                            ""});
+                            "",
+                            false});
         return false;
     };
     const std::vector<Index> vertices = told_vertices(source, *extension, mesh);
@@ -484,8 +488,10 @@ bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vec
     mesh.wedge_vertex.resize(vertex_of.size());
     for (Index w = 0; w < vertex_of.size(); ++w) {
         const Index v = vertex_of[w] == none ? w : vertex_of[w];
-        if (number[v] == none)
-            number[v] = static_cast<Index>(positions.size()), positions.push_back(mesh.positions[v]);
+        if (number[v] == none) {
+            number[v] = static_cast<Index>(positions.size());
+            positions.push_back(mesh.positions[v]);
+        }
         mesh.wedge_vertex[w] = number[v];
     }
     mesh.positions = std::move(positions);

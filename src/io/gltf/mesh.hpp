@@ -2,13 +2,14 @@
 // A glTF mesh as a Mesh: its primitives merged for geometry, and known again by the face attribute
 // "primitive".
 
+#include "io/codec.hpp"
 #include "io/gltf/accessor.hpp"
 
 namespace facetmill::io::gltf {
 
 struct DecodedMesh {
     Mesh mesh;
-    std::vector<Diagnostic> warnings;
+    std::vector<ReadWarning> warnings;
 };
 
 /// Decodes the triangles of mesh `index`: welded by exact position into vertices, or as EXT_mesh_manifold
@@ -27,6 +28,6 @@ void merge_equal_wedges(Mesh& mesh);
 
 /// Applies EXT_mesh_manifold's merges to a mesh whose wedges are vertices; false when there are none, or they
 /// contradict the mesh (then a warning is added and nothing changed).
-bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vector<Diagnostic>& warnings);
+bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vector<ReadWarning>& warnings);
 
 } // namespace facetmill::io::gltf

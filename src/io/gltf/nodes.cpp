@@ -37,7 +37,10 @@ Transform from_parts(const Place& node) {
     auto [x, y, z, w] = numbers<4>(node, "rotation", {0, 0, 0, 1});
     const double norm = std::sqrt(x * x + y * y + z * z + w * w);
     if (!(norm > 0)) node.at("rotation").fail("the quaternion is zero");
-    x /= norm, y /= norm, z /= norm, w /= norm;
+    x /= norm;
+    y /= norm;
+    z /= norm;
+    w /= norm;
     const double r[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
                             {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
                             {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};

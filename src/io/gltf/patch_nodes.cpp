@@ -84,9 +84,10 @@ void set_matrix(Json& node, const Transform& local) {
 bool nearly_same(const Transform& a, const Transform& b) {
     double most = 0, apart = 0;
     for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 4; ++j)
-            most = std::max(most, std::abs(b.m[i][j])),
+        for (std::size_t j = 0; j < 4; ++j) {
+            most = std::max(most, std::abs(b.m[i][j]));
             apart = std::max(apart, std::abs(a.m[i][j] - b.m[i][j]));
+        }
     return apart <= 1e-12 * most;
 }
 
@@ -201,8 +202,10 @@ void copy_weights(Patch& patch, int origin, std::size_t node) {
         Json more = Json::array();
         for (const Json& channel : animation["channels"])
             if (channel["target"].value("path", "") == "weights" &&
-                channel["target"].value("node", -1) == origin)
-                more.push_back(channel), more.back()["target"]["node"] = node;
+                channel["target"].value("node", -1) == origin) {
+                more.push_back(channel);
+                more.back()["target"]["node"] = node;
+            }
         for (Json& channel : more) animation["channels"].push_back(std::move(channel));
     }
 }
@@ -254,13 +257,18 @@ std::vector<int> patch_nodes(Patch& patch, const std::vector<int>& mesh_of_part)
     std::vector<int> nodes(placed.size(), -1);
     for (std::size_t p = 0; p < patch.placements.size(); ++p) {
         const int part = patch.claimed[p], node = patch.placements[p].node;
-        if (part >= 0)
-            placed[static_cast<std::size_t>(part)] = true, nodes[static_cast<std::size_t>(part)] = node;
+        if (part >= 0) {
+            placed[static_cast<std::size_t>(part)] = true;
+            nodes[static_cast<std::size_t>(part)] = node;
+        }
         if (node >= 0)
             set_mesh(patch, static_cast<std::size_t>(node), patch.placements[p], part,
                      part < 0 ? -1 : mesh_of_part[static_cast<std::size_t>(part)]);
     }
-    if (patch.base >= 0) move_nodes(patch), drop_dead_weights(patch);
+    if (patch.base >= 0) {
+        move_nodes(patch);
+        drop_dead_weights(patch);
+    }
     for (std::size_t i = 0; i < placed.size(); ++i)
         if (!placed[i]) nodes[i] = static_cast<int>(add_node(patch, patch.scene.parts[i], mesh_of_part[i]));
     return nodes;
@@ -333,7 +341,8 @@ void patch_levels(Patch& patch, const std::vector<int>& node_of_part) {
         for (const auto& [level, part] : levels) {
             if (node_of_part[part] < 0) continue;
             const auto node = static_cast<std::size_t>(node_of_part[part]);
-            ids.push_back(node), ++linked;
+            ids.push_back(node);
+            ++linked;
             if (frames[node].parent >= 0) continue; // stands somewhere in the document already
             unroot(document, node);
             if (!patch.scene.parts[part].skinned)

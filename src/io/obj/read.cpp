@@ -94,7 +94,10 @@ std::string material_library(const std::vector<Material>& materials) {
     std::string text = "# written by facetmill\n";
     for (const auto& m : materials) {
         text += fmt::format("newmtl {}\nKd", m.name);
-        for (int c = 0; c < 3; ++c) text += ' ', put_number(text, static_cast<float>(m.base_colour[c]));
+        for (int c = 0; c < 3; ++c) {
+            text += ' ';
+            put_number(text, static_cast<float>(m.base_colour[c]));
+        }
         text += "\nd ";
         put_number(text, static_cast<float>(m.base_colour[3]));
         text += '\n';
@@ -129,7 +132,8 @@ Naming naming(const Statements& s, Event::Kind kind, const std::string& before) 
     for (const auto& e : s.events) {
         if (e.kind != kind) continue;
         hold(current, begin, e.face);
-        current = e.text, begin = e.face;
+        current = e.text;
+        begin = e.face;
     }
     hold(current, begin, s.faces());
     return n;
@@ -305,7 +309,10 @@ void compact_primitives(Mesh& mesh) {
     std::vector<Index> place(mesh.primitives.size(), none);
     std::vector<Primitive> used;
     for (Index& p : of_face) {
-        if (place[p] == none) place[p] = static_cast<Index>(used.size()), used.push_back(mesh.primitives[p]);
+        if (place[p] == none) {
+            place[p] = static_cast<Index>(used.size());
+            used.push_back(mesh.primitives[p]);
+        }
         p = place[p];
     }
     mesh.primitives = std::move(used);

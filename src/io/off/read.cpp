@@ -18,9 +18,18 @@ std::optional<Kind> kind_named(std::string_view word) {
     if (!word.ends_with("OFF")) return {};
     word.remove_suffix(3);
     Kind kind;
-    if (word.starts_with("ST")) kind.uvs = true, word.remove_prefix(2);
-    if (word.starts_with("C")) kind.colours = true, word.remove_prefix(1);
-    if (word.starts_with("N")) kind.normals = true, word.remove_prefix(1);
+    if (word.starts_with("ST")) {
+        kind.uvs = true;
+        word.remove_prefix(2);
+    }
+    if (word.starts_with("C")) {
+        kind.colours = true;
+        word.remove_prefix(1);
+    }
+    if (word.starts_with("N")) {
+        kind.normals = true;
+        word.remove_prefix(1);
+    }
     return word.empty() ? std::optional(kind) : std::nullopt;
 }
 

@@ -90,9 +90,10 @@ std::vector<Column> Body::Reader::read_ascii(const Element& e) {
     std::vector<Column> columns(e.properties.size());
     for (std::size_t p = 0; p < columns.size(); ++p) {
         columns[p].values = array_of(e.properties[p].type);
-        if (e.properties[p].list)
-            columns[p].offsets.reserve(e.count + 1), columns[p].offsets.push_back(0);
-        else
+        if (e.properties[p].list) {
+            columns[p].offsets.reserve(e.count + 1);
+            columns[p].offsets.push_back(0);
+        } else
             std::visit([&](auto& v) { v.reserve(e.count); }, columns[p].values);
     }
     for (std::size_t i = 0; i < e.count; ++i)

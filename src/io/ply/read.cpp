@@ -222,12 +222,15 @@ void add_colours(Table& table, Mesh& mesh, Domain domain) {
         if (columns.empty()) continue;
         const Type type = table.property(columns[0]).type;
         Attribute colour{"COLOR_0", domain, Role::colour, static_cast<int>(columns.size()), false, {}};
-        if (same_type(table, columns) && type == Type::uint16)
-            colour.data = interleaved<std::uint16_t>(table, columns), colour.normalised = true;
-        else if (type == Type::float32 || type == Type::float64)
+        if (same_type(table, columns) && type == Type::uint16) {
+            colour.data = interleaved<std::uint16_t>(table, columns);
+            colour.normalised = true;
+        } else if (type == Type::float32 || type == Type::float64)
             colour.data = interleaved<float>(table, columns);
-        else
-            colour.data = interleaved<std::uint8_t>(table, columns), colour.normalised = true;
+        else {
+            colour.data = interleaved<std::uint8_t>(table, columns);
+            colour.normalised = true;
+        }
         add_attribute(mesh, std::move(colour));
         return;
     }
@@ -391,7 +394,8 @@ void Builder::add_strips() {
                 if (a != b && b != c && c != a) add_face(mesh_, face);
                 turned = !turned;
             }
-            a = b, b = c;
+            a = b;
+            b = c;
         }
     }
 }

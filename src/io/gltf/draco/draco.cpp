@@ -313,12 +313,12 @@ std::vector<Place> places_of(const Mesh& mesh, const DracoInput& grid, std::opti
 
 } // namespace
 
-std::optional<int> bits_that_keep_apart(const Mesh& mesh, int least) {
+std::optional<int> bits_that_keep_apart(const Mesh& mesh, int min_bits) {
     DracoInput grid;
     set_draco_grid(mesh, grid);
     std::vector<Place> places = places_of(mesh, grid, {});
     const std::size_t given = count_places(places);
-    for (int bits = least; bits <= 24; ++bits) {
+    for (int bits = min_bits; bits <= 24; ++bits) {
         places = places_of(mesh, grid, bits);
         if (count_places(places) == given) return bits;
     }
