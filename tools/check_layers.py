@@ -89,6 +89,8 @@ def is_private(header, includer):
     room = room_of(header)
     if room is None or room_of(includer) == room:
         return False
+    if header.endswith("_fields.hpp"):  # the declared fields of a result, which reports read
+        return False
     return header not in PUBLIC and "/".join(room) not in PUBLIC and header != "/".join([*room, room[1] + ".hpp"])
 
 
