@@ -6,6 +6,7 @@
 #include "io/codec.hpp"
 #include "report/render.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::cli {
@@ -22,6 +23,8 @@ Examples
   facetmill info --self-intersections part.stl
   zcat scan.ply.gz | facetmill info -
 )";
+
+constexpr std::size_t max_components = 100, max_components_in_text = 10;
 
 struct InfoOptions {
     std::vector<std::string> meshes;
@@ -49,6 +52,17 @@ std::string entry_text(const Json& entry) {
     return more.empty() ? text : fmt::format("{} ({})", text, more);
 }
 
+/// "'body': 1240 faces, euler 2, closed, genus 0"
+std::string component_text(const Json& component) {
+    std::string text = fmt::format("'{}': {} faces, euler {}, ", text_of(component["part"]),
+                                   text_of(component["faces"]), text_of(component["euler"]));
+    if (component["closed"].get<bool>())
+        text += "closed";
+    else
+        text += fmt::format("open, {} boundary loops", text_of(component["boundary_loops"]));
+    return component["genus"].is_null() ? text : text + ", genus " + text_of(component["genus"]);
+}
+
 /// "1240 triangle, 12 degenerate": what there is of each kind.
 std::string kinds_text(const Json& kinds) {
     std::string text;
@@ -61,10 +75,23 @@ std::string kinds_text(const Json& kinds) {
     return text.empty() ? "none" : text;
 }
 
+/// A line for each of the largest components, where there are several.
+std::string components_text(const Json& components, std::int64_t omitted) {
+    if (components.size() < 2) return {};
+    std::string text = fmt::format("  {:<20}{}\n", "components_detail", "the largest first");
+    const std::size_t shown = std::min(components.size(), max_components_in_text);
+    for (std::size_t i = 0; i < shown; ++i) text += fmt::format("    {}\n", component_text(components[i]));
+    const auto more = static_cast<std::int64_t>(components.size() - shown) + omitted;
+    return more > 0 ? text + fmt::format("    and {} more\n", more) : text;
+}
+
 std::string as_text(const std::string& name, const Json& info) {
     std::string text = name + "\n";
     for (const auto& [key, value] : info.items()) {
-        if (value.is_array()) {
+        if (key == "components_omitted") continue; // told with those that are listed
+        if (key == "components_detail")
+            text += components_text(value, info["components_omitted"].get<std::int64_t>());
+        else if (value.is_array()) {
             text += fmt::format("  {:<20}{}\n", key, value.empty() ? "none" : std::to_string(value.size()));
             for (const auto& entry : value) text += fmt::format("    {}\n", entry_text(entry));
         } else if (key == "bounds" && value.is_object())
@@ -82,7 +109,11 @@ Json info_of(const std::string& mesh, const InfoOptions& options, const Console&
     io::ReadLog log;
     const Scene scene = io::read_scene(io::Input::open(mesh), {}, log, codec);
     for (const auto& warning : log.warnings) console.diagnostic(warning);
-    Json info = report::scene_json(scene, inspect(scene, {options.self_intersections}));
+    const Properties properties = inspect(scene, {options.self_intersections});
+    Json info = report::scene_json(scene, properties);
+    Json& components = info["components_detail"] = report::components_json(scene, properties, max_components);
+    const auto listed = static_cast<std::int64_t>(components.size());
+    info["components_omitted"] = properties.components - listed;
     const FaceKinds kinds = face_kinds(scene);
     info["face_kinds"] = face_kinds_fields().json(&kinds);
     return info;

@@ -1,4 +1,5 @@
 #include "diff/lines.hpp"
+#include "report/render.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,16 +11,11 @@ namespace {
 void compare_properties(const Comparing& with) {
     const Properties a = inspect(with.a), b = inspect(with.b);
     static const std::set<std::string_view> counts{"vertices", "wedges", "edges", "faces", "triangles"};
-    const auto value = [](const Property& p, const Properties& of) -> Json {
-        const auto x = p.get(of);
-        if (!x) return nullptr;
-        return p.truth() ? Json(*x != 0) : Json(static_cast<std::int64_t>(*x));
-    };
     for (const auto& p : property_table()) {
         const bool counted = p.kind == PropertyKind::count || p.truth();
-        if (!counted || p.costly || p.of_scene || p.quality) continue;
-        with.add(counts.contains(p.name) ? "counts" : "topology", std::string(p.name), value(p, a),
-                 value(p, b));
+        if (!counted || p.costly || p.of_scene() || p.on_request()) continue;
+        with.add(counts.contains(p.name) ? "counts" : "topology", std::string(p.name),
+                 property_json(p, a), property_json(p, b));
     }
 }
 

@@ -1,5 +1,7 @@
 #include "pipeline/failures.hpp"
 
+#include "report/check_text.hpp"
+
 #include <algorithm>
 
 namespace facetmill::pipeline {
@@ -32,13 +34,14 @@ bool Failures::judge_checks(std::size_t first) {
         const auto& check = record_.checks[i];
         if (check.passed) continue;
         const std::string text =
-            fmt::format("'{}' must be {}, found {}{}", check.name, check.expected, check.found,
+            fmt::format("'{}' must be {}, found {}{}", check.name, check.expected,
+                        report::found_text(check),
                         check.part.empty() ? "" : fmt::format(" in part '{}'", check.part));
         if (check.severity == Severity::error) {
             all_hold = false;
-            add(ErrorKind::check, {{Severity::error, "E-CHECK", text, check.where, {}}, true});
+            add(ErrorKind::check, {{Severity::error, "E-CHECK", text, check.where, check.hint}, true});
         } else {
-            const Diagnostic warning{Severity::warning, "W-CHECK", text, check.where, {}};
+            const Diagnostic warning{Severity::warning, "W-CHECK", text, check.where, check.hint};
             record_.warnings.push_back(warning);
             warn(warning);
         }

@@ -1,5 +1,7 @@
 #include "report/check_text.hpp"
 
+#include "base/numbers.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -13,8 +15,21 @@ const char* outcome(const Check& check) {
 
 namespace {
 
+/// "[0, 0, 0]"
+std::string point_text(const Json& point) {
+    std::string text;
+    for (const Json& x : point) text += (text.empty() ? "" : ", ") + to_string(x.get<double>());
+    return "[" + text + "]";
+}
+
+std::string names_text(const Json& names) {
+    std::string text;
+    for (const Json& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
+    return text;
+}
+
 /// "face 7 and 9 of 'part' at 1 2 3"
-std::string place_text(const Json& place) {
+std::string location_text(const Json& place) {
     std::string text;
     if (place.contains("face")) text += fmt::format("face {} ", place["face"].get<std::size_t>());
     if (place.contains("with")) text += fmt::format("and {} ", place["with"].get<std::size_t>());
@@ -42,7 +57,7 @@ std::string share_text(const Json& entry) {
     return text;
 }
 
-/// The first of those that are no places.
+/// The first of those that are no locations.
 std::string shares_text(const Json& evidence) {
     constexpr std::size_t most = 3;
     std::string text;
@@ -53,18 +68,28 @@ std::string shares_text(const Json& evidence) {
 
 } // namespace
 
-std::string places_text(const Check& check) {
+std::string found_text(const Check& check) {
+    const Json& found = check.found;
+    if (!check.found_words.empty()) return check.found_words;
+    if (found.is_null()) return "not applicable";
+    if (found.is_boolean()) return found.get<bool>() ? "true" : "false";
+    if (found.is_number()) return to_string(found.get<double>());
+    if (found.is_array()) return names_text(found);
+    if (found.is_object()) return point_text(found["min"]) + " to " + point_text(found["max"]);
+    return found.get<std::string>();
+}
+
+std::string locations_text(const Check& check) {
     if (!check.evidence.is_array() || check.evidence.empty()) return {};
     const Json& first = check.evidence[0];
     if (!first.contains("at")) return shares_text(check.evidence);
     std::string text = "first ";
-    if (check.places)
-        text = fmt::format("{} place{}, the first ", *check.places, *check.places == 1 ? "" : "s");
-    if (check.fresh && *check.fresh > 0)
-        text =
-            (check.places ? fmt::format("{} place{}, ", *check.places, *check.places == 1 ? "" : "s") : "") +
-            fmt::format("{} new, the first ", *check.fresh);
-    return text + place_text(first);
+    const std::string count = check.locations ? fmt::format("{} location{}, ", *check.locations,
+                                                            *check.locations == 1 ? "" : "s")
+                                              : "";
+    if (check.locations) text = count + "the first ";
+    if (check.fresh && *check.fresh > 0) text = count + fmt::format("{} new, the first ", *check.fresh);
+    return text + location_text(first);
 }
 
 } // namespace facetmill::report

@@ -7,8 +7,10 @@ namespace facetmill::report {
 
 /// "passed", "known", "failed" or "warned".
 const char* outcome(const Check& check);
-/// "12 places, 2 new, the first face 7 of 'part' at 1 2 3", "part 'wheel' 1200, part 'body' 800"; empty when
-/// there is no evidence.
-std::string places_text(const Check& check);
+/// What was found: "12", "true", "mm", "[0, 0, 0] to [1, 1, 1]", "not applicable".
+std::string found_text(const Check& check);
+/// "12 locations, 2 new, the first face 7 of 'part' at 1 2 3", "part 'wheel' 1200, part 'body' 800"; empty
+/// when there is no evidence.
+std::string locations_text(const Check& check);
 
 } // namespace facetmill::report

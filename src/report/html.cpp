@@ -99,8 +99,8 @@ std::string check_rows(const RunRecord& record) {
                                                            : "warn";
         rows += fmt::format("<tr>{}{}{}{}{}{}{}</tr>\n",
                             cell(fmt::format("<span class=\"{}\">{}</span>", kind, outcome(c))),
-                            cell(code(c.name)), cell(escaped(c.expected)), cell(escaped(c.found)),
-                            cell(escaped(c.part)), cell(escaped(places_text(c))), cell(escaped(c.stage)));
+                            cell(code(c.name)), cell(escaped(c.expected)), cell(escaped(found_text(c))),
+                            cell(escaped(c.part)), cell(escaped(locations_text(c))), cell(escaped(c.stage)));
     }
     return rows;
 }
@@ -170,7 +170,7 @@ std::string to_html(const RunRecord& record) {
         table("Stages", heads({"name", "stage", "#faces before", "#faces after", "#vertices after", "notes"}),
               stage_rows(record));
     out += pictures(record);
-    out += table("Checks", heads({"", "property", "expected", "found", "part", "places", "stage"}),
+    out += table("Checks", heads({"", "property", "expected", "found", "part", "locations", "stage"}),
                  check_rows(record));
     out += table("Outputs", heads({"file", "#size", "SHA-256"}), file_rows(record.outputs));
     out += table("Inputs", heads({"file", "#size", "SHA-256"}), file_rows(record.inputs));

@@ -58,11 +58,12 @@ Json check_json(const Check& check) {
             {"severity", to_string(check.severity)},
             {"expected", check.expected},
             {"found", check.found},
+            {"hint", text_or_null(check.hint)},
             {"part", text_or_null(check.part)},
             {"where", text_or_null(facetmill::to_string(check.where))},
             {"waived", check.waived},
-            {"places", check.places ? Json(*check.places) : Json()},
-            {"new_places", check.fresh ? Json(*check.fresh) : Json()},
+            {"locations", check.locations ? Json(*check.locations) : Json()},
+            {"new_locations", check.fresh ? Json(*check.fresh) : Json()},
             {"evidence", check.evidence}};
 }
 

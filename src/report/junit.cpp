@@ -13,9 +13,9 @@ std::string check_case(const Check& check) {
         fmt::format("    <testcase classname=\"{}\" name=\"{}{}\"", escaped(check.stage), escaped(check.name),
                     check.part.empty() ? "" : escaped(fmt::format(" [{}]", check.part)));
     if (check.passed && !check.waived) return head + "/>\n";
-    const std::string places = places_text(check);
-    const std::string said = escaped(fmt::format("expected {}, found {}{}", check.expected, check.found,
-                                                 places.empty() ? "" : "; " + places));
+    const std::string locations = locations_text(check);
+    const std::string said = escaped(fmt::format("expected {}, found {}{}", check.expected, found_text(check),
+                                                 locations.empty() ? "" : "; " + locations));
     if (check.waived)
         return fmt::format("{}>\n      <system-out>known: {}</system-out>\n    </testcase>\n", head, said);
     if (check.severity != Severity::error)

@@ -1,7 +1,7 @@
 #include "base/point_json.hpp"
 #include "report/render.hpp"
 
-#include <map>
+#include <algorithm>
 
 namespace facetmill::report {
 
@@ -29,20 +29,22 @@ Json attributes_json(const Scene& scene) {
 
 } // namespace
 
+Json property_json(const Property& property, const Properties& properties) {
+    if (property.kind == PropertyKind::box) return bounds_json(properties.bounds);
+    const auto value = property.get(properties);
+    if (!value) return nullptr;
+    if (property.truth()) return *value != 0;
+    if (property.words) return property.words()[static_cast<std::size_t>(*value)];
+    if (property.kind == PropertyKind::count) return static_cast<std::int64_t>(*value);
+    return *value;
+}
+
 Json properties_json(const Properties& properties) {
     Json json = Json::object();
     for (const auto& p : property_table()) {
-        const auto value = p.get(properties);
-        if (p.kind == PropertyKind::box || p.of_scene || (p.quality && !value))
-            continue; // told below, or not asked for
-        Json& slot = json[std::string(p.name)];
-        if (!value) continue;
-        if (p.truth())
-            slot = *value != 0;
-        else if (p.kind == PropertyKind::count)
-            slot = static_cast<std::int64_t>(*value);
-        else
-            slot = *value;
+        if (p.kind == PropertyKind::box || p.of_scene()) continue; // told below
+        if (p.on_request() && !p.get(properties)) continue;        // not asked for, or it does not apply
+        json[std::string(p.name)] = property_json(p, properties);
     }
     json["bounds"] = bounds_json(properties.bounds);
     return json;
@@ -62,6 +64,34 @@ Json scene_json(const Scene& scene, const Properties& properties) {
                                  {"wedges", part.mesh.wedge_count()},
                                  {"faces", part.mesh.face_count()}});
     return json;
+}
+
+Json components_json(const Scene& scene, const Properties& properties, std::size_t limit) {
+    struct Component {
+        const Part* part;
+        Properties properties;
+    };
+    std::vector<Component> all;
+    for (const Part& part : scene.parts) {
+        if (part.mesh.face_count() == 0) continue;
+        if (properties.components == 1)
+            all.push_back({&part, properties});
+        else
+            for (Properties& p : inspect_components(part.mesh, limit)) all.push_back({&part, std::move(p)});
+    }
+    std::stable_sort(all.begin(), all.end(), [](const Component& a, const Component& b) {
+        return a.properties.faces > b.properties.faces;
+    });
+    all.resize(std::min(all.size(), limit));
+    Json list = Json::array();
+    for (const auto& [part, p] : all)
+        list.push_back({{"part", part->name},
+                        {"faces", p.faces},
+                        {"euler", p.euler},
+                        {"boundary_loops", p.boundary_loops},
+                        {"closed", p.closed},
+                        {"genus", p.genus ? Json(*p.genus) : Json()}});
+    return list;
 }
 
 } // namespace facetmill::report

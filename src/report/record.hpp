@@ -13,18 +13,23 @@ namespace facetmill::report {
 
 /// A validate or ensure assertion and how it went.
 struct Check {
-    std::string name;  ///< the property: "closed"
-    std::string stage; ///< the name of the stage that made it
+    std::string name = {};  ///< the property: "closed"
+    std::string stage = {}; ///< the name of the stage that made it
     bool passed = true;
     Severity severity = Severity::error;
-    std::string expected; ///< "true", "2", "at most 5"
-    std::string found;
-    std::string part;                    ///< the part it is about; empty: the scene
-    Json evidence;                       ///< the first places: [{part, at, face}], or null
-    std::optional<std::size_t> places{}; ///< how many speak against it, where that is not what was found
-    std::optional<std::size_t> fresh{};  ///< how many of these a baseline does not know; none without one
-    bool waived = false;                 ///< it did not hold, but that is known; passed is true
-    Mark where;
+    std::string expected = {}; ///< "true", "2", "at most 5"
+    /// A number, a truth, a word, the corners of a box {min, max} or a list of names, by the property's kind;
+    /// null when the property does not apply.
+    Json found = {};
+    std::string found_words = {};            ///< what people read for it, where that says more
+    std::optional<double> min = {}, max = {}; ///< what a number had to lie between
+    std::string hint = {};                   ///< when it failed: the stage that mends it
+    std::string part = {};                   ///< the part it is about; empty: the scene
+    Json evidence = {};                      ///< the first locations: [{part, at, face}], or null
+    std::optional<std::size_t> locations = {}; ///< how many speak against it, where found does not tell
+    std::optional<std::size_t> fresh = {}; ///< how many of these a baseline does not know; none without one
+    bool waived = false;                   ///< it did not hold, but that is known; passed is true
+    Mark where = {};
 };
 
 struct LedgerEntry {

@@ -1,5 +1,7 @@
 #include "report/render.hpp"
 
+#include <fmt/format.h>
+
 namespace facetmill::report {
 
 namespace {
@@ -55,16 +57,27 @@ Json file(bool read_back) {
     return closed_object(std::move(properties));
 }
 
+/// What a check found, by the kind of its property.
+Json found() {
+    return {{"description", "A number, a truth, a word, a box {min, max} or names; null: it does not apply"},
+            {"type", Json::array({"integer", "number", "boolean", "string", "object", "array", "null"})}};
+}
+
+/// One value of a property.
+Json value_schema(const Property& p) {
+    Json schema = p.truth() ? typed("boolean") : nullable(p.kind == PropertyKind::count ? "integer" : "number");
+    const auto unit = unit_of(p.kind);
+    schema["description"] = std::string(p.help) + (unit.empty() ? "" : fmt::format(" In {}.", unit));
+    return schema;
+}
+
 /// The properties of section 7 of a scene, named once in the table that info, validate, ensure and when
 /// share.
 Json scene_schema() {
     Json properties = Json::object();
     for (const auto& p : property_table()) {
-        if (p.quality || p.of_scene || p.kind == PropertyKind::box) continue;
-        Json& schema = properties[std::string(p.name)];
-        schema =
-            p.truth() ? typed("boolean") : nullable(p.kind == PropertyKind::count ? "integer" : "number");
-        schema["description"] = p.help;
+        if (p.on_request() || p.of_scene() || p.kind == PropertyKind::box) continue;
+        properties[std::string(p.name)] = value_schema(p);
     }
     properties["bounds"] = bounds();
     properties["unit"] = typed("string", "um, mm, cm, m, km, in, ft or unknown");
@@ -82,11 +95,7 @@ Json scene_schema() {
                                   "The parts, in order");
     Json scene = closed_object(std::move(properties));
     for (const auto& p : property_table()) // there when they were asked for
-        if (p.quality) {
-            Json& schema = scene["properties"][std::string(p.name)];
-            schema = p.truth() ? typed("boolean") : nullable("number");
-            schema["description"] = p.help;
-        }
+        if (p.on_request()) scene["properties"][std::string(p.name)] = value_schema(p);
     return scene;
 }
 
@@ -126,13 +135,14 @@ Json definitions() {
                                  {"passed", typed("boolean")},
                                  {"severity", choice({"error", "warning", "note"})},
                                  {"expected", typed("string")},
-                                 {"found", typed("string")},
+                                 {"found", found()},
+                                 {"hint", nullable("string", "When it failed: the stage that mends it")},
                                  {"part", nullable("string", "The part it is about; null: the scene")},
                                  {"where", nullable("string", "Its place in the pipeline")},
                                  {"waived", typed("boolean", "It failed, and that is known")},
-                                 {"places", nullable("integer", "How many speak against it")},
-                                 {"new_places", nullable("integer", "How many the baseline lacks")},
-                                 {"evidence", nullable("array", "The first places, or what counts most")}})},
+                                 {"locations", nullable("integer", "How many speak against it")},
+                                 {"new_locations", nullable("integer", "How many the baseline lacks")},
+                                 {"evidence", nullable("array", "The first locations, or what counts most")}})},
         {"scene", scene_schema()}};
 }
 
@@ -145,6 +155,16 @@ Json run_schema() {
                             "In the order of `stages`")}});
     run["description"] = "Whatever differs from run to run; all the rest is the same for the same input";
     return run;
+}
+
+Json components_detail() {
+    return list_of(closed_object({{"part", typed("string")},
+                                  {"faces", typed("integer")},
+                                  {"euler", typed("integer")},
+                                  {"boundary_loops", typed("integer")},
+                                  {"closed", typed("boolean")},
+                                  {"genus", nullable("integer")}}),
+                   "The components with most faces, the largest first");
 }
 
 constexpr const char* dialect = "https://json-schema.org/draft/2020-12/schema";
@@ -179,6 +199,9 @@ Json schema() {
 Json info_schema() {
     Json out = {{"$schema", dialect}, {"title", "facetmill info"}};
     Json scene = scene_schema();
+    scene["properties"]["components_detail"] = components_detail();
+    scene["properties"]["components_omitted"] =
+        typed("integer", "How many components there are beyond those of components_detail");
     out.update(scene);
     return out;
 }

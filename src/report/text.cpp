@@ -51,13 +51,13 @@ void add_checks(const std::vector<Check>& checks, const Paint& paint, std::strin
                        known > 0 ? fmt::format("{} known, ", known) : "", failed);
     for (const auto& c : checks) {
         if (c.passed && !c.waived) continue;
-        const std::string where = places_text(c);
+        const std::string where = locations_text(c);
         out += fmt::format("  {} {} ({}{}): expected {}, found {}{}\n",
                            paint(c.waived                        ? "2"
                                  : c.severity == Severity::error ? "31"
                                                                  : "35",
                                  outcome(c)),
-                           c.name, c.stage, c.part.empty() ? "" : ", part " + c.part, c.expected, c.found,
+                           c.name, c.stage, c.part.empty() ? "" : ", part " + c.part, c.expected, found_text(c),
                            where.empty() ? "" : "; " + where);
     }
 }

@@ -1,6 +1,7 @@
 #include "stage/assertions.hpp"
 
 #include "base/numbers.hpp"
+#include "report/render.hpp"
 #include "stage/context.hpp"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ std::vector<double> numbers(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 std::string expectation(const Property& property, const Assertion& a) {
     if (property.kind == PropertyKind::word)
-        return std::string(property.words[static_cast<std::size_t>(a.bound.min.value_or(0))]);
+        return std::string(property.words()[static_cast<std::size_t>(a.bound.min.value_or(0))]);
     if (property.kind == PropertyKind::box) {
         std::string text = a.least.empty() ? "" : "at least " + told(a.least, numbers(a.within.min));
         if (!a.most.empty())
@@ -49,21 +50,6 @@ std::string expectation(const Property& property, const Assertion& a) {
     if (same(a.least, a.most)) return least();
     if (a.least.empty()) return "at most " + most();
     return a.most.empty() ? "at least " + least() : least() + " to " + most();
-}
-
-std::string finding(const Property& property, const Properties& properties) {
-    if (property.kind == PropertyKind::box) {
-        const Box& b = properties.bounds;
-        return b.empty()
-                   ? "not applicable"
-                   : fmt::format("{} to {}", OptionType<Vec3>::print(b.min), OptionType<Vec3>::print(b.max));
-    }
-    const auto value = property.get(properties);
-    if (!value) return property.costly ? "not computed" : "not applicable";
-    if (property.truth()) return *value != 0 ? "true" : "false";
-    if (property.kind == PropertyKind::word)
-        return std::string(property.words[static_cast<std::size_t>(*value)]);
-    return to_string(*value);
 }
 
 bool lies_within(const Box& inner, const Box& outer) {
@@ -99,11 +85,7 @@ std::string to_string(const Assertion& a) {
 
 InspectSettings Assertions::settings() const {
     InspectSettings settings;
-    for (const auto& a : all) {
-        const Property& property = *property_named(a.property);
-        settings.self_intersections |= property.costly;
-        if (property.quality) settings.qualities |= 1u << static_cast<unsigned>(*property.quality);
-    }
+    for (const auto& a : all) settings.request(*property_named(a.property));
     return settings;
 }
 
@@ -151,8 +133,14 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
         check.name = assertion.property;
         check.stage = stage;
         check.expected = expectation(property, assertion);
-        check.found = finding(property, properties);
+        check.found = report::property_json(property, properties);
+        if (check.found.is_null() && property.costly) check.found_words = "not computed";
+        if (!property.truth()) {
+            check.min = assertion.bound.min;
+            check.max = assertion.bound.max;
+        }
         check.passed = holds(assertion, properties).value_or(assertion.if_applies);
+        if (!check.passed) check.hint = property.hint;
         check.where = assertion.where;
         checks.push_back(std::move(check));
     }

@@ -47,6 +47,8 @@ bool parse_assertions(const Value& value, Assertions& out, std::string_view owne
 void verify_any(bool any, const Value& given, std::string_view owner, Problems& problems);
 /// JSON Schema of such a map.
 Json assertions_schema();
+/// What the manual says of a property: its help, and the unit where the type does not tell it.
+std::string help_of(const Property& property);
 /// The words of a property with what they mean; none for other kinds.
 std::vector<Choice> word_choices(const Property& property);
 
@@ -63,7 +65,7 @@ void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner)
                       : p.kind == PropertyKind::angle ? Dimension::angle
                                                       : Dimension::none;
         o.choices = word_choices(p);
-        o.help = p.help;
+        o.help = help_of(p);
         o.schema = schema["properties"][o.name];
         o.parse = [member, owner](const Option& self, const Value& v, void* target, Problems& problems) {
             const Value map = Value::map({{self.name, v.mark, v}}, v.mark);

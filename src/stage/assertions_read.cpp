@@ -239,11 +239,18 @@ std::vector<Choice> word_choices(const Property& property) {
     return choices;
 }
 
+std::string help_of(const Property& property) {
+    std::string help(property.help);
+    const bool told = property.kind == PropertyKind::length || property.kind == PropertyKind::box;
+    const auto unit = unit_of(property.kind);
+    return told || unit.empty() ? help : fmt::format("{} In {}.", help, unit);
+}
+
 Json assertions_schema() {
     Json schema = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
     for (const auto& p : property_table()) {
         Json property = schema_of(p);
-        property["description"] = p.help;
+        property["description"] = help_of(p);
         schema["properties"][std::string(p.name)] = std::move(property);
     }
     return schema;

@@ -111,7 +111,7 @@ void check_deviation(const DeviationLimits& limits, const Mark& where, const Sur
     const DeviationResult measured = deviation(before, surface_or_points_of(scene), limits.settings());
     context.result()["deviation"] = deviation_json(measured);
     const auto check = [&](const std::string& name, const std::optional<Length>& limit, double value,
-                           const std::string& found) {
+                           const std::string& words) {
         if (!limit) return;
         report::Check c;
         c.name = name;
@@ -122,7 +122,9 @@ void check_deviation(const DeviationLimits& limits, const Mark& where, const Sur
             of_reference ? limit->amount / 100 * measured.diagonal : context.resolve(*limit, scene, name);
         c.expected = fmt::format("at most {}", limit->text);
         if (limit->kind != Length::Kind::scene) c.expected += fmt::format(" ({:.6g})", most);
-        c.found = found;
+        if (std::isfinite(value)) c.found = value;
+        c.found_words = words;
+        c.max = most;
         c.passed = value <= most;
         const bool forward = measured.forward.maximum >= measured.backward.maximum;
         if (!c.passed && std::isfinite(value))

@@ -162,15 +162,15 @@ TEST_CASE("law: a mirrored, turned or moved mesh keeps its counts; its volume sc
 TEST_CASE("law: evidence is there exactly when a truth does not hold", "[property]") {
     for (const Mesh& mesh : all_meshes(4)) {
         const Properties p = inspect(mesh, {.self_intersections = true});
-        CHECK(places_against(mesh, "closed").empty() == p.closed);
-        CHECK(places_against(mesh, "edge_manifold").empty() == p.edge_manifold);
-        CHECK(places_against(mesh, "vertex_manifold").empty() == p.vertex_manifold);
-        CHECK(places_against(mesh, "oriented").empty() == p.oriented);
+        CHECK(locations_against(mesh, *property_named("closed")).empty() == p.closed);
+        CHECK(locations_against(mesh, *property_named("edge_manifold")).empty() == p.edge_manifold);
+        CHECK(locations_against(mesh, *property_named("vertex_manifold")).empty() == p.vertex_manifold);
+        CHECK(locations_against(mesh, *property_named("oriented")).empty() == p.oriented);
         for (const auto& [name, count] : {std::pair{"degenerate_faces", p.degenerate_faces},
                                           {"duplicate_faces", p.duplicate_faces},
                                           {"isolated_vertices", p.isolated_vertices},
                                           {"self_intersections", p.self_intersections.value()}})
-            CHECK(places_against(mesh, name).size() ==
+            CHECK(locations_against(mesh, *property_named(name)).size() ==
                   static_cast<std::size_t>(std::min<std::int64_t>(10, count)));
     }
 }

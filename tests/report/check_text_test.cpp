@@ -2,16 +2,18 @@
 #include "support/catch.hpp"
 
 using namespace facetmill;
-using report::places_text;
+using report::found_text;
+using report::locations_text;
 
 namespace {
 
-std::string told(Json evidence, std::optional<std::size_t> places = {},
+std::string told(Json evidence, std::optional<std::size_t> locations = {},
                  std::optional<std::size_t> fresh = {}) {
     report::Check check;
     check.evidence = std::move(evidence);
-    check.places = places, check.fresh = fresh;
-    return places_text(check);
+    check.locations = locations;
+    check.fresh = fresh;
+    return locations_text(check);
 }
 
 } // namespace
@@ -20,13 +22,30 @@ TEST_CASE("what speaks against an assertion, in words", "[report]") {
     const Json place = {
         {"part", "a"}, {"at", {1, 2.5, 3}}, {"face", 7}, {"with", 9}, {"attribute", "NORMAL"}};
     CHECK(told(Json::array({place})) == "first face 7 and 9 of 'a' at 1 2.5 3 in NORMAL");
-    CHECK(told(Json::array({place}), 12).starts_with("12 places, the first face 7"));
-    CHECK(told(Json::array({place}), 1).starts_with("1 place, the first face 7"));
-    CHECK(told(Json::array({place}), 12, 2).starts_with("12 places, 2 new, the first face 7"));
+    CHECK(told(Json::array({place}), 12).starts_with("12 locations, the first face 7"));
+    CHECK(told(Json::array({place}), 1).starts_with("1 location, the first face 7"));
+    CHECK(told(Json::array({place}), 12, 2).starts_with("12 locations, 2 new, the first face 7"));
     CHECK(told(Json::array({place}), {}, 2).starts_with("2 new, the first face 7"));
-    CHECK(told(Json::array({place}), 12, 0).starts_with("12 places, the first face 7"));
+    CHECK(told(Json::array({place}), 12, 0).starts_with("12 locations, the first face 7"));
     CHECK(told(Json()) == "");
     CHECK(told(Json::array()) == "");
+}
+
+TEST_CASE("what was found, in words", "[report]") {
+    const auto found = [](Json value, std::string words = {}) {
+        report::Check check;
+        check.found = std::move(value);
+        check.found_words = std::move(words);
+        return found_text(check);
+    };
+    CHECK(found(12) == "12");
+    CHECK(found(0.1) == "0.1");
+    CHECK(found(false) == "false");
+    CHECK(found("mm") == "mm");
+    CHECK(found({{"min", {0, 0, 0.5}}, {"max", {1, 1, 1}}}) == "[0, 0, 0.5] to [1, 1, 1]");
+    CHECK(found(Json::array({"a", "b"})) == "a, b");
+    CHECK(found(Json()) == "not applicable");
+    CHECK(found(0.05, "0.05 (1 % of the diagonal)") == "0.05 (1 % of the diagonal)");
 }
 
 TEST_CASE("what counts towards a limit, in words", "[report]") {

@@ -52,32 +52,30 @@ RunRecord full_record() {
     skipped.skipped = true;
     record.stages = {cut, skipped};
     record.checks = {
-        {"closed", "validate", true, Severity::error, "true", "true", "", {}, {}, {}, false, {}},
-        {"euler",
-         "validate",
-         false,
-         Severity::error,
-         "2",
-         "0",
-         "cube",
-         Json::array({{{"part", "cube"}, {"face", 3}, {"at", {1, 2.5, 3}}}}),
-         {},
-         {},
-         false,
-         file_mark("p.yaml")},
-        {"area", "validate", false, Severity::warning, "at most 5", "6", "", {}, {}, {}, false, {}},
-        {"oriented",
-         "validate",
-         true,
-         Severity::error,
-         "true",
-         "false",
-         "cube",
-         Json::array({{{"part", "cube"}, {"face", 4}, {"at", {0, 0, 1}}}}),
-         12,
-         {},
-         true,
-         {}}};
+        {.name = "closed", .stage = "validate", .expected = "true", .found = true},
+        {.name = "euler",
+         .stage = "validate",
+         .passed = false,
+         .expected = "2",
+         .found = 0,
+         .hint = "clean fills holes",
+         .part = "cube",
+         .evidence = Json::array({{{"part", "cube"}, {"face", 3}, {"at", {1, 2.5, 3}}}}),
+         .where = file_mark("p.yaml")},
+        {.name = "area",
+         .stage = "validate",
+         .passed = false,
+         .severity = Severity::warning,
+         .expected = "at most 5",
+         .found = 6},
+        {.name = "oriented",
+         .stage = "validate",
+         .expected = "true",
+         .found = false,
+         .part = "cube",
+         .evidence = Json::array({{{"part", "cube"}, {"face", 4}, {"at", {0, 0, 1}}}}),
+         .locations = 12,
+         .waived = true}};
     record.errors = {{Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), "", true},
                      {Severity::error, "E-WRITE", "the disk is full", {}, "make room"}};
     record.exit_code = 4;
@@ -161,7 +159,7 @@ TEST_CASE("the text for the terminal", "[report]") {
         "checks: 1 passed, 1 known, 2 failed\n"
         "  failed euler (validate, part cube): expected 2, found 0; first face 3 of 'cube' at 1 2.5 3\n"
         "  warned area (validate): expected at most 5, found 6\n"
-        "  known oriented (validate, part cube): expected true, found false; 12 places, the first face 4 of "
+        "  known oriented (validate, part cube): expected true, found false; 12 locations, the first face 4 of "
         "'cube' at 0 0 1\n"
         "wrote b.glb (56.8 kB)\n"
         "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); exit code 4\n");
@@ -185,7 +183,7 @@ TEST_CASE("JUnit: checks and errors are cases", "[report]") {
                                      "      <system-out>warning: expected at most 5, found 6</system-out>\n"
                                      "    </testcase>\n"
                                      "    <testcase classname=\"validate\" name=\"oriented [cube]\">\n"
-                                     "      <system-out>known: expected true, found false; 12 places, the "
+                                     "      <system-out>known: expected true, found false; 12 locations, the "
                                      "first face 4 of &#39;cube&#39; at 0 0 1</system-out>\n"
                                      "    </testcase>\n"
                                      "    <testcase classname=\"run\" name=\"E-WRITE\">\n"

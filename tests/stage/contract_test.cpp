@@ -67,7 +67,8 @@ TEST_CASE("a lift within the limit passes, one beyond it fails with its place", 
     CHECK(passed[0].passed);
     CHECK(passed[0].name == "deviation");
     CHECK(passed[0].expected == "at most 1.1% (0.055)");
-    CHECK(passed[0].found == "0.05 (1 % of the diagonal)");
+    CHECK(passed[0].found.get<double>() == Approx(0.05));
+    CHECK(passed[0].found_words == "0.05 (1 % of the diagonal)");
     CHECK(passed[0].evidence.is_null());
     const auto failed = judged(map("max", Value::scalar("0.04")));
     CHECK_FALSE(failed[0].passed);
@@ -91,7 +92,7 @@ TEST_CASE("certified, the bound is held against the limit", "[stage]") {
     sure.set("certify", Value::scalar("true"));
     const auto checks = judged(sure);
     CHECK(checks[0].passed);
-    CHECK(checks[0].found.starts_with("certainly at most 0.05"));
+    CHECK(checks[0].found_words.starts_with("certainly at most 0.05"));
 }
 
 TEST_CASE("nothing deviates infinitely from something", "[stage]") {
@@ -101,5 +102,5 @@ TEST_CASE("nothing deviates infinitely from something", "[stage]") {
     Context context(run, record, all, {}, {});
     check_deviation(limits(Value::scalar("10%")), {}, {}, scene_of(shapes::cube()), context);
     CHECK_FALSE(run.record.checks.at(0).passed);
-    CHECK(run.record.checks.at(0).found == "nothing to compare with");
+    CHECK(run.record.checks.at(0).found_words == "nothing to compare with");
 }

@@ -124,7 +124,7 @@ Mesh wreck() {
 
 } // namespace
 
-TEST_CASE("a fault that replaces a mended one is not waived", "[stages]") {
+TEST_CASE("a fault that replaces a fixed one is not waived", "[stages]") {
     Gate gate("closed: true, boundary_edges: 0, boundary_loops: 0, longest_boundary: {max: 0}");
     gate.learn(cube_without({3}));
     CHECK(gate.passes(cube_without({3})));
@@ -134,11 +134,11 @@ TEST_CASE("a fault that replaces a mended one is not waived", "[stages]") {
         CHECK(check.fresh == 3);
     }
     CHECK(run.record.warnings.empty());
-    CHECK(run.record.result["mended"] == 0);
-    CHECK(run.record.result["mended_places"] == 4 * 3);
+    CHECK(run.record.result["fixed"] == 0);
+    CHECK(run.record.result["fixed_locations"] == 4 * 3);
 }
 
-TEST_CASE("of a failure that is known in part, the new places are shown", "[stages]") {
+TEST_CASE("of a failure that is known in part, the new locations are shown", "[stages]") {
     Gate gate("degenerate_faces: 0");
     Mesh mesh = shapes::cube();
     const auto collapse = [&](Index at) {
@@ -157,22 +157,22 @@ TEST_CASE("of a failure that is known in part, the new places are shown", "[stag
     REQUIRE(check.evidence.size() == 1);
     CHECK(check.evidence[0]["at"][1] == 77);
     CHECK(check.evidence[0]["face"] == 12 + 15);
-    CHECK(run.record.result["waived_places"] == 15);
+    CHECK(run.record.result["waived_locations"] == 15);
 }
 
 TEST_CASE("the order and the numbers of faces and vertices do not matter", "[stages]") {
     const Mesh mesh = wreck();
     const Scene scene = scene_of(mesh), other = scene_of(renumbered(mesh, 7));
-    std::size_t with_places = 0;
+    std::size_t with_locations = 0;
     for (const auto& property : property_table()) {
         CAPTURE(property.name);
         Assertion assertion{.property = std::string(property.name)};
         assertion.bound.min = 40, assertion.bound.max = 41; // what most faces are beyond
-        const auto keys = place_keys(scene, assertion);
-        CHECK(keys == place_keys(other, assertion));
-        with_places += !keys.empty();
+        const auto keys = location_keys(scene, assertion);
+        CHECK(keys == location_keys(other, assertion));
+        with_locations += !keys.empty();
     }
-    CHECK(with_places > 25);
+    CHECK(with_locations > 25);
     Gate gate("closed: true, edge_manifold: true, self_intersections: 0, touching: 0, components: 1, "
               "min_angle: {min: 5deg}, unit_normals: true");
     gate.learn(scene);
@@ -182,7 +182,7 @@ TEST_CASE("the order and the numbers of faces and vertices do not matter", "[sta
     CHECK_FALSE(Gate::all_passed(gate.judge(moved)));
 }
 
-TEST_CASE("pieces are known by their lowest vertex, whatever their number", "[stages]") {
+TEST_CASE("components are known by their lowest vertex, whatever their number", "[stages]") {
     Gate gate("closed: true, faces: {max: 5}, per: component");
     Mesh mesh = cube_without({3});
     Mesh sheet = shapes::grid(1, 1);
@@ -195,11 +195,11 @@ TEST_CASE("pieces are known by their lowest vertex, whatever their number", "[st
     CHECK(gate.passes(swapped));
     CHECK(gate.passes(renumbered(mesh, 3)));
     for (Vec3& p : sheet.positions) p.x += 1;
-    append(mesh, sheet); // a third piece
+    append(mesh, sheet); // a third component
     CHECK_FALSE(gate.passes(mesh));
 }
 
-TEST_CASE("what is mended is told", "[stages]") {
+TEST_CASE("what is fixed is told", "[stages]") {
     Gate gate("closed: true, faces: {max: 9}, boundary_edges: 0");
     gate.learn(cube_without({3, across()}));
     const auto half = gate.judge(cube_without({across()}));
@@ -211,21 +211,21 @@ TEST_CASE("what is mended is told", "[stages]") {
     const auto run = open.judge(cube_without({across()}));
     CHECK(Gate::all_passed(run));
     CHECK(run.record.result["waived"] == 2);
-    CHECK(run.record.result["waived_places"] == 6);
-    CHECK(run.record.result["mended"] == 1);
-    CHECK(run.record.result["mended_places"] == 6);
+    CHECK(run.record.result["waived_locations"] == 6);
+    CHECK(run.record.result["fixed"] == 1);
+    CHECK(run.record.result["fixed_locations"] == 6);
     CHECK(run.record.said ==
-          std::vector<std::string>{"2 known failures waived, 1 no longer there; 6 known places waived, 6 no "
-                                   "longer there: update_baseline tightens the gate"});
+          std::vector<std::string>{"2 known failures waived, 1 fixed; 6 known locations waived, 6 fixed: "
+                                   "update_baseline tightens the gate"});
     const auto sound = open.judge(shapes::cube());
     CHECK(Gate::all_passed(sound));
-    CHECK(sound.record.result["mended"] == 3);
+    CHECK(sound.record.result["fixed"] == 3);
     open.learn(cube_without({across()}));
     CHECK(open.passes(cube_without({across()})));
     CHECK_FALSE(open.passes(cube_without({3, across()})));
 }
 
-TEST_CASE("what has no places is known by its value", "[stages]") {
+TEST_CASE("what has no locations is known by its value", "[stages]") {
     Gate gate("faces: {max: 5}, area: {max: 1}");
     gate.learn(shapes::cube());
     CHECK(gate.passes(shapes::cube()));
@@ -245,7 +245,7 @@ TEST_CASE("names that no pattern matches are known one by one", "[stages]") {
     CHECK_FALSE(Gate::all_passed(gate.judge(scene)));
 }
 
-TEST_CASE("a node that moves leaves its places known, another part's are new", "[stages]") {
+TEST_CASE("a node that moves leaves its locations known, another part's are new", "[stages]") {
     Gate gate("closed: true");
     Scene scene = scene_of(cube_without({3}));
     gate.learn(scene);
@@ -272,40 +272,39 @@ TEST_CASE("what is no baseline is refused", "[stages]") {
     const std::string no = "malformed [E-BASELINE] '" + gate.file().string() + "' ";
     const std::string hint = " | write one with update_baseline: true";
     CHECK(reason().starts_with("missing"));
-    const std::string entry = R"("check":"closed","part":"","piece":"","expected":"true","found":"false")";
+    const std::string entry = R"("check":"closed","part":"","component":"","expected":"true","found":false)";
     for (const std::string& text :
          {std::string(""), std::string("[1]"), std::string("{\"failures\":{}}"), std::string("{\"failures"),
-          std::string(R"({"facetmill_baseline":"2","failures":[]})"),
-          std::string(R"({"facetmill_baseline":2,"failures":[7]})"),
-          R"({"facetmill_baseline":2,"failures":[{)" + entry + R"(}]})",
-          R"({"facetmill_baseline":2,"failures":[{)" + entry + R"(,"places":1,"known":["zz"]}]})",
-          R"({"facetmill_baseline":2,"failures":[{)" + entry +
-              R"(,"places":0,"known":["0123456789abcdef"]}]})",
-          R"({"facetmill_baseline":2,"failures":[{)" + entry +
-              R"(,"places":9,"known":["0123456789abcdef"]}]})",
-          R"({"facetmill_baseline":2,"failures":[{)" + entry +
-              R"(,"places":1,"known":["0123456789abcdef x99999999999"]}]})",
-          R"({"facetmill_baseline":2,"failures":[{)" + entry +
-              R"(,"places":-1,"known":["0123456789abcdef"]}]})"}) {
+          std::string(R"({"facetmill_baseline":"1","failures":[]})"),
+          std::string(R"({"facetmill_baseline":1,"failures":[7]})"),
+          R"({"facetmill_baseline":1,"failures":[{)" + entry + R"(}]})",
+          R"({"facetmill_baseline":1,"failures":[{)" + entry + R"(,"locations":1,"known":["zz"]}]})",
+          R"({"facetmill_baseline":1,"failures":[{)" + entry +
+              R"(,"locations":0,"known":["0123456789abcdef"]}]})",
+          R"({"facetmill_baseline":1,"failures":[{)" + entry +
+              R"(,"locations":9,"known":["0123456789abcdef"]}]})",
+          R"({"facetmill_baseline":1,"failures":[{)" + entry +
+              R"(,"locations":1,"known":["0123456789abcdef x99999999999"]}]})",
+          R"({"facetmill_baseline":1,"failures":[{)" + entry +
+              R"(,"locations":-1,"known":["0123456789abcdef"]}]})"}) {
         CAPTURE(text);
         gate.put(text);
         CHECK(reason() == no + "is no baseline of validate" + hint);
     }
-    gate.put(R"({"failures":[{"check":"closed","part":"","expected":"true","found":"false","places":8}]})");
-    CHECK(reason() ==
-          no + "is a baseline of the first form, which counts places and does not know them" + hint);
-    gate.put(R"({"facetmill_baseline":3,"failures":[]})");
+    gate.put(R"({"failures":[{"check":"closed","part":"","expected":"true","found":false,"locations":8}]})");
+    CHECK(reason() == no + "is no baseline of validate" + hint);
+    gate.put(R"({"facetmill_baseline":2,"failures":[]})");
     CHECK(reason() == no + "is a baseline of another form than this facetmill reads" + hint);
 }
 
-TEST_CASE("a baseline of very many places is bounded, and still tells new ones", "[stages]") {
+TEST_CASE("a baseline of very many locations is bounded, and still tells new ones", "[stages]") {
     const test::TemporaryDirectory folder;
     std::vector<std::uint64_t> keys;
     for (std::uint64_t i = 0; i < 200000; ++i) keys.push_back(hashed(1, i));
     std::sort(keys.begin(), keys.end());
-    const auto failing = [](std::vector<std::uint64_t> places) {
-        std::sort(places.begin(), places.end());
-        return Failure{.check = "closed", .part = "", .expected = "true", .found = "false", .keys = places};
+    const auto failing = [](std::vector<std::uint64_t> keys) {
+        std::sort(keys.begin(), keys.end());
+        return Failure{.check = "closed", .part = "", .expected = "true", .found = false, .keys = keys};
     };
     KnownFailures written;
     written.add(failing(keys));
@@ -333,13 +332,15 @@ TEST_CASE("a baseline of very many places is bounded, and still tells new ones",
     CHECK(known.gone(KnownFailures{}).failures == 1);
 }
 
-TEST_CASE("equal places are counted, however many they are", "[stages]") {
+TEST_CASE("equal locations are counted, however many they are", "[stages]") {
     const test::TemporaryDirectory folder;
     const auto failing = [](std::size_t copies) {
         return Failure{.check = "duplicate_faces",
                        .part = "",
                        .expected = "0",
-                       .found = std::to_string(copies),
+                       .found = copies,
+                       .min = 0,
+                       .max = 0,
                        .keys = std::vector<std::uint64_t>(copies, 12345)};
     };
     KnownFailures written;

@@ -5,8 +5,12 @@
 
 #include "io/codec.hpp"
 #include "mesh/shapes.hpp"
+#include "report/render.hpp"
+#include "stage/assertions.hpp"
+#include "stage/stage.hpp"
 #include "support/run_stage.hpp"
 
+#include <algorithm>
 #include <set>
 
 using namespace facetmill;
@@ -130,7 +134,7 @@ std::vector<Row> counts() {
             {"area: {max: 5}", scene_of(cube()), scene_of(small), false},
             {"volume: {max: 0.5}", scene_of(cube()), scene_of(small), false},
             {"bounds: {max: [2, 0.5, 2]}", scene_of(cube()), scene_of(small), false},
-            {"extent: {max: 0.5}", scene_of(cube()), scene_of(small), false},
+            {"max_extent: {max: 0.5}", scene_of(cube()), scene_of(small), false},
             {"materials: {max: 1}", with_materials(2), with_materials(1), false},
             {"parts: {max: 1}", with_parts(2), with_parts(1), false},
             {"unit: mm", in_unit(Unit::cm, UpAxis::z), in_unit(Unit::mm, UpAxis::z), false},
@@ -147,11 +151,11 @@ std::vector<Row> topology() {
             {"edge_manifold: true", scene_of(fan3()), scene_of(cube())},
             {"vertex_manifold: true", scene_of(hourglass()), scene_of(cube())},
             {"oriented: true", scene_of(turned(1)), scene_of(turned(12))},
-            {"outward: true", scene_of(turned(12)), scene_of(cube())},
+            {"outward_oriented: true", scene_of(turned(12)), scene_of(cube())},
             {"degenerate_faces: 0", scene_of(with_face(cracked(), 0, 4, 1)), scene_of(cracked())},
             {"duplicate_faces: 0", scene_of(with_face(grid(1, 1), 0, 1, 3)), scene_of(grid(1, 1))},
             {"isolated_vertices: 0", scene_of(with_point(cube())), scene_of(cube()), false},
-            {"t_vertices: 0", scene_of(cracked()), scene_of(cube())},
+            {"t_junctions: 0", scene_of(cracked()), scene_of(cube())},
             {"self_intersections: 0", scene_of(crossing()), scene_of(joined(cube(), cube(), {1, 1, 0}))},
             {"touching: 0", scene_of(joined(cube(), cube(), {1, 1, 0})), scene_of(crossing())},
             {"folded_faces: 0", scene_of(folded_quad()), scene_of(cube())},
@@ -166,14 +170,14 @@ std::vector<Row> shapes_and_attributes() {
             {"aspect_ratio: {max: 1.2}", scene_of(cube()), scene_of(octahedron())},
             {"shortest_edge: {min: 0.5}", scene_of(small), scene_of(cube())},
             {"longest_edge: {max: 1}", scene_of(cube()), scene_of(small)},
-            {"planarity: {max: 0.1}", scene_of(warped_quad()), scene_of(quad_cube())},
+            {"nonplanarity: {max: 0.1}", scene_of(warped_quad()), scene_of(quad_cube())},
             {"wall_thickness: {min: 0.5}", scene_of(small), scene_of(cube())},
             {"uvs_in_range: true", scene_of(with_value("TEXCOORD_0", 3, 0, 1.5)), scene_of(uv_cube())},
             {"uv_overlaps: 0", scene_of(uv_cube()), scene_of(mapped_grid())},
             {"finite_attributes: true", scene_of(with_value("NORMAL", 7, 1, NAN)), scene_of(uv_cube())},
             {"unit_normals: true", scene_of(with_value("NORMAL", 7, 1, 5)), scene_of(uv_cube())},
-            {"weights_sum: true", scene_of(with_weights(0.5)), scene_of(with_weights(0.25))},
-            {"joints: {max: 64}", scene_of(with_joints(70)), scene_of(with_joints(63))}};
+            {"weights_normalized: true", scene_of(with_weights(0.5)), scene_of(with_weights(0.25))},
+            {"joint_count: {max: 64}", scene_of(with_joints(70)), scene_of(with_joints(63))}};
 }
 
 std::vector<Row> rows() {
@@ -246,7 +250,7 @@ TEST_CASE("every assertion with faces as evidence marks them in a copy", "[stage
 
 TEST_CASE("every assertion about parts names the one that fails", "[stages]") {
     for (const Row& row : rows()) {
-        if (property_named(row.property())->of_scene) continue;
+        if (property_named(row.property())->of_scene()) continue;
         CAPTURE(row.assertion);
         Scene scene = row.holds;
         scene.parts.at(0).name = "good";
@@ -282,7 +286,7 @@ TEST_CASE("bounds that make no sense are refused, each with its reason", "[stage
              {"aspect_ratio: {max: 0.5}", "no mesh has a 'aspect_ratio' of at most 0.5"},
              {"longest_edge: {max: -2}", "no mesh has a 'longest_edge' of at most -2"},
              {"longest_edge: -2mm", "no mesh has a 'longest_edge' of at most -2mm"},
-             {"joints: {max: 2.5}", "'joints' is a count: a whole number"},
+             {"joint_count: {max: 2.5}", "'joint_count' is a count: a whole number"},
              {"bounds: 5", "'bounds' is a box"},
              {"unit: parsec", "parsec"}}) {
         CAPTURE(assertion);
@@ -294,8 +298,8 @@ TEST_CASE("bounds that make no sense are refused, each with its reason", "[stage
         }
         CHECK(message.find(reason) != std::string::npos);
     }
-    CHECK(only_check(run_stage("validate", "{euler: {max: -1}}", scene_of(shapes::cube()))).found == "2");
-    CHECK(only_check(run_stage("validate", "{volume: {max: -1}}", scene_of(shapes::cube()))).found == "1");
+    CHECK(only_check(run_stage("validate", "{euler: {max: -1}}", scene_of(shapes::cube()))).found == 2);
+    CHECK(only_check(run_stage("validate", "{volume: {max: -1}}", scene_of(shapes::cube()))).found == 1);
 }
 
 TEST_CASE("empty scenes, points, and faces without area are judged", "[stages]") {
@@ -314,5 +318,53 @@ TEST_CASE("empty scenes, points, and faces without area are judged", "[stages]")
     for (const Row& row : rows()) {
         CAPTURE(row.assertion);
         CHECK(run_stage("validate", "{" + row.assertion + "}", Scene{}).state->record.checks.size() == 1);
+    }
+}
+
+TEST_CASE("every property names the stage that mends it, and is in the manual and the schemas", "[stages]") {
+    const StageInfo* validate = stage_named("validate");
+    REQUIRE(validate);
+    const Json assertions = assertions_schema(), report = report::schema();
+    for (const auto& property : property_table()) {
+        CAPTURE(property.name);
+        const std::string hint(property.hint), name(property.name);
+        CHECK((hint.starts_with("no stage") ||
+               std::any_of(stages().begin(), stages().end(),
+                           [&](const StageInfo& stage) { return hint.starts_with(stage.name); })));
+        const Option* option = validate->options.find(name);
+        REQUIRE(option);
+        CHECK(option->help.starts_with(std::string(property.help)));
+        CHECK(assertions["properties"].contains(name));
+        CHECK(report["$defs"]["scene"]["properties"].contains(name));
+        CHECK((property.kind != PropertyKind::word || property.words));
+        CHECK((property.on_request() != (property.member.index() != 0)));
+    }
+    for (const Row& row : rows()) {
+        const auto run = run_stage("validate", "{" + row.assertion + "}", row.fails);
+        CHECK(only_check(run).hint == property_named(row.property())->hint);
+        CHECK(only_check(run_stage("validate", "{" + row.assertion + "}", row.holds)).hint.empty());
+    }
+}
+
+TEST_CASE("what a check found has the type of its property's kind", "[stages]") {
+    for (const Row& row : rows()) {
+        CAPTURE(row.assertion);
+        const Json found = only_check(run_stage("validate", "{" + row.assertion + "}", row.fails)).found;
+        switch (property_named(row.property())->kind) {
+        case PropertyKind::truth:
+            CHECK(found.is_boolean());
+            break;
+        case PropertyKind::count:
+            CHECK(found.is_number_integer());
+            break;
+        case PropertyKind::word:
+            CHECK(found.is_string());
+            break;
+        case PropertyKind::box:
+            CHECK(found["min"].size() == 3);
+            break;
+        default:
+            CHECK(found.is_number_float());
+        }
     }
 }

@@ -120,7 +120,7 @@ Scene run_judge(Scene scene, const JudgeOptions& o, Context& context) {
     check.name = o.name;
     check.passed = o.passes;
     check.expected = "true";
-    check.found = o.passes ? "true" : "false";
+    check.found = o.passes;
     context.check(check);
     return scene;
 }

@@ -1,112 +1,11 @@
-// The step of clean that puts vertices on the open edges they lie on.
-#include "base/predicates.hpp"
-#include "geometry/spatial/box_tree.hpp"
+// The step of clean that puts vertices on the boundary edges they lie on.
 #include "geometry/clean/steps.hpp"
-#include "geometry/edit/surgery.hpp"
-#include "mesh/topology.hpp"
-
-#include <algorithm>
-#include <optional>
+#include "geometry/edit/t_junctions.hpp"
 
 namespace facetmill::clean_steps {
 
-namespace {
-
-struct OpenEdge {
-    Index corner, face, from, to;
-};
-
-std::vector<OpenEdge> open_edges(const Mesh& mesh) {
-    const auto edges = build_edges(mesh);
-    const auto faces = corner_faces(mesh);
-    std::vector<OpenEdge> open;
-    for (Index e = 0; e < edges.size(); ++e) {
-        const auto corners = edges.corners_of(e);
-        if (corners.size() % 2 == 0) continue; // one face, or three of which two pass by
-        for (const Index c : corners)
-            open.push_back({c, faces[c], mesh.vertex(c), mesh.vertex(next_corner(mesh, faces[c], c))});
-    }
-    return open;
-}
-
-/// The lists of open edges at each vertex that has some.
-struct OpenEdgesAt {
-    std::vector<std::pair<Index, Index>> by_vertex; ///< (vertex, edge), sorted
-    explicit OpenEdgesAt(const std::vector<OpenEdge>& open) {
-        for (Index i = 0; i < open.size(); ++i)
-            by_vertex.emplace_back(open[i].from, i), by_vertex.emplace_back(open[i].to, i);
-        std::sort(by_vertex.begin(), by_vertex.end());
-    }
-    template <class Body>
-    void each(Index v, Body&& body) const {
-        for (auto at = std::lower_bound(by_vertex.begin(), by_vertex.end(), std::pair<Index, Index>{v, 0});
-             at != by_vertex.end() && at->first == v; ++at)
-            body(at->second);
-    }
-};
-
-/// Where on the segment a b the point p lies when it lies inside it: exactly on it, or within the length and
-/// farther than that from the ends.
-std::optional<double> place_on(const Vec3& a, const Vec3& b, const Vec3& p, double within) {
-    const Vec3 along = b - a;
-    const double t = dot(p - a, along) / dot(along, along);
-    if (!(t > 0 && t < 1)) return {};
-    if (within > 0) {
-        const auto near = [&](const Vec3& q) { return !(length(p - q) > within); };
-        if (near(a) || near(b) || !near(a + along * t)) return {};
-    } else if (!collinear(a, b, p)) {
-        return {};
-    }
-    return t;
-}
-
-bool is_on(const Vec3& a, const Vec3& b, const Vec3& p, double within) {
-    if (length(p - a) <= within || length(p - b) <= within) return true;
-    return place_on(a, b, p, within).has_value();
-}
-
-bool uses(const Mesh& mesh, Index f, Index v) {
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
-        if (mesh.vertex(c) == v) return true;
-    return false;
-}
-
-} // namespace
-
-std::vector<Insertion> find_t_vertices(const Mesh& mesh, double within) {
-    const auto& p = mesh.positions;
-    const auto open = open_edges(mesh);
-    const OpenEdgesAt at(open);
-    std::vector<Index> vertices;
-    for (const auto& [v, e] : at.by_vertex)
-        if (vertices.empty() || vertices.back() != v) vertices.push_back(v);
-    std::vector<Box> boxes(vertices.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i) boxes[i].add(p[vertices[i]]);
-    const BoxTree tree(boxes);
-    std::vector<Insertion> insertions;
-    for (const OpenEdge& edge : open) {
-        const Vec3 &a = p[edge.from], &b = p[edge.to];
-        Box box;
-        const Vec3 r{within, within, within};
-        box.add(a - r), box.add(b - r), box.add(a + r), box.add(b + r);
-        tree.visit(box, [&](Index i) {
-            const Index v = vertices[i];
-            if (v == edge.from || v == edge.to || uses(mesh, edge.face, v)) return;
-            const auto t = place_on(a, b, p[v], within);
-            if (!t) return;
-            bool along = false; // an open edge of v lies along this one
-            at.each(v, [&](Index e) {
-                const Index other = open[e].from == v ? open[e].to : open[e].from;
-                along = along || (open[e].face != edge.face && is_on(a, b, p[other], within));
-            });
-            if (along) insertions.push_back({edge.corner, *t, v});
-        });
-    }
-    return insertions;
-}
-
 bool resolve_t_vertices(Work& work, double within) {
-    auto insertions = find_t_vertices(work.mesh, within);
+    auto insertions = find_t_junctions(work.mesh, within);
     if (insertions.empty()) return false;
     work.counts.t_vertices += insertions.size();
     work.mesh = insert_on_edges(work.mesh, std::move(insertions), {}, &work.fates);

@@ -1,251 +1,176 @@
+// What speaks against a property: its locations, the chains of a boundary, or what the parts contribute.
 #include "geometry/inspect/evidence.hpp"
 
-#include "base/parallel.hpp"
-#include "base/predicates.hpp"
-#include "base/random.hpp"
-#include "geometry/edit/faces_at_vertices.hpp"
-#include "geometry/inspect/place_keys.hpp"
-#include "geometry/intersect/self_intersections.hpp"
+#include "geometry/inspect/measures.hpp"
+#include "mesh/bare.hpp"
+#include "mesh/power_scale.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace facetmill {
 
 namespace {
 
-/// The corner before c in its face.
-Index previous_corner(const Mesh& mesh, Index f, Index c) {
-    return c == mesh.face_begin(f) ? mesh.face_end(f) - 1 : c - 1;
+/// The mesh alone where it stands in the world, as inspect looks at it: a mirrored part's faces are not
+/// turned round, so that both see the same corner first.
+Mesh placed(const Part& part) {
+    Mesh mesh = bare(part.mesh);
+    for (Vec3& p : mesh.positions) p = in_world(part, p);
+    return mesh;
 }
 
-/// Directions of the faces along an edge: how many run from low to high and how many back.
-std::array<int, 2> directions(const Mesh& mesh, const EdgeTable& edges, Index e) {
-    std::array<int, 2> ways{};
-    for (const Index c : edges.corners_of(e)) ++ways[mesh.vertex(c) == edges.edges[e].low ? 0 : 1];
-    return ways;
-}
-
-template <class Fails>
-std::vector<Place> places_of_edges(const Mesh& mesh, std::size_t limit, Fails fails) {
-    const EdgeTable edges = build_edges(mesh);
-    const auto faces = corner_faces(mesh);
-    std::vector<Place> places;
-    for (Index e = 0; e < edges.size() && places.size() < limit; ++e) {
-        if (!fails(directions(mesh, edges, e))) continue;
-        const Vec3 &low = mesh.positions[edges.edges[e].low], &high = mesh.positions[edges.edges[e].high];
-        places.push_back({.face = faces[edges.corners_of(e).front()],
-                          .at = mix(low, high, 0.5),
-                          .key = key_of_edge(low, high)});
-    }
-    return places;
-}
-
-std::vector<Place> places_of_vertices(const Mesh& mesh, std::size_t limit, bool isolated) {
-    const auto fans = fans_at_vertices(mesh, build_edges(mesh));
-    const auto faces = faces_at_vertices(mesh);
-    std::vector<Place> places;
-    for (Index v = 0; v < fans.size() && places.size() < limit; ++v)
-        if (isolated ? fans[v] == 0 : fans[v] > 1)
-            places.push_back(
-                {.face = faces[v], .at = mesh.positions[v], .key = key_of_point(mesh.positions[v])});
-    return places;
-}
-
-std::vector<Place> places_of_faces(const Mesh& mesh, const std::vector<Index>& faces) {
-    std::vector<Place> places;
-    for (const Index f : faces) places.push_back(place_of(mesh, f));
-    return places;
-}
-
-std::vector<Index> degenerate_faces(const Mesh& mesh, std::size_t limit) {
-    std::vector<Index> found;
-    for (Index f = 0; f < mesh.face_count() && found.size() < limit; ++f)
-        if (is_degenerate(mesh, f)) found.push_back(f);
-    return found;
-}
-
-/// The first face of each piece.
-std::vector<Place> places_of_pieces(const Mesh& mesh, std::size_t limit) {
-    const Components pieces = face_components(mesh);
-    const auto keys = keys_of_pieces(mesh, pieces.of_face, pieces.count);
-    std::vector<Place> found;
-    for (Index f = 0; f < mesh.face_count() && found.size() < limit; ++f)
-        if (pieces.of_face[f] == found.size()) { // pieces are numbered by first face
-            found.push_back(place_of(mesh, f));
-            found.back().key = keys[found.size() - 1];
-        }
-    return found;
-}
-
-/// The set of vertices of a face, sorted.
-void vertex_set(const Mesh& mesh, Index f, std::vector<Index>& set) {
-    set.clear();
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) set.push_back(mesh.vertex(c));
-    std::sort(set.begin(), set.end());
-    set.erase(std::unique(set.begin(), set.end()), set.end());
-}
-
-struct HashedFace {
-    std::uint64_t hash;
-    Index face;
-};
-
-/// All faces by a hash of their sets of vertices, equal hashes together and by face.
-std::vector<HashedFace> hashed_faces(const Mesh& mesh) {
-    std::vector<HashedFace> faces(mesh.face_count());
-    parallel_chunks(faces.size(), [&](std::size_t begin, std::size_t end) {
-        std::vector<Index> set;
-        for (std::size_t f = begin; f < end; ++f) {
-            vertex_set(mesh, static_cast<Index>(f), set);
-            std::uint64_t h = set.size();
-            for (const Index v : set) h = hashed(h, v);
-            faces[f] = {h, static_cast<Index>(f)};
-        }
+/// The faces with the worst values that fail, the worst first.
+std::vector<Index> worst_faces(const Mesh& mesh, const Property& property, const LocationQuery& query) {
+    const auto values = inspect_room::face_values(mesh, property);
+    std::vector<Index> order;
+    for (Index f = 0; f < values.size(); ++f)
+        if (!query.fails || query.fails(values[f])) order.push_back(f);
+    const bool least = property.join == Join::least;
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(query.limit, order.size()));
+    std::partial_sort(order.begin(), end, order.end(), [&](Index a, Index b) {
+        return values[a] != values[b] ? (values[a] < values[b]) == least : a < b;
     });
-    constexpr std::size_t few = 2048; // a radix sort of fewer counts more buckets than faces
-    if (faces.size() <= few)
-        std::sort(faces.begin(), faces.end(), [](const HashedFace& a, const HashedFace& b) {
-            return a.hash != b.hash ? a.hash < b.hash : a.face < b.face;
-        });
-    else
-        radix_sort(faces, [](const HashedFace& f) { return f.hash; });
-    return faces;
+    order.erase(end, order.end());
+    return order;
 }
 
-/// Whether two faces have the same set of vertices: for faces whose hashes agree.
-bool same_set(const Mesh& mesh, Index a, Index b) {
-    std::vector<Index> set_a, set_b;
-    vertex_set(mesh, a, set_a), vertex_set(mesh, b, set_b);
-    return set_a == set_b;
+bool is_out(const Box& box, const Box& within, bool high) {
+    for (std::size_t i = 0; i < 3; ++i)
+        if (high ? !(box.max[i] <= within.max[i]) : !(box.min[i] >= within.min[i])) return true;
+    return false;
 }
 
-/// True when the cross product of u and w is sure not to vanish, by the filter of orientation_2d.
-bool surely_not_parallel(const Vec3& u, const Vec3& w) {
-    const auto sure = [](double left, double right) {
-        const double det = std::abs(left - right);
-        return det > orientation_error * (std::abs(left) + std::abs(right)) && det > orientation_smallest;
-    };
-    return sure(u.x * w.y, u.y * w.x) || sure(u.y * w.z, u.z * w.y) || sure(u.z * w.x, u.x * w.z);
+/// What the property is of each part, those first that take the whole farthest.
+std::vector<Evidence> amounts_of_parts(const Scene& scene, const EvidenceQuery& query) {
+    const Property& property = query.property;
+    if (property.truth()) return {};
+    InspectSettings settings;
+    settings.request(property);
+    std::vector<Evidence> found;
+    for (const Part& part : scene.parts)
+        if (const auto value = property.get(inspect(part, settings)))
+            found.push_back({.part = part.name, .amount = *value});
+    std::stable_sort(found.begin(), found.end(), [&](const Evidence& a, const Evidence& b) {
+        return property.join == Join::least ? *a.amount < *b.amount : *a.amount > *b.amount;
+    });
+    found.resize(std::min(found.size(), query.limit));
+    return found;
 }
 
 } // namespace
 
-bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return !surely_not_parallel(b - a, c - a) && collinear(a, b, c);
-}
-
-bool is_degenerate(const Mesh& mesh, Index f) {
-    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-    // With the first corner and the first that differs from it, every other corner must be on one line.
-    const Vec3& p = mesh.point(begin);
-    Index other = begin + 1;
-    while (other < end && mesh.point(other) == p) ++other;
-    if (other + 1 >= end) return true;
-    const Vec3& q = mesh.point(other);
-    for (Index c = other + 1; c < end; ++c)
-        if (!is_degenerate(p, q, mesh.point(c))) return false;
-    return true;
-}
-
-Place place_of(const Mesh& mesh, Index f) {
-    Vec3 sum;
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
-    return {.face = f, .at = sum / mesh.face_size(f), .key = key_of_face(mesh, f)};
-}
-
-std::vector<Place> places_of_pairs(const Mesh& mesh, const std::vector<std::pair<Index, Index>>& pairs,
-                                   std::size_t limit) {
-    std::vector<Place> places;
-    for (const auto& [f, g] : pairs) {
-        if (places.size() == limit) break;
-        places.push_back(place_of(mesh, f));
-        places.back().with = g;
-        places.back().key = key_of_pair(mesh, f, g);
-    }
-    return places;
-}
-
-std::vector<Index> fans_at_vertices(const Mesh& mesh, const EdgeTable& edges) {
-    const VertexLists lists = corners_at_vertices(mesh);
+std::vector<BoundaryChain> boundary_chains(const Mesh& mesh) {
+    const EdgeTable edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
-    std::vector<Index> fans(mesh.vertex_count());
-    parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
-        std::vector<std::pair<Index, Index>> ends; // (edge, place of the corner in the vertex's list)
-        std::vector<Index> parent;
-        const auto root = [&](Index i) {
-            while (parent[i] != i) i = parent[i] = parent[parent[i]];
-            return i;
-        };
-        for (std::size_t v = begin; v < end; ++v) {
-            const auto corners = lists.of(static_cast<Index>(v));
-            ends.clear();
-            parent.resize(corners.size());
-            for (Index i = 0; i < corners.size(); ++i) {
-                parent[i] = i;
-                const Index c = corners[i];
-                for (const Index along : {c, previous_corner(mesh, faces[c], c)})
-                    if (edges.corner_edge[along] != none) ends.emplace_back(edges.corner_edge[along], i);
-            }
-            std::sort(ends.begin(), ends.end());
-            Index count = static_cast<Index>(corners.size());
-            for (std::size_t k = 1; k < ends.size(); ++k) {
-                if (ends[k].first != ends[k - 1].first) continue;
-                const Index a = root(ends[k - 1].second), b = root(ends[k].second);
-                if (a != b) parent[std::max(a, b)] = std::min(a, b), --count;
-            }
-            fans[v] = count;
+    DisjointSets sets(mesh.vertex_count());
+    std::vector<Index> boundary;
+    for (Index e = 0; e < edges.size(); ++e)
+        if (edges.corners_of(e).size() == 1) {
+            boundary.push_back(e);
+            sets.join(edges.edges[e].low, edges.edges[e].high);
         }
-    });
-    return fans;
+    std::vector<Index> number(mesh.vertex_count(), none); // of the chain, by the root of its set
+    std::vector<BoundaryChain> chains;
+    const PowerScale scale = even_scale(mesh.bounds());
+    for (const Index e : boundary) { // ascending by lower vertex
+        const Vec3 &a = mesh.positions[edges.edges[e].low], &b = mesh.positions[edges.edges[e].high];
+        Index& chain = number[sets.find(edges.edges[e].low)];
+        if (chain == none) {
+            chain = static_cast<Index>(chains.size());
+            chains.push_back({0, 0, faces[edges.corners_of(e)[0]], mix(a, b, 0.5)});
+        }
+        ++chains[chain].edges;
+        chains[chain].length += scale.none() ? length(b - a) : length(scale(b) - scale(a));
+    }
+    for (BoundaryChain& c : chains) c.length = unscaled(c.length, scale.powers[0]);
+    return chains;
 }
 
-std::vector<Index> duplicate_faces(const Mesh& mesh) {
-    const auto faces = hashed_faces(mesh);
-    std::vector<Index> duplicates;
-    for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
-        while (end < faces.size() && faces[end].hash == faces[begin].hash) ++end;
-        for (std::size_t i = begin + 1; i < end;
-             ++i) // by chance a hash may be shared by different sets: all are compared
-            for (std::size_t j = begin; j < i; ++j)
-                if (same_set(mesh, faces[i].face, faces[j].face)) {
-                    duplicates.push_back(faces[i].face);
-                    break;
-                }
-    }
-    std::sort(duplicates.begin(), duplicates.end());
-    return duplicates;
+std::vector<Location> locations_against(const Mesh& mesh, const Property& property,
+                                        const LocationQuery& query) {
+    if (property.of_faces)
+        return inspect_room::locations_of_faces(mesh, worst_faces(mesh, property, query));
+    return property.locations ? property.locations(mesh, query) : std::vector<Location>{};
 }
 
-std::vector<Place> places_against(const Mesh& mesh, std::string_view property, std::size_t limit) {
-    using Ways = std::array<int, 2>;
-    if (property == "closed" || property == "boundary_edges" || property == "boundary_loops" ||
-        property == "volume" || property == "genus")
-        return places_of_edges(mesh, limit, [](const Ways& w) { return w[0] != w[1]; });
-    if (property == "edge_manifold")
-        return places_of_edges(mesh, limit, [](const Ways& w) { return w[0] + w[1] > 2; });
-    if (property == "oriented")
-        return places_of_edges(mesh, limit, [](const Ways& w) { return std::abs(w[0] - w[1]) > 1; });
-    if (property == "euler") { // what is not open, and no handle
-        auto places = places_against(mesh, "edge_manifold", limit);
-        const auto more = places_against(mesh, "vertex_manifold", limit - places.size());
-        places.insert(places.end(), more.begin(), more.end());
-        return places;
-    }
-    if (property == "components") return places_of_pieces(mesh, limit);
-    if (property == "vertex_manifold") return places_of_vertices(mesh, limit, false);
-    if (property == "isolated_vertices") return places_of_vertices(mesh, limit, true);
-    if (property == "degenerate_faces") return places_of_faces(mesh, degenerate_faces(mesh, limit));
-    if (property == "duplicate_faces") {
-        auto faces = duplicate_faces(mesh);
-        faces.resize(std::min(faces.size(), limit));
-        return places_of_faces(mesh, faces);
-    }
-    if (property == "self_intersections" || property == "touching") {
-        const auto found = find_self_intersections(mesh, {.limit = limit, .apart = true});
-        return places_of_pairs(mesh, property == "touching" ? found.touching_pairs : found.pairs, limit);
-    }
-    return {};
+std::vector<Location> locations_against(const Part& part, const Property& property,
+                                        const LocationQuery& query) {
+    if (property.of_faces)
+        return inspect_room::locations_of_faces(part.mesh, worst_faces(placed(part), property, query));
+    return locations_against(part.mesh, property, query);
 }
+
+Evidence evidence_of(const Part& part, Location location) {
+    Evidence evidence{.part = part.name};
+    if (location.attribute != none) evidence.attribute = part.mesh.attributes[location.attribute].name;
+    location.at = in_world(part, location.at);
+    evidence.location = location;
+    return evidence;
+}
+
+std::vector<Evidence> evidence_against(const Scene& scene, const EvidenceQuery& query) {
+    return (query.property.evidence ? query.property.evidence : inspect_room::by_locations)(scene, query);
+}
+
+namespace inspect_room {
+
+std::vector<Location> locations_of_faces(const Mesh& mesh, const std::vector<Index>& faces) {
+    std::vector<Location> found;
+    for (const Index f : faces) found.push_back(location_of(mesh, f));
+    return found;
+}
+
+std::vector<Evidence> by_locations(const Scene& scene, const EvidenceQuery& query) {
+    std::vector<Evidence> found;
+    for (const Part& part : scene.parts)
+        for (const Location& location :
+             locations_against(part, query.property, {query.limit - found.size(), query.fails}))
+            found.push_back(evidence_of(part, location));
+    return found.empty() ? amounts_of_parts(scene, query) : found;
+}
+
+std::vector<Evidence> by_boundary(const Scene& scene, const EvidenceQuery& query) {
+    std::vector<Evidence> found;
+    for (const Part& part : scene.parts) {
+        const auto chains = boundary_chains(placed(part));
+        for (std::size_t i = 0; i < chains.size() && found.size() < query.limit; ++i)
+            found.push_back({.part = part.name,
+                             .location = Location{.face = chains[i].face, .at = chains[i].at},
+                             .loop = i,
+                             .chain = chains[i]});
+    }
+    return found.empty() ? by_locations(scene, query) : found; // there may be none for edges of three faces
+}
+
+std::vector<Evidence> by_box_corners(const Scene& scene, const EvidenceQuery& query) {
+    std::vector<Evidence> found;
+    for (const Part& part : scene.parts) {
+        Box box;
+        for (const Vec3& p : part.mesh.positions) box.add(in_world(part, p));
+        if (box.empty()) continue;
+        for (const bool high : {false, true})
+            if (is_out(box, query.within, high) && found.size() < query.limit)
+                found.push_back({.part = part.name, .location = Location{.at = high ? box.max : box.min}});
+    }
+    return found;
+}
+
+std::vector<Evidence> by_part_names(const Scene& scene, const EvidenceQuery& query) {
+    std::vector<Evidence> found;
+    for (const Part& part : scene.parts)
+        if (found.size() < query.limit) found.push_back({.part = part.name});
+    return found;
+}
+
+std::vector<Evidence> by_material_names(const Scene& scene, const EvidenceQuery& query) {
+    std::vector<Evidence> found;
+    for (const Material& material : scene.materials)
+        if (found.size() < query.limit) found.push_back({.material = material.name});
+    return found;
+}
+
+std::vector<Evidence> no_evidence(const Scene&, const EvidenceQuery&) { return {}; }
+
+} // namespace inspect_room
 
 } // namespace facetmill

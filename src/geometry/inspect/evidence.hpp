@@ -1,35 +1,81 @@
 #pragma once
-// Where a property fails: the places that a person (or a marked copy of the mesh) is shown.
+// Where a property fails: what a person (or a marked copy of the mesh) is shown.
 
+#include "geometry/inspect/inspect.hpp"
 #include "mesh/topology.hpp"
+
+#include <functional>
 
 namespace facetmill {
 
 /// A place on a mesh: a face (or none), and a point of it in the mesh's space.
-struct Place {
+struct Location {
     Index face = none;
-    Vec3 at;
+    Vec3 at = {};
     Index with = none;      ///< the other face of a pair
     Index attribute = none; ///< the mesh's attribute that it is about
     /// What it is, whatever the numbers and the order of faces, corners and vertices: a hash of the positions
-    /// that it is about (of a face, a pair of faces, an edge, a vertex; of a piece its lowest position).
+    /// that it is about (of a face, a pair of faces, an edge, a vertex; of a component its lowest position).
+    /// Equal coordinates give equal keys, and only they (but for chance, at 64 bits); 0 and -0 are equal, and
+    /// so are all numbers that are none.
     std::uint64_t key = 0;
 };
 
-/// The first places, in order of edge, face or vertex number, that keep the property (a name of
-/// property_table) from holding as a sound mesh has it: for closed, boundary_edges and boundary_loops the
-/// edges whose directions do not cancel; for edge_manifold edges with more than two faces; for oriented edges
-/// that two faces run along the same way; for vertex_manifold vertices of several fans; for degenerate_faces,
-/// duplicate_faces and isolated_vertices these themselves; for self_intersections and touching the faces of
-/// each pair, in the middle of the lower one; for euler as for edge_manifold and vertex_manifold; for
-/// components the first face of each. Empty for properties that are not about places. O(n log n).
-std::vector<Place> places_against(const Mesh& mesh, std::string_view property, std::size_t limit = 10);
+/// What locations are asked for.
+struct LocationQuery {
+    std::size_t limit = 10;
+    /// Whether a value fails, of properties that each face or element has a value of; empty: all do.
+    std::function<bool(double)> fails = {};
+};
+
+/// The first locations that speak against a property, in the mesh's (the part's own) space, in order of edge,
+/// face or vertex number: those that keep it from holding as a sound mesh has it. Of properties that each face
+/// has (min_angle), the worst faces whose value fails, the worst first; values are taken where the part stands.
+/// Empty for properties that are not about places. O(n log n).
+std::vector<Location> locations_against(const Mesh& mesh, const Property& property,
+                                        const LocationQuery& query = {});
+std::vector<Location> locations_against(const Part& part, const Property& property,
+                                        const LocationQuery& query);
+
+/// Edges of the boundary that hang together by their vertices: a loop, or several that touch.
+struct BoundaryChain {
+    std::size_t edges = 0;
+    double length = 0;
+    Index face = none; ///< at the chain's first edge
+    Vec3 at;           ///< the middle of that edge
+};
+/// By their lowest vertex. O(n log n).
+std::vector<BoundaryChain> boundary_chains(const Mesh& mesh);
+
+/// One thing that speaks against a property of a scene.
+struct Evidence {
+    std::string part = {}, material = {};  ///< whose it is; one of them may be empty
+    std::optional<Location> location = {}; ///< `at` is in the world
+    std::string attribute = {};            ///< the location is about it
+    std::optional<std::size_t> loop = {};  ///< the number of the boundary chain among those of its part,
+    BoundaryChain chain = {};              ///< ... and it
+    std::optional<double> amount = {};     ///< what the part contributes, where no location tells more
+};
+
+struct EvidenceQuery {
+    const Property& property;
+    std::function<bool(double)> fails = {};
+    Box within = {}; ///< of a box: what it has to lie in
+    std::size_t limit = 10;
+};
+
+/// The first evidence, as the property's row finds it.
+std::vector<Evidence> evidence_against(const Scene& scene, const EvidenceQuery& query);
 
 /// Face f, in the middle of its corners.
-Place place_of(const Mesh& mesh, Index f);
-/// The first pairs of faces, in the middle of the first of each.
-std::vector<Place> places_of_pairs(const Mesh& mesh, const std::vector<std::pair<Index, Index>>& pairs,
-                                   std::size_t limit);
+Location location_of(const Mesh& mesh, Index f);
+/// The location as evidence, told where the part stands.
+Evidence evidence_of(const Part& part, Location location);
+
+/// [of_face's numbers below count] The key of each component: that of its lowest position (x first, then y
+/// and z).
+std::vector<std::uint64_t> keys_of_components(const Mesh& mesh, const std::vector<Index>& of_face,
+                                              std::size_t count);
 
 /// Whether face f has exactly zero area: all its corners on one line, decided exactly.
 bool is_degenerate(const Mesh& mesh, Index f);

@@ -1,16 +1,20 @@
 #include "geometry/inspect/inspect.hpp"
 
 #include "base/parallel.hpp"
-#include "geometry/inspect/evidence.hpp"
 #include "geometry/inspect/connectivity.hpp"
-#include "mesh/power_scale.hpp"
+#include "geometry/inspect/evidence.hpp"
+#include "geometry/inspect/measures.hpp"
 #include "geometry/intersect/self_intersections.hpp"
+#include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <numeric>
+#include <type_traits>
 
 namespace facetmill {
+
+using inspect_room::value_of;
 
 namespace {
 
@@ -19,8 +23,11 @@ struct FaceSums {
     std::int64_t triangles = 0, degenerate = 0, repeating = 0;
     double area = 0, volume = 0; ///< volume: six times
     void add(const FaceSums& b) {
-        triangles += b.triangles, degenerate += b.degenerate, repeating += b.repeating;
-        area += b.area, volume += b.volume;
+        triangles += b.triangles;
+        degenerate += b.degenerate;
+        repeating += b.repeating;
+        area += b.area;
+        volume += b.volume;
     }
 };
 
@@ -117,65 +124,98 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     return p;
 }
 
-template <class T>
-void add_optional(std::optional<T>& sum, const std::optional<T>& x) {
-    if (sum && x)
-        *sum += *x;
-    else
-        sum.reset();
-}
+/// A member as a number; none for a box.
+struct MemberValue {
+    const Properties& of;
+    template <class T>
+    std::optional<double> operator()(T Properties::*member) const {
+        return number(of.*member);
+    }
+    std::optional<double> operator()(std::monostate) const { return {}; }
 
-/// Where both apply, one value of two parts; where only one does, its own.
-void add_qualities(Properties& sum, const Properties& p) {
-    for (std::size_t q = 0; q < quality_count; ++q) {
-        auto& a = sum.qualities[q];
-        const auto& b = p.qualities[q];
-        if (!b) continue;
-        switch (info_of(static_cast<Quality>(q)).join) {
-        case Join::sum:
-            a = a.value_or(0) + *b;
-            break;
-        case Join::most:
-            a = a ? std::max(*a, *b) : *b;
-            break;
-        default: // a truth holds when all do: the least of 0 and 1
-            a = a ? std::min(*a, *b) : *b;
+  private:
+    static std::optional<double> number(const Box&) { return {}; }
+    template <class T>
+    static std::optional<double> number(const T& value) {
+        return static_cast<double>(value);
+    }
+    template <class T>
+    static std::optional<double> number(const std::optional<T>& value) {
+        if (!value) return {};
+        return static_cast<double>(*value);
+    }
+};
+
+/// Joins what a part has with what those before it have.
+class Joiner {
+  public:
+    Joiner(Properties& sum, const Properties& part) : sum_(sum), part_(part) {}
+
+    void add(const Property& property) const {
+        if (property.on_request())
+            add_requested(property);
+        else
+            std::visit([&](auto member) { add_member(member, property.join); }, property.member);
+    }
+
+  private:
+    template <class T>
+    void add_member(T Properties::*member, Join join) const {
+        T& a = sum_.*member;
+        const T& b = part_.*member;
+        if constexpr (std::is_same_v<T, bool>)
+            a = a && b;
+        else if constexpr (std::is_same_v<T, Box>)
+            a.add(b);
+        else if constexpr (std::is_arithmetic_v<T>)
+            a += b;
+        else if (join == Join::sum_if_all) {
+            if constexpr (!std::is_enum_v<typename T::value_type>) {
+                if (a && b)
+                    *a += *b;
+                else
+                    a.reset();
+            }
         }
     }
-}
+    void add_member(std::monostate, Join) const {}
 
-/// local: the mesh as it is, whose orientation counts, mirrored by its node or not.
-void measure_qualities(Properties& p, const Mesh& world, const Mesh& local, const InspectSettings& settings) {
-    for (std::size_t q = 0; q < quality_count; ++q)
-        if (settings.qualities >> q & 1u) {
-            const auto quality = static_cast<Quality>(q);
-            p.qualities[q] = measure(quality == Quality::outward ? local : world, quality);
+    /// Where both apply, one value of two parts; where only one does, its own.
+    void add_requested(const Property& property) const {
+        const auto value = property.get(part_);
+        if (!value) return;
+        const auto at = std::find_if(sum_.requested.begin(), sum_.requested.end(),
+                                     [&](const auto& r) { return r.first == &property; });
+        if (at == sum_.requested.end()) {
+            sum_.requested.emplace_back(&property, *value);
+            return;
         }
-}
+        double& a = at->second;
+        if (property.join == Join::sum)
+            a += *value;
+        else if (property.join == Join::most)
+            a = std::max(a, *value);
+        else // a truth holds when all do: the least of 0 and 1
+            a = std::min(a, *value);
+    }
 
-void add(Properties& sum, const Properties& p) {
-    sum.vertices += p.vertices, sum.wedges += p.wedges, sum.edges += p.edges;
-    sum.faces += p.faces, sum.triangles += p.triangles, sum.components += p.components, sum.euler += p.euler;
-    sum.boundary_loops += p.boundary_loops, sum.boundary_edges += p.boundary_edges;
-    sum.degenerate_faces += p.degenerate_faces, sum.duplicate_faces += p.duplicate_faces;
-    sum.isolated_vertices += p.isolated_vertices;
-    sum.closed = sum.closed && p.closed, sum.oriented = sum.oriented && p.oriented;
-    sum.edge_manifold = sum.edge_manifold && p.edge_manifold;
-    sum.vertex_manifold = sum.vertex_manifold && p.vertex_manifold;
-    sum.area += p.area;
-    add_optional(sum.genus, p.genus);
-    add_optional(sum.volume, p.volume);
-    add_optional(sum.self_intersections, p.self_intersections);
-    add_optional(sum.touching, p.touching);
-    sum.bounds.add(p.bounds);
-    add_qualities(sum, p);
+    Properties& sum_;
+    const Properties& part_;
+};
+
+void measure_requested(Properties& p, const Mesh& world, const Mesh& local, const InspectSettings& settings) {
+    const Measured measured{world, local, p, settings};
+    std::vector<std::pair<const Property*, double>> values;
+    for (const Property* property : settings.requested)
+        if (const auto value = value_of(*property, measured)) values.emplace_back(property, *value);
+    p.requested = std::move(values);
 }
 
 } // namespace
 
 Properties inspect(const Mesh& mesh, const InspectSettings& settings) {
     Properties p = inspect_placed(mesh, mesh.positions, false, settings);
-    measure_qualities(p, mesh, mesh, settings);
+    measure_requested(p, mesh, mesh, settings);
     return p;
 }
 
@@ -185,10 +225,10 @@ Properties inspect(const Part& part, const InspectSettings& settings) {
     parallel_for(world.size(),
                  [&](std::size_t v) { world[v] = part.transform.point(part.mesh.positions[v]); });
     Properties p = inspect_placed(part.mesh, world, part.transform.determinant() < 0, settings);
-    if (settings.qualities == 0) return p;
+    if (settings.requested.empty()) return p;
     Mesh placed = part.mesh;
     placed.positions = std::move(world);
-    measure_qualities(p, placed, part.mesh, settings);
+    measure_requested(p, placed, part.mesh, settings);
     return p;
 }
 
@@ -196,12 +236,68 @@ Properties inspect(const Scene& scene, const InspectSettings& settings) {
     Properties sum;
     sum.parts = static_cast<std::int64_t>(scene.parts.size());
     sum.materials = static_cast<std::int64_t>(scene.materials.size());
-    sum.unit = scene.unit, sum.up = scene.up;
+    sum.unit = scene.unit;
+    sum.up = scene.up;
     sum.genus = 0;
     sum.volume = 0;
     if (settings.self_intersections) sum.self_intersections = sum.touching = 0;
-    for (const Part& part : scene.parts) add(sum, inspect(part, settings));
+    for (const Part& part : scene.parts) {
+        const Properties own = inspect(part, settings);
+        for (const Property& property : property_table()) Joiner(sum, own).add(property);
+    }
     return sum;
+}
+
+std::vector<Properties> inspect_components(const Mesh& mesh, std::size_t limit) {
+    const Components all = face_components(mesh);
+    if (all.count == 1 && limit > 0) return {inspect(mesh)};
+    std::vector<std::size_t> faces(all.count, 0);
+    for (const Index component : all.of_face) ++faces[component];
+    std::vector<Index> order(all.count), number(all.count, none);
+    std::iota(order.begin(), order.end(), Index{0});
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return faces[a] > faces[b]; });
+    order.resize(std::min(order.size(), limit));
+    for (Index i = 0; i < order.size(); ++i) number[order[i]] = i;
+    std::vector<Mesh> meshes(order.size());
+    std::vector<Index> vertex(mesh.vertex_count(), none), face; // no two components share a vertex
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        if (number[all.of_face[f]] == none) continue;
+        Mesh& one = meshes[number[all.of_face[f]]];
+        face.clear();
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+            Index& v = vertex[mesh.vertex(c)];
+            if (v == none) {
+                v = static_cast<Index>(one.positions.size());
+                one.positions.push_back(mesh.point(c));
+            }
+            face.push_back(v);
+        }
+        add_face(one, face);
+    }
+    std::vector<Properties> properties;
+    for (const Mesh& one : meshes) properties.push_back(inspect(one));
+    return properties;
+}
+
+void InspectSettings::request(const Property& property) {
+    if (property.costly) self_intersections = true;
+    if (property.on_request() &&
+        std::find(requested.begin(), requested.end(), &property) == requested.end())
+        requested.push_back(&property);
+}
+
+std::optional<double> Property::get(const Properties& properties) const {
+    if (on_request()) {
+        for (const auto& [property, value] : properties.requested)
+            if (property == this) return value;
+        return {};
+    }
+    return std::visit(MemberValue{properties}, member);
+}
+
+std::optional<double> measure(const Mesh& mesh, const Property& property) {
+    const Properties none;
+    return value_of(property, {mesh, mesh, none, {}});
 }
 
 } // namespace facetmill

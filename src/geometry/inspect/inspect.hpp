@@ -1,21 +1,29 @@
 #pragma once
-// The properties of a mesh that info, validate, ensure, when and the report share: one struct, one table of
-// names.
+// The properties of a mesh that info, validate, ensure, when, the report and the manual share: a struct of
+// values, and a table with one row for each.
 
-#include "geometry/inspect/qualities.hpp"
 #include "mesh/scene.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace facetmill {
 
-/// All properties of section 7 of the design that are numbers or truths. Of a scene: sums over its parts, and
-/// truths that hold for every part; bounds, area and volume in world space.
+struct Property;
+struct Location;
+struct LocationQuery;
+struct Evidence;
+struct EvidenceQuery;
+
+/// The values of properties. Of a scene: what its parts have, joined as each property's row says; bounds, area
+/// and volume in world space.
 struct Properties {
     std::int64_t vertices = 0, wedges = 0, edges = 0, faces = 0, triangles = 0;
     std::int64_t components = 0; ///< connected through vertices; isolated vertices are not counted
@@ -39,12 +47,18 @@ struct Properties {
     std::optional<std::int64_t> parts, materials; ///< these four of a scene only
     std::optional<Unit> unit;
     std::optional<UpAxis> up;
-    std::array<std::optional<double>, quality_count> qualities{}; ///< by Quality; only on request
+    /// What was measured on request and applies.
+    std::vector<std::pair<const Property*, double>> requested;
 };
 
 struct InspectSettings {
     bool self_intersections = false;
-    std::uint32_t qualities = 0; ///< bit q asks for Quality q
+    std::vector<const Property*> requested = {}; ///< those with a function of their own
+    /// The mesh is one of several components of a solid: one of negative volume is a cavity of it.
+    bool part_of_solid = false;
+
+    /// Asks for whatever the property needs.
+    void request(const Property& property);
 };
 
 /// Properties of a mesh in its own space. O(n log n) at most, parallel, never throws for a valid mesh (NaN
@@ -55,28 +69,91 @@ Properties inspect(const Part& part, const InspectSettings& settings = {});
 /// Of all parts in world space (closedness is per part, see the design's section 2).
 Properties inspect(const Scene& scene, const InspectSettings& settings = {});
 
-/// What a property is, and so what may be asked of it: a whole number, any number, an angle in degrees or a
-/// length, or a range of these; true or false, one of several words, or two corners of a box.
-enum class PropertyKind { count, number, angle, length, truth, word, box };
+/// Properties of the components of a mesh with most faces, in its own space, the largest first (of equal ones
+/// the one of the lowest face); isolated vertices belong to none. O(n log n).
+std::vector<Properties> inspect_components(const Mesh& mesh, std::size_t limit);
 
-/// An entry of the table of names that users write in validate, ensure and when.
+/// What kind of value a property has, and so its unit and what may be asked of it.
+enum class PropertyKind {
+    count,  ///< a whole number
+    number, ///< any number, without a unit
+    angle,  ///< in degrees
+    length, ///< in scene units
+    area,   ///< in square scene units
+    volume, ///< in cubic scene units
+    truth,  ///< true or false
+    word,   ///< one of several
+    box,    ///< two corners, in scene units
+};
+/// "degrees", "scene units"; empty where there is none.
+std::string_view unit_of(PropertyKind kind);
+
+/// How the values of parts become that of a scene.
+enum class Join {
+    sum,
+    sum_if_all, ///< of a scene only when every part has one
+    least,
+    most,
+    all,      ///< a truth holds when it holds for all parts
+    around,   ///< a box around all
+    of_scene, ///< parts have none: it is about the scene
+};
+
+/// A mesh that is measured.
+struct Measured {
+    const Mesh& world;            ///< where it stands
+    const Mesh& local;            ///< as it is: its orientation counts, mirrored by its node or not
+    const Properties& properties; ///< all that is measured without a request
+    const InspectSettings& settings;
+};
+
+/// One property: all that is known of it, in one row. Its value is either a member of Properties, which the
+/// one pass of inspect fills, or has a function of its own, called on request.
 struct Property {
-    std::string_view name;
+    using Member =
+        std::variant<std::monostate, std::int64_t Properties::*, bool Properties::*, double Properties::*,
+                     std::optional<std::int64_t> Properties::*, std::optional<double> Properties::*,
+                     std::optional<Unit> Properties::*, std::optional<UpAxis> Properties::*,
+                     Box Properties::*>;
+    using LocationsOf = std::vector<Location> (*)(const Mesh& local, const LocationQuery& query);
+    using EvidenceOf = std::vector<Evidence> (*)(const Scene& scene, const EvidenceQuery& query);
+
+    std::string_view name; ///< as users write it
     PropertyKind kind = PropertyKind::count;
-    std::string_view help;
-    /// The value: truths as 0 and 1, words by their place in `words`; none for a box and when the property
-    /// does not apply (volume of an open mesh).
-    std::function<std::optional<double>(const Properties&)> get;
-    bool costly = false;                      ///< needs InspectSettings::self_intersections
-    std::optional<Quality> quality = {};      ///< needs its bit in InspectSettings::qualities
-    std::vector<std::string_view> words = {}; ///< of a word
-    bool of_scene = false;                    ///< of a scene only; reports tell more of it than the value
-    double lowest = 0, highest = HUGE_VAL;    ///< no mesh has a value beyond
+    Join join = Join::sum;
+    std::string_view help; ///< for the manual
+    std::string_view hint; ///< the stage that mends it
+    Member member = {};
+    bool costly = false; ///< a member that needs InspectSettings::self_intersections
+    /// On request: the value; none when it does not apply (no faces, no such attribute). Truths as 0 and 1.
+    std::optional<double> (*measure)(const Measured& mesh) = nullptr;
+    /// On request: the value of each face; the property is the least or most of them, as they join. Infinity
+    /// where it does not apply. The mesh is near 1 in size; lengths are scaled back.
+    std::vector<double> (*of_faces)(const Mesh& mesh) = nullptr;
+    /// The places that speak against it, null when it has none (those of of_faces are found by themselves).
+    LocationsOf locations = nullptr;
+    /// What a failed check shows; null: locations, else what the parts contribute.
+    EvidenceOf evidence = nullptr;
+    /// How many locations there are is told beside the value, which does not say it.
+    bool counts_locations = false;
+    double lowest = 0, highest = HUGE_VAL; ///< no mesh has a value beyond
+    /// Of a word: what it may be, by the enumeration's value.
+    std::vector<std::string_view> (*words)() = nullptr;
+
     bool truth() const { return kind == PropertyKind::truth; }
+    bool of_scene() const { return join == Join::of_scene; }
+    bool on_request() const { return measure || of_faces; }
+    /// The value: truths as 0 and 1, words by their place in `words`; none for a box, when it was not asked
+    /// for and when it does not apply (volume of an open mesh).
+    std::optional<double> get(const Properties& properties) const;
 };
 
 /// In the order of the design's section 7.
-const std::vector<Property>& property_table();
+std::span<const Property> property_table();
+/// Null when there is none of that name.
 const Property* property_named(std::string_view name);
+
+/// The value for a mesh in world space of a property that is measured on request. Parallel.
+std::optional<double> measure(const Mesh& mesh, const Property& property);
 
 } // namespace facetmill

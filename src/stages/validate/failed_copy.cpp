@@ -32,9 +32,9 @@ void paint(Mesh& mesh, const std::vector<std::uint32_t>& flags, Index material) 
     mesh.attributes.push_back({"failed", Domain::face, Role::index, 1, false, flags});
 }
 
-bool is_corner(const Mesh& mesh, const Place& place) {
-    for (Index c = mesh.face_begin(place.face); c < mesh.face_end(place.face); ++c)
-        if (mesh.point(c) == place.at) return true;
+bool is_corner(const Mesh& mesh, const Location& location) {
+    for (Index c = mesh.face_begin(location.face); c < mesh.face_end(location.face); ++c)
+        if (mesh.point(c) == location.at) return true;
     return false;
 }
 
@@ -42,8 +42,8 @@ bool is_corner(const Mesh& mesh, const Place& place) {
 
 void flag_faces_against(const Part& part, const Assertion& assertion, std::vector<std::uint32_t>& flags) {
     const Mesh& mesh = part.mesh;
-    std::set<std::array<double, 3>> points; // of places that are vertices
-    for (const Place& p : places_against(part, assertion, most_places)) {
+    std::set<std::array<double, 3>> points; // of locations that are vertices
+    for (const Location& p : locations_against(part, assertion)) {
         if (p.face == none || is_corner(mesh, p)) points.insert({p.at.x, p.at.y, p.at.z});
         if (p.face != none) flags[p.face] = 1;
         if (p.with != none) flags[p.with] = 1;
@@ -59,7 +59,8 @@ Scene failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_
     Scene copy = scene;
     Material red;
     red.name = "failed";
-    red.base_colour[1] = red.base_colour[2] = 0;
+    red.base_colour[1] = 0;
+    red.base_colour[2] = 0;
     red.double_sided = true;
     copy.materials.push_back(red);
     for (std::size_t p = 0; p < copy.parts.size(); ++p) {

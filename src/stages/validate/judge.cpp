@@ -1,6 +1,5 @@
 #include "stages/validate/judge.hpp"
 
-#include "geometry/inspect/place_keys.hpp"
 #include "geometry/clean/solid_pieces.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "mesh/placement.hpp"
@@ -17,13 +16,13 @@ namespace facetmill {
 
 namespace {
 
-/// Lends the parts at the given places to body as a scene of their own, without a copy.
+/// Lends the parts of the given indices to body as a scene of their own, without a copy.
 template <class Body>
-void with_parts(Scene& scene, std::span<const std::size_t> places, Body&& body) {
+void with_parts(Scene& scene, std::span<const std::size_t> indices, Body&& body) {
     Scene chosen{{}, scene.materials, scene.unit, scene.up, {}};
-    for (const std::size_t i : places) chosen.parts.push_back(std::move(scene.parts[i]));
+    for (const std::size_t i : indices) chosen.parts.push_back(std::move(scene.parts[i]));
     body(chosen);
-    for (std::size_t k = 0; k < places.size(); ++k) scene.parts[places[k]] = std::move(chosen.parts[k]);
+    for (std::size_t k = 0; k < indices.size(); ++k) scene.parts[indices[k]] = std::move(chosen.parts[k]);
 }
 
 class Judge {
@@ -33,9 +32,9 @@ class Judge {
     }
 
     void run(Scene& scene) {
-        std::vector<std::size_t> places;
+        std::vector<std::size_t> selected;
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
-            if (context_.selects(scene.parts[i], scene)) places.push_back(i);
+            if (context_.selects(scene.parts[i], scene)) selected.push_back(i);
         for (const Part& part : scene.parts) flags_.emplace_back(part.mesh.face_count(), 0);
         s_.assertions = resolved(std::move(s_.assertions), scene, context_);
         for (auto& limit : check_limits(s_.limits, scene)) {
@@ -44,34 +43,32 @@ class Judge {
             take(std::move(limit.check), std::move(failure), verdict);
         }
         if (s_.per == Per::scene)
-            with_parts(scene, places, [&](const Scene& all) { judge(all, {"", "", "", places, nullptr}); });
+            with_parts(scene, selected, [&](const Scene& all) { judge(all, {"", "", "", selected, nullptr}); });
         if (s_.per == Per::part)
-            for (const std::size_t i : places)
+            for (const std::size_t i : selected)
                 with_parts(scene, {&i, 1}, [&](const Scene& one) {
                     const std::string& name = one.parts[0].name;
                     judge(one, {name, name, "", {&i, 1}, nullptr});
                 });
         if (s_.per == Per::component)
-            for (const std::size_t i : places) judge_components(scene, i);
+            for (const std::size_t i : selected) judge_components(scene, i);
         finish(scene);
     }
 
   private:
     /// What is judged as one, and how its parts and faces are numbered in the scene.
     struct Subject {
-        std::string name;        ///< as it is told: a piece has a number
-        std::string part, piece; ///< what it is known by, whatever the numbers
+        std::string name;            ///< as it is told: a component has a number
+        std::string part, component; ///< what it is known by, whatever the numbers
         std::span<const std::size_t> parts;
-        const std::vector<Index>* faces; ///< of a piece of the one part; null: as the part has them
-        bool shared = false;             ///< the piece is one of several of a solid: the outer, or a cavity
+        const std::vector<Index>* faces; ///< of a component of the one part; null: as the part has them
+        bool shared = false;             ///< it is one of several components of a solid: the outer, or a cavity
     };
 
-    /// A cavity's front looks into it, which no piece shows by itself.
     Properties properties_of(const Scene& scene, const Subject& subject) const {
-        Properties p = inspect(scene, s_.assertions.settings());
-        auto& outward = p.qualities[static_cast<std::size_t>(Quality::outward)];
-        if (subject.shared && outward && p.volume.value_or(0) < 0) outward = 1;
-        return p;
+        InspectSettings settings = s_.assertions.settings();
+        settings.part_of_solid = subject.shared;
+        return inspect(scene, settings);
     }
 
     void judge(const Scene& scene, const Subject& subject) {
@@ -85,13 +82,13 @@ class Judge {
                 continue;
             }
             Failure failure = failure_of(
-                check, subject, s_.baseline ? place_keys(scene, assertion) : std::vector<std::uint64_t>{});
+                check, subject, s_.baseline ? location_keys(scene, assertion) : std::vector<std::uint64_t>{});
             const auto verdict = known_.judge(failure);
             // What is new comes first, of a failure of which some is known.
             const bool some = verdict.known && !verdict.keys.empty();
             check.evidence =
                 some ? evidence_among(scene, assertion, verdict.keys) : evidence_against(scene, assertion);
-            check.places = count_places(scene, assertion);
+            check.locations = count_locations(scene, assertion);
             if (subject.faces) renumber(check.evidence, *subject.faces);
             if (!take(std::move(check), std::move(failure), verdict) && s_.mark)
                 flag(scene, subject, assertion);
@@ -102,16 +99,18 @@ class Judge {
                               std::vector<std::uint64_t> keys) {
         return {.check = check.name,
                 .part = subject.part,
-                .piece = subject.piece,
+                .component = subject.component,
                 .expected = check.expected,
                 .found = check.found,
+                .min = check.min,
+                .max = check.max,
                 .keys = std::move(keys)};
     }
 
     static void renumber(Json& evidence, const std::vector<Index>& faces) {
-        for (Json& place : evidence)
+        for (Json& entry : evidence)
             for (const char* key : {"face", "with"})
-                if (place.contains(key)) place[key] = faces[place[key].get<std::size_t>()];
+                if (entry.contains(key)) entry[key] = faces[entry[key].get<std::size_t>()];
     }
 
     void flag(const Scene& scene, const Subject& subject, const Assertion& assertion) {
@@ -125,15 +124,15 @@ class Judge {
 
     void judge_components(const Scene& scene, std::size_t index) {
         const Part& part = scene.parts[index];
-        const Components pieces = face_components(part.mesh, false);
+        const Components components = face_components(part.mesh, false);
         const Components solids = solid_pieces(part.mesh);
-        std::vector<std::vector<Index>> faces(pieces.count);
-        for (Index f = 0; f < part.mesh.face_count(); ++f) faces[pieces.of_face[f]].push_back(f);
+        std::vector<std::vector<Index>> faces(components.count);
+        for (Index f = 0; f < part.mesh.face_count(); ++f) faces[components.of_face[f]].push_back(f);
         std::vector<std::size_t> of_solid(solids.count, 0);
-        for (const auto& piece : faces) ++of_solid[solids.of_face[piece[0]]];
-        const auto keys = keys_of_pieces(part.mesh, pieces.of_face, pieces.count);
+        for (const auto& component : faces) ++of_solid[solids.of_face[component[0]]];
+        const auto keys = keys_of_components(part.mesh, components.of_face, components.count);
         std::size_t number = 0;
-        for (Mesh& mesh : separated(part.mesh, pieces.of_face, pieces.count)) {
+        for (Mesh& mesh : separated(part.mesh, components.of_face, components.count)) {
             Scene one{{}, scene.materials, scene.unit, scene.up, {}};
             one.parts.emplace_back().name = part.name;
             one.parts[0].mesh = std::move(mesh);
@@ -152,10 +151,11 @@ class Judge {
     bool take(report::Check check, Failure failure, const KnownFailures::Verdict& verdict) {
         check.severity = s_.severity;
         if (!check.passed) {
-            if (known_.size() > 0 && failure.places() > 0) check.fresh = verdict.fresh;
-            check.waived = check.passed = s_.update_baseline || verdict.waived;
+            if (known_.size() > 0 && failure.locations() > 0) check.fresh = verdict.fresh;
+            check.waived = s_.update_baseline || verdict.waived;
+            check.passed = check.waived;
             waived_ += check.waived;
-            waived_places_ += failure.places() - (s_.update_baseline ? 0 : verdict.fresh);
+            waived_locations_ += failure.locations() - (s_.update_baseline ? 0 : verdict.fresh);
             any_known_ = any_known_ || verdict.known;
             any_ = any_ || !check.passed;
             failed_.add(std::move(failure));
@@ -174,26 +174,27 @@ class Judge {
     void tell_of_baseline() {
         const auto gone = known_.gone(failed_);
         context_.result()["waived"] = waived_;
-        context_.result()["waived_places"] = waived_places_;
-        context_.result()["mended"] = gone.failures;
-        context_.result()["mended_places"] = gone.places;
+        context_.result()["waived_locations"] = waived_locations_;
+        context_.result()["fixed"] = gone.failures;
+        context_.result()["fixed_locations"] = gone.locations;
         if (known_.size() > 0 && any_ && !any_known_)
             context_.warn("W-BASELINE",
                           fmt::format("nothing of what '{}' knows fails here, and other things do",
                                       s_.baseline->string()),
                           "is it the baseline of another mesh, or of other parts?");
-        if (gone.failures + gone.places == 0) return;
+        if (gone.failures + gone.locations == 0) return;
         std::string text = fmt::format("{} known failures waived", waived_);
-        if (gone.failures > 0) text += fmt::format(", {} no longer there", gone.failures);
-        if (waived_places_ + gone.places > 0) text += fmt::format("; {} known places waived", waived_places_);
-        if (gone.places > 0) text += fmt::format(", {} no longer there", gone.places);
+        if (gone.failures > 0) text += fmt::format(", {} fixed", gone.failures);
+        if (waived_locations_ + gone.locations > 0)
+            text += fmt::format("; {} known locations waived", waived_locations_);
+        if (gone.locations > 0) text += fmt::format(", {} fixed", gone.locations);
         context_.say(text + (any_ ? "" : ": update_baseline tightens the gate")); // it would waive new ones
     }
 
     JudgeSettings s_;
     Context& context_;
     KnownFailures known_, failed_;
-    std::size_t waived_ = 0, waived_places_ = 0;
+    std::size_t waived_ = 0, waived_locations_ = 0;
     bool any_ = false;                              ///< failed and not waived
     bool any_known_ = false;                        ///< failed, and did before
     std::vector<std::vector<std::uint32_t>> flags_; ///< of the parts' faces

@@ -13,7 +13,7 @@ namespace facetmill {
 enum class Per {
     scene,     ///< sums over the parts, and truths of all parts
     part,      ///< each part for itself
-    component, ///< each piece of each part that is connected through edges
+    component, ///< each component of each part, connected through edges
 };
 
 struct JudgeSettings {
@@ -27,7 +27,7 @@ struct JudgeSettings {
 };
 
 /// Adds one check to the context for every assertion and thing that it is about, failed ones with evidence:
-/// the first places, with the faces as the part numbers them, and how many there are. Those of the baseline
+/// the first locations, with the faces as the part numbers them, and how many there are. Those of the baseline
 /// are waived as long as they get no worse. The scene is as before afterwards. Throws usage (E-UNIT) for
 /// lengths, missing and malformed for the baseline, output for the copy.
 void judge(Scene& scene, JudgeSettings settings, Context& context);

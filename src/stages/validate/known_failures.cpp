@@ -14,31 +14,15 @@ namespace {
 
 using Keys = std::vector<std::uint64_t>;
 
-constexpr int form = 2;
+constexpr int form = 1;
 
-std::optional<double> number_in(std::string_view text) {
-    double x = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-    if (error != std::errc() || end != text.data() + text.size()) return {};
-    return x;
-}
-
-/// The last number of "at most 5", "2", "1 to 5", "at most 5mm (0.005)"; a failure beyond it is too large,
-/// before it too small.
-std::optional<double> limit_in(const std::string& expected) {
-    std::string_view text(expected);
-    if (const auto space = text.rfind(' '); space != text.npos) text.remove_prefix(space + 1);
-    if (text.starts_with('(') && text.ends_with(')')) text = text.substr(1, text.size() - 2);
-    return number_in(text);
-}
-
-/// Whether what is found now is no worse; what is no number is as good as its places say, if it has any.
+/// Whether what is found now is no worse; what is no number is as good as its locations say, if it has any.
 bool is_no_worse(const Failure& before, const Failure& now) {
     if (before.found == now.found) return true;
-    const auto was = number_in(before.found), is = number_in(now.found), limit = limit_in(now.expected);
-    if (!was && !is) return now.places() > 0;
-    if (!was || !is || !limit) return false;
-    return *is > *limit ? *is <= *was : *is >= *was;
+    if (!before.found.is_number() && !now.found.is_number()) return now.locations() > 0;
+    if (!before.found.is_number() || !now.found.is_number()) return false;
+    const auto was = before.found.get<double>(), is = now.found.get<double>();
+    return now.max && is > *now.max ? is <= was : is >= was;
 }
 
 std::uint64_t hash_of(std::span<const std::uint64_t> keys) {
@@ -52,7 +36,7 @@ std::size_t listed(const Keys& keys) {
     std::size_t different = 0;
     for (std::size_t i = 0; i < keys.size(); ++i) {
         different += i == 0 || keys[i] != keys[i - 1];
-        if (different > KnownFailures::most_known) return i;
+        if (different > KnownFailures::max_known) return i;
     }
     return keys.size();
 }
@@ -87,8 +71,8 @@ bool read_key(const Json& json, Keys& keys) {
         const auto read = std::from_chars(text.data() + 18, end, count);
         if (read.ec != std::errc() || read.ptr != end) return false;
     }
-    constexpr std::size_t most = std::size_t{1} << 28;
-    if (!key || count == 0 || count > most || keys.size() + count > most) return false;
+    constexpr std::size_t max_count = std::size_t{1} << 28;
+    if (!key || count == 0 || count > max_count || keys.size() + count > max_count) return false;
     keys.insert(keys.end(), count, *key);
     return true;
 }
@@ -97,20 +81,21 @@ bool read_failure(const Json& json, Failure& failure) {
     if (!json.is_object()) return false;
     for (const auto& [name, slot] : {std::pair{"check", &failure.check},
                                      {"part", &failure.part},
-                                     {"piece", &failure.piece},
-                                     {"expected", &failure.expected},
-                                     {"found", &failure.found}}) {
+                                     {"component", &failure.component},
+                                     {"expected", &failure.expected}}) {
         if (!json.contains(name) || !json[name].is_string()) return false;
         *slot = json[name].get<std::string>();
     }
-    if (!json.contains("places") || !json["places"].is_number_unsigned()) return false;
+    if (!json.contains("found")) return false;
+    failure.found = json["found"];
+    if (!json.contains("locations") || !json["locations"].is_number_unsigned()) return false;
     if (!json.contains("known") || !json["known"].is_array()) return false;
     for (const auto& key : json["known"])
         if (!read_key(key, failure.keys)) return false;
     std::sort(failure.keys.begin(), failure.keys.end());
-    const auto places = json["places"].get<std::size_t>();
-    if (places < failure.keys.size()) return false;
-    failure.more = places - failure.keys.size();
+    const auto locations = json["locations"].get<std::size_t>();
+    if (locations < failure.keys.size()) return false;
+    failure.more = locations - failure.keys.size();
     if (failure.more == 0) return true;
     if (!json.contains("more") || !json["more"].is_string()) return false;
     const auto more = hexadecimal(json["more"].get_ref<const std::string&>());
@@ -118,7 +103,7 @@ bool read_failure(const Json& json, Failure& failure) {
     return more.has_value();
 }
 
-/// The places of `now` that are new against `before`.
+/// The locations of `now` that are new against `before`.
 void add_fresh(const Failure& before, const Failure& now, KnownFailures::Verdict& verdict) {
     auto end = now.keys.end(); // of those that the file would list
     if (before.more > 0)
@@ -146,9 +131,8 @@ KnownFailures KnownFailures::read(const std::filesystem::path& path) {
                      "write one with update_baseline: true");
     };
     if (!json.is_object() || !json.contains("failures") || !json["failures"].is_array()) throw refuse();
-    if (!json.contains("facetmill_baseline"))
-        throw refuse("is a baseline of the first form, which counts places and does not know them");
-    if (!json["facetmill_baseline"].is_number_integer()) throw refuse();
+    if (!json.contains("facetmill_baseline") || !json["facetmill_baseline"].is_number_integer())
+        throw refuse();
     if (json["facetmill_baseline"].get<std::int64_t>() != form)
         throw refuse("is a baseline of another form than this facetmill reads");
     KnownFailures known;
@@ -164,10 +148,10 @@ void KnownFailures::write(io::Outputs& outputs, const std::filesystem::path& pat
         const std::size_t count = listed(f.keys);
         Json entry = {{"check", f.check},
                       {"part", f.part},
-                      {"piece", f.piece},
+                      {"component", f.component},
                       {"expected", f.expected},
                       {"found", f.found},
-                      {"places", f.keys.size()},
+                      {"locations", f.keys.size()},
                       {"known", keys_json({f.keys.data(), count})}};
         if (count < f.keys.size())
             entry["more"] = fmt::format("{:016x}", hash_of({f.keys.data() + count, f.keys.size() - count}));
@@ -181,7 +165,8 @@ void KnownFailures::write(io::Outputs& outputs, const std::filesystem::path& pat
 
 KnownFailures::Verdict KnownFailures::judge(const Failure& now) const {
     Verdict best;
-    best.fresh = now.places(), best.keys = now.keys;
+    best.fresh = now.locations();
+    best.keys = now.keys;
     for (const auto& before : failures_) {
         if (!before.is_like(now)) continue;
         Verdict verdict;
@@ -206,7 +191,7 @@ KnownFailures::Gone KnownFailures::gone(const KnownFailures& now) const {
         Keys away;
         std::set_difference(before.keys.begin(), before.keys.end(), like->keys.begin(), like->keys.end(),
                             std::back_inserter(away));
-        gone.places += away.size();
+        gone.locations += away.size();
     }
     return gone;
 }

@@ -28,7 +28,7 @@ Rows rows_of(Profile profile) {
     case Profile::web:
         return {{"finite_attributes", yes},
                 {"unit_normals", yes},
-                {"weights_sum", yes},
+                {"weights_normalized", yes},
                 {"degenerate_faces", no_more_than_none},
                 {"duplicate_faces", no_more_than_none},
                 {"isolated_vertices", no_more_than_none},
@@ -36,12 +36,12 @@ Rows rows_of(Profile profile) {
     default:
         add(rows, sound);
         add(rows,
-            {{"outward", yes}, {"duplicate_faces", no_more_than_none}, {"folded_faces", no_more_than_none}});
+            {{"outward_oriented", yes}, {"duplicate_faces", no_more_than_none}, {"folded_faces", no_more_than_none}});
     }
     if (profile == Profile::solid) return rows;
     add(rows, {{"self_intersections", no_more_than_none}, {"isolated_vertices", no_more_than_none}});
     if (profile == Profile::simulation)
-        add(rows, {{"t_vertices", no_more_than_none},
+        add(rows, {{"t_junctions", no_more_than_none},
                    {"min_angle", {.min = 5, .max = {}, .truth = {}}},
                    {"aspect_ratio", {.min = {}, .max = 20, .truth = {}}}});
     return rows;

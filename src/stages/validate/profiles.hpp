@@ -22,7 +22,7 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
           "isolated "
           "vertices; not empty"},
          {"simulation", Profile::simulation,
-          "fit for printing, no T-vertices, all angles at least 5 degrees, aspect ratios up to 20"}},
+          "fit for printing, no T-junctions, all angles at least 5 degrees, aspect ratios up to 20"}},
         "A purpose, whose assertions are added to those given.");
 }
 

@@ -30,7 +30,7 @@ void declare(Declare<ValidateOptions>& d) {
              {{"scene", Per::scene, "sums over the parts, and truths of all parts"},
               {"part", Per::part, "each part for itself"},
               {"component", Per::component,
-               "each piece of each part that is connected through edges, for itself"}},
+               "each component of each part, connected through edges, for itself"}},
              "What the assertions are about.");
     d.option("baseline", &ValidateOptions::baseline,
              "A file of known failures: those are waived, unless they got worse; new ones fail.");
@@ -80,19 +80,19 @@ const RegisterStage registered{make_stage<ValidateOptions>(
                 "To introduce a gate on old assets: `baseline: known.json` with update_baseline (run "
                 "--update-baseline) writes "
                 "what fails today; from then on, without it, those failures are waived (known), and new "
-                "ones fail. A failure is known by its check, its part and its places: edges, faces, pairs of "
+                "ones fail. A failure is known by its check, its part and its locations: edges, faces, pairs of "
                 "faces and vertices by the exact coordinates of their vertices in the part's own space, "
-                "whatever their numbers and order, and pieces by their lowest vertex (x first, then y, z). "
-                "So a mended place that is followed by another one fails, and so do faces that were moved. "
-                "What has no places (counts, names of a limit aside) is waived while its value is no farther "
+                "whatever their numbers and order, and components by their lowest vertex (x first, then y, z). "
+                "So a fixed location that is followed by another one fails, and so do faces that were moved. "
+                "What has no locations (counts, names of a limit aside) is waived while its value is no farther "
                 "off. When something is no longer there, the run says so. A baseline lists up to 50000 "
-                "places a check, and of more it knows a sample, and when as many are there but others.\n\n"
+                "locations a check, and of more it knows a sample, and when as many are there but others.\n\n"
                 "`self_intersections` and `touching` are apart: faces run into each other when they meet "
                 "inside one of them, or pass through each other at their edges; where they meet only at "
                 "edges and corners, they touch, as after clean has taken an edge of four faces apart. "
                 "Slicers take that, so `for: printing` does; `touching: 0` forbids it.\n\n"
-                "`euler: 2` is the notes' test for a closed surface; it is one only for genus 0 in one "
-                "piece: V - E + F is 2 - 2g for a closed piece of genus g, and the pieces add up. "
+                "`euler: 2` is the notes' test for a closed surface; it is one only for genus 0 and one "
+                "component: V - E + F is 2 - 2g for a closed component of genus g, and the components add up. "
                 "`closed: true` says it for all.",
      .examples = {"validate", "validate: {closed: true, euler: 2}", "validate: {for: printing, per: part}",
                   "validate: {for: web, faces: {max: 5000}, baseline: known.json}",

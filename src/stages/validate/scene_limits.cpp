@@ -1,7 +1,6 @@
 #include "stages/validate/scene_limits.hpp"
 
 #include "base/glob.hpp"
-#include "base/numbers.hpp"
 #include "base/random.hpp"
 #include "stage/assertions.hpp"
 #include "stages/validate/document_contents.hpp"
@@ -13,7 +12,7 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::size_t most = 10; ///< entries of evidence
+constexpr std::size_t max_entries = 10; ///< of evidence
 
 /// Something that counts towards a limit.
 struct Share {
@@ -27,12 +26,16 @@ LimitCheck check_number(const char* name, const Bound& bound, std::vector<Share>
     for (const Share& s : shares) sum += static_cast<double>(s.amount);
     LimitCheck limit;
     report::Check& check = limit.check;
-    check.name = name, check.expected = expectation(bound), check.found = to_string(sum);
+    check.name = name;
+    check.expected = expectation(bound);
+    check.found = static_cast<std::int64_t>(sum);
+    check.min = bound.min;
+    check.max = bound.max;
     check.passed = holds(bound, sum);
     if (check.passed) return limit;
     std::stable_sort(shares.begin(), shares.end(),
                      [](const Share& a, const Share& b) { return a.amount > b.amount; });
-    shares.resize(std::min(shares.size(), most));
+    shares.resize(std::min(shares.size(), max_entries));
     check.evidence = Json::array();
     for (Share& s : shares) check.evidence.push_back(std::move(s.entry));
     return limit;
@@ -54,14 +57,15 @@ LimitCheck check_words(const char* name, const std::vector<std::string>& pattern
                        const std::vector<Word>& words) {
     LimitCheck limit;
     report::Check& check = limit.check;
-    check.name = name, check.expected = joined(patterns);
+    check.name = name;
+    check.expected = joined(patterns);
     std::vector<std::string> bad;
     Json evidence = Json::array();
     for (const Word& w : words) {
         if (std::any_of(patterns.begin(), patterns.end(),
                         [&](const auto& p) { return glob_matches(p, w.text); }))
             continue;
-        if (evidence.size() < most) evidence.push_back(w.entry);
+        if (evidence.size() < max_entries) evidence.push_back(w.entry);
         if (std::find(bad.begin(), bad.end(), w.text) == bad.end()) bad.push_back(w.text);
         std::uint64_t key = 8;
         for (const char letter : w.entry.dump(-1, ' ', false, Json::error_handler_t::replace))
@@ -70,13 +74,14 @@ LimitCheck check_words(const char* name, const std::vector<std::string>& pattern
     }
     std::sort(limit.keys.begin(), limit.keys.end());
     check.passed = bad.empty();
-    const std::size_t more = bad.size() > most ? bad.size() - most : 0;
+    const std::size_t more = bad.size() > max_entries ? bad.size() - max_entries : 0;
     bad.resize(bad.size() - more);
-    check.found = check.passed ? "nothing else" : joined(bad);
-    if (more > 0) check.found += fmt::format(" and {} more", more);
+    check.found = bad;
+    if (check.passed) check.found_words = "nothing else";
+    if (more > 0) check.found_words = fmt::format("{} and {} more", joined(bad), more);
     if (check.passed) return limit;
     check.evidence = std::move(evidence);
-    check.places = limit.keys.size();
+    check.locations = limit.keys.size();
     return limit;
 }
 
@@ -111,7 +116,7 @@ std::vector<Share> texture_pixels(const Scene& scene) {
 } // namespace
 
 void declare_limits(Declare<SceneLimits>& d) {
-    d.option("parts", &SceneLimits::parts, "How many parts; a bare number is the most (10).");
+    d.option("parts", &SceneLimits::parts, "How many parts; a bare number is the maximum (10).");
     d.option("materials", &SceneLimits::materials, "How many materials.");
     d.option("bytes", &SceneLimits::documents_bytes,
              "Bytes of the glTF documents as loaded, buffers and images included: 10MB, 500kB (1000 bytes), "

@@ -48,13 +48,13 @@ TEST_CASE("two triangles at a vertex are two fans and two boundary loops", "[geo
     CHECK(p.edge_manifold);
     CHECK(p.boundary_loops == 2);
     CHECK(p.components == 1);
-    CHECK(places_against(shapes::bowtie(), "vertex_manifold").size() == 1);
+    CHECK(locations_against(shapes::bowtie(), *property_named("vertex_manifold")).size() == 1);
 }
 
 TEST_CASE("three faces at an edge are not edge-manifold, and the edge is shown", "[geometry]") {
     const Mesh mesh = shapes::fan3();
     CHECK_FALSE(inspect(mesh).edge_manifold);
-    CHECK(places_against(mesh, "edge_manifold").size() == 1);
+    CHECK(locations_against(mesh, *property_named("edge_manifold")).size() == 1);
 }
 
 TEST_CASE("tetrahedra that share a vertex are closed but have no genus", "[geometry]") {
@@ -70,7 +70,7 @@ TEST_CASE("a Moebius strip is not oriented and has one boundary loop at most", "
     CHECK_FALSE(p.oriented);
     CHECK_FALSE(p.closed);
     CHECK(p.euler == 0);
-    CHECK(places_against(shapes::moebius(12), "oriented").size() == 1);
+    CHECK(locations_against(shapes::moebius(12), *property_named("oriented")).size() == 1);
 }
 
 TEST_CASE("degenerate faces are those of exactly zero area", "[geometry]") {
@@ -87,7 +87,7 @@ TEST_CASE("degenerate faces are those of exactly zero area", "[geometry]") {
     thin.positions[2] = thin.positions[1] * 2; // exactly twice: exactly on the line
     add_face(thin, on_line);
     CHECK(inspect(thin).degenerate_faces == 1);
-    CHECK(places_against(thin, "degenerate_faces").at(0).face == 1);
+    CHECK(locations_against(thin, *property_named("degenerate_faces")).at(0).face == 1);
 }
 
 TEST_CASE("duplicate faces have the same vertices, whatever their order", "[geometry]") {
@@ -97,7 +97,7 @@ TEST_CASE("duplicate faces have the same vertices, whatever their order", "[geom
     add_face(mesh, again);
     add_face(mesh, reversed);
     CHECK(inspect(mesh).duplicate_faces == 2);
-    CHECK(places_against(mesh, "duplicate_faces").at(0).face == 12);
+    CHECK(locations_against(mesh, *property_named("duplicate_faces")).at(0).face == 12);
 }
 
 TEST_CASE("isolated vertices do not count in the Euler number", "[geometry]") {

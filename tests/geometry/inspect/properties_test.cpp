@@ -183,21 +183,21 @@ TEST_CASE("the table of properties", "[geometry]") {
                                                  "aspect_ratio",
                                                  "shortest_edge",
                                                  "longest_edge",
-                                                 "planarity",
+                                                 "nonplanarity",
                                                  "folded_faces",
-                                                 "t_vertices",
+                                                 "t_junctions",
                                                  "boundary_length",
                                                  "longest_boundary",
-                                                 "outward",
+                                                 "outward_oriented",
                                                  "coplanar_overlaps",
                                                  "wall_thickness",
                                                  "uvs_in_range",
                                                  "uv_overlaps",
                                                  "finite_attributes",
                                                  "unit_normals",
-                                                 "weights_sum",
-                                                 "joints",
-                                                 "extent"});
+                                                 "weights_normalized",
+                                                 "joint_count",
+                                                 "max_extent"});
     const Properties cube = inspect(shapes::cube());
     CHECK(property_named("faces")->get(cube) == 12);
     CHECK(property_named("closed")->get(cube) == 1);

@@ -1,13 +1,15 @@
-#include "geometry/inspect/uv_overlaps.hpp"
-
+// The pairs of faces that lie on each other: neighbours, faces in one plane, faces on the texture.
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
+#include "geometry/edit/around_edge.hpp"
+#include "geometry/inspect/measures.hpp"
+#include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/box_tree.hpp"
 
 #include <algorithm>
 #include <array>
 
-namespace facetmill {
+namespace facetmill::inspect_room {
 
 namespace {
 
@@ -19,7 +21,7 @@ struct Flat {
 int side(const Vec3& a, const Vec3& b, const Vec3& p) { return orientation_2d(a.x, a.y, b.x, b.y, p.x, p.y); }
 
 /// Whether an edge of s has all of t on its outer side or on its line.
-bool edge_parts(const Flat& s, const Flat& t) {
+bool edge_separates(const Flat& s, const Flat& t) {
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 &a = s.p[i], &b = s.p[(i + 1) % 3];
         if (std::all_of(t.p.begin(), t.p.end(), [&](const Vec3& p) { return side(a, b, p) <= 0; }))
@@ -49,7 +51,43 @@ std::vector<Flat> triangles_of(const Mesh& mesh, const Attribute& uv) {
 
 } // namespace
 
-std::optional<std::vector<std::pair<Index, Index>>> uv_overlaps(const Mesh& mesh) {
+Pairs folded_faces(const Mesh& mesh) {
+    const auto edges = build_edges(mesh);
+    const auto faces = corner_faces(mesh);
+    std::vector<std::uint8_t> folded(edges.size(), 0);
+    parallel_for(edges.size(), [&](std::size_t e) {
+        const auto corners = edges.corners_of(static_cast<Index>(e));
+        if (corners.size() != 2) return;
+        const Index f = faces[corners[0]], g = faces[corners[1]];
+        if (f == g || is_degenerate(mesh, f) || is_degenerate(mesh, g)) return;
+        const Vec3 &u = mesh.positions[edges.edges[e].low], &v = mesh.positions[edges.edges[e].high];
+        const Vec3 p = beside_edge(mesh, f, corners[0]), q = beside_edge(mesh, g, corners[1]);
+        folded[e] = orientation_3d(u, v, p, q) == 0 && on_same_side(u, v, p, q);
+    });
+    Pairs list;
+    for (Index e = 0; e < folded.size(); ++e)
+        if (folded[e])
+            list.push_back(std::minmax(faces[edges.corners_of(e)[0]], faces[edges.corners_of(e)[1]]));
+    std::sort(list.begin(), list.end());
+    return list;
+}
+
+Pairs coplanar_overlaps(const Mesh& mesh) {
+    Pairs list;
+    for (const auto& [f, g] :
+         find_self_intersections(mesh, {.limit = std::size_t{1} << 24, .apart = true}).pairs) {
+        const Index begin = mesh.face_begin(f);
+        bool flat = true;
+        for (Index c = mesh.face_begin(g); c < mesh.face_end(g); ++c)
+            for (Index k = begin + 1; k + 1 < mesh.face_end(f); ++k)
+                flat = flat && orientation_3d(mesh.point(begin), mesh.point(k), mesh.point(k + 1),
+                                              mesh.point(c)) == 0;
+        if (flat) list.emplace_back(f, g);
+    }
+    return list;
+}
+
+std::optional<Pairs> uv_overlaps(const Mesh& mesh) {
     const Attribute* uv = mesh.find("TEXCOORD_0", Domain::wedge);
     if (!uv || uv->components < 2) return {};
     const auto triangles = triangles_of(mesh, *uv);
@@ -57,7 +95,6 @@ std::optional<std::vector<std::pair<Index, Index>>> uv_overlaps(const Mesh& mesh
     for (std::size_t t = 0; t < boxes.size(); ++t)
         for (const Vec3& p : triangles[t].p) boxes[t].add(p);
     const BoxTree tree(boxes);
-    using Pairs = std::vector<std::pair<Index, Index>>;
     Pairs pairs = parallel_reduce(
         triangles.size(), Pairs{},
         [&](std::size_t begin, std::size_t end) {
@@ -65,7 +102,7 @@ std::optional<std::vector<std::pair<Index, Index>>> uv_overlaps(const Mesh& mesh
             for (std::size_t t = begin; t < end; ++t)
                 tree.visit(boxes[t], [&](Index o) {
                     const Flat &a = triangles[t], &b = triangles[o];
-                    if (b.face > a.face && !edge_parts(a, b) && !edge_parts(b, a))
+                    if (b.face > a.face && !edge_separates(a, b) && !edge_separates(b, a))
                         found.emplace_back(a.face, b.face);
                 });
             return found;
@@ -80,4 +117,4 @@ std::optional<std::vector<std::pair<Index, Index>>> uv_overlaps(const Mesh& mesh
     return pairs;
 }
 
-} // namespace facetmill
+} // namespace facetmill::inspect_room

@@ -1,0 +1,165 @@
+// The properties that each face has: angles, edges, aspect ratio, planarity, and the wall under it.
+#include "base/parallel.hpp"
+#include "base/portable_math.hpp"
+#include "geometry/inspect/measures.hpp"
+#include "geometry/spatial/box_tree.hpp"
+#include "mesh/power_scale.hpp"
+#include "mesh/surface.hpp"
+#include "mesh/surface_normal.hpp"
+
+#include <algorithm>
+
+namespace facetmill::inspect_room {
+
+namespace {
+
+constexpr double degrees = 180 / pi;
+
+double angle(const Vec3& at, const Vec3& b, const Vec3& c) {
+    return arc_tangent(length(cross(b - at, c - at)), dot(b - at, c - at)) * degrees;
+}
+
+double corner_angle(const Mesh& mesh, Index f, Index c) {
+    return angle(mesh.point(c), mesh.point(c == mesh.face_begin(f) ? mesh.face_end(f) - 1 : c - 1),
+                 mesh.point(next_corner(mesh, f, c)));
+}
+
+double edge_length(const Mesh& mesh, Index f, Index c) {
+    return length(mesh.point(next_corner(mesh, f, c)) - mesh.point(c));
+}
+
+double aspect_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double x = length(b - a), y = length(c - b), z = length(a - c),
+                 area = length(cross(b - a, c - a)) / 2;
+    const double longest = std::max({x, y, z});
+    return area > 0 ? longest * (x + y + z) / (4 * std::sqrt(3.0) * area) : HUGE_VAL;
+}
+
+/// The worst of the face's triangles.
+double worst_aspect_ratio(const Mesh& mesh, Index f) {
+    double worst = 0;
+    const Index begin = mesh.face_begin(f);
+    for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
+        worst = std::max(worst, aspect_ratio(mesh.point(begin), mesh.point(c), mesh.point(c + 1)));
+    return worst;
+}
+
+double nonplanarity(const Mesh& mesh, Index f) {
+    if (mesh.face_size(f) == 3) return 0;
+    const Vec3 normal = normalised(area_vector(mesh, f));
+    Vec3 middle;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) middle += mesh.point(c) / mesh.face_size(f);
+    double farthest = 0;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+        farthest = std::max(farthest, std::abs(dot(mesh.point(c) - middle, normal)));
+    return farthest;
+}
+
+/// [faces] value(face)
+template <class Value>
+std::vector<double> of_each_face(const Mesh& mesh, Value&& value) {
+    std::vector<double> values(mesh.face_count());
+    parallel_for(values.size(), [&](std::size_t f) { values[f] = value(static_cast<Index>(f)); });
+    return values;
+}
+
+/// [faces] the least, or the most, of value(mesh, face, corner) over the corners of each.
+template <class Value>
+std::vector<double> least_of_corners(const Mesh& mesh, Value&& value) {
+    return of_each_face(mesh, [&](Index f) {
+        double least = HUGE_VAL;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+            least = std::min(least, value(mesh, f, c));
+        return least;
+    });
+}
+template <class Value>
+std::vector<double> most_of_corners(const Mesh& mesh, Value&& value) {
+    return of_each_face(mesh, [&](Index f) {
+        double most = 0;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) most = std::max(most, value(mesh, f, c));
+        return most;
+    });
+}
+
+/// Where the ray from p along d leaves through the triangle's front; negative when it does not (Moeller,
+/// Trumbore 1997).
+double leaves_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 u = b - a, v = c - a, n = cross(u, v);
+    const double facing = dot(n, d);
+    if (!(facing > 0)) return -1;
+    const Vec3 w = p - a, q = cross(w, d);
+    const double s = -dot(v, q), t = dot(u, q); // barycentric, times facing
+    if (!(s >= 0 && t >= 0 && s + t <= facing)) return -1;
+    return -dot(n, w) / facing;
+}
+
+} // namespace
+
+std::vector<double> smallest_angles(const Mesh& mesh) { return least_of_corners(mesh, corner_angle); }
+std::vector<double> largest_angles(const Mesh& mesh) { return most_of_corners(mesh, corner_angle); }
+std::vector<double> shortest_edges(const Mesh& mesh) { return least_of_corners(mesh, edge_length); }
+std::vector<double> longest_edges(const Mesh& mesh) { return most_of_corners(mesh, edge_length); }
+
+std::vector<double> aspect_ratios(const Mesh& mesh) {
+    return of_each_face(mesh, [&](Index f) { return worst_aspect_ratio(mesh, f); });
+}
+
+std::vector<double> nonplanarities(const Mesh& mesh) {
+    return of_each_face(mesh, [&](Index f) { return nonplanarity(mesh, f); });
+}
+
+std::vector<double> wall_thicknesses(const Mesh& mesh) {
+    const Surface surface = surface_of(mesh);
+    std::vector<Box> boxes(surface.size());
+    parallel_for(boxes.size(), [&](std::size_t t) {
+        for (std::size_t i = 0; i < 3; ++i)
+            if (is_finite(surface.point(t, i))) boxes[t].add(surface.point(t, i));
+    });
+    const BoxTree tree(boxes);
+    const double all = surface.bounds().diagonal();
+    std::vector<double> ways(mesh.face_count(), HUGE_VAL);
+    parallel_for(
+        ways.size(),
+        [&](std::size_t f) {
+            const auto face = static_cast<Index>(f);
+            const Vec3 d = -normalised(area_vector(mesh, face));
+            if (!(dot(d, d) > 0) || !(all < HUGE_VAL)) return;
+            Vec3 p;
+            for (Index c = mesh.face_begin(face); c < mesh.face_end(face); ++c) p += mesh.point(c);
+            p = p / mesh.face_size(face);
+            // Pieces of the ray, each as long as all before: boxes stay small as long as the wall is thin.
+            for (double from = 0, to = all / 1024; from <= all && ways[f] > from; from = to, to *= 2) {
+                Box piece;
+                piece.add(p + d * from);
+                piece.add(p + d * to);
+                tree.visit(piece, [&](Index t) {
+                    if (surface.face(t) == face) return;
+                    const double at =
+                        leaves_at(p, d, surface.point(t, 0), surface.point(t, 1), surface.point(t, 2));
+                    if (at >= 0) ways[f] = std::min(ways[f], at);
+                });
+            }
+        },
+        256);
+    return ways;
+}
+
+std::vector<double> face_values(const Mesh& mesh, const Property& property) {
+    const PowerScale scale = even_scale(mesh.bounds());
+    if (scale.none()) return property.of_faces(mesh);
+    auto values = property.of_faces(scale(mesh));
+    if (property.kind == PropertyKind::length)
+        for (double& x : values) x = unscaled(x, scale.powers[0]);
+    return values;
+}
+
+std::optional<double> value_of(const Property& property, const Measured& mesh) {
+    if (property.measure) return property.measure(mesh);
+    std::optional<double> best;
+    for (const double x : face_values(mesh.world, property))
+        if (!best || (property.join == Join::least ? x < *best : x > *best)) best = x;
+    return best == HUGE_VAL && property.join == Join::least ? std::nullopt : best;
+}
+
+} // namespace facetmill::inspect_room

@@ -1,0 +1,407 @@
+// The table of properties. To add one: a row here (with its function, here or among
+// geometry/inspect/measures.hpp), and a row in tests/stages/validate_table_test.cpp.
+#include "geometry/inspect/measures.hpp"
+
+#include <algorithm>
+
+namespace facetmill {
+
+namespace {
+
+using namespace inspect_room;
+using P = Properties;
+using Kind = PropertyKind;
+
+std::optional<double> count_of(const Pairs& pairs) { return static_cast<double>(pairs.size()); }
+
+/// A cavity's front looks into it, which it does not show by itself.
+std::optional<double> is_outward_oriented(const Measured& m) {
+    if (m.settings.part_of_solid && m.properties.volume.value_or(0) < 0) return 1;
+    return inward_faces(m.local).empty() ? 1 : 0;
+}
+
+std::optional<double> max_extent(const Measured& m) {
+    const Vec3 e = m.world.bounds().extent();
+    return std::max({e.x, e.y, e.z});
+}
+
+double boundary_length(const Mesh& mesh) {
+    double sum = 0;
+    for (const BoundaryChain& c : boundary_chains(mesh)) sum += c.length;
+    return sum;
+}
+
+double longest_boundary(const Mesh& mesh) {
+    double most = 0;
+    for (const BoundaryChain& c : boundary_chains(mesh)) most = std::max(most, c.length);
+    return most;
+}
+
+std::vector<std::string_view> unit_words() {
+    std::vector<std::string_view> words;
+    for (const Unit u :
+         {Unit::unknown, Unit::um, Unit::mm, Unit::cm, Unit::m, Unit::km, Unit::inch, Unit::foot})
+        words.push_back(to_string(u));
+    return words;
+}
+
+std::vector<std::string_view> up_words() {
+    return {to_string(UpAxis::unknown), to_string(UpAxis::y), to_string(UpAxis::z)};
+}
+
+constexpr const char* fewer_or_more = "simplify makes fewer, split more";
+constexpr const char* fills_holes = "clean: {holes: minimal} fills holes, orient turns faces that disagree";
+constexpr const char* takes_apart = "clean takes them apart (non_manifold)";
+constexpr const char* clean_removes = "clean removes them";
+constexpr const char* untangles = "clean: {self_intersections: all} unites or replaces what intersects";
+constexpr const char* cuts_to_size = "transform moves and scales, clip and crop cut off";
+constexpr const char* no_stage = "no stage changes it: mend it where the mesh was made";
+
+// Constant, so that stages can be declared from it before main.
+constexpr Property table[] = {
+    {.name = "vertices",
+     .help = "Points of the surface, isolated ones included.",
+     .hint = fewer_or_more,
+     .member = &P::vertices},
+    {.name = "wedges",
+     .help = "Attribute tuples at vertices: what glTF calls vertices.",
+     .hint = fewer_or_more,
+     .member = &P::wedges},
+    {.name = "edges",
+     .help = "Pairs of vertices that some face runs along.",
+     .hint = fewer_or_more,
+     .member = &P::edges},
+    {.name = "faces", .help = "Polygons of the surface.", .hint = fewer_or_more, .member = &P::faces},
+    {.name = "triangles",
+     .help = "Faces of three corners.",
+     .hint = "triangulate makes triangles of polygons, simplify fewer",
+     .member = &P::triangles},
+    {.name = "components",
+     .help = "Parts of the surface that are connected through vertices.",
+     .hint = "clean: {components: {keep: 1}} removes small ones, separate makes parts of them",
+     .member = &P::components,
+     .locations = components},
+    {.name = "euler",
+     .help = "V - E + F, without isolated vertices; 2 for a closed surface of genus 0 and one component.",
+     .hint = "clean: {holes: minimal} fills holes, simplify: {topology: allow} may close handles",
+     .member = &P::euler,
+     .locations = non_manifold_places, // what is not open, and no handle
+     .evidence = by_boundary,
+     .lowest = -HUGE_VAL},
+    {.name = "genus",
+     .join = Join::sum_if_all,
+     .help = "Handles, summed over components, of a closed oriented manifold; else it does not apply.",
+     .hint = "clean: {holes: minimal} fills holes, simplify: {topology: allow} may close handles",
+     .member = &P::genus,
+     .locations = uncancelled_edges,
+     .evidence = by_boundary},
+    {.name = "boundary_loops",
+     .help = "Closed chains of boundary edges.",
+     .hint = fills_holes,
+     .member = &P::boundary_loops,
+     .locations = uncancelled_edges,
+     .evidence = by_boundary},
+    {.name = "boundary_edges",
+     .help = "Edges with a face on one side only.",
+     .hint = fills_holes,
+     .member = &P::boundary_edges,
+     .locations = uncancelled_edges,
+     .evidence = by_boundary},
+    {.name = "closed",
+     .kind = Kind::truth,
+     .join = Join::all,
+     .help = "At every edge the directions of its faces cancel.",
+     .hint = fills_holes,
+     .member = &P::closed,
+     .locations = uncancelled_edges,
+     .evidence = by_boundary,
+     .counts_locations = true},
+    {.name = "edge_manifold",
+     .kind = Kind::truth,
+     .join = Join::all,
+     .help = "At most two faces at every edge.",
+     .hint = takes_apart,
+     .member = &P::edge_manifold,
+     .locations = crowded_edges,
+     .counts_locations = true},
+    {.name = "vertex_manifold",
+     .kind = Kind::truth,
+     .join = Join::all,
+     .help = "The faces around every vertex form one fan.",
+     .hint = takes_apart,
+     .member = &P::vertex_manifold,
+     .locations = vertices_of_several_fans,
+     .counts_locations = true},
+    {.name = "oriented",
+     .kind = Kind::truth,
+     .join = Join::all,
+     .help = "Neighbouring faces agree about the outside.",
+     .hint = "orient makes them agree",
+     .member = &P::oriented,
+     .locations = disagreeing_edges,
+     .counts_locations = true},
+    {.name = "degenerate_faces",
+     .help = "Faces of exactly zero area.",
+     .hint = clean_removes,
+     .member = &P::degenerate_faces,
+     .locations = faces_without_area},
+    {.name = "duplicate_faces",
+     .help = "Faces beyond the first with the same vertices.",
+     .hint = clean_removes,
+     .member = &P::duplicate_faces,
+     .locations = repeated_faces},
+    {.name = "isolated_vertices",
+     .help = "Vertices that no face uses.",
+     .hint = clean_removes,
+     .member = &P::isolated_vertices,
+     .locations = isolated_vertices},
+    {.name = "self_intersections",
+     .join = Join::sum_if_all,
+     .help = "Pairs of faces that run into each other, exactly; this one costs time.",
+     .hint = untangles,
+     .member = &P::self_intersections,
+     .costly = true,
+     .locations = intersecting_pairs},
+    {.name = "touching",
+     .join = Join::sum_if_all,
+     .help = "Pairs of faces that touch at edges or corners that they do not share, and do not run into each "
+             "other there, exactly; costs the same time.",
+     .hint = no_stage,
+     .member = &P::touching,
+     .costly = true,
+     .locations = touching_pairs},
+    {.name = "area",
+     .kind = Kind::area,
+     .help = "Surface area.",
+     .hint = cuts_to_size,
+     .member = &P::area},
+    {.name = "volume",
+     .kind = Kind::volume,
+     .join = Join::sum_if_all,
+     .help = "Enclosed volume, negative when inside out; does not apply to an open surface.",
+     .hint = "clean: {holes: minimal} closes what is open, orient turns what is inside out",
+     .member = &P::volume,
+     .locations = uncancelled_edges,
+     .evidence = by_boundary,
+     .lowest = -HUGE_VAL},
+    {.name = "bounds",
+     .kind = Kind::box,
+     .join = Join::around,
+     .help = "The box around everything: its lowest corner at least {min: [x, y, z]}, its highest at most "
+             "{max: [x, y, z]}.",
+     .hint = cuts_to_size,
+     .member = &P::bounds,
+     .evidence = by_box_corners},
+    {.name = "unit",
+     .kind = Kind::word,
+     .join = Join::of_scene,
+     .help = "What the numbers of positions mean.",
+     .hint = "load: {unit: mm} says it, transform: {unit: mm} converts",
+     .member = &P::unit,
+     .evidence = no_evidence,
+     .words = unit_words},
+    {.name = "up",
+     .kind = Kind::word,
+     .join = Join::of_scene,
+     .help = "Which axis points up.",
+     .hint = "load: {up: z} says it, transform: {up: z} turns",
+     .member = &P::up,
+     .evidence = no_evidence,
+     .words = up_words},
+    {.name = "materials",
+     .join = Join::of_scene,
+     .help = "How many materials there are.",
+     .hint = no_stage,
+     .member = &P::materials,
+     .evidence = by_material_names},
+    {.name = "parts",
+     .join = Join::of_scene,
+     .help = "How many parts there are.",
+     .hint = "merge makes one of them, separate more",
+     .member = &P::parts,
+     .evidence = by_part_names},
+
+    // What follows is measured on request.
+    {.name = "min_angle",
+     .kind = Kind::angle,
+     .join = Join::least,
+     .help = "The smallest angle of a face.",
+     .hint = "relax evens faces out",
+     .of_faces = smallest_angles,
+     .counts_locations = true,
+     .highest = 180},
+    {.name = "max_angle",
+     .kind = Kind::angle,
+     .join = Join::most,
+     .help = "The largest angle of a face.",
+     .hint = "relax evens faces out",
+     .of_faces = largest_angles,
+     .counts_locations = true,
+     .highest = 180},
+    {.name = "aspect_ratio",
+     .kind = Kind::number,
+     .join = Join::most,
+     .help = "The worst ratio of longest edge to inner radius; 1 for equal sides.",
+     .hint = "relax evens faces out",
+     .of_faces = aspect_ratios,
+     .counts_locations = true,
+     .lowest = 1},
+    {.name = "shortest_edge",
+     .kind = Kind::length,
+     .join = Join::least,
+     .help = "The length of the shortest edge.",
+     .hint = "simplify: {method: shortest-edge} removes the shortest first",
+     .of_faces = shortest_edges,
+     .counts_locations = true},
+    {.name = "longest_edge",
+     .kind = Kind::length,
+     .join = Join::most,
+     .help = "The length of the longest edge.",
+     .hint = "split: {method: bisect, max_edge: 1%} splits long ones",
+     .of_faces = longest_edges,
+     .counts_locations = true},
+    {.name = "nonplanarity",
+     .kind = Kind::length,
+     .join = Join::most,
+     .help = "How far a corner lies from the mean plane of its polygon, at most.",
+     .hint = "triangulate makes faces planar",
+     .of_faces = nonplanarities,
+     .counts_locations = true},
+    {.name = "folded_faces",
+     .help = "Pairs of neighbours folded flat onto each other, exactly.",
+     .hint = untangles,
+     .measure = [](const Measured& m) { return count_of(folded_faces(m.world)); },
+     .locations = [](const Mesh& m, const LocationQuery& q) {
+         return locations_of_pairs(m, folded_faces(m), q.limit);
+     }},
+    {.name = "t_junctions",
+     .help = "Vertices exactly on a boundary edge of another face.",
+     .hint = "clean puts them on the edge (t_junctions)",
+     .measure = count_t_junctions,
+     .locations = t_junctions},
+    {.name = "boundary_length",
+     .kind = Kind::length,
+     .help = "The length of all boundary edges.",
+     .hint = fills_holes,
+     .measure = [](const Measured& m) { return std::optional(boundary_length(m.world)); },
+     .locations = uncancelled_edges,
+     .evidence = by_boundary},
+    {.name = "longest_boundary",
+     .kind = Kind::length,
+     .join = Join::most,
+     .help = "The length of the longest chain of boundary edges.",
+     .hint = fills_holes,
+     .measure = [](const Measured& m) { return std::optional(longest_boundary(m.world)); },
+     .locations = uncancelled_edges,
+     .evidence = by_boundary},
+    {.name = "outward_oriented",
+     .kind = Kind::truth,
+     .join = Join::all,
+     .help = "Every component has its front outside (cavities: inside), as orient would turn it.",
+     .hint = "orient turns the front outward",
+     .measure = is_outward_oriented,
+     .locations = inward_components,
+     .counts_locations = true},
+    {.name = "coplanar_overlaps",
+     .help = "Pairs of faces that overlap in one plane, exactly.",
+     .hint = untangles,
+     .measure = [](const Measured& m) { return count_of(coplanar_overlaps(m.world)); },
+     .locations = [](const Mesh& m, const LocationQuery& q) {
+         return locations_of_pairs(m, coplanar_overlaps(m), q.limit);
+     }},
+    {.name = "wall_thickness",
+     .kind = Kind::length,
+     .join = Join::least,
+     .help = "The least way through the solid, from the middles of faces straight in.",
+     .hint = "no stage thickens the walls of a solid; transform scales all of it",
+     .of_faces = wall_thicknesses,
+     .counts_locations = true},
+    {.name = "uvs_in_range",
+     .kind = Kind::truth,
+     .join = Join::all,
+     .help = "All texture coordinates lie within 0 and 1.",
+     .hint = no_stage,
+     .measure = has_uvs_in_range,
+     .locations = uvs_out_of_range,
+     .counts_locations = true},
+    {.name = "uv_overlaps",
+     .help = "Pairs of faces that overlap in the first set of texture coordinates, exactly.",
+     .hint = no_stage,
+     .measure =
+         [](const Measured& m) {
+             const auto overlaps = uv_overlaps(m.local);
+             return overlaps ? count_of(*overlaps) : std::nullopt;
+         },
+     .locations = [](const Mesh& m, const LocationQuery& q) {
+         return locations_of_pairs(m, uv_overlaps(m).value_or(Pairs{}), q.limit);
+     }},
+    {.name = "finite_attributes",
+     .kind = Kind::truth,
+     .join = Join::all,
+     .help = "No attribute has a number that is not finite.",
+     .hint = no_stage,
+     .measure = has_finite_attributes,
+     .locations = numbers_not_finite,
+     .counts_locations = true},
+    {.name = "unit_normals",
+     .kind = Kind::truth,
+     .join = Join::all,
+     .help = "All normals and tangents have length 1, to 1/127.",
+     .hint = "write: {normals: smooth} gives new ones",
+     .measure = has_unit_normals,
+     .locations = normals_not_unit,
+     .counts_locations = true},
+    {.name = "weights_normalized",
+     .kind = Kind::truth,
+     .join = Join::all,
+     .help = "The joint weights of every wedge sum to 1, to 1/255.",
+     .hint = no_stage,
+     .measure = has_normalized_weights,
+     .locations = weights_not_normalized,
+     .counts_locations = true},
+    {.name = "joint_count",
+     .join = Join::most,
+     .help = "Joints that the weights refer to: the highest number and one.",
+     .hint = no_stage,
+     .measure = joint_count,
+     .locations = too_high_joints,
+     .counts_locations = true},
+    {.name = "max_extent",
+     .kind = Kind::length,
+     .join = Join::most,
+     .help = "The longest side of a part's box.",
+     .hint = cuts_to_size,
+     .measure = max_extent},
+};
+
+} // namespace
+
+std::span<const Property> property_table() { return table; }
+
+const Property* property_named(std::string_view name) {
+    const auto found = std::find_if(std::begin(table), std::end(table),
+                                    [&](const Property& p) { return p.name == name; });
+    return found == std::end(table) ? nullptr : found;
+}
+
+std::string_view unit_of(PropertyKind kind) {
+    switch (kind) {
+    case Kind::angle:
+        return "degrees";
+    case Kind::length:
+    case Kind::box:
+        return "scene units";
+    case Kind::area:
+        return "square scene units";
+    case Kind::volume:
+        return "cubic scene units";
+    case Kind::count:
+    case Kind::number:
+    case Kind::truth:
+    case Kind::word:
+        break;
+    }
+    return {};
+}
+
+} // namespace facetmill
