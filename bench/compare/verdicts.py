@@ -67,7 +67,7 @@ def by_cgal(program, path):
 
 
 def is_outward(facetmill, path):
-    return run([facetmill, "pipe", "--quiet", "load", path, "!", "validate", "--outward"]).returncode == 0
+    return run([facetmill, "pipe", "--quiet", "load", path, "!", "validate", "--outward_oriented"]).returncode == 0
 
 
 def compare_cgal(ours, cgal, facetmill, off):
