@@ -1,17 +1,176 @@
-// From the working state back to a mesh, and from the log of collapses to the attributes.
-//
-// The attributes of a vertex that moved are those of the surface that came in at the nearest point of the
-// faces around all the vertices that went into it; of a vertex on a feature line, at the nearest point of
-// that line. So a texture cannot slide farther than the surface moves, both sides of a seam are taken at the
-// same place, and nothing is blurred by mixing mixtures. (Mixing the two ends at every collapse drifted.)
+// In the error: over a face each number of an attribute is g.p + d. With the value s at a vertex, the faces
+// that it stands for are off by the sum of area * (g.p + d - s)^2; the best s is the mean, and what is left
+// then is a quadric in p again. After H. Hoppe, 'New quadric metric for simplifying meshes with appearance
+// attributes' (1999).
+
+#include "geometry/simplify/attributes.hpp"
 
 #include "base/parallel.hpp"
-#include "geometry/simplify/work.hpp"
+#include "base/random.hpp"
 #include "mesh/lineage.hpp"
 
 namespace facetmill::simplification {
 
 namespace {
+
+// Faces with less height than this share of their longest edge say nothing about gradients.
+constexpr double least_height = 1e-3;
+constexpr std::size_t most_sets = 2;       // of UVs
+constexpr std::size_t skin_channels = 4;   // of the projection of skin weights
+constexpr double share_of_diagonal = 0.01; // that a difference of 1 counts as, but for UVs
+
+/// Numbers of an attribute, or of a projection, that enter the error.
+struct Channels {
+    const Attribute* of = nullptr;
+    const Attribute* joints = nullptr; ///< of skin weights
+    std::size_t count = 0;
+    double scale = 0; ///< to lengths in the work's frame
+};
+
+Index element_of(const Mesh& mesh, const Attribute& a, Index corner) {
+    return a.domain == Domain::wedge ? mesh.corners[corner] : mesh.vertex(corner);
+}
+
+/// How long a unit of texture is on the surface, on average: 0 when the texture has no area.
+double length_of_uv(const Mesh& mesh, const Attribute& uv, double scale) {
+    struct Areas {
+        double surface = 0, texture = 0;
+    };
+    const Areas all = parallel_reduce(
+        mesh.face_count(), Areas{},
+        [&](std::size_t begin, std::size_t end) {
+            Areas sum;
+            for (Index c = 3 * static_cast<Index>(begin); c < 3 * end; c += 3) {
+                Vec3 t[3];
+                for (Index k = 0; k < 3; ++k) {
+                    const Index e = element_of(mesh, uv, c + k);
+                    t[k] = {uv.value(e, 0), uv.value(e, 1), 0};
+                }
+                const Vec3 p = mesh.point(c);
+                const double surface =
+                    length(cross((mesh.point(c + 1) - p) * scale, (mesh.point(c + 2) - p) * scale));
+                const double texture = length(cross(t[1] - t[0], t[2] - t[0]));
+                if (!std::isfinite(surface) || !std::isfinite(texture)) continue;
+                sum.surface += surface;
+                sum.texture += texture;
+            }
+            return sum;
+        },
+        [](const Areas& a, const Areas& b) {
+            return Areas{a.surface + b.surface, a.texture + b.texture};
+        });
+    return all.texture > 0 ? std::sqrt(all.surface / all.texture) : 0;
+}
+
+/// The numbers of one face's corner, scaled.
+class Values {
+  public:
+    Values(const Mesh& mesh, const AttributeWeights& weights, bool normals, double scale) : mesh_(mesh) {
+        const double unit = share_of_diagonal * mesh.bounds().diagonal() * scale;
+        std::size_t sets = 0;
+        for (const Attribute& a : mesh.attributes) {
+            if (a.domain == Domain::face) continue;
+            if (a.role == Role::uv && sets++ < most_sets)
+                add({&a, nullptr, 2, weights.uv > 0 ? weights.uv * length_of_uv(mesh, a, scale) : 0});
+            if (a.role == Role::normal && normals && a.name == "NORMAL")
+                add({&a, nullptr, 3, weights.normal * unit});
+            if (a.role == Role::colour)
+                add({&a, nullptr, static_cast<std::size_t>(a.components), weights.colour * unit});
+            if (a.role != Role::weights) continue;
+            std::string joints = a.name; // WEIGHTS_0 -> JOINTS_0
+            if (joints.rfind("WEIGHTS", 0) == 0) joints.replace(0, 7, "JOINTS");
+            const Attribute* j = mesh.find(joints, a.domain);
+            if (j && j->components == a.components) add({&a, j, skin_channels, weights.skin * unit});
+        }
+    }
+
+    std::size_t count() const { return count_; }
+
+    void at(Index corner, double* out) const {
+        for (const Channels& c : all_) {
+            const Index e = element_of(mesh_, *c.of, corner);
+            if (c.joints)
+                project(c, e, out);
+            else
+                for (std::size_t k = 0; k < c.count; ++k)
+                    out[k] = c.scale * c.of->value(e, static_cast<int>(k));
+            out += c.count;
+        }
+    }
+
+  private:
+    void add(const Channels& c) {
+        if (!(c.scale > 0) || !std::isfinite(c.scale)) return;
+        all_.push_back(c);
+        count_ += c.count;
+    }
+
+    /// Every joint has a place in four dimensions, in [-1, 1] each; differences of weights keep their size on
+    /// average (W. Johnson and J. Lindenstrauss, 'Extensions of Lipschitz mappings into a Hilbert space',
+    /// 1984).
+    static void project(const Channels& c, Index e, double* out) {
+        for (std::size_t k = 0; k < skin_channels; ++k) out[k] = 0;
+        for (int i = 0; i < c.of->components; ++i) {
+            const double weight = c.of->value(e, i);
+            const auto joint = static_cast<std::uint64_t>(std::clamp(c.joints->value(e, i), 0.0, 65535.0));
+            for (std::size_t k = 0; k < skin_channels; ++k)
+                out[k] += c.scale * weight * (2 * uniform(hashed(joint, k)) - 1);
+        }
+    }
+
+    const Mesh& mesh_;
+    std::vector<Channels> all_;
+    std::size_t count_ = 0;
+};
+
+/// The vertex or wedge whose error a corner adds to.
+Index element(const State& s, Index corner) { return s.has_seams() ? s.wedge[corner] : s.tri[corner]; }
+
+/// What a face says: area times the squares, and area times each gradient.
+class FaceGradients {
+  public:
+    FaceGradients(const State& s, const Values& values)
+        : s_(s), values_(values), at_(3 * values.count()), sums(4 * values.count()) {}
+
+    bool look(Index f) {
+        const Vec3 p = s_.at[s_.tri[3 * f]];
+        const Vec3 u = s_.at[s_.tri[3 * f + 1]] - p, v = s_.at[s_.tri[3 * f + 2]] - p, n = cross(u, v);
+        const double nn = dot(n, n), longest = std::max({dot(u, u), dot(v, v), dot(u - v, u - v)});
+        if (!(nn > least_height * least_height * longest * longest)) return false;
+        const double area = std::sqrt(nn) / 2;
+        const Vec3 to_u = cross(v, n) / nn, to_v = cross(n, u) / nn; // dual to u and v
+        const std::size_t count = values_.count();
+        for (Index k = 0; k < 3; ++k) values_.at(3 * s_.face_source[f] + k, &at_[k * count]);
+        square = {};
+        for (std::size_t k = 0; k < count; ++k) {
+            const double s0 = at_[k];
+            const Vec3 g = to_u * (at_[count + k] - s0) + to_v * (at_[2 * count + k] - s0);
+            const double d = s0 - dot(g, p);
+            if (!is_finite(g) || !std::isfinite(d)) return false;
+            add_square(g, d, area);
+            for (std::size_t i = 0; i < 3; ++i) sums[4 * k + i] = area * g[i];
+            sums[4 * k + 3] = area * d;
+        }
+        square.weight = area;
+        return true;
+    }
+
+  private:
+    void add_square(const Vec3& g, double d, double area) {
+        const Vec3 w = g * area;
+        square += {w.x * g.x, w.x * g.y, w.x * g.z, w.y * g.y, w.y * g.z, w.z * g.z, w * -d, area * d * d, 0};
+    }
+
+    const State& s_;
+    const Values& values_;
+    std::vector<double> at_;
+
+  public:
+    Quadric square;
+    std::vector<double> sums;
+};
+
+// What becomes of attributes: from the shape back to a mesh, and from the log to the attributes.
 
 /// A point as a mix of up to three elements; weight 0 for those not needed.
 struct Mix {
@@ -45,7 +204,8 @@ std::array<double, 3> nearest_on_triangle(const Vec3& p, const std::array<Vec3, 
         if (!(dot(off, off) < least)) continue;
         least = dot(off, off);
         best = {0, 0, 0};
-        best[k] = 1 - t, best[n] = t;
+        best[k] = 1 - t;
+        best[n] = t;
     }
     return best;
 }
@@ -57,9 +217,10 @@ class Followed {
     /// survivors: the old element of each new one; vertex_of: the new vertex of each; element: the old one at
     /// a corner.
     template <class Element>
-    Followed(const Work& s, const Mesh& from, std::size_t old_count, const std::vector<Index>& survivors,
-             const std::vector<Index>& vertex_of, const std::vector<Merge>& merges, Element&& element)
-        : s_(s), from_(from), survivors_(survivors), vertex_of_(vertex_of) {
+    Followed(const Shape& s, const Mesh& from, const Log& log, std::size_t old_count,
+             const std::vector<Index>& survivors, const std::vector<Index>& vertex_of,
+             const std::vector<Merge>& merges, Element&& element)
+        : s_(s), from_(from), features_(log.features), survivors_(survivors), vertex_of_(vertex_of) {
         find_owners(old_count, merges);
         corner_element_.resize(from.corner_count());
         parallel_for(corner_element_.size(),
@@ -74,9 +235,11 @@ class Followed {
         Lineage lineage;
         lineage.mix_offsets.assign(1, 0);
         for (const Mix& m : mixes) {
-            for (std::size_t k = 0; k < 3; ++k)
-                if (m.weight[k] > 0)
-                    lineage.mix_sources.push_back(m.of[k]), lineage.mix_weights.push_back(m.weight[k]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!(m.weight[k] > 0)) continue;
+                lineage.mix_sources.push_back(m.of[k]);
+                lineage.mix_weights.push_back(m.weight[k]);
+            }
             lineage.mix_offsets.push_back(static_cast<Index>(lineage.mix_sources.size()));
         }
         return lineage;
@@ -117,8 +280,8 @@ class Followed {
         best.of[0] = survivors_[e];
         if (!moved(e)) return best;
         const Index v = vertex_of_[e];
-        const Vec3 p = s_.at[v] / s_.scale + s_.centre;
-        if (!s_.features_given.empty())
+        const Vec3 p = s_.frame.outside(s_.at[v]);
+        if (!features_.empty())
             for (Index i = begin_[e]; i < begin_[e + 1]; ++i) try_lines(e, faces_[i], p, best);
         if (best.distance == HUGE_VAL)
             for (Index i = begin_[e]; i < begin_[e + 1]; ++i) try_face(faces_[i], p, best);
@@ -132,7 +295,8 @@ class Followed {
         const Vec3 off = q[0] * w[0] + q[1] * w[1] + q[2] * w[2] - p;
         if (!(dot(off, off) < best.distance)) return;
         best.distance = dot(off, off);
-        for (std::size_t k = 0; k < 3; ++k) best.of[k] = corner_element_[3 * f + k], best.weight[k] = w[k];
+        for (std::size_t k = 0; k < 3; ++k) best.of[k] = corner_element_[3 * f + k];
+        best.weight = w;
     }
 
     /// The feature edges of a face that lead from an element of e; from the lower vertex, so that both sides
@@ -140,7 +304,7 @@ class Followed {
     void try_lines(Index e, Index f, const Vec3& p, Mix& best) const {
         for (Index k = 0; k < 3; ++k) {
             Index a = 3 * f + k, b = 3 * f + (k + 1) % 3;
-            if (!s_.features_given[a]) continue;
+            if (!features_[a]) continue;
             if (owner_[corner_element_[a]] != e && owner_[corner_element_[b]] != e) continue;
             if (from_.vertex(a) > from_.vertex(b)) std::swap(a, b);
             const double t = nearest_on_segment(p, from_.point(a), from_.point(b));
@@ -152,12 +316,16 @@ class Followed {
 
     /// The heaviest first: what cannot be mixed comes from it.
     static void order(Mix& m) {
-        for (const std::size_t k : {1u, 2u})
-            if (m.weight[k] > m.weight[0]) std::swap(m.weight[k], m.weight[0]), std::swap(m.of[k], m.of[0]);
+        for (const std::size_t k : {1u, 2u}) {
+            if (!(m.weight[k] > m.weight[0])) continue;
+            std::swap(m.weight[k], m.weight[0]);
+            std::swap(m.of[k], m.of[0]);
+        }
     }
 
-    const Work& s_;
+    const Shape& s_;
     const Mesh& from_;
+    const std::vector<std::uint8_t>& features_; ///< see Log::features
     const std::vector<Index>&survivors_, &vertex_of_;
     std::vector<Index> owner_, corner_element_; ///< old elements -> new ones; corners -> old elements
     std::vector<Index> begin_, faces_;          ///< of each new element: faces that had part in it
@@ -165,8 +333,8 @@ class Followed {
 
 /// Fills corners and wedge_vertex; returns the wedges of the input that survive, in the order of the new
 /// ones.
-std::vector<Index> number_wedges(Mesh& to, const Work& s, std::size_t old_wedges) {
-    if (s.wedge.empty()) {
+std::vector<Index> number_wedges(Mesh& to, const Shape& s, std::size_t old_wedges) {
+    if (!s.has_seams()) {
         to.corners = s.tri;
         return {};
     }
@@ -197,42 +365,106 @@ std::vector<Index> identity(std::size_t n) {
     return list;
 }
 
+/// Where the vertices of the shape are from.
+Lineage vertex_lineage(const Shape& s, const Mesh& from, const Log& log) {
+    std::vector<Merge> merges;
+    merges.reserve(log.steps.size());
+    for (const Step& step : log.steps) merges.push_back({step.a, step.b});
+    return Followed(s, from, log, from.vertex_count(), s.source, identity(s.vertex_slots()), merges,
+                    [&](Index c) { return from.vertex(c); })
+        .lineage();
+}
+
+/// Where its wedges are from: of wedge_vertex, and old ones.
+Lineage wedge_lineage(const Shape& s, const Mesh& from, const Log& log, const std::vector<Index>& wedges,
+                      const std::vector<Index>& wedge_vertex) {
+    return Followed(s, from, log, from.wedge_count(), wedges, wedge_vertex, log.wedges,
+                    [&](Index c) { return from.corners[c]; })
+        .lineage();
+}
+
 } // namespace
 
-Mesh finished(Work& s, const Mesh& from, Fates& fates, std::vector<Index>& wedges) {
-    compact(s);
-    Mesh to;
+std::optional<AttributeError> attribute_error(const State& s, const Mesh& mesh,
+                                              const AttributeWeights& weights, bool normals) {
+    const Values values(mesh, weights, normals, s.frame.scale);
+    if (values.count() == 0) return {};
+    AttributeError error;
+    error.channels = values.count();
+    const std::size_t elements = s.has_seams() ? mesh.wedge_count() : s.vertex_slots();
+    const std::size_t size = 4 * error.channels;
+    error.squares.resize(elements);
+    error.sums.resize(size * elements);
+    // Each vertex looks at its own faces, so that no two workers meet at an element.
+    parallel_chunks(s.vertex_slots(), [&](std::size_t begin, std::size_t end) {
+        FaceGradients face(s, values);
+        for (std::size_t v = begin; v < end; ++v)
+            for (Index c = s.first[v]; c != none; c = s.next[c]) {
+                if (!face.look(c / 3)) continue;
+                const Index e = element(s, c);
+                error.squares[e] += face.square;
+                double* sums = &error.sums[size * e];
+                for (std::size_t i = 0; i < size; ++i) sums[i] += face.sums[i];
+            }
+    });
+    return error;
+}
+
+Quadric residual(const AttributeError& error, Index a, Index b) {
+    Quadric q = error.squares[a] + error.squares[b];
+    if (!(q.weight > 0)) return {};
+    const double share = 1 / q.weight;
+    const std::size_t size = 4 * error.channels;
+    const double *x = &error.sums[size * a], *y = &error.sums[size * b];
+    for (std::size_t i = 0; i < size; i += 4) {
+        const Vec3 g{x[i] + y[i], x[i + 1] + y[i + 1], x[i + 2] + y[i + 2]}, w = g * share;
+        const double d = x[i + 3] + y[i + 3];
+        q.xx -= w.x * g.x;
+        q.xy -= w.x * g.y;
+        q.xz -= w.x * g.z;
+        q.yy -= w.y * g.y;
+        q.yz -= w.y * g.z;
+        q.zz -= w.z * g.z;
+        q.b += w * d;
+        q.c -= share * d * d;
+    }
+    return q;
+}
+
+void join(AttributeError& error, Index a, Index b) {
+    error.squares[a] += error.squares[b];
+    const std::size_t size = 4 * error.channels;
+    for (std::size_t i = 0; i < size; ++i) error.sums[size * a + i] += error.sums[size * b + i];
+}
+
+bool carries_attributes(const Mesh& mesh) {
+    return has_attributes(mesh, Domain::vertex) || has_attributes(mesh, Domain::wedge);
+}
+
+Finished finish(const Shape& s, const Mesh& from, const Log* log) {
+    Finished done;
+    Mesh& to = done.mesh;
     to.positions.resize(s.vertex_slots());
     parallel_for(to.positions.size(), [&](std::size_t v) {
-        to.positions[v] = s.moved[v] ? s.at[v] / s.scale + s.centre : from.positions[s.source[v]];
+        to.positions[v] = s.moved[v] ? s.frame.outside(s.at[v]) : from.positions[s.source[v]];
     });
-    wedges = number_wedges(to, s, from.wedge_count());
+    done.wedges = number_wedges(to, s, from.wedge_count());
     Descent descent;
     descent.faces = s.face_source;
-    const bool seams = !s.wedge.empty(), any_moved = !s.log.steps.empty();
-    const bool follow_vertices = any_moved && (has_attributes(from, Domain::vertex) ||
-                                               (!seams && has_attributes(from, Domain::wedge)));
-    if (follow_vertices) {
-        std::vector<Merge> merges;
-        merges.reserve(s.log.steps.size());
-        for (const Step& step : s.log.steps) merges.push_back({step.a, step.b});
-        descent.vertices = Followed(s, from, from.vertex_count(), s.source, identity(s.vertex_slots()),
-                                    merges, [&](Index c) { return from.vertex(c); })
-                               .lineage();
-    } else {
-        descent.vertices = copies(s.source);
-    }
-    if (!seams)
-        descent.wedges = descent.vertices;
-    else if (any_moved && has_attributes(from, Domain::wedge))
-        descent.wedges =
-            Followed(s, from, from.wedge_count(), wedges, to.wedge_vertex, s.log.wedges, [&](Index c) {
-                return from.corners[c];
-            }).lineage();
+    const bool any = log && !log->steps.empty();
+    const bool of_wedges = has_attributes(from, Domain::wedge);
+    if (any && (has_attributes(from, Domain::vertex) || (!s.has_seams() && of_wedges)))
+        descent.vertices = vertex_lineage(s, from, *log);
     else
-        descent.wedges = copies(wedges);
-    fates = inherit_attributes(to, from, descent);
-    return to;
+        descent.vertices = copies(s.source);
+    if (!s.has_seams())
+        descent.wedges = descent.vertices;
+    else if (any && of_wedges)
+        descent.wedges = wedge_lineage(s, from, *log, done.wedges, to.wedge_vertex);
+    else
+        descent.wedges = copies(done.wedges);
+    done.fates = inherit_attributes(to, from, descent);
+    return done;
 }
 
 } // namespace facetmill::simplification

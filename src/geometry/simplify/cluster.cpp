@@ -1,10 +1,8 @@
-// Vertex clustering: the vertices in each cell of a grid become one, placed where their planes meet best.
-// After J. Rossignac and P. Borrel (1993) and P. Lindstrom, 'Out-of-core simplification of large polygonal
-// models' (2000).
+// The method cluster: the vertices in each cell of a grid become one, placed where their planes meet best.
 
-#include "geometry/simplify/cluster.hpp"
+#include "geometry/simplify/methods.hpp"
+
 #include "base/parallel.hpp"
-#include "geometry/simplify/judge.hpp"
 
 #include <bit>
 
@@ -15,6 +13,15 @@ namespace {
 constexpr std::uint32_t finest = 1u << 20; // cells along an axis
 // How strongly a representative is drawn to the mean of its vertices: enough that a flat cell's stays there.
 constexpr double pull = 1e-3;
+
+/// A grid's effect.
+struct Clusters {
+    std::vector<Index> root;  ///< of each vertex of the work: the first one in its cell
+    std::vector<Vec3> at;     ///< of roots
+    std::vector<Index> faces; ///< that stay, in order
+    std::size_t vertices = 0; ///< cells
+    double largest = 0;       ///< squared distance to the planes, the mean over a cell
+};
 
 struct Keyed {
     std::uint64_t key;
@@ -48,7 +55,7 @@ class Grid {
 };
 
 /// Faces with three vertices in three cells; some of them may coincide.
-std::size_t count_faces(const Work& s, const Grid& grid) {
+std::size_t count_faces(const State& s, const Grid& grid) {
     std::vector<std::uint64_t> keys(s.vertex_slots());
     parallel_for(keys.size(), [&](std::size_t v) { keys[v] = grid.key(s.at[v]); });
     return parallel_reduce(
@@ -65,7 +72,7 @@ std::size_t count_faces(const Work& s, const Grid& grid) {
 }
 
 /// The vertices by cell, and the cells.
-std::vector<Cell> sort_cells(const Work& s, const Grid& grid, std::vector<Keyed>& order) {
+std::vector<Cell> sort_cells(const State& s, const Grid& grid, std::vector<Keyed>& order) {
     order.resize(s.vertex_slots());
     parallel_for(order.size(), [&](std::size_t v) { order[v] = {grid.key(s.at[v]), static_cast<Index>(v)}; });
     radix_sort(
@@ -80,15 +87,17 @@ std::vector<Cell> sort_cells(const Work& s, const Grid& grid, std::vector<Keyed>
 }
 
 /// Where the vertices of a cell meet. Returns the error, squared.
-double place_cell(const Work& s, const Grid& grid, std::span<const Keyed> members, Vec3& at) {
+double place_cell(const State& s, const Grid& grid, std::span<const Keyed> members, Vec3& at) {
     const Index root = members.front().vertex;
-    if (members.size() == 1) return at = s.at[root], 0;
+    at = s.at[root];
+    if (members.size() == 1) return 0;
     Quadric q;
     Vec3 mean;
     const Vec3 from = s.at[root];
     for (const Keyed& k : members) {
         const Vec3 off = s.at[k.vertex] - from;
-        q += seen_from(s.quadrics[k.vertex], -off), mean += off;
+        q += seen_from((*s.quadrics)[k.vertex], -off);
+        mean += off;
     }
     mean = mean / static_cast<double>(members.size());
     const Vec3 best = q.weight > 0 ? q.least(mean, pull * q.weight) : mean;
@@ -97,12 +106,60 @@ double place_cell(const Work& s, const Grid& grid, std::span<const Keyed> member
     return q.weight > 0 ? q(at - from) / q.weight : 0;
 }
 
-Clusters cluster(const Work& s, const Grid& grid) {
+/// A face by its three roots, from the lowest on; turned: against the order of the other two.
+struct Triple {
+    Index low, middle, high;
+    bool turned;
+    Index face;
+    bool same_place(const Triple& o) const { return low == o.low && middle == o.middle && high == o.high; }
+};
+
+Triple triple_of(const State& s, const Clusters& c, Index f) {
+    std::array<Index, 3> v{c.root[s.tri[3 * f]], c.root[s.tri[3 * f + 1]], c.root[s.tri[3 * f + 2]]};
+    std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
+    const bool turned = v[1] > v[2];
+    return {v[0], std::min(v[1], v[2]), std::max(v[1], v[2]), turned, f};
+}
+
+/// Of faces in one place the first that looks to the side of the majority; one to each side when there is
+/// none.
+void keep_some(std::span<const Triple> same, std::vector<Index>& faces) {
+    const auto turned = std::count_if(same.begin(), same.end(), [](const Triple& t) { return t.turned; });
+    const auto other = static_cast<std::ptrdiff_t>(same.size()) - turned;
+    const auto first = [&](bool side) {
+        faces.push_back(
+            std::find_if(same.begin(), same.end(), [&](const Triple& t) { return t.turned == side; })->face);
+    };
+    if (turned >= other) first(true);
+    if (other >= turned) first(false);
+}
+
+/// Sets the faces that stay: those with three roots, of several in one place at most one to each side.
+void keep_faces(const State& s, Clusters& c) {
+    std::vector<Triple> triples;
+    for (Index f = 0; f < s.face_slots(); ++f) {
+        const Index x = c.root[s.tri[3 * f]], y = c.root[s.tri[3 * f + 1]], z = c.root[s.tri[3 * f + 2]];
+        if (x != y && y != z && z != x) triples.push_back(triple_of(s, c, f));
+    }
+    const int bits = std::bit_width(s.vertex_slots());
+    radix_sort( // stable: faces stay in order where all three agree
+        triples, [](const Triple& t) { return t.high; }, bits);
+    radix_sort(
+        triples, [](const Triple& t) { return (std::uint64_t{t.low} << 32) | t.middle; }, 32 + bits);
+    for (std::size_t begin = 0, end = 0; begin < triples.size(); begin = end) {
+        while (end < triples.size() && triples[end].same_place(triples[begin])) ++end;
+        keep_some({&triples[begin], end - begin}, c.faces);
+    }
+    std::sort(c.faces.begin(), c.faces.end());
+}
+
+Clusters cluster(const State& s, const Grid& grid) {
     Clusters c;
     std::vector<Keyed> order;
     const auto cells = sort_cells(s, grid, order);
     c.vertices = cells.size();
-    c.root.resize(s.vertex_slots()), c.at.resize(s.vertex_slots());
+    c.root.resize(s.vertex_slots());
+    c.at.resize(s.vertex_slots());
     c.largest = parallel_reduce(
         cells.size(), 0.0,
         [&](std::size_t begin, std::size_t end) {
@@ -127,9 +184,9 @@ Index find(std::vector<Index>& parent, Index e) {
 }
 
 /// Wedges that faces join within a cell become one: an island of a texture stays apart from the others.
-std::vector<Index> join_wedges(const Work& s, const Clusters& c) {
+std::vector<Index> join_wedges(const State& s, const Clusters& c) {
     std::vector<Index> parent(
-        s.wedge.empty() ? 0 : *std::max_element(s.wedge.begin(), s.wedge.end()) + std::size_t{1});
+        s.has_seams() ? *std::max_element(s.wedge.begin(), s.wedge.end()) + std::size_t{1} : 0);
     for (std::size_t w = 0; w < parent.size(); ++w) parent[w] = static_cast<Index>(w);
     for (Index corner = 0; corner < s.wedge.size(); ++corner) {
         const Index other = after(corner);
@@ -141,43 +198,36 @@ std::vector<Index> join_wedges(const Work& s, const Clusters& c) {
     return parent;
 }
 
-/// Makes the clusters the state of the work.
-void settle(Work& s, const Clusters& c) {
+/// The clusters as a shape; `log` gets what went into what.
+Shape shape_of(const State& s, const Clusters& c, std::optional<Log>& log) {
     const std::vector<Index> wedges = join_wedges(s, c);
+    Shape shape{.frame = s.frame, .at = s.at, .source = s.source, .moved = s.moved};
     for (Index v = 0; v < s.vertex_slots(); ++v) {
         const Index root = c.root[v];
         if (root == v) continue;
-        s.moved[root] = 1;
-        if (s.logging) s.log.steps.push_back({s.source[root], s.source[v], 0, 0, c.at[root]});
+        shape.moved[root] = 1;
+        shape.at[root] = c.at[root];
+        if (log) log->steps.push_back({s.source[root], s.source[v], 0, 0, c.at[root]});
     }
     for (Index w = 0; w < wedges.size(); ++w)
-        if (s.logging && wedges[w] != w) s.log.wedges.push_back({wedges[w], w});
-    std::vector<Index> tri, wedge, source;
+        if (log && wedges[w] != w) log->wedges.push_back({wedges[w], w});
     for (const Index f : c.faces) {
-        source.push_back(s.face_source[f]);
+        shape.face_source.push_back(s.face_source[f]);
         for (std::size_t k = 0; k < 3; ++k) {
-            tri.push_back(c.root[s.tri[3 * f + k]]);
-            if (!s.wedge.empty()) wedge.push_back(wedges[s.wedge[3 * f + k]]);
+            shape.tri.push_back(c.root[s.tri[3 * f + k]]);
+            if (s.has_seams()) shape.wedge.push_back(wedges[s.wedge[3 * f + k]]);
         }
     }
-    for (std::size_t v = 0; v < s.vertex_slots(); ++v)
-        if (s.moved[v]) s.at[v] = c.at[v];
-    s.tri.swap(tri), s.wedge.swap(wedge), s.face_source.swap(source);
-    s.flags.clear(), s.cost.clear(), s.quadrics.clear(), s.kind.clear(), s.touched.clear(), s.dirty.clear(),
-        s.limit.clear();
-    s.fields = {};
-    build_lists(s);
-    s.live_faces = s.face_slots();
-    s.live_vertices = static_cast<std::size_t>(
-        std::count_if(s.first.begin(), s.first.end(), [](Index corner) { return corner != none; }));
+    drop_unused(shape);
+    return shape;
 }
 
-/// The shape of clusters: positions and faces only.
-Mesh shape_of(const Work& s, const Clusters& c) {
+/// Positions and faces only.
+Mesh bare_mesh(const State& s, const Clusters& c) {
     Mesh mesh;
     mesh.positions.resize(s.vertex_slots());
     parallel_for(mesh.positions.size(), [&](std::size_t v) {
-        mesh.positions[v] = (c.root[v] == v ? c.at[v] : s.at[v]) / s.scale + s.centre;
+        mesh.positions[v] = s.frame.outside(c.root[v] == v ? c.at[v] : s.at[v]);
     });
     for (const Index f : c.faces)
         for (std::size_t k = 0; k < 3; ++k) mesh.corners.push_back(c.root[s.tri[3 * f + k]]);
@@ -188,7 +238,7 @@ Mesh shape_of(const Work& s, const Clusters& c) {
 /// The finest grid found whose count is at most so much. Counts grow with the square of the cells along an
 /// axis, which tells where to look.
 template <class Count>
-std::uint32_t finest_within(const Work& s, std::size_t most, Count&& count) {
+std::uint32_t finest_within(const State& s, std::size_t most, Count&& count) {
     if (most == 0) return 1;
     std::uint32_t good = 1, bad = finest + 1;
     double guess = std::sqrt(static_cast<double>(s.live_faces)) * 0.25;
@@ -205,7 +255,7 @@ std::uint32_t finest_within(const Work& s, std::size_t most, Count&& count) {
 }
 
 /// As fine as the goal, one or the other part of it, allows.
-std::uint32_t finest_within(const Work& s, const Goal& goal) {
+std::uint32_t finest_within(const State& s, const Goal& goal) {
     std::vector<Keyed> order;
     return std::max(
         finest_within(s, goal.faces, [&](const Grid& grid) { return count_faces(s, grid); }),
@@ -213,22 +263,23 @@ std::uint32_t finest_within(const Work& s, const Goal& goal) {
 }
 
 /// No clusters: every vertex by itself.
-Clusters unclustered(const Work& s) {
+Clusters unclustered(const State& s) {
     Clusters c;
-    c.at = s.at, c.vertices = s.vertex_slots();
+    c.at = s.at;
+    c.vertices = s.vertex_slots();
     for (Index v = 0; v < s.vertex_slots(); ++v) c.root.push_back(v);
     for (Index f = 0; f < s.face_slots(); ++f) c.faces.push_back(f);
     return c;
 }
 
 /// The coarsest grid found, of steps by a third, whose shape is within the bound; 0 when none is.
-std::uint32_t coarsest_within(const Work& s, const Judge& judge, double bound, Clustered& result) {
+std::uint32_t coarsest_within(const State& s, const Judge& judge, double bound, Ended& end) {
     const auto good = [&](std::uint32_t n) {
         const Clusters c = cluster(s, Grid(n));
-        ++result.measurements;
-        return !c.faces.empty() && judge.within(shape_of(s, c));
+        ++end.measurements;
+        return !c.faces.empty() && judge.within(bare_mesh(s, c));
     };
-    const double start = std::clamp(2 / (bound * s.scale), 2.0, double(finest));
+    const double start = std::clamp(2 / (bound * s.frame.scale), 2.0, double(finest));
     auto n = static_cast<std::uint32_t>(start);
     if (good(n)) {
         while (n > 1 && good(n * 3 / 4)) n = n * 3 / 4;
@@ -241,26 +292,28 @@ std::uint32_t coarsest_within(const Work& s, const Judge& judge, double bound, C
 
 } // namespace
 
-Clustered run_cluster(Work& s, const Mesh& from, const Goal& goal, std::optional<double> max_error) {
-    sum_quadrics(s);
-    Clustered result;
+Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<double> max_error) {
+    s.quadrics = vertex_quadrics(s);
+    Ended end;
     std::uint32_t n = finest_within(s, goal);
     std::optional<Judge> judge;
     if (max_error) {
         judge.emplace(from, *max_error);
-        const std::uint32_t bound = coarsest_within(s, *judge, *max_error, result);
-        result.by_error = bound == 0 || bound > n;
+        const std::uint32_t bound = coarsest_within(s, *judge, *max_error, end);
+        end.by_error = bound == 0 || bound > n;
         n = bound == 0 ? 0 : std::max(n, bound);
     }
     Clusters c = n == 0 ? unclustered(s) : cluster(s, Grid(n));
     while (c.faces.empty() && s.live_faces > 0 && n < finest) c = cluster(s, Grid(++n));
-    if (max_error) result.measured = judge->deviation(shape_of(s, c));
-    result.cell = n == 0 ? 0 : Grid(n).edge() / s.scale;
-    result.outcome.collapses = s.vertex_slots() - c.vertices, result.outcome.passes = 1;
-    result.outcome.largest = c.largest;
-    settle(s, c);
-    result.outcome.stuck = !result.by_error && s.live_faces > goal.faces && s.live_vertices > goal.vertices;
-    return result;
+    if (max_error) end.measured = judge->deviation(bare_mesh(s, c));
+    end.cell = n == 0 ? 0 : Grid(n).edge() / s.frame.scale;
+    end.log = std::move(s.log);
+    end.shape = shape_of(s, c, end.log);
+    end.outcome = {.passes = 1,
+                   .collapses = s.vertex_slots() - c.vertices,
+                   .largest = c.largest,
+                   .stuck = !end.by_error && !goal.met(end.shape)};
+    return end;
 }
 
 } // namespace facetmill::simplification

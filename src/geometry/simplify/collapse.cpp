@@ -1,7 +1,7 @@
-// One collapse: the tests that keep the guarantees, and the edit.
+#include "geometry/simplify/collapse.hpp"
 
-#include "geometry/simplify/around.hpp"
-#include "geometry/simplify/price.hpp"
+#include "geometry/simplify/attributes.hpp"
+#include "geometry/simplify/methods.hpp"
 
 #include <span>
 #include <utility>
@@ -17,7 +17,7 @@ constexpr double least_height = 1e-5;
 constexpr std::uint8_t outside = 64; // the territory: no reason that is kept
 
 /// The live faces at a vertex; false when there are too many.
-bool gather(const Work& s, Index v, Ring& ring) {
+bool gather(const State& s, Index v, Ring& ring) {
     std::size_t size = 0;
     for (Index c = s.first[v]; c != none; c = s.next[c]) {
         const Index* t = &s.tri[c - c % 3];
@@ -46,32 +46,149 @@ class Vertices {
     std::uint64_t hints_ = 0;
 };
 
+// Where topology may change: faces that lie back to back go, holes close, components vanish.
+
+/// Takes a face out, with the costs of its edges.
+void kill_face(State& s, Index f) {
+    s.tri[3 * f] = none;
+    for (Index c = 3 * f; c < 3 * f + 3; ++c) s.cost[c] = never;
+}
+
+/// Whether a vertex that stays might lose its last face.
+bool loses_corner(const State& s, const Around& r) {
+    const auto stays = [&](Index v) { return s.kind[v] >= Kind::corner; };
+    for (int i = 0; i < r.sides; ++i)
+        if (stays(r.side[static_cast<std::size_t>(i)].opposite)) return true;
+    for (int i = 0; i < r.cancellations; ++i) {
+        const auto& pair = r.cancelled[static_cast<std::size_t>(i)];
+        if (stays(pair.from) || stays(pair.to)) return true;
+    }
+    return false;
+}
+
+/// A vertex without faces loses its list, and is counted once.
+class Bare {
+  public:
+    Bare(State& s, Index a) : s_(s), a_(a) {}
+    std::size_t vertices = 1; ///< that went: the one that was collapsed, and those that were bare
+
+    void look(Index v) {
+        if (s_.first[v] == none) {
+            if (v == a_) count_a();
+            return;
+        }
+        for (Index c = s_.first[v]; c != none; c = s_.next[c])
+            if (s_.live(c / 3)) return;
+        s_.first[v] = none;
+        if (v == a_)
+            count_a();
+        else
+            ++vertices;
+    }
+
+  private:
+    void count_a() { vertices += !std::exchange(a_counted_, true); }
+
+    State& s_;
+    Index a_;
+    bool a_counted_ = false;
+};
+
+/// A vertex of a feature line that is gone moves freely.
+void free_if_bare(State& s, Index v) {
+    if (s.kind[v] != Kind::curve) return;
+    for (Index c = s.first[v]; c != none; c = s.next[c])
+        if (s.live(c / 3) && (s.flags[c] | s.flags[before(c)]) & feature_edge) return;
+    s.kind[v] = Kind::smooth;
+}
+
+/// The edge from a to x is no boundary when two faces run along it either way.
+void unflag_closed(State& s, Index a, Index x) {
+    Index out = none, in = none;
+    for (Index c = s.first[a]; c != none; c = s.next[c]) {
+        if (!s.live(c / 3)) continue;
+        if (s.tri[after(c)] == x) out = c;
+        if (s.tri[before(c)] == x) in = before(c);
+    }
+    if (out == none || in == none || !(s.flags[out] & s.flags[in] & boundary_edge)) return;
+    for (const Index c : {out, in}) s.flags[c] &= static_cast<std::uint8_t>(~(boundary_edge | feature_edge));
+    for (const Index v : {a, x}) free_if_bare(s, v);
+}
+
+/// Finds the faces that would lie back to back, which go both; false when the collapse would double a face,
+/// take a corner's last one, or leave points with nowhere to go.
+bool find_cancelled(const State& s, Around& r) {
+    r.cancellations = 0;
+    for (const Spoke& k : r.at_b) {
+        if (k.has(r.a)) continue;
+        for (const Spoke& other : r.at_a) {
+            if (other.next == k.next && other.before == k.before) return false;
+            if (other.next != k.before || other.before != k.next) continue;
+            if (r.cancellations == Around::most_sides || s.followed) return false;
+            r.cancelled[static_cast<std::size_t>(r.cancellations++)] = {other.corner, k.corner, k.next,
+                                                                        k.before};
+        }
+    }
+    return !loses_corner(s, r);
+}
+
+/// Whether no face at either end would be left.
+bool vanishes(const State& s, const Around& r) {
+    const auto going = static_cast<std::size_t>(r.sides + r.cancellations);
+    return !s.followed && r.at_a.size == going && r.at_b.size == going;
+}
+
+/// After the edit: takes away the faces that lie back to back, tells closed holes and vertices that have no
+/// face any more. faces: that went already. Returns all faces and vertices that went.
+std::pair<std::size_t, std::size_t> settle_topology(State& s, const Around& r, std::size_t faces) {
+    const auto pairs = std::span(r.cancelled).first(static_cast<std::size_t>(r.cancellations));
+    const auto sides = std::span(r.side).first(static_cast<std::size_t>(r.sides));
+    for (const auto& pair : pairs) {
+        kill_face(s, pair.at_a / 3);
+        kill_face(s, pair.at_b / 3);
+    }
+    Bare bare(s, r.a);
+    bare.look(r.a);
+    for (const Side& side : sides) bare.look(side.opposite);
+    for (const auto& pair : pairs) {
+        bare.look(pair.from);
+        bare.look(pair.to);
+    }
+    for (Index c = s.first[r.a]; c != none; c = s.next[c])
+        if (s.live(c / 3)) {
+            unflag_closed(s, r.a, s.tri[after(c)]);
+            unflag_closed(s, r.a, s.tri[before(c)]);
+        }
+    return {faces + 2 * pairs.size(), bare.vertices};
+}
+
 /// An edge about to go: r.b into r.a.
 class Collapse {
   public:
-    Collapse(Work& s, Around& r) : s_(s), r_(r) {}
+    Collapse(State& s, Around& r) : s_(s), r_(r) {}
 
-    /// 0, or why the collapse to `to` is not allowed. most: how far points may be, squared.
-    std::uint8_t refusal(const Vec3& to, bool a_stays, bool along, bool boundary, double most) {
+    /// 0, or why the collapse to `to` is not allowed.
+    std::uint8_t refusal(const Vec3& to, bool a_stays, bool along, bool boundary) {
         if (!gather(s_, r_.a, r_.at_a) || !gather(s_, r_.b, r_.at_b)) return blocked_topology;
         if (!is_inside()) return outside;
         find_sides();
-        if (!(s_.allow ? r_.sides >= 1 && r_.sides <= Around::most_sides : r_.sides == (boundary ? 1 : 2)))
+        if (!(s_.rules.changes_topology ? r_.sides >= 1 && r_.sides <= Around::most_sides
+                                        : r_.sides == (boundary ? 1 : 2)))
             return blocked_topology;
         if (!link_condition(along)) return blocked_topology;
-        if (!s_.wedge.empty() && !pair_wedges(a_stays)) return blocked_border;
+        if (s_.has_seams() && !pair_wedges(a_stays)) return blocked_border;
         if (r_.changes_topology && !find_cancelled(s_, r_)) return blocked_topology;
         if (r_.changes_topology && vanishes(s_, r_)) return 0;
         if (!a_stays && !keeps_facing(r_.a, r_.at_a, r_.b, to)) return blocked_flip;
         if (!keeps_facing(r_.b, r_.at_b, r_.a, to)) return blocked_flip;
-        return s_.points.empty() || points_stay_near(s_, r_, to, most) ? 0 : blocked_error;
+        return !s_.followed || points_stay_near(s_, r_, to) ? 0 : blocked_error;
     }
 
     /// Makes it. Returns the faces and vertices that went.
-    std::pair<std::size_t, std::size_t> make(const Vec3& to, double error, Log& log) {
-        if (!s_.points.empty()) hand_over_points(s_, r_);
-        if (!s_.wedge.empty()) hand_over_wedges(log);
-        if (s_.logging)
+    std::pair<std::size_t, std::size_t> make(const Vec3& to, double error, Collapses& log) {
+        if (s_.followed) hand_over_points(s_, r_);
+        if (s_.has_seams()) hand_over_wedges(log);
+        if (s_.log)
             log.steps.push_back({s_.source[r_.a], s_.source[r_.b], static_cast<Index>(log.wedges.size()),
                                  static_cast<float>(error), to});
         join_lists();
@@ -97,7 +214,8 @@ class Collapse {
                 pricer(simplification::before(k.corner), k.before, r_.a);
             }
         };
-        price_ring(r_.at_a, r_.b), price_ring(r_.at_b, r_.a);
+        price_ring(r_.at_a, r_.b);
+        price_ring(r_.at_b, r_.a);
         pricer.finish();
     }
 
@@ -141,8 +259,9 @@ class Collapse {
         return static_cast<int>(count);
     }
 
-    /// The ends' links meet in nothing but the opposite vertices (Dey et al. 1999; the outside of a boundary,
-    /// and both sides of a feature line, count as one more vertex).
+    /// The ends' links meet in nothing but the opposite vertices (T. Dey, H. Edelsbrunner, S. Guha and
+    /// D. Nekhayev, 'Topology preserving edge contraction', 1999); the outside of a boundary, and both sides
+    /// of a feature line, count as one more vertex.
     bool link_condition(bool along) {
         r_.changes_topology = common_neighbours() != r_.sides || r_.sides > 2 ||
                               (r_.sides == 2 && joined(r_.at_a) && joined(r_.at_b)); // the last tetrahedron
@@ -153,7 +272,7 @@ class Collapse {
                 r_.changes_topology = true;
                 if (!(both & boundary_edge)) return false; // of a seam or border, not a lone triangle
             }
-        return s_.allow || !r_.changes_topology;
+        return s_.rules.changes_topology || !r_.changes_topology;
     }
 
     /// Whether a face of the ring has both opposite vertices.
@@ -183,10 +302,12 @@ class Collapse {
             if (!a_stays)
                 for (int k = 0; k < pairs_; ++k)
                     if (pair_[k][0] == to) return false;
-            if (s_.sides)
+            if (s_.side_of_wedge)
                 for (int k = 0; k < pairs_; ++k)
-                    if (pair_[k][0] == to && (*s_.sides)[pair_[k][1]] != (*s_.sides)[from]) return false;
-            pair_[pairs_][0] = to, pair_[pairs_][1] = from;
+                    if (pair_[k][0] == to && (*s_.side_of_wedge)[pair_[k][1]] != (*s_.side_of_wedge)[from])
+                        return false;
+            pair_[pairs_][0] = to;
+            pair_[pairs_][1] = from;
             ++pairs_;
         }
         return std::all_of(r_.at_b.begin(), r_.at_b.end(),
@@ -216,11 +337,11 @@ class Collapse {
         return true;
     }
 
-    void hand_over_wedges(Log& log) {
+    void hand_over_wedges(Collapses& log) {
         for (int i = 0; i < pairs_; ++i)
             if (pair_[i][0] != pair_[i][1]) {
-                if (s_.logging) log.wedges.push_back({pair_[i][0], pair_[i][1]});
-                join_fields(s_.fields, pair_[i][0], pair_[i][1]);
+                if (s_.log) log.wedges.push_back({pair_[i][0], pair_[i][1]});
+                if (s_.attributes) join(*s_.attributes, pair_[i][0], pair_[i][1]);
             }
         for (const Spoke& k : r_.at_b) s_.wedge[k.corner] = taker(s_.wedge[k.corner]);
     }
@@ -255,7 +376,7 @@ class Collapse {
         }
     }
 
-    Work& s_;
+    State& s_;
     Around& r_;
     Index pair_[Around::most_sides][2] = {}; // wedge at a, wedge at b
     int pairs_ = 0;
@@ -263,16 +384,16 @@ class Collapse {
 
 } // namespace
 
-Attempt collapse(Work& s, Index c, double most, Around& around, Pricer& pricer, Tally& tally) {
+Attempt collapse(State& s, Index c, Around& around, Pricer& pricer, Tally& tally) {
     const Index u = s.tri[c], v = s.tri[after(c)];
     const std::uint8_t flags = s.flags[c];
     const Placement p = place(s, c, flags);
     const Index a = around.a = p.keep_second ? v : u, b = around.b = p.keep_second ? u : v;
     const bool stays = p.keep_first || p.keep_second;
     Collapse edit(s, around);
-    const bool beyond = !s.limit.empty() && !(p.error < std::min(s.limit[a], s.limit[b]));
-    const auto why = beyond ? blocked_border
-                            : edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge, most);
+    const bool beyond = s.limits && !(p.error < std::min((*s.limits)[a], (*s.limits)[b]));
+    const auto why =
+        beyond ? blocked_border : edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge);
     if (why == outside) return Attempt::outside;
     if (why) {
         s.flags[c] |= why;
@@ -280,17 +401,18 @@ Attempt collapse(Work& s, Index c, double most, Around& around, Pricer& pricer, 
         return Attempt::refused;
     }
     s.kind[a] = std::max(s.kind[a], s.kind[b]);
-    if (!s.limit.empty()) s.limit[a] = std::min(s.limit[a], s.limit[b]);
+    if (s.limits) (*s.limits)[a] = std::min((*s.limits)[a], (*s.limits)[b]);
     const auto [faces, vertices] = edit.make(p.at, p.error, tally.log);
     s.at[a] = p.at;
     s.moved[a] |= !stays;
     s.touched[a] = s.touched[b] = s.pass;
-    if (!s.quadrics.empty()) s.quadrics[a] = p.joined;
-    if (s.wedge.empty()) join_fields(s.fields, a, b);
+    if (s.quadrics) (*s.quadrics)[a] = p.joined;
+    if (s.attributes && !s.has_seams()) join(*s.attributes, a, b);
     tally.largest = std::max(tally.largest, p.error);
     edit.price(pricer);
     ++tally.collapses;
-    tally.faces += faces, tally.vertices += vertices;
+    tally.faces += faces;
+    tally.vertices += vertices;
     return Attempt::done;
 }
 

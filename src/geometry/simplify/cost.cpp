@@ -1,7 +1,9 @@
-// What a collapse costs and where its vertex goes.
+#include "geometry/simplify/cost.hpp"
 
 #include "base/parallel.hpp"
-#include "geometry/simplify/work.hpp"
+#include "geometry/simplify/attributes.hpp"
+
+#include <cstring>
 
 namespace facetmill::simplification {
 
@@ -10,12 +12,25 @@ namespace {
 // Weights of the planes that stand on feature edges, per squared length of the edge, relative to faces per
 // area.
 constexpr double boundary_weight = 10, feature_weight = 1;
+// How strongly the new vertex is drawn to the middle of the edge, relative to the quadric's weight: decides
+// only where the planes leave the vertex free, as in flat and straight regions. Above what rounding leaves of
+// the quadrics; the cost is worked out in single precision too, the place is not.
+constexpr double pull = 2e-7;
+constexpr float pull_of_cost = 1e-6f;
+// Short edges go first where errors are equal: as if each vertex were displaced by a thousandth of the edge.
+constexpr float shortness = 1e-6f;
+// A best place farther off the edge's middle than so many times half its length (squared) is not trusted.
+constexpr float most_off = 16;
+// The order is that of the sum of squared distances over the area^(3/4): between the sum, which lets small
+// parts go far off, and the mean, which spends faces on them. Over scans the maximum is a third below the
+// sum's, and the root mean square a few percent above.
+
 /// A of the quadric of a face, weighed by its area, at its corners.
 struct FaceQuadric {
     float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 };
 
-FaceQuadric quadric_of(const Work& s, Index f) {
+FaceQuadric quadric_of(const State& s, Index f) {
     const Vec3& p = s.at[s.tri[3 * f]];
     const Vec3 n = cross(s.at[s.tri[3 * f + 1]] - p, s.at[s.tri[3 * f + 2]] - p); // twice the area long
     const double twice = length(n);
@@ -26,7 +41,7 @@ FaceQuadric quadric_of(const Work& s, Index f) {
 }
 
 /// Adds the plane through the edge of corner c, which is at the vertex, upright on its face.
-void add_upright(Quadric& q, const Work& s, Index c) {
+void add_upright(Quadric& q, const State& s, Index c) {
     if (!(s.flags[c] & feature_edge)) return;
     const Vec3& from = s.at[s.tri[c]];
     const Vec3 along = s.at[s.tri[after(c)]] - from;
@@ -37,12 +52,19 @@ void add_upright(Quadric& q, const Work& s, Index c) {
 }
 
 /// Of the planes through the vertex v, as seen from it.
-Quadric quadric_at(const Work& s, Index v, const std::vector<FaceQuadric>& faces) {
+Quadric quadric_at(const State& s, Index v, const std::vector<FaceQuadric>& faces) {
     Quadric q;
     for (Index c = s.first[v]; c != none; c = s.next[c]) {
         const FaceQuadric& f = faces[c / 3];
-        q.xx += f.xx, q.xy += f.xy, q.xz += f.xz, q.yy += f.yy, q.yz += f.yz, q.zz += f.zz;
-        if (s.has_features) add_upright(q, s, c), add_upright(q, s, before(c));
+        q.xx += f.xx;
+        q.xy += f.xy;
+        q.xz += f.xz;
+        q.yy += f.yy;
+        q.yz += f.yz;
+        q.zz += f.zz;
+        if (!s.has_features) continue;
+        add_upright(q, s, c);
+        add_upright(q, s, before(c));
     }
     return q;
 }
@@ -69,7 +91,7 @@ void add_keeping_weight(Quadric& q, const Quadric& other) {
 }
 
 /// The corner that runs the other way along the edge, or none.
-Index opposite(const Work& s, Index corner) {
+Index opposite(const State& s, Index corner) {
     const Index from = s.tri[after(corner)], to = s.tri[corner];
     for (Index c = s.first[from]; c != none; c = s.next[c])
         if (s.live(c / 3) && s.tri[after(c)] == to) return c;
@@ -77,11 +99,11 @@ Index opposite(const Work& s, Index corner) {
 }
 
 /// What the attributes at both ends pay, as seen from `from`; on a seam, those of both sides.
-void add_fields(Quadric& q, const Work& s, Index corner, bool along, const Vec3& from) {
+void add_attributes(Quadric& q, const State& s, Index corner, bool along, const Vec3& from) {
     const auto add = [&](Index a, Index b) {
-        add_keeping_weight(q, seen_from(residual(s.fields, a, b), from));
+        add_keeping_weight(q, seen_from(residual(*s.attributes, a, b), from));
     };
-    if (s.wedge.empty()) return add(s.tri[corner], s.tri[after(corner)]);
+    if (!s.has_seams()) return add(s.tri[corner], s.tri[after(corner)]);
     const Index a = s.wedge[corner], b = s.wedge[after(corner)];
     add(a, b);
     const Index other = along ? opposite(s, corner) : none;
@@ -90,67 +112,214 @@ void add_fields(Quadric& q, const Work& s, Index corner, bool along, const Vec3&
     if (x != a || y != b) add(x, y);
 }
 
-} // namespace
-
-void sum_quadrics(Work& s) {
-    std::vector<FaceQuadric> faces(s.face_slots());
-    parallel_for(faces.size(), [&](std::size_t f) { faces[f] = quadric_of(s, static_cast<Index>(f)); });
-    s.quadrics.resize(s.vertex_slots());
-    parallel_for(s.vertex_slots(), [&](std::size_t v) {
-        s.quadrics[v] = rounded(quadric_at(s, static_cast<Index>(v), faces));
-    });
-}
-
-namespace {
-
 /// The planes of both ends of an edge and the attributes there, as seen from its middle.
 struct Meeting {
     Index u, v;
     Vec3 half; ///< from the middle to v
     Quadric shape, all;
 
-    Meeting(const Work& s, Index corner, std::uint8_t flags)
+    Meeting(const State& s, Index corner, std::uint8_t flags)
         : u(s.tri[corner]), v(s.tri[after(corner)]), half((s.at[v] - s.at[u]) * 0.5) {
-        if (s.quadrics.empty()) return;
-        shape = seen_from(s.quadrics[u], half) + seen_from(s.quadrics[v], -half);
+        if (!s.quadrics) return;
+        shape = seen_from((*s.quadrics)[u], half) + seen_from((*s.quadrics)[v], -half);
         all = shape;
-        if (s.fields.channels > 0) add_fields(all, s, corner, flags & feature_edge, s.at[u] + half);
+        if (s.attributes) add_attributes(all, s, corner, flags & feature_edge, s.at[u] + half);
     }
 
     /// Sets which end stays, and returns the place.
-    Vec3 choose(const Work& s, Placement& p) const {
+    Vec3 choose(const State& s, Placement& p) const {
         const Kind ku = s.kind[u], kv = s.kind[v];
-        p.keep_first = ku > kv, p.keep_second = kv > ku;
+        p.keep_first = ku > kv;
+        p.keep_second = kv > ku;
         if (p.keep_first) return -half;
         if (p.keep_second) return half;
-        return s.quadrics.empty() ? Vec3{} : choose_place(p, all, half, s.endpoints);
+        return s.quadrics ? choose_place(p, all, half, s.rules.endpoints) : Vec3{};
     }
 };
 
+// Costs four at a time: what cost_of says, in single precision.
+
+using Four = float __attribute__((vector_size(16)));
+using Mask = std::int32_t __attribute__((vector_size(16)));
+
+Four load(const float* at) {
+    Four x;
+    std::memcpy(&x, at, sizeof x);
+    return x;
+}
+
+/// Four rows of four become four columns.
+void transpose(Four& a, Four& b, Four& c, Four& d) {
+    const Four ab = __builtin_shufflevector(a, b, 0, 4, 1, 5), cd = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+    const Four xy = __builtin_shufflevector(a, b, 2, 6, 3, 7), zw = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    a = __builtin_shufflevector(ab, cd, 0, 1, 4, 5);
+    b = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+    c = __builtin_shufflevector(xy, zw, 0, 1, 4, 5);
+    d = __builtin_shufflevector(xy, zw, 2, 3, 6, 7);
+}
+
+struct Vec3s {
+    Four x, y, z;
+};
+
+Four dot(const Vec3s& a, const Vec3s& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// Four quadrics.
+struct Quadrics {
+    Four xx, xy, xz, yy, yz, zz;
+    Vec3s b;
+    Four c;
+
+    Vec3s times(const Vec3s& y) const {
+        return {xx * y.x + xy * y.y + xz * y.z, xy * y.x + yy * y.y + yz * y.z,
+                xz * y.x + yz * y.y + zz * y.z};
+    }
+    Four operator()(const Vec3s& y) const {
+        const Vec3s ay = times(y);
+        return dot(y, {ay.x - b.x - b.x, ay.y - b.y - b.y, ay.z - b.z - b.z}) + c;
+    }
+    /// See Quadric::least, with the anchor at 0; A's trace is 1.
+    Vec3s least() const {
+        const Four i0 = 1 / (xx + pull_of_cost), l10 = xy * i0, l20 = xz * i0;
+        const Four i1 = 1 / (yy + pull_of_cost - l10 * xy), e21 = yz - l20 * xy, l21 = e21 * i1;
+        const Four i2 = 1 / (zz + pull_of_cost - l20 * xz - l21 * e21);
+        const Four y1 = b.y - l10 * b.x, y2 = b.z - l20 * b.x - l21 * y1;
+        const Four z = y2 * i2, y = y1 * i1 - l21 * z;
+        return {b.x * i0 - l10 * y - l20 * z, y, z};
+    }
+};
+
+Quadrics quadrics_of(const std::vector<NearQuadric>& quadrics, Index p, Index q, Index r, Index t) {
+    static_assert(sizeof(NearQuadric) == 10 * sizeof(float));
+    const float* at[]{&quadrics[p].xx, &quadrics[q].xx, &quadrics[r].xx, &quadrics[t].xx};
+    Quadrics all;
+    all.xx = load(at[0]);
+    all.xy = load(at[1]);
+    all.xz = load(at[2]);
+    all.yy = load(at[3]);
+    transpose(all.xx, all.xy, all.xz, all.yy);
+    Four a = load(at[0] + 4), b = load(at[1] + 4), c = load(at[2] + 4), d = load(at[3] + 4);
+    transpose(a, b, c, d);
+    all.yz = a;
+    all.zz = b;
+    all.b = {load(at[0] + 6), load(at[1] + 6), load(at[2] + 6)};
+    all.c = load(at[3] + 6);
+    transpose(all.b.x, all.b.y, all.b.z, all.c);
+    return all;
+}
+
+/// The sum of both ends' quadrics as seen from the middles of the edges; half: from there to the second ends.
+Quadrics joined(const Quadrics& p, const Quadrics& q, const Vec3s& half) {
+    const Quadrics less{q.xx - p.xx, q.xy - p.xy, q.xz - p.xz, q.yy - p.yy, q.yz - p.yz, q.zz - p.zz, {}, {}};
+    Quadrics sum{p.xx + q.xx, p.xy + q.xy, p.xz + q.xz, p.yy + q.yy, p.yz + q.yz, p.zz + q.zz, {}, {}};
+    const Vec3s off = less.times(half), ah = sum.times(half);
+    const Vec3s difference{p.b.x - q.b.x, p.b.y - q.b.y, p.b.z - q.b.z};
+    sum.b = {p.b.x + q.b.x + off.x, p.b.y + q.b.y + off.y, p.b.z + q.b.z + off.z};
+    sum.c = p.c + q.c +
+            dot(half, {ah.x - difference.x - difference.x, ah.y - difference.y - difference.y,
+                       ah.z - difference.z - difference.z});
+    return sum;
+}
+
+/// Scaled so that A's trace is 1; returns what it was.
+Four normalise(Quadrics& q) {
+    const Four weight = q.xx + q.yy + q.zz;
+    const Four share = weight > 0 ? 1 / weight : Four{};
+    for (Four* x : {&q.xx, &q.xy, &q.xz, &q.yy, &q.yz, &q.zz, &q.b.x, &q.b.y, &q.b.z, &q.c}) *x *= share;
+    return weight;
+}
+
+Four root(Four x) {
+    for (int i = 0; i < 4; ++i) x[i] = std::sqrt(x[i]);
+    return x;
+}
+
+Four larger(Four x, Four y) { return x > y ? x : y; }
+
+/// The costs of four edges.
+Four costs_of(const State& s, const PricedEdge* e) {
+    Vec3s half;
+    Mask held;
+    for (int i = 0; i < 4; ++i) {
+        const Vec3 d = (s.at[e[i].v] - s.at[e[i].u]) * 0.5;
+        half.x[i] = static_cast<float>(d.x);
+        half.y[i] = static_cast<float>(d.y);
+        half.z[i] = static_cast<float>(d.z);
+        held[i] = static_cast<std::int32_t>(e[i].held);
+    }
+    Quadrics q = joined(quadrics_of(*s.quadrics, e[0].u, e[1].u, e[2].u, e[3].u),
+                        quadrics_of(*s.quadrics, e[0].v, e[1].v, e[2].v, e[3].v), half);
+    const Four weight = normalise(q);
+    const Four quarter = dot(half, half);
+    const Four at_first = q({-half.x, -half.y, -half.z}), at_second = q(half);
+    const Four at_end = at_first < at_second ? at_first : at_second;
+    Four value = at_end;
+    if (!s.rules.endpoints) {
+        const Vec3s best = q.least();
+        value = dot(best, best) <= quarter * most_off ? q(best) : (q.c < at_end ? q.c : at_end);
+    }
+    value = held == 1 ? at_first : held == 2 ? at_second : value;
+    return (larger(value, Four{}) + quarter * (4 * shortness)) * root(root(weight));
+}
+
 } // namespace
 
-Placement place(const Work& s, Index corner, std::uint8_t flags) {
+std::vector<NearQuadric> vertex_quadrics(const State& s) {
+    std::vector<FaceQuadric> faces(s.face_slots());
+    parallel_for(faces.size(), [&](std::size_t f) { faces[f] = quadric_of(s, static_cast<Index>(f)); });
+    std::vector<NearQuadric> quadrics(s.vertex_slots());
+    parallel_for(s.vertex_slots(),
+                 [&](std::size_t v) { quadrics[v] = rounded(quadric_at(s, static_cast<Index>(v), faces)); });
+    return quadrics;
+}
+
+Placement place(const State& s, Index corner, std::uint8_t flags) {
     const Meeting edge(s, corner, flags);
     Placement p;
     const Vec3 to = edge.choose(s, p);
-    if (s.quadrics.empty())
-        p.error = dot(edge.half, edge.half);
-    else {
+    if (s.quadrics) {
         p.error = edge.shape.weight > 0 ? edge.shape(to) / edge.shape.weight : 0;
         p.joined = rounded(seen_from(edge.shape, to));
+    } else {
+        p.error = dot(edge.half, edge.half);
     }
     p.at = p.keep_first ? s.at[edge.u] : p.keep_second ? s.at[edge.v] : s.at[edge.u] + edge.half + to;
     return p;
 }
 
-float cost_of(const Work& s, Index corner, std::uint8_t flags) {
+float cost_of(const State& s, Index corner, std::uint8_t flags) {
     const Meeting edge(s, corner, flags);
     const double squared = 4 * dot(edge.half, edge.half);
-    if (s.quadrics.empty()) return static_cast<float>(squared);
+    if (!s.quadrics) return static_cast<float>(squared);
     Placement p;
     const double value = edge.all(edge.choose(s, p)), weight = edge.shape.weight;
     const double root = std::sqrt(weight), share = root * std::sqrt(root);
     return static_cast<float>(share > 0 ? (value + shortness * weight * squared) / share : value);
+}
+
+void Pricer::finish() {
+    if (count_ == 0) return;
+    for (std::size_t i = count_; i < 4; ++i) waiting_[i] = waiting_[0];
+    const Four cost = costs_of(s_, waiting_.data());
+    for (std::size_t i = 0; i < count_; ++i) set(waiting_[i].corner, cost[static_cast<int>(i)]);
+    count_ = 0;
+}
+
+void price_all(State& s) {
+    parallel_chunks(
+        s.face_slots(),
+        [&](std::size_t begin, std::size_t end) {
+            Pricer pricer(s);
+            for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                if (!s.live(f)) continue;
+                const Index c = 3 * f, x = s.tri[c], y = s.tri[c + 1], z = s.tri[c + 2];
+                pricer(c, x, y);
+                pricer(c + 1, y, z);
+                pricer(c + 2, z, x);
+            }
+            pricer.finish();
+        },
+        4096);
 }
 
 } // namespace facetmill::simplification

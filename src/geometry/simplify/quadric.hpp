@@ -1,11 +1,12 @@
 #pragma once
-// Weighted sums of squared distances to planes: the error measure of Garland and Heckbert (SIGGRAPH 1997).
+// Weighted sums of squared distances to planes, after M. Garland and P. Heckbert, 'Surface simplification
+// using quadric error metrics' (1997).
 
 #include "base/vec.hpp"
 
 #include <algorithm>
 
-namespace facetmill {
+namespace facetmill::simplification {
 
 /// Q(p) = p.A p - 2 b.p + c, A symmetric; weight is the sum of the planes' weights, which is also A's trace.
 struct Quadric {
@@ -15,21 +16,30 @@ struct Quadric {
     double weight = 0;
 
     Quadric& operator+=(const Quadric& q) {
-        xx += q.xx, xy += q.xy, xz += q.xz, yy += q.yy, yz += q.yz, zz += q.zz;
-        b += q.b, c += q.c, weight += q.weight;
+        xx += q.xx;
+        xy += q.xy;
+        xz += q.xz;
+        yy += q.yy;
+        yz += q.yz;
+        zz += q.zz;
+        b += q.b;
+        c += q.c;
+        weight += q.weight;
         return *this;
     }
 
-    /// The value at p; rounding may leave a small negative number, which is 0.
-    double operator()(const Vec3& p) const {
-        const Vec3 ap{xx * p.x + xy * p.y + xz * p.z, xy * p.x + yy * p.y + yz * p.z,
-                      xz * p.x + yz * p.y + zz * p.z};
-        return std::max(0.0, dot(p, ap) - 2 * dot(b, p) + c);
+    /// A y.
+    Vec3 times(const Vec3& y) const {
+        return {xx * y.x + xy * y.y + xz * y.z, xy * y.x + yy * y.y + yz * y.z,
+                xz * y.x + yz * y.y + zz * y.z};
     }
 
+    /// The value at p; rounding may leave a small negative number, which is 0.
+    double operator()(const Vec3& p) const { return std::max(0.0, dot(p, times(p)) - 2 * dot(b, p) + c); }
+
     /// The point where Q(p) + pull * |p - anchor|^2 is least. With pull > 0 it always exists and, where the
-    /// planes leave it free (a plane, a straight crease), it stays by the anchor. LDL' of A + pull; no
-    /// pivoting is needed.
+    /// planes leave it free (a plane, a straight edge), it stays by the anchor. LDL' of A + pull; no pivoting
+    /// is needed.
     Vec3 least(const Vec3& anchor, double pull) const {
         const double i0 = 1 / (xx + pull), l10 = xy * i0, l20 = xz * i0;
         const double i1 = 1 / (yy + pull - l10 * xy), e21 = yz - l20 * xy, l21 = e21 * i1;
@@ -43,4 +53,33 @@ struct Quadric {
 
 inline Quadric operator+(Quadric a, const Quadric& b) { return a += b; }
 
-} // namespace facetmill
+/// The quadric of a vertex, kept about the place where the vertex is: Q(y) = y.A y - 2 b.y + c for points at
+/// y from the vertex; the weight is A's trace, since all planes have unit normals. Single precision is
+/// enough: near the vertex nothing cancels, and what rounding leaves is below what tells edges of equal error
+/// apart
+/// (`shortness` times the squared length). A sum of planes through the vertex has b = 0 and c = 0.
+struct NearQuadric {
+    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, bx = 0, by = 0, bz = 0, c = 0;
+};
+
+/// q as seen from a place at h from its own: q'(y) = q(y + h).
+inline Quadric seen_from(const Quadric& q, const Vec3& h) {
+    const Vec3 ah = q.times(h);
+    Quadric moved = q;
+    moved.b = q.b - ah;
+    moved.c = q.c + dot(h, ah - q.b * 2);
+    return moved;
+}
+inline Quadric seen_from(const NearQuadric& q, const Vec3& h) {
+    const double xx = q.xx, yy = q.yy, zz = q.zz;
+    return seen_from(Quadric{xx, q.xy, q.xz, yy, q.yz, zz, {q.bx, q.by, q.bz}, q.c, xx + yy + zz}, h);
+}
+
+/// In single precision; the value at the place itself is not negative.
+inline NearQuadric rounded(const Quadric& q) {
+    const auto f = [](double x) { return static_cast<float>(x); };
+    return {f(q.xx), f(q.xy),  f(q.xz),  f(q.yy),  f(q.yz),
+            f(q.zz), f(q.b.x), f(q.b.y), f(q.b.z), f(std::max(0.0, q.c))};
+}
+
+} // namespace facetmill::simplification

@@ -1,9 +1,12 @@
 #include "geometry/simplify/simplify.hpp"
 
+#include "base/error.hpp"
+#include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "geometry/intersect/self_intersections.hpp"
-#include "geometry/simplify/prepared.hpp"
-#include "geometry/simplify/coincident.hpp"
+#include "geometry/simplify/attributes.hpp"
+#include "geometry/simplify/features.hpp"
+#include "geometry/simplify/methods.hpp"
 
 namespace facetmill {
 
@@ -12,6 +15,59 @@ namespace {
 using namespace simplification;
 using Stop = SimplifyResult::Stop;
 using Method = SimplifySettings::Method;
+using Intersections = SimplifySettings::Intersections;
+
+constexpr int most_rounds = 16;   // of limiting what runs into itself; three or four are usual
+constexpr int gentle_rounds = 10; // before all collapses are held back there
+
+// What is refused before any work.
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw Error(ErrorKind::usage, "E-RANGE", "simplify: " + what);
+}
+
+void check_ratio(double ratio) {
+    if (!(ratio > 0 && ratio <= 1)) refuse("ratio is 0 < x <= 1, not " + to_string(ratio));
+}
+
+void check_weights(const AttributeWeights& w) {
+    for (const double weight : {w.uv, w.normal, w.colour, w.skin})
+        if (!(weight >= 0 && std::isfinite(weight)))
+            refuse("weights are at least 0, not " + to_string(weight));
+}
+
+void check_cluster(const SimplifySettings& s) {
+    if (s.lock.boundary || s.lock.seams || s.lock.groups || !s.lock.body.empty() || !s.lock.vertices.empty())
+        refuse("cluster cannot hold vertices: no lock");
+    if (s.self_intersections == SimplifySettings::Intersections::avoid)
+        refuse("cluster cannot avoid self-intersections");
+}
+
+void check(const SimplifySettings& s) {
+    if (!s.levels.empty()) refuse("levels are for simplify_levels");
+    if (!s.ratio && !s.faces && !s.vertices && !s.max_error)
+        refuse("a target is needed: ratio, faces, vertices or max_error");
+    if (s.ratio) check_ratio(*s.ratio);
+    if (s.max_error && s.method == Method::constrained)
+        refuse("constrained has a bound of its own: hausdorff");
+    if (s.max_error && !(*s.max_error > 0)) refuse("max_error is above 0, not " + to_string(*s.max_error));
+    if (s.topology == SimplifySettings::Topology::allow && s.method == Method::constrained)
+        refuse("constrained keeps the topology");
+    if (s.method == Method::cluster) check_cluster(s);
+    check_weights(s.weights);
+}
+
+void check_levels(const SimplifySettings& s) {
+    if (s.method == Method::constrained || s.method == Method::cluster)
+        refuse("levels are not for constrained and cluster");
+    if (s.self_intersections == SimplifySettings::Intersections::avoid)
+        refuse("levels cannot avoid self-intersections");
+    if (s.levels.empty()) refuse("levels need ratios");
+    if (s.ratio || s.faces || s.vertices || s.max_error) refuse("levels are targets of their own");
+    for (const double ratio : s.levels) check_ratio(ratio);
+    if (!std::is_sorted(s.levels.rbegin(), s.levels.rend())) refuse("levels go from fine to coarse");
+    check_weights(s.weights);
+}
 
 /// The face count that the ratio asks for: rounded up, so that 10% of 15 faces is 2.
 std::size_t share_of(std::size_t faces, double ratio) {
@@ -22,26 +78,21 @@ struct Targets {
     Goal goal;
     std::size_t by_ratio = 0, by_faces = 0;
 
-    Targets(const Work& s, const SimplifySettings& settings) {
-        if (settings.ratio) by_ratio = share_of(s.live_faces, *settings.ratio);
+    Targets(std::size_t faces, const SimplifySettings& settings) {
+        if (settings.ratio) by_ratio = share_of(faces, *settings.ratio);
         if (settings.faces) by_faces = *settings.faces;
         goal.faces = std::max(by_ratio, by_faces);
         if (settings.vertices) goal.vertices = *settings.vertices;
     }
 
-    bool met(const Work& s) const { return s.live_faces <= goal.faces || s.live_vertices <= goal.vertices; }
-    /// Which target stopped it.
-    Stop reason(const Work& s) const {
-        if (s.live_faces > goal.faces) return Stop::vertices;
+    /// What stopped the work.
+    Stop reason(const Ended& end) const {
+        if (end.by_error) return Stop::max_error;
+        if (end.outcome.stuck) return Stop::stuck;
+        if (end.shape.face_slots() > goal.faces) return Stop::vertices;
         return by_faces >= by_ratio ? Stop::faces : Stop::ratio;
     }
 };
-
-/// Whether anything but positions and faces must be followed.
-bool carries_attributes(const Mesh& mesh) {
-    return std::any_of(mesh.attributes.begin(), mesh.attributes.end(),
-                       [](const auto& a) { return a.domain != Domain::face; });
-}
 
 Fates all_kept(const Mesh& mesh) {
     Fates fates;
@@ -49,184 +100,209 @@ Fates all_kept(const Mesh& mesh) {
     return fates;
 }
 
-/// The features as they are before the first collapse, by the corners of the mesh.
-void remember_features(Work& s) {
-    if (!s.has_features || !s.logging) return;
-    s.features_given.resize(s.flags.size());
-    parallel_for(s.flags.size(), [&](std::size_t c) {
-        s.features_given[3 * s.face_source[c / 3] + c % 3] = s.flags[c] & feature_edge;
-    });
+/// The locks of a mesh whose unused vertices go, if single ones are locked: numbers stay right then.
+SimplifyLocks by_used_vertices(SimplifyLocks lock, Mesh& mesh) {
+    if (lock.vertices.empty()) return lock;
+    std::vector<std::uint8_t> used(mesh.vertex_count()), locked;
+    for (Index c = 0; c < mesh.corner_count(); ++c) used[mesh.vertex(c)] = 1;
+    for (std::size_t v = 0; v < used.size(); ++v)
+        if (used[v]) locked.push_back(lock.vertices[v]);
+    drop_unused(mesh);
+    lock.vertices = std::move(locked);
+    return lock;
 }
 
-/// A mesh at work.
-class Session {
+/// Gives a flat-shaded mesh its normals back, and says what became of normals.
+void settle_normals(Mesh& mesh, const NormalSeams& seams, Fates& fates) {
+    using Shading = NormalSeams::Shading;
+    if (seams.shading == Shading::as_given) return;
+    if (seams.shading == Shading::faceted) set_facet_normals(mesh);
+    for (Fate& fate : fates) {
+        if (fate.domain != Domain::wedge) continue;
+        if (fate.attribute == "NORMAL")
+            fate = {fate.attribute, fate.domain, Fate::Kind::recomputed,
+                    seams.shading == Shading::faceted ? "flat shading: the normals of the new faces"
+                                                      : "area-weighted where seams below the feature angle "
+                                                        "were merged, interpolated elsewhere"};
+        else if (fate.attribute == "TANGENT")
+            fate = {fate.attribute, fate.domain, Fate::Kind::interpolated,
+                    "one of each merged normal seam, mixed at new elements"};
+    }
+}
+
+/// A mesh made ready to be simplified, and how results of it are made.
+class Subject {
   public:
-    Session(Mesh given, const SimplifySettings& settings)
+    Subject(Mesh given, const SimplifySettings& settings)
         : given_(std::move(given)), settings_(settings), lock_(by_used_vertices(settings.lock, given_)),
-          prepared_(given_, settings), work(build_work(mesh())) {
-        so_far_.shading = prepared_.seams.shading, so_far_.merged_wedges = prepared_.seams.merged;
-        so_far_.faces_given = given_.face_count();
-        so_far_.faces_before = so_far_.faces_after = work.live_faces;
-        so_far_.vertices_before = so_far_.vertices_after = work.live_vertices;
-        if (settings.method != Method::constrained) so_far_.largest_error = 0;
+          seams_(merge_seams()), used_(prepared()) {
+        start_.shading = seams_.shading;
+        start_.merged_wedges = seams_.merged;
+        start_.faces_given = given_.face_count();
+        start_.faces_before = start_.faces_after = faces();
+        start_.vertices_before = start_.vertices_after = vertices();
+        if (settings.method != Method::constrained) start_.largest_error = 0;
     }
 
-    const Mesh& mesh() const { return prepared_.own ? *prepared_.own : given_; }
+    /// What the work is done on: triangles, without the seams that only normals make.
+    const Mesh& mesh() const { return own_ ? *own_ : given_; }
+    std::size_t faces() const { return mesh().face_count(); }
+    std::size_t vertices() const { return used_.count; } ///< that faces use
+    const CoincidentBorders* borders() const { return borders_ ? &*borders_ : nullptr; }
 
-    /// What the collapses need besides the lists. way_back: all of them are logged. limits: see Work::limit,
-    /// of the vertices of the mesh.
-    void begin(bool way_back, const std::vector<float>& limits = {}) {
-        const bool carries = carries_attributes(mesh());
-        if (settings_.method != Method::cluster || carries) {
-            classify(work, mesh(), lock_);
-            join_touching();
-            work.sides = touching.any() ? &touching.sides() : nullptr;
-        }
+    /// All that the method needs. rollback: every collapse is logged. limits: see State::limits, of the
+    /// vertices of the mesh; null: none.
+    State state(bool rollback, const std::vector<float>* limits = nullptr) {
+        State s = laid_out();
+        if (borders_) s.side_of_wedge = &borders_->sides();
         if (settings_.method == Method::quadric || settings_.method == Method::quadric_endpoints) {
-            sum_quadrics(work);
-            sum_fields(work, mesh(), settings_.weights,
-                       prepared_.seams.shading != NormalSeams::Shading::faceted);
+            s.quadrics = vertex_quadrics(s);
+            s.attributes = attribute_error(s, mesh(), settings_.weights,
+                                           seams_.shading != NormalSeams::Shading::faceted);
         }
-        work.endpoints = settings_.method == Method::quadric_endpoints;
-        work.allow = settings_.topology == SimplifySettings::Topology::allow;
-        work.logging = way_back || carries;
-        if (!limits.empty())
-            for (const Index v : work.source) work.limit.push_back(limits[v]);
-        remember_features(work);
-    }
-    /// Forgets all collapses.
-    void start_again() {
-        work = build_work(mesh());
-        so_far_.collapses = 0, largest_ = 0;
+        s.rules = {.endpoints = settings_.method == Method::quadric_endpoints,
+                   .changes_topology = settings_.topology == SimplifySettings::Topology::allow};
+        if (rollback || carries_attributes(mesh())) s.log.emplace().features = feature_corners(s);
+        if (limits) {
+            s.limits.emplace();
+            for (const Index v : s.source) s.limits->push_back((*limits)[v]);
+        }
+        return s;
     }
 
     /// The mesh as it came.
     SimplifyResult unchanged() const {
-        SimplifyResult r = so_far_;
+        SimplifyResult r = start_;
         r.mesh = given_;
         r.fates = all_kept(given_);
         return r;
     }
 
-    /// The mesh as it is now. The work can go on.
-    SimplifyResult result(Stop stop, const Outcome& done) {
-        SimplifyResult r = so_far_;
-        r.stop = stop, r.held = held;
-        so_far_.passes = r.passes += done.passes;
-        so_far_.collapses = r.collapses += done.collapses;
-        largest_ = std::max(largest_, done.largest);
-        if (r.largest_error) r.largest_error = std::sqrt(largest_) / work.scale;
-        r.faces_after = work.live_faces, r.vertices_after = work.live_vertices;
-        std::vector<Index> wedges;
-        r.mesh = finished(work, mesh(), r.fates, wedges);
-        if (touching.any()) {
-            touching.part(r.mesh, wedges, r.fates);
-            r.vertices_after = r.mesh.vertex_count();
-        }
-        settle_normals(r.mesh, prepared_.seams, r.fates);
+    /// The mesh of a shape. done: all that led to it.
+    SimplifyResult result(Stop stop, const Shape& shape, const std::optional<Log>& log,
+                          const Outcome& done) const {
+        SimplifyResult r = start_;
+        r.stop = stop;
+        r.passes = done.passes;
+        r.collapses = done.collapses;
+        if (r.largest_error) r.largest_error = std::sqrt(done.largest) / shape.frame.scale;
+        Finished finished = finish(shape, mesh(), log ? &*log : nullptr);
+        if (borders_) borders_->separate(finished.mesh, finished.wedges, finished.fates);
+        r.mesh = std::move(finished.mesh);
+        r.fates = std::move(finished.fates);
+        r.faces_after = r.mesh.face_count();
+        r.vertices_after = r.mesh.vertex_count();
+        settle_normals(r.mesh, seams_, r.fates);
         return r;
     }
 
   private:
-    /// Borders that touch are worked on as seams; locked ones match anyway, and cells keep no borders.
-    void join_touching() {
-        if (lock_.boundary || settings_.method == Method::constrained || settings_.method == Method::cluster)
-            return;
-        const std::vector<Index> target = touching_vertices(work, mesh());
-        if (target.empty()) return;
-        if (!prepared_.own) prepared_.own.emplace(given_);
-        touching.join(*prepared_.own, target);
+    NormalSeams merge_seams() {
+        NormalSeams seams;
+        if (given_.has_seams() && given_.find("NORMAL", Domain::wedge)) {
+            seams = merge_normal_seams(own_.emplace(given_), settings_.feature_angle);
+            if (seams.merged == 0) own_.reset();
+        }
+        return seams;
+    }
+
+    const Mesh& prepared() {
+        if (!given_.all_triangles()) own_ = triangulated(mesh());
+        return mesh();
+    }
+
+    /// A state with kinds, the borders that run along each other joined the first time.
+    State laid_out() {
+        State s = lay_out(mesh(), used_);
+        const bool cluster = settings_.method == Method::cluster;
+        if (cluster && !carries_attributes(mesh())) return s;
+        classify(s, mesh(), lock_);
+        // Locked borders match anyway, and cells keep none.
+        if (borders_ || lock_.boundary || cluster || settings_.method == Method::constrained) return s;
+        const std::vector<Index> target = CoincidentBorders::find(s, mesh());
+        if (target.empty()) return s;
+        if (!own_) own_.emplace(given_);
+        borders_.emplace(*own_, target);
+        used_ = UsedVertices(*own_);
         for (Index v = 0; v < lock_.vertices.size(); ++v) lock_.vertices[target[v]] |= lock_.vertices[v];
-        work = build_work(mesh());
-        classify(work, mesh(), lock_);
+        s = lay_out(mesh(), used_);
+        classify(s, mesh(), lock_);
+        return s;
     }
 
     Mesh given_;
     const SimplifySettings& settings_;
     SimplifyLocks lock_;
-    Prepared prepared_;
-    SimplifyResult so_far_;
-    double largest_ = 0;
-
-  public:
-    Work work;
-    Touching touching;
-    std::size_t held = 0; ///< vertices
+    std::optional<Mesh> own_; ///< none: the mesh as given will do
+    NormalSeams seams_;
+    UsedVertices used_;
+    std::optional<CoincidentBorders> borders_;
+    SimplifyResult start_; ///< what all results have in common
 };
 
-/// As run_passes, with the vertices counted as they will be once borders that touch are apart again.
-Outcome run_passes_apart(Session& session, Goal goal) {
+/// As run_passes, with the vertices counted as they will be once coincident borders are separate again.
+Outcome run_passes_separate(State& s, const CoincidentBorders* borders, Goal goal) {
     const std::size_t wanted = goal.vertices;
-    Outcome all = run_passes(session.work, goal);
-    while (session.touching.any() && !all.stuck && goal.vertices > 1 &&
-           session.work.live_faces > goal.faces) {
-        const std::size_t more = session.touching.doubled(session.work);
-        if (session.work.live_vertices + more <= wanted) break;
+    Outcome all = run_passes(s, goal);
+    while (borders && !all.stuck && goal.vertices > 1 && s.live_faces > goal.faces) {
+        const std::size_t more = borders->doubled(s);
+        if (s.live_vertices + more <= wanted) break;
         goal.vertices = std::min(goal.vertices - 1, more < wanted ? wanted - more : 1);
-        const Outcome next = run_passes(session.work, goal);
-        all.passes += next.passes, all.collapses += next.collapses;
-        all.largest = std::max(all.largest, next.largest), all.stuck = next.stuck;
+        all += run_passes(s, goal);
     }
     return all;
 }
 
-SimplifyResult within(Session& session, const Targets& targets, double max_error) {
-    Goal goal = targets.goal;
-    if (goal.vertices > 0 && session.touching.any()) // as if no border got shorter
-        goal.vertices -= std::min(goal.vertices - 1, session.touching.doubled(session.work));
-    Bounded done = run_within(session.work, session.mesh(), goal, max_error);
-    const Stop stop = done.by_error        ? Stop::max_error
-                      : done.outcome.stuck ? Stop::stuck
-                                           : targets.reason(session.work);
-    SimplifyResult r = session.result(stop, done.outcome);
-    if (stop == Stop::max_error || stop == Stop::stuck) r.blocked = done.blocked;
-    r.measured = done.measured;
-    r.rolled_back = done.rolled_back, r.measurements = done.measurements;
+Ended run_to(State s, const CoincidentBorders* borders, const Goal& goal) {
+    Ended end;
+    end.outcome = run_passes_separate(s, borders, goal);
+    if (end.outcome.stuck) end.blocked = count_blocked(s);
+    compact(s);
+    end.log = std::move(s.log);
+    end.shape = std::move(s);
+    return end;
+}
+
+Ended run(State s, const Subject& subject, Goal goal, const SimplifySettings& settings) {
+    if (settings.method == Method::cluster)
+        return run_cluster(std::move(s), subject.mesh(), goal, settings.max_error);
+    if (settings.method == Method::constrained)
+        return run_constrained(std::move(s), subject.mesh().vertex_count(), goal, settings.constraints);
+    if (!settings.max_error) return run_to(std::move(s), subject.borders(), goal);
+    if (goal.vertices > 0 && subject.borders()) // as if no border got shorter
+        goal.vertices -= std::min(goal.vertices - 1, subject.borders()->doubled(s));
+    return run_within(std::move(s), subject.mesh(), goal, *settings.max_error);
+}
+
+SimplifyResult result_of(const Subject& subject, const Targets& targets, const Ended& end) {
+    SimplifyResult r = subject.result(targets.reason(end), end.shape, end.log, end.outcome);
+    if (r.stop == Stop::max_error || r.stop == Stop::stuck) r.blocked = end.blocked;
+    r.measured = end.measured;
+    r.rolled_back = end.rolled_back;
+    r.measurements = end.measurements;
+    r.cell = end.cell;
     return r;
 }
 
-SimplifyResult clustered(Session& session, const Targets& targets, std::optional<double> max_error) {
-    const Clustered done = run_cluster(session.work, session.mesh(), targets.goal, max_error);
-    SimplifyResult r = session.result(done.by_error        ? Stop::max_error
-                                      : done.outcome.stuck ? Stop::stuck
-                                                           : targets.reason(session.work),
-                                      done.outcome);
-    r.cell = done.cell;
-    if (max_error) r.measured = done.measured, r.measurements = done.measurements;
-    return r;
-}
-
-SimplifyResult towards(Session& session, const Targets& targets, const SimplifySettings& settings) {
-    if (settings.method == Method::cluster) return clustered(session, targets, settings.max_error);
-    if (settings.max_error) return within(session, targets, *settings.max_error);
-    const bool constrained = settings.method == Method::constrained;
-    const Outcome done = constrained ? run_constrained(session.work, session.mesh().vertex_count(),
-                                                       targets.goal, settings.constraints)
-                                     : run_passes_apart(session, targets.goal);
-    const auto blocked = done.stuck ? count_blocked(session.work) : SimplifyResult::Blocked{};
-    SimplifyResult r = session.result(done.stuck ? Stop::stuck : targets.reason(session.work), done);
-    r.blocked = blocked;
-    return r;
-}
-
-constexpr int most_rounds = 16;   // of limiting what runs into itself; three or four are usual
-constexpr int gentle_rounds = 10; // before all collapses are held back there
-
-/// As towards, but with the self-intersections counted, and avoided on request. before: how many there were.
-SimplifyResult towards_without_crossing(Session& session, const Targets& targets,
-                                        const SimplifySettings& settings, std::size_t before) {
-    std::vector<float> limits(session.mesh().vertex_count(), never);
-    const bool avoid = settings.self_intersections == SimplifySettings::Intersections::avoid;
+/// With the self-intersections counted, and avoided on request.
+SimplifyResult simplify_crossing(Subject& subject, const Targets& targets, const SimplifySettings& settings) {
+    const std::size_t before = find_self_intersections(subject.mesh(), {.limit = 0}).count;
+    std::vector<float> limits(subject.mesh().vertex_count(), never);
+    std::size_t passes = 0;
     for (int round = 1;; ++round) {
-        SimplifyResult r = towards(session, targets, settings);
-        const std::size_t after =
-            limit_intersecting(session.work, r.mesh, before, round > gentle_rounds, limits);
-        r.intersections_before = before, r.intersections_after = after;
-        if (!avoid || after <= before || round == most_rounds) return r;
-        session.start_again();
-        session.begin(true, limits);
-        session.held = static_cast<std::size_t>(
+        const Ended end =
+            run(subject.state(true, round == 1 ? nullptr : &limits), subject, targets.goal, settings);
+        SimplifyResult r = result_of(subject, targets, end);
+        passes += r.passes;
+        r.passes = passes;
+        r.held = static_cast<std::size_t>(
             std::count_if(limits.begin(), limits.end(), [](float limit) { return limit < never; }));
+        const std::size_t after =
+            limit_intersecting(end.shape, *end.log, r.mesh, before, round > gentle_rounds, limits);
+        r.intersections_before = before;
+        r.intersections_after = after;
+        const bool avoid = settings.self_intersections == Intersections::avoid;
+        if (!avoid || after <= before || round == most_rounds) return r;
     }
 }
 
@@ -234,31 +310,32 @@ SimplifyResult towards_without_crossing(Session& session, const Targets& targets
 
 SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     check(settings);
-    Session session(std::move(given), settings);
-    const Targets targets(session.work, settings);
-    if (targets.met(session.work)) return session.unchanged();
-    const bool crossing = settings.self_intersections != SimplifySettings::Intersections::ignore;
-    const std::size_t before = crossing ? find_self_intersections(session.mesh(), {.limit = 0}).count : 0;
-    session.begin(settings.max_error || crossing || settings.method == Method::constrained);
-    return crossing ? towards_without_crossing(session, targets, settings, before)
-                    : towards(session, targets, settings);
+    Subject subject(std::move(given), settings);
+    const Targets targets(subject.faces(), settings);
+    if (targets.goal.met(subject.faces(), subject.vertices())) return subject.unchanged();
+    if (settings.self_intersections != Intersections::ignore)
+        return simplify_crossing(subject, targets, settings);
+    const bool rollback = settings.max_error || settings.method == Method::constrained;
+    return result_of(subject, targets, run(subject.state(rollback), subject, targets.goal, settings));
 }
 
 std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& settings) {
     check_levels(settings);
-    Session session(std::move(given), settings);
-    const std::size_t before = session.work.live_faces;
+    Subject subject(std::move(given), settings);
+    std::optional<State> s;
+    Outcome done;
     std::vector<SimplifyResult> levels;
     for (const double ratio : settings.levels) {
-        const std::size_t faces = share_of(before, ratio);
-        if (session.work.live_faces <= faces) {
-            levels.push_back(levels.empty() ? session.unchanged() : levels.back());
+        const std::size_t faces = share_of(subject.faces(), ratio);
+        if ((s ? s->live_faces : subject.faces()) <= faces) {
+            levels.push_back(levels.empty() ? subject.unchanged() : levels.back());
             continue;
         }
-        if (session.work.kind.empty()) session.begin(false);
-        const Outcome done = run_passes(session.work, {.faces = faces});
-        const auto blocked = done.stuck ? count_blocked(session.work) : SimplifyResult::Blocked{};
-        levels.push_back(session.result(done.stuck ? Stop::stuck : Stop::ratio, done));
+        if (!s) s = subject.state(false);
+        done += run_passes(*s, {.faces = faces});
+        const auto blocked = done.stuck ? count_blocked(*s) : SimplifyResult::Blocked{};
+        compact(*s);
+        levels.push_back(subject.result(done.stuck ? Stop::stuck : Stop::ratio, *s, s->log, done));
         levels.back().blocked = blocked;
     }
     return levels;

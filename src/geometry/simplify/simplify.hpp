@@ -1,11 +1,13 @@
 #pragma once
-// Simplification: edges are collapsed, cheapest first, until a target is met.
+// Simplification: edges are collapsed, cheapest first, until a target is met. The one header of this folder
+// that others include.
 
 #include "base/portable_math.hpp"
 #include "geometry/normals/normal_seams.hpp"
 #include "mesh/plane.hpp"
 
 #include <optional>
+#include <span>
 
 namespace facetmill {
 
@@ -41,7 +43,7 @@ struct SimplifySettings {
         quadric, ///< Garland and Heckbert: least sum of squared distances to the planes of the faces
         quadric_endpoints, ///< the same, but the new vertex is one of the two: vertices are a subset
         constrained,       ///< OpenMesh's decimater: quadric, endpoints only, under SimplifyConstraints
-        shortest_edge,     ///< the note's: the shortest edge goes, and the rest meets at its midpoint
+        shortest_edge,     ///< the shortest edge goes, and the rest meets at its midpoint
         cluster, ///< the vertices in each cell of a grid become one: for previews, topology is not kept
     };
     enum class Topology {
@@ -58,15 +60,15 @@ struct SimplifySettings {
     Intersections self_intersections = Intersections::ignore;
     AttributeWeights weights{}; ///< for quadric and quadric-endpoints
     SimplifyLocks lock{};
-    SimplifyConstraints constraints{}; ///< for the method constrained
-    double crease = 30 * pi / 180;     ///< radians, see merge_normal_seams; 0: every normal seam stays
+    SimplifyConstraints constraints{};    ///< for the method constrained
+    double feature_angle = 30 * pi / 180; ///< radians, see merge_normal_seams; 0: every normal seam stays
     // At least one target; the first one met stops the work.
     std::optional<double> ratio =
         {}; ///< of the triangles that came in, 0 < ratio <= 1; the count is rounded up
     std::optional<std::size_t> faces = {};    ///< at most so many triangles
     std::optional<std::size_t> vertices = {}; ///< at most so many vertices
-    /// The deviation from the mesh that came in, measured both ways (geometry/deviation/deviation.hpp, its samples and
-    /// seed), stays within this. In the mesh's units.
+    /// The deviation from the mesh that came in, measured both ways (geometry/deviation/deviation.hpp, its
+    /// samples and seed), stays within this. In the mesh's units.
     std::optional<double> max_error = {};
     /// Levels of detail: ratios, descending. No other target may be given then.
     std::vector<double> levels = {};
@@ -147,15 +149,17 @@ struct SimplifyResult {
 /// which must find every point near by), holes of three edges close, and edges and vertices where handles
 /// were may end up with more than two faces or fans. Closedness, flips and features are kept as always.
 ///
-/// The method cluster (Rossignac and Borrel 1993, placed after Lindstrom 2000) makes one vertex of all in a
-/// cell, where their planes meet best; faces that keep three vertices stay. It keeps neither topology nor
-/// borders, and refuses locks, levels and self_intersections: avoid. Its targets are met by the size of the
-/// cells: the finest grid that was found to be at or below; sheets thinner than a cell become double faces.
+/// The method cluster (J. Rossignac and P. Borrel, 'Multi-resolution 3D approximations for rendering complex
+/// scenes', 1993; placed after P. Lindstrom, 'Out-of-core simplification of large polygonal models', 2000)
+/// makes one vertex of all in a cell, where their planes meet best; faces that keep three vertices stay. It
+/// keeps neither topology nor borders, and refuses locks, levels and self_intersections: avoid. Its targets
+/// are met by the size of the cells: the finest grid that was found to be at or below; sheets thinner than a
+/// cell become double faces.
 ///
 /// Weights: the attributes are linear over the faces that came in, and every new vertex pays the squared
-/// difference to what they would be at its place, by area (Hoppe 1999; the best value at the vertex is
-/// eliminated, so that the sum is again a quadric). Skin weights go through a fixed random projection to four
-/// numbers.
+/// difference to what they would be at its place, by area (H. Hoppe, 'New quadric metric for simplifying
+/// meshes with appearance attributes', 1999; the best value at the vertex is eliminated, so that the sum is
+/// again a quadric). Skin weights go through a fixed random projection to four numbers.
 ///
 /// Attributes: a vertex or wedge that moved has those of the surface that came in, at the nearest point of
 /// the faces around all the vertices that went into it (on a feature line: of that line, so that both sides
@@ -163,8 +167,8 @@ struct SimplifyResult {
 /// merge_normal_seams. The vertices and faces come out along a Morton curve.
 ///
 /// Errors: usage (E-RANGE) when no target or one out of range is given. About O(n log n), parallel; the same
-/// bytes for any number of threads. Source: the note 'Surface simplification' (1997); Garland & Heckbert,
-/// 'Surface simplification using quadric error metrics' (1997).
+/// bytes for any number of threads. Source: M. Garland and P. Heckbert, 'Surface simplification using quadric
+/// error metrics' (1997).
 SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
 
 /// One result per ratio of settings.levels, from fine to coarse: a chain in which each level is made from the
@@ -172,5 +176,33 @@ SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
 /// one, largest_error never falls, and borders that match in one part match in all. ratio, faces, vertices
 /// and max_error must not be given. collapses are those since the mesh that came in.
 std::vector<SimplifyResult> simplify_levels(Mesh mesh, const SimplifySettings& settings);
+
+// Meshes whose open borders run along each other: tiles, separated components, the parts of one body.
+
+/// A mesh and where it stands.
+struct PlacedMesh {
+    const Mesh* mesh;
+    Transform to_world;
+};
+
+/// Open edges of different meshes whose ends are at exactly the same places in the world.
+struct Contacts {
+    /// Sets of meshes that hang together by such edges, two or more each; ascending, by the first.
+    std::vector<std::vector<std::size_t>> sets;
+    /// [meshes][vertices] 1 for the ends of such edges; empty for a mesh that touches none.
+    std::vector<std::vector<std::uint8_t>> shared;
+};
+/// O(n log n) for meshes whose boxes meet another's, else nothing.
+Contacts find_contacts(std::span<const PlacedMesh> meshes);
+
+/// Whether meshes of one space can be simplified as one: the same attributes, and shading of one kind.
+bool fit_together(std::span<const Mesh* const> meshes, const SimplifySettings& settings);
+
+/// As simplify, or simplify_levels when settings has levels, of meshes for which fit_together holds: they are
+/// worked on as one, so that borders where they touch collapse on both sides alike. [levels][meshes]; without
+/// levels there is one. Targets are those of all together; a mesh has its own counts and the errors, reasons
+/// and fates of all.
+std::vector<std::vector<SimplifyResult>> simplify_together(std::span<const Mesh* const> meshes,
+                                                           const SimplifySettings& settings);
 
 } // namespace facetmill

@@ -241,11 +241,13 @@ SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to
                        .self_intersections = o.self_intersections,
                        .weights = o.weights,
                        .lock = {.boundary = o.lock.boundary, .seams = o.lock.seams, .groups = o.lock.group},
-                       .crease = o.crease.radians};
+                       .feature_angle = o.crease.radians};
     if (o.lock.box)
         for (const Plane& p : planes_of(*o.lock.box)) s.lock.body.push_back(pulled_back(p, to_world));
     if (o.ratio) s.ratio = o.ratio->value;
-    s.faces = share.faces, s.vertices = share.vertices, s.max_error = share.max_error;
+    s.faces = share.faces;
+    s.vertices = share.vertices;
+    s.max_error = share.max_error;
     s.constraints = {.least_cosine = cosine(o.constraints.normal_deviation.radians),
                      .aspect_ratio = o.constraints.aspect_ratio.value_or(0),
                      .roundness = o.constraints.roundness.value_or(0),

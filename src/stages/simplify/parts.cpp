@@ -2,7 +2,6 @@
 
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
-#include "geometry/simplify/joint.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/stretch.hpp"
 #include "stages/simplify/report.hpp"
@@ -52,9 +51,11 @@ class Simplifier {
   public:
     Simplifier(Scene scene, const SimplifyOptions& o, Context& context)
         : scene_(std::move(scene)), o_(o), context_(context) {
-        for (const auto& part : scene_.parts)
-            if (context.selects(part, scene_))
-                faces_ += triangle_count(part.mesh), vertices_ += part.mesh.vertex_count();
+        for (const auto& part : scene_.parts) {
+            if (!context.selects(part, scene_)) continue;
+            faces_ += triangle_count(part.mesh);
+            vertices_ += part.mesh.vertex_count();
+        }
         if (o.constraints.hausdorff)
             hausdorff_ = context.resolve(*o.constraints.hausdorff, scene_, "constraints.hausdorff");
         if (o.max_error) max_error_ = context.resolve(*o.max_error, scene_, "max_error");
@@ -114,8 +115,10 @@ class Simplifier {
 
     SimplifyShare share_of(const Set& set, double scale) const {
         std::size_t faces = 0, vertices = 0;
-        for (const std::size_t p : set)
-            faces += triangle_count(scene_.parts[p].mesh), vertices += scene_.parts[p].mesh.vertex_count();
+        for (const std::size_t p : set) {
+            faces += triangle_count(scene_.parts[p].mesh);
+            vertices += scene_.parts[p].mesh.vertex_count();
+        }
         SimplifyShare mine{share(o_.faces, faces, faces_), share(o_.vertices, vertices, vertices_),
                            max_error_, hausdorff_};
         for (auto* length : {&mine.max_error, &mine.hausdorff})
@@ -156,10 +159,12 @@ class Simplifier {
             Part level = base;
             if (i > 0) level.name += fmt::format(".lod{}", i);
             take(level, number, std::move(results_[number][i]));
-            if (i == 0)
+            if (i == 0) {
                 part = std::move(level);
-            else
-                level.changed = true, levels.push_back(std::move(level));
+                continue;
+            }
+            level.changed = true;
+            levels.push_back(std::move(level));
         }
         before_[number] = {};
     }

@@ -75,7 +75,10 @@ Json simplify_json(const SimplifyResult& r, double scale) {
           {"flips", r.blocked.flips},
           {"error", r.blocked.error}}}};
     if (r.cell) entry["cell"] = scaled(r.cell, scale);
-    if (r.measured) entry["rolled_back"] = r.rolled_back, entry["measurements"] = r.measurements;
+    if (r.measured) {
+        entry["rolled_back"] = r.rolled_back;
+        entry["measurements"] = r.measurements;
+    }
     if (r.intersections_after)
         entry["self_intersections"] = {{"before", *r.intersections_before},
                                        {"after", *r.intersections_after},

@@ -1,9 +1,32 @@
 #pragma once
-// The costs of edges, four at a time.
+// What a collapse costs and where its vertex goes: Garland and Heckbert's quadrics, or the length of the
+// edge.
 
-#include "geometry/simplify/work.hpp"
+#include "geometry/simplify/state.hpp"
 
 namespace facetmill::simplification {
+
+/// Of every vertex, from the faces' planes and from the planes that hold feature edges.
+std::vector<NearQuadric> vertex_quadrics(const State& s);
+
+/// Whether an edge between vertices of these kinds may be collapsed.
+inline bool may_go(Kind u, Kind v, std::uint8_t flags) {
+    if (u == Kind::pinned || v == Kind::pinned) return false;
+    if (u == Kind::corner && v == Kind::corner) return false;
+    return u == Kind::smooth || v == Kind::smooth || (flags & feature_edge); // not across a feature
+}
+
+/// What to do with an edge that may go.
+struct Placement {
+    Vec3 at;
+    double error = 0; ///< squared distance, as far as the quadric or the edge's length tells
+    bool keep_first = false, keep_second = false; ///< the new vertex is this end as it is
+    NearQuadric joined{};                         ///< of the planes of both ends, about `at`
+};
+/// Where the ends of the edge of a corner should meet. flags: the corner's.
+Placement place(const State& s, Index corner, std::uint8_t flags);
+/// What it costs to collapse the edge of a corner that may go.
+float cost_of(const State& s, Index corner, std::uint8_t flags);
 
 /// An edge that is to be priced.
 struct PricedEdge {
@@ -16,7 +39,7 @@ struct PricedEdge {
 /// there; nothing at them may change before `finish`.
 class Pricer {
   public:
-    explicit Pricer(Work& s) : s_(s), by_fours_(!s.quadrics.empty() && s.fields.channels == 0) {}
+    explicit Pricer(State& s) : s_(s), by_fours_(s.quadrics && !s.attributes) {}
 
     /// The edge of a corner, from u to v, as seen from its face. The cost is kept at one corner of the edge:
     /// the one that runs to the higher vertex, or the only one.
@@ -47,13 +70,13 @@ class Pricer {
             s_.flags[corner] |= blocked_border;
     }
 
-    Work& s_;
+    State& s_;
     bool by_fours_;
     std::array<PricedEdge, 4> waiting_;
     std::size_t count_ = 0;
 };
 
 /// Sets the costs of all edges.
-void price_all(Work& s);
+void price_all(State& s);
 
 } // namespace facetmill::simplification

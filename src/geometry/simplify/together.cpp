@@ -1,4 +1,4 @@
-#include "geometry/simplify/joint.hpp"
+#include "geometry/simplify/simplify.hpp"
 
 #include "geometry/edit/surgery.hpp"
 #include "mesh/topology.hpp"
@@ -36,8 +36,10 @@ void add_open_edges(const PlacedMesh& placed, std::size_t number, std::vector<Pl
         PlacedEdge edge{placed.to_world.point(placed.mesh->positions[u]),
                         placed.to_world.point(placed.mesh->positions[v]), u, v, number};
         if (!is_finite(edge.low) || !is_finite(edge.high)) continue;
-        if (order_of(edge.high) < order_of(edge.low))
-            std::swap(edge.low, edge.high), std::swap(edge.from, edge.to);
+        if (order_of(edge.high) < order_of(edge.low)) {
+            std::swap(edge.low, edge.high);
+            std::swap(edge.from, edge.to);
+        }
         edges.push_back(edge);
     }
 }
@@ -60,10 +62,10 @@ std::vector<PlacedEdge> open_edges(std::span<const PlacedMesh> meshes) {
     return edges;
 }
 
-NormalSeams::Shading shading_of(const Mesh& mesh, double crease) {
+NormalSeams::Shading shading_of(const Mesh& mesh, double feature_angle) {
     if (!mesh.has_seams() || !mesh.find("NORMAL", Domain::wedge)) return NormalSeams::Shading::as_given;
     Mesh copy = mesh;
-    return merge_normal_seams(copy, crease).shading;
+    return merge_normal_seams(copy, feature_angle).shading;
 }
 
 bool same_attributes(const Mesh& a, const Mesh& b) {
@@ -96,7 +98,7 @@ std::size_t used_vertices(const Mesh& mesh) {
 }
 
 /// What became of each mesh.
-std::vector<SimplifyResult> apart(SimplifyResult all, std::span<const Mesh* const> meshes) {
+std::vector<SimplifyResult> split_up(SimplifyResult all, std::span<const Mesh* const> meshes) {
     std::vector<Mesh> pieces(meshes.size());
     const Attribute* member = all.mesh.find(member_attribute, Domain::face);
     if (all.stop != SimplifyResult::Stop::nothing && member)
@@ -112,13 +114,15 @@ std::vector<SimplifyResult> apart(SimplifyResult all, std::span<const Mesh* cons
         r.vertices_before = used_vertices(given);
         if (all.stop == SimplifyResult::Stop::nothing) {
             r.mesh = given;
-            r.faces_after = r.faces_before, r.vertices_after = r.vertices_before;
+            r.faces_after = r.faces_before;
+            r.vertices_after = r.vertices_before;
             continue;
         }
         r.mesh = std::move(pieces[i]);
         r.mesh.drop(member_attribute, Domain::face);
         r.mesh.primitives = given.primitives;
-        r.faces_after = r.mesh.face_count(), r.vertices_after = r.mesh.vertex_count();
+        r.faces_after = r.mesh.face_count();
+        r.vertices_after = r.mesh.vertex_count();
     }
     return results;
 }
@@ -138,9 +142,10 @@ Contacts find_contacts(std::span<const PlacedMesh> meshes) {
     for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
         while (end < edges.size() && place_of(edges[end]) == place_of(edges[begin])) ++end;
         if (edges[begin].mesh == edges[end - 1].mesh) continue;
-        for (std::size_t i = begin; i < end; ++i)
-            share(edges[i]),
-                sets.join(static_cast<Index>(edges[begin].mesh), static_cast<Index>(edges[i].mesh));
+        for (std::size_t i = begin; i < end; ++i) {
+            share(edges[i]);
+            sets.join(static_cast<Index>(edges[begin].mesh), static_cast<Index>(edges[i].mesh));
+        }
     }
     std::map<Index, std::vector<std::size_t>> by_root;
     for (std::size_t i = 0; i < meshes.size(); ++i) by_root[sets.find(static_cast<Index>(i))].push_back(i);
@@ -152,7 +157,8 @@ Contacts find_contacts(std::span<const PlacedMesh> meshes) {
 bool fit_together(std::span<const Mesh* const> meshes, const SimplifySettings& settings) {
     return std::all_of(meshes.begin(), meshes.end(), [&](const Mesh* mesh) {
         return same_attributes(*meshes.front(), *mesh) &&
-               shading_of(*meshes.front(), settings.crease) == shading_of(*mesh, settings.crease);
+               shading_of(*meshes.front(), settings.feature_angle) ==
+                   shading_of(*mesh, settings.feature_angle);
     });
 }
 
@@ -164,7 +170,7 @@ std::vector<std::vector<SimplifyResult>> simplify_together(std::span<const Mesh*
     else
         all = simplify_levels(joined(meshes), settings);
     std::vector<std::vector<SimplifyResult>> results;
-    for (SimplifyResult& r : all) results.push_back(apart(std::move(r), meshes));
+    for (SimplifyResult& r : all) results.push_back(split_up(std::move(r), meshes));
     return results;
 }
 

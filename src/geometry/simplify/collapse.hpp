@@ -1,8 +1,7 @@
 #pragma once
-// What a worker finds around an edge that is to be collapsed. Only simplify_*.cpp of the collapse include
-// this.
+// One collapse, and what a worker knows around it.
 
-#include "geometry/simplify/work.hpp"
+#include "geometry/simplify/cost.hpp"
 
 namespace facetmill::simplification {
 
@@ -27,6 +26,11 @@ struct Side {
     Index at_a, at_b, opposite;
 };
 
+/// Two faces that lie back to back: their corners, and the other two vertices.
+struct Cancelled {
+    Index at_a, at_b, from, to;
+};
+
 /// The vertices that a worker may touch: those of one or two stretches of the curve, or all.
 struct Territory {
     Index size = none;           ///< of a stretch
@@ -46,16 +50,12 @@ struct Around {
     std::array<Side, most_sides> side{};
     int sides = 0; ///< may be above most_sides: then the edge stays
 
-    // Only where topology may change (simplify_topology.cpp).
-    struct Cancelled {
-        Index at_a, at_b, from,
-            to; ///< two faces that lie back to back: their corners, and the other two vertices
-    };
+    // Only where topology may change.
     bool changes_topology = false;
     std::array<Cancelled, most_sides> cancelled{};
     int cancellations = 0;
 
-    // Only for max_error (simplify_points.cpp).
+    // Only for max_error, see bounds.cpp.
     std::vector<Spoke> staying;     ///< at a or b, of each face around that stays
     std::vector<Index> points;      ///< of the faces around the edge
     std::vector<Index> taken_by;    ///< [points] which of staying takes it
@@ -63,25 +63,20 @@ struct Around {
     std::vector<std::uint8_t> near; ///< [places] known to be near the surface that came in
 };
 
-/// Finds the face that takes each point of the faces around; false when one would be farther from all than
-/// `most`, squared, or the new faces farther from the surface that came in.
-bool points_stay_near(const Work& s, Around& around, const Vec3& to, double most);
-/// Gives each point to the face that points_stay_near found.
-void hand_over_points(Work& s, const Around& around);
+/// Collapses that one worker makes; joined into the state's totals afterwards.
+struct Tally {
+    std::size_t collapses = 0, faces = 0, vertices = 0; ///< faces and vertices that went
+    double largest = 0;                                 ///< largest error squared, in the frame
+    Collapses log;
+};
 
-/// Finds the faces that would lie back to back, which go both; false when the collapse would double a face,
-/// take a corner's last one, or leave points with nowhere to go.
-bool find_cancelled(const Work& s, Around& around);
-/// Whether no face at either end would be left.
-bool vanishes(const Work& s, const Around& around);
-/// After the edit: takes away the faces that lie back to back, tells closed holes and vertices that have no
-/// face any more. faces: that went already. Returns all faces and vertices that went.
-std::pair<std::size_t, std::size_t> settle_topology(Work& s, const Around& around, std::size_t faces);
-
-/// Takes a face out, with the costs of its edges.
-inline void kill_face(Work& s, Index f) {
-    s.tri[3 * f] = none;
-    for (Index c = 3 * f; c < 3 * f + 3; ++c) s.cost[c] = never;
-}
+enum class Attempt {
+    done,
+    refused, ///< it would break a guarantee: the edge is blocked and its flags say why
+    outside, ///< something around the edge is beyond the territory: nothing was done
+};
+/// Collapses the edge of corner c if all guarantees hold, and prices the edges that changed. around: scratch,
+/// with the territory.
+Attempt collapse(State& s, Index c, Around& around, Pricer& pricer, Tally& tally);
 
 } // namespace facetmill::simplification

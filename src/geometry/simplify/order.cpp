@@ -11,11 +11,12 @@
 // Where an edge of the surroundings leads from one stretch to another, only the worker of both ever changes
 // its ends and their faces.
 
+#include "geometry/simplify/methods.hpp"
+
 #include "base/parallel.hpp"
-#include "geometry/simplify/price.hpp"
-#include "geometry/simplify/share.hpp"
 
 #include <bit>
+#include <memory>
 #include <numeric>
 
 namespace facetmill::simplification {
@@ -42,21 +43,114 @@ std::uint32_t scattered(std::uint32_t x) {
 }
 std::uint64_t key_of(float cost, Index c) { return (std::uint64_t{bits_of(cost)} << 32) | scattered(c); }
 
+/// Edges by cost; equal ones in an order that is spread over the surface.
+struct Candidate {
+    std::uint64_t key;
+    Index corner;
+    Index home; ///< the stretch of both ends, or none
+    bool operator<(const Candidate& other) const { return key < other.key; }
+};
+
+/// A candidate that reaches into two stretches.
+struct Crossing {
+    Index low, high; ///< the stretches
+    Candidate edge;
+    bool operator<(const Crossing& o) const {
+        return low != o.low ? low < o.low : high != o.high ? high < o.high : edge < o.edge;
+    }
+};
+
+/// The edges that one worker looks at, and what came of it.
+struct Share {
+    Territory territory;
+    std::vector<Candidate> edges{};
+    std::vector<Crossing> crossing{}; ///< reach from the only stretch of the territory into one other
+    std::vector<Candidate> rest{};    ///< reach farther
+    Tally tally{};
+};
+
+void fetch_ends(const State& s, Index corner) {
+    for (const Index v : {s.tri[corner], s.tri[after(corner)]}) {
+        if (v == none) continue;
+        __builtin_prefetch(&s.first[v]);
+        __builtin_prefetch(&s.touched[v]);
+        __builtin_prefetch(&s.at[v]);
+    }
+}
+
+void fetch_lists(const State& s, Index corner) {
+    for (const Index v : {s.tri[corner], s.tri[after(corner)]}) {
+        if (v == none || s.touched[v] == s.pass || s.first[v] == none) continue;
+        __builtin_prefetch(&s.tri[s.first[v]]);
+        __builtin_prefetch(&s.next[s.first[v]]);
+        if (s.quadrics) __builtin_prefetch(&(*s.quadrics)[v]);
+    }
+}
+
+/// Has the cache bring what the next candidates will be asked for: they lie in no order of memory.
+void fetch_ahead(const State& s, const std::vector<Candidate>& edges, std::size_t i) {
+    if (i + 8 < edges.size()) __builtin_prefetch(&s.tri[edges[i + 8].corner]);
+    if (i + 5 < edges.size()) fetch_ends(s, edges[i + 5].corner);
+    if (i + 2 < edges.size()) fetch_lists(s, edges[i + 2].corner);
+}
+
+/// Notes an edge that reaches beyond the territory of the share, as far as the surroundings say.
+void hand_on(Share& share, const Candidate& edge, const Around& around) {
+    const Territory& mine = share.territory;
+    const auto stretch = [&](Index v) { return v / mine.size; };
+    const Index home = stretch(mine.first);
+    Index other = home;
+    bool farther = mine.second != mine.first;
+    for (const Ring* ring : {&around.at_a, &around.at_b})
+        for (const Spoke& spoke : *ring)
+            for (const Index v : {spoke.next, spoke.before}) {
+                if (stretch(v) == home || stretch(v) == other) continue;
+                farther |= other != home;
+                other = stretch(v);
+            }
+    if (farther)
+        share.rest.push_back(edge);
+    else
+        share.crossing.push_back({std::min(home, other), std::max(home, other), edge});
+}
+
+/// Collapses the edges of a share in order of cost, at most so many, none at a vertex that the pass touched.
+void collapse_share(State& s, Share& share, std::size_t most) {
+    std::sort(share.edges.begin(), share.edges.end());
+    const auto around = std::make_unique<Around>();
+    around->territory = share.territory;
+    Pricer pricer(s);
+    for (std::size_t i = 0; i < share.edges.size(); ++i) {
+        fetch_ahead(s, share.edges, i);
+        const Candidate& k = share.edges[i];
+        if (!s.live(k.corner / 3)) continue;
+        const Index u = s.tri[k.corner], v = s.tri[after(k.corner)];
+        if (s.touched[u] == s.pass || s.touched[v] == s.pass) continue;
+        if (collapse(s, k.corner, *around, pricer, share.tally) == Attempt::outside)
+            hand_on(share, k, *around);
+        // Two faces and one vertex a time; at a boundary one face, so the last step may need looking at
+        // again.
+        if (share.tally.collapses >= most) break;
+    }
+}
+
 class Passes {
   public:
-    Passes(Work& s, const Goal& goal) : s_(s), goal_(goal) {}
+    Passes(State& s, const Goal& goal) : s_(s), goal_(goal) {}
 
     Outcome run() {
         refresh_all_ = true;
-        while (!met()) {
-            ++out_.passes, ++s_.pass;
+        while (!goal_.met(s_)) {
+            ++out_.passes;
+            ++s_.pass;
             if (std::exchange(refresh_all_, false))
                 price_all(s_);
             else
                 price_dirty();
             const std::uint32_t limit = threshold();
             if (limit == 0) {
-                if (!try_again()) return out_.stuck = true, out_;
+                out_.stuck = !try_again();
+                if (out_.stuck) break;
                 continue;
             }
             gather(limit);
@@ -67,7 +161,6 @@ class Passes {
     }
 
   private:
-    bool met() const { return s_.live_faces <= goal_.faces || s_.live_vertices <= goal_.vertices; }
     /// Collapses to go, if each takes two faces and one vertex.
     std::size_t remaining() const {
         return std::min((s_.live_faces - goal_.faces + 1) / 2, s_.live_vertices - goal_.vertices);
@@ -155,7 +248,8 @@ class Passes {
         const bool alone = count > remaining() || last_steps();
         shares_.assign(alone ? 0 : stretch(static_cast<Index>(s_.vertex_slots() - 1)) + 1, {});
         for (std::size_t i = 0; i < shares_.size(); ++i) shares_[i].territory = territory(i, i);
-        crossing_.clear(), rest_ = {};
+        crossing_.clear();
+        rest_ = {};
         for (const auto& list : found)
             for (const Candidate& k : list)
                 if (alone)
@@ -181,14 +275,13 @@ class Passes {
         work_all(shares_);
         std::sort(crossing_.begin(), crossing_.end());
         for (auto& pairs : in_turns()) work_all(pairs);
-        collapse_share(s_, rest_, goal_.error, remaining());
+        collapse_share(s_, rest_, remaining());
         join(rest_.tally);
     }
 
     void work_all(std::vector<Share>& shares) {
         parallel_for(
-            shares.size(), [&](std::size_t i) { collapse_share(s_, shares[i], goal_.error, s_.live_faces); },
-            1);
+            shares.size(), [&](std::size_t i) { collapse_share(s_, shares[i], s_.live_faces); }, 1);
         for (Share& share : shares) {
             join(share.tally);
             crossing_.insert(crossing_.end(), share.crossing.begin(), share.crossing.end());
@@ -209,7 +302,9 @@ class Passes {
             if (turn < 64 && turn >= turns.size()) turns.emplace_back();
             auto& to = turn < 64 ? turns[turn].emplace_back(Share{territory(low, high)}) : rest_;
             for (; i < end; ++i) to.edges.push_back(crossing_[i].edge);
-            if (turn < 64) busy[low] |= std::uint64_t{1} << turn, busy[high] |= std::uint64_t{1} << turn;
+            if (turn >= 64) continue;
+            busy[low] |= std::uint64_t{1} << turn;
+            busy[high] |= std::uint64_t{1} << turn;
         }
         return turns;
     }
@@ -217,15 +312,19 @@ class Passes {
     void join(Tally& tally) {
         s_.live_faces -= tally.faces;
         s_.live_vertices -= tally.vertices;
-        out_.collapses += tally.collapses, since_retry_ += tally.collapses;
+        out_.collapses += tally.collapses;
+        since_retry_ += tally.collapses;
         out_.largest = std::max(out_.largest, tally.largest);
-        join_logs(tally.log);
+        if (s_.log) join_logs(*s_.log, tally.log);
     }
 
-    void join_logs(const Log& from) {
-        const auto before = static_cast<Index>(s_.log.wedges.size());
-        for (Step step : from.steps) step.wedges += before, s_.log.steps.push_back(step);
-        s_.log.wedges.insert(s_.log.wedges.end(), from.wedges.begin(), from.wedges.end());
+    static void join_logs(Collapses& all, const Collapses& more) {
+        const auto before = static_cast<Index>(all.wedges.size());
+        for (Step step : more.steps) {
+            step.wedges += before;
+            all.steps.push_back(step);
+        }
+        all.wedges.insert(all.wedges.end(), more.wedges.begin(), more.wedges.end());
     }
 
     /// Edges that were refused may do now that their surroundings changed: looks at all of them once more, as
@@ -233,10 +332,11 @@ class Passes {
     bool try_again() {
         if (100 * since_retry_ < s_.live_faces || since_retry_ == 0) return false;
         since_retry_ = 0;
-        return refresh_all_ = true;
+        refresh_all_ = true;
+        return true;
     }
 
-    Work& s_;
+    State& s_;
     Goal goal_;
     Outcome out_;
     bool refresh_all_ = false;
@@ -249,7 +349,7 @@ class Passes {
 
 } // namespace
 
-SimplifyResult::Blocked count_blocked(const Work& s) {
+SimplifyResult::Blocked count_blocked(const State& s) {
     SimplifyResult::Blocked all;
     std::vector<std::uint8_t> at_seam(s.vertex_slots());
     for (Index c = 0; c < s.flags.size(); ++c)
@@ -269,6 +369,14 @@ SimplifyResult::Blocked count_blocked(const Work& s) {
     return all;
 }
 
-Outcome run_passes(Work& s, const Goal& goal) { return Passes(s, goal).run(); }
+Outcome& Outcome::operator+=(const Outcome& more) {
+    passes += more.passes;
+    collapses += more.collapses;
+    largest = std::max(largest, more.largest);
+    stuck = more.stuck;
+    return *this;
+}
+
+Outcome run_passes(State& s, const Goal& goal) { return Passes(s, goal).run(); }
 
 } // namespace facetmill::simplification

@@ -2,7 +2,8 @@
 #include "support/catch.hpp"
 
 #include "geometry/crumple/crumple.hpp"
-#include "geometry/simplify/price.hpp"
+#include "geometry/simplify/cost.hpp"
+#include "geometry/simplify/features.hpp"
 #include "mesh/shapes.hpp"
 
 using namespace facetmill;
@@ -10,17 +11,17 @@ using namespace facetmill::simplification;
 
 namespace {
 
-Work prepared(const Mesh& mesh, bool endpoints) {
-    Work s = build_work(mesh);
+State priced(const Mesh& mesh, bool endpoints) {
+    State s = lay_out(mesh, UsedVertices(mesh));
     classify(s, mesh, {});
-    sum_quadrics(s);
-    s.endpoints = endpoints;
+    s.quadrics = vertex_quadrics(s);
+    s.rules.endpoints = endpoints;
     price_all(s);
     return s;
 }
 
 /// Edges that have a cost; each is checked.
-std::size_t check_costs(const Work& s) {
+std::size_t check_costs(const State& s) {
     std::size_t priced = 0;
     for (Index c = 0; c < s.tri.size(); ++c) {
         if (!(s.cost[c] < never)) continue;
@@ -38,7 +39,7 @@ TEST_CASE("costs four at a time are those one by one", "[geometry]") {
     const Mesh sphere = crumple(shapes::icosphere(3), {.amplitude = 1e-2}).mesh;
     const Mesh sheet = crumple(shapes::grid(17, 13), {.amplitude = 1e-1}).mesh;
     for (const bool endpoints : {false, true}) {
-        CHECK(check_costs(prepared(sphere, endpoints)) == 3 * sphere.face_count() / 2);
-        CHECK(check_costs(prepared(sheet, endpoints)) > sheet.face_count());
+        CHECK(check_costs(priced(sphere, endpoints)) == 3 * sphere.face_count() / 2);
+        CHECK(check_costs(priced(sheet, endpoints)) > sheet.face_count());
     }
 }
