@@ -14,7 +14,7 @@ namespace facetmill::simplification {
 namespace {
 
 // Faces with less height than this share of their longest edge say nothing about gradients.
-constexpr double least_height = 1e-3;
+constexpr double least_height_share = 1e-3;
 constexpr std::size_t most_sets = 2;       // of UVs
 constexpr std::size_t skin_channels = 4;   // of the projection of skin weights
 constexpr double share_of_diagonal = 0.01; // that a difference of 1 counts as, but for UVs
@@ -136,7 +136,7 @@ class FaceGradients {
         const Vec3 p = s_.at[s_.tri[3 * f]];
         const Vec3 u = s_.at[s_.tri[3 * f + 1]] - p, v = s_.at[s_.tri[3 * f + 2]] - p, n = cross(u, v);
         const double nn = dot(n, n), longest = std::max({dot(u, u), dot(v, v), dot(u - v, u - v)});
-        if (!(nn > least_height * least_height * longest * longest)) return false;
+        if (!(nn > least_height_share * least_height_share * longest * longest)) return false;
         const double area = std::sqrt(nn) / 2;
         const Vec3 to_u = cross(v, n) / nn, to_v = cross(n, u) / nn; // dual to u and v
         const std::size_t count = values_.count();

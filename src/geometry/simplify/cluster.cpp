@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t finest = 1u << 20; // cells along an axis
 // How strongly a representative is drawn to the mean of its vertices: enough that a flat cell's stays there.
-constexpr double pull = 1e-3;
+constexpr double pull_to_mean = 1e-3;
 
 /// A grid's effect.
 struct Clusters {
@@ -23,7 +23,7 @@ struct Clusters {
     double largest = 0;       ///< squared distance to the planes, the mean over a cell
 };
 
-struct Keyed {
+struct CellKey {
     std::uint64_t key;
     Index vertex;
 };
@@ -72,11 +72,11 @@ std::size_t count_faces(const State& s, const Grid& grid) {
 }
 
 /// The vertices by cell, and the cells.
-std::vector<Cell> sort_cells(const State& s, const Grid& grid, std::vector<Keyed>& order) {
+std::vector<Cell> sort_cells(const State& s, const Grid& grid, std::vector<CellKey>& order) {
     order.resize(s.vertex_slots());
     parallel_for(order.size(), [&](std::size_t v) { order[v] = {grid.key(s.at[v]), static_cast<Index>(v)}; });
     radix_sort(
-        order, [](const Keyed& k) { return k.key; }, grid.key_bits());
+        order, [](const CellKey& k) { return k.key; }, grid.key_bits());
     std::vector<Cell> cells;
     for (std::size_t i = 0; i < order.size(); ++i)
         if (i == 0 || order[i].key != order[i - 1].key)
@@ -87,20 +87,20 @@ std::vector<Cell> sort_cells(const State& s, const Grid& grid, std::vector<Keyed
 }
 
 /// Where the vertices of a cell meet. Returns the error, squared.
-double place_cell(const State& s, const Grid& grid, std::span<const Keyed> members, Vec3& at) {
+double place_cell(const State& s, const Grid& grid, std::span<const CellKey> members, Vec3& at) {
     const Index root = members.front().vertex;
     at = s.at[root];
     if (members.size() == 1) return 0;
     Quadric q;
     Vec3 mean;
     const Vec3 from = s.at[root];
-    for (const Keyed& k : members) {
+    for (const CellKey& k : members) {
         const Vec3 off = s.at[k.vertex] - from;
         q += seen_from((*s.quadrics)[k.vertex], -off);
         mean += off;
     }
     mean = mean / static_cast<double>(members.size());
-    const Vec3 best = q.weight > 0 ? q.least(mean, pull * q.weight) : mean;
+    const Vec3 best = q.weight > 0 ? q.least(mean, pull_to_mean * q.weight) : mean;
     at = from + best;
     if (!grid.together(at, from)) at = is_finite(mean) ? from + mean : from;
     return q.weight > 0 ? q(at - from) / q.weight : 0;
@@ -155,7 +155,7 @@ void keep_faces(const State& s, Clusters& c) {
 
 Clusters cluster(const State& s, const Grid& grid) {
     Clusters c;
-    std::vector<Keyed> order;
+    std::vector<CellKey> order;
     const auto cells = sort_cells(s, grid, order);
     c.vertices = cells.size();
     c.root.resize(s.vertex_slots());
@@ -165,9 +165,9 @@ Clusters cluster(const State& s, const Grid& grid) {
         [&](std::size_t begin, std::size_t end) {
             double largest = 0;
             for (std::size_t i = begin; i < end; ++i) {
-                const std::span<const Keyed> members(&order[cells[i].begin], cells[i].end - cells[i].begin);
+                const std::span<const CellKey> members(&order[cells[i].begin], cells[i].end - cells[i].begin);
                 const Index root = members.front().vertex;
-                for (const Keyed& k : members) c.root[k.vertex] = root;
+                for (const CellKey& k : members) c.root[k.vertex] = root;
                 largest = std::max(largest, place_cell(s, grid, members, c.at[root]));
             }
             return largest;
@@ -256,7 +256,7 @@ std::uint32_t finest_within(const State& s, std::size_t most, Count&& count) {
 
 /// As fine as the goal, one or the other part of it, allows.
 std::uint32_t finest_within(const State& s, const Goal& goal) {
-    std::vector<Keyed> order;
+    std::vector<CellKey> order;
     return std::max(
         finest_within(s, goal.faces, [&](const Grid& grid) { return count_faces(s, grid); }),
         finest_within(s, goal.vertices, [&](const Grid& grid) { return sort_cells(s, grid, order).size(); }));

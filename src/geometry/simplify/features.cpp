@@ -13,7 +13,7 @@ namespace {
 
 /// A corner at a vertex: its face runs from the neighbour `in` through the vertex to the neighbour `out`, so
 /// the edge of the corner leads to `out`.
-struct Spoke {
+struct FanSpoke {
     Index out, in, corner;
 };
 
@@ -54,7 +54,7 @@ class Classifier {
     /// Whether a few faces close around the vertex with no feature between them, as at most vertices: told
     /// without sorting.
     bool is_plain(Index v) {
-        std::array<Spoke, few> ring;
+        std::array<FanSpoke, few> ring;
         std::size_t size = 0;
         for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
             const Index out = s_.tri[after(c)], in = s_.tri[before(c)];
@@ -81,7 +81,7 @@ class Classifier {
             spokes_.push_back({out, in, c});
             ins_.push_back(in);
         }
-        std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
+        std::sort(spokes_.begin(), spokes_.end(), [](const FanSpoke& a, const FanSpoke& b) {
             return a.out != b.out ? a.out < b.out : a.corner < b.corner;
         });
         std::sort(ins_.begin(), ins_.end());
@@ -107,8 +107,8 @@ class Classifier {
 
     /// Goes around the fan; flags the edges that lead out of the vertex.
     Kind walk() {
-        const Spoke* start = nullptr;
-        for (const Spoke& spoke : spokes_) {
+        const FanSpoke* start = nullptr;
+        for (const FanSpoke& spoke : spokes_) {
             if (std::binary_search(ins_.begin(), ins_.end(), spoke.out)) continue;
             if (start) return Kind::pinned; // two fans
             start = &spoke;
@@ -116,11 +116,11 @@ class Classifier {
         const bool open = start != nullptr;
         if (!open) start = spokes_.data();
         int features = open ? 2 : 0;
-        const Spoke* now = start;
+        const FanSpoke* now = start;
         features_.clear();
         locked_ = open && lock_.boundary;
         for (std::size_t steps = 1;; ++steps) {
-            const Spoke* then = leading_to(now->in);
+            const FanSpoke* then = leading_to(now->in);
             if (!then || (then == start && !open)) {
                 if (steps != spokes_.size()) return Kind::pinned; // a fan and more
                 if (then && differ(*now, *then)) features_.push_back(then->corner);
@@ -136,14 +136,14 @@ class Classifier {
         return features == 2 && !locked_ ? Kind::curve : Kind::corner;
     }
 
-    const Spoke* leading_to(Index other) const {
+    const FanSpoke* leading_to(Index other) const {
         const auto at = std::lower_bound(spokes_.begin(), spokes_.end(), other,
-                                         [](const Spoke& a, Index o) { return a.out < o; });
+                                         [](const FanSpoke& a, Index o) { return a.out < o; });
         return at != spokes_.end() && at->out == other ? &*at : nullptr;
     }
 
     /// Whether the edge between two neighbouring faces of the fan is a seam or a border.
-    bool differ(const Spoke& now, const Spoke& then) {
+    bool differ(const FanSpoke& now, const FanSpoke& then) {
         const Index f = now.corner / 3, g = then.corner / 3;
         const bool group = !borders_.groups.empty() && borders_.groups[f] != borders_.groups[g];
         const bool seam =
@@ -158,7 +158,7 @@ class Classifier {
     const Borders& borders_;
     const SimplifyLocks& lock_;
     bool locked_ = false; ///< the vertex looked at
-    std::vector<Spoke> spokes_;
+    std::vector<FanSpoke> spokes_;
     std::vector<Index> ins_, features_;
 };
 
