@@ -45,5 +45,5 @@ def add_common_options(ask, repeat):
 
 def crumpled_sphere(facetmill, level, path):
     """Writes a closed, slightly rough sphere of 20 * 4^level faces."""
-    output([facetmill, "pipe", "--quiet", "generate", "icosphere", "--level", level, "!", "crumple",
+    output([facetmill, "pipe", "--quiet", "generate", "icosphere", "--subdivisions", level, "!", "crumple",
             "--grid", "1", "--amplitude", "0.01%", "!", "write", path])

@@ -12,15 +12,15 @@ facetmill pipe load ../data/nefertiti.ply --unit mm ! clip 'y=-150' --cap ! simp
 # Three levels of detail.
 facetmill pipe load ../data/nefertiti.ply --unit mm ! foreach lod=50%,20%,5% '[' simplify '@{lod}' ! write 'lod@{lod.index}.glb' ']'
 
-# Two ways from one scene.
+# Two branches from one scene.
 facetmill pipe load ../data/nefertiti.ply --unit mm ! simplify 10% ! branch smooth '[' relax 3 ! write smooth.ply ']' rough '[' crumple --grid 1 --amplitude 0.3% ! write rough.ply ']'
 
-# A gate: exit code 1 when the mesh is not closed.
+# A check: the exit code is 1 if the mesh is not closed.
 facetmill pipe load ../data/nefertiti.ply ! validate --closed --euler 2
 
 # Through pipes.
 cat ../data/nefertiti.ply | facetmill pipe --quiet load - --unit mm ! simplify 2% ! write - --format ply | facetmill info - > info.txt
 
-# Keep the pipeline for later.
+# Save the pipeline for later.
 facetmill pipe --save kept.yaml load ../data/nefertiti.ply --unit mm ! simplify 2% ! write kept.glb
 facetmill run kept.yaml

@@ -85,7 +85,7 @@ Parsed Arguments::parse(const std::string& command, const std::string& about,
                         std::vector<std::string> words) const {
     CLI::App app{about, command};
     app.allow_extras();
-    app.set_help_flag("-h,--help", "Print this and leave.");
+    app.set_help_flag("-h,--help", "Print this help and exit.");
     for (const auto& a : all_) declare(app, a);
     std::reverse(words.begin(), words.end()); // as CLI11 takes them
     try {

@@ -102,7 +102,7 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
 
 Command diff_command() {
     return {
-        "diff", "Compares two mesh files; exit code 1 when they differ.", diff_examples, false,
+        "diff", "Compares two mesh files; the exit code is 1 when they differ.", diff_examples, false,
         [](Arguments& arguments, Console& console) {
             auto options = std::make_shared<DiffOptions>();
             auto& settings = options->settings;
@@ -119,19 +119,21 @@ Command diff_command() {
                 .not_negative();
             arguments
                 .add("--ignore", &options->ignored,
-                     "Do not decide: counts, topology, geometry, attributes, materials, parts, document.")
+                     "Sections that do not decide: counts, topology, geometry, attributes, materials, parts, "
+                     "document.")
                 .separated_by_commas()
                 .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
             arguments
                 .add("--samples", &settings.deviation.samples,
-                     "Points of the area measured each way. Default: 100000.")
+                     "Points measured on the area, each way. Default: 100000.")
                 .between(0, 1000000000);
-            arguments.add("--seed", &settings.deviation.seed, "Where they fall. Default: 1.").not_negative();
+            arguments.add("--seed", &settings.deviation.seed, "The seed of their positions. Default: 1.")
+                .not_negative();
             arguments.add("--certify", &settings.deviation.certify,
-                          "Also give a guaranteed bound of the distance, and hold --max against it.");
+                          "Also computes a guaranteed bound of the distance, and compares --max with it.");
             arguments.add("--all", &options->all, "Also show what is the same.");
             arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
-            arguments.add("-j,--threads", &options->threads, "How many threads. Default: all cores.")
+            arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
                 .between(1, 4096);
             add_message_options(arguments, console);
             return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };

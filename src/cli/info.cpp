@@ -142,10 +142,12 @@ Command info_command() {
                 arguments.add("MESH", &options->meshes, "Mesh files, or - for standard input.").required();
                 arguments.add("--json", &options->json, "As JSON (facetmill schema info).");
                 arguments.add("--self-intersections", &options->self_intersections,
-                              "Count them too; it costs time.");
-                arguments.add("--format", &options->format, "Read as this format, whatever the content says.")
+                              "Also counts self-intersections, which takes time.");
+                arguments
+                    .add("--format", &options->format,
+                         "Reads the files as this format, whatever their content.")
                     .one_of(io::names_of_readers());
-                arguments.add("-j,--threads", &options->threads, "How many threads. Default: all cores.")
+                arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
                     .between(1, 4096);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation&) { return info(*options, console); };

@@ -87,7 +87,7 @@ Command pipe_command() {
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto save_to = std::make_shared<std::string>();
-                arguments.add("--save", save_to.get(), "Also write the pipeline as a file that run takes.");
+                arguments.add("--save", save_to.get(), "Also writes the pipeline as a file for run.");
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {

@@ -32,18 +32,19 @@ void add_value_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("-D,--define", &options.defines, "A param of the pipeline: -D name=value.");
     arguments.add("--set", &options.sets, "An option of a stage: --set simplify.ratio=10%.");
     arguments.add("--update-baseline", &options.update_baseline,
-                  "Stages with a baseline write what fails now to it, and pass.");
+                  "Stages with a baseline write the current failures to it, and pass.");
 }
 
 void add_run_options(Arguments& arguments, PipelineOptions& options) {
     arguments
         .add("-j,--threads", &options.threads,
-             "How many threads; the result is the same. Default: all cores.")
+             "The number of threads, which does not change the result. Default: all cores.")
         .between(1, 4096);
-    arguments.add("-o,--output-dir", &options.output_dir, "Where written paths start. Default: here.");
+    arguments.add("-o,--output-dir", &options.output_dir,
+                  "The folder that written paths start from. Default: the working directory.");
     arguments.add("--report", &options.reports,
                   "Also write a report: F.json, F.html, F.xml (JUnit) or F.txt.");
-    arguments.add("--depfile", &options.depfile, "Write what was read and written as a Make rule.");
+    arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");
     arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
     arguments.add("--check-invariants", &options.check_invariants, "Check every mesh after every stage.")
         .hidden();

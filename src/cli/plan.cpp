@@ -44,15 +44,15 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
 
 Command plan_command() {
     return {
-        "plan", "Shows what a pipeline would do, everything resolved; runs nothing.", plan_examples, false,
-        [](Arguments& arguments, Console& console) {
+        "plan", "Shows what a pipeline would do, with everything resolved, without running it.",
+        plan_examples, false, [](Arguments& arguments, Console& console) {
             auto options = std::make_shared<PlanOptions>();
             arguments.add("PIPELINE", &options->pipeline, "A YAML file, - or a ready pipeline.").required();
             arguments.add("--inputs", &options->inputs, "Only the files it reads, one per line.");
             arguments.add("--outputs", &options->outputs, "Only the files it writes, one per line.");
             arguments.add("--json", &options->json, "As JSON.");
             arguments.add("-o,--output-dir", &options->common.output_dir,
-                          "Where written paths start. Default: here.");
+                          "The folder that written paths start from. Default: the working directory.");
             add_value_options(arguments, options->common);
             add_message_options(arguments, console);
             return [=, &console](const Invocation& invocation) {

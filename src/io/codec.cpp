@@ -43,17 +43,18 @@ const Codec& choose(const Input& input, ReadLog& log) {
     }
     if (surely) {
         if (by_name && by_name != surely)
-            log.warnings.push_back({Severity::warning, "W-FORMAT",
-                                    fmt::format("'{}' is read as {}, which it is, whatever its name",
-                                                input.name(), surely->name),
-                                    file_mark(input.name()), "", false});
+            log.warnings.push_back(
+                {Severity::warning, "W-FORMAT",
+                 fmt::format("'{}' is read as {}, because that is its content, whatever its name",
+                             input.name(), surely->name),
+                 file_mark(input.name()), "", false});
         return *surely;
     }
     if (by_name) return *by_name;
     if (perhaps) return *perhaps;
     throw Error(ErrorKind::usage, "E-FORMAT",
                 fmt::format("the format of '{}' is not recognised", input.name()),
-                fmt::format("say it with 'format', one of: {}", fmt::join(names_of_readers(), ", ")));
+                fmt::format("give 'format', one of: {}", fmt::join(names_of_readers(), ", ")));
 }
 
 /// Throws malformed (E-EMPTY) for a file without bytes, usage (E-FORMAT) when no codec reads it.
@@ -93,8 +94,8 @@ void warn_of_size(const Part& part, ReadLog& log) {
     log.warnings.push_back(
         {Severity::warning,
          "W-SIZE",
-         fmt::format("part '{}' is {} long: verdicts are exact, but areas and volumes may be out of "
-                     "the range of numbers (null, or 0), and stages may round badly",
+         fmt::format("part '{}' has size {}: verdicts are exact, but areas and volumes may be out of the "
+                     "range of numbers (null or 0), and stages may lose precision",
                      part.name, length),
          {},
          "transform: {scale: ...} brings it near 1",

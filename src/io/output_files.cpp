@@ -24,10 +24,10 @@ void cannot_write(const fs::path& target, int error) {
                     fmt::format("{} cannot be written: its reader went away", name));
     if (error == EISDIR)
         throw Error(ErrorKind::output, "E-DIRECTORY", fmt::format("{} is a directory, expected a file", name),
-                    "name a file in it");
+                    "give the name of a file in it");
     throw Error(ErrorKind::output, "E-WRITE",
                 fmt::format("{} cannot be written: {}", name, std::strerror(error)),
-                "write elsewhere: --output-dir names the folder that written paths start from");
+                "write elsewhere: --output-dir sets the folder that written paths start from");
 }
 
 void write_all(int fd, Span bytes, const fs::path& target) {

@@ -58,7 +58,7 @@ void Outputs::make_directory(const fs::path& directory) {
         throw Error(ErrorKind::output, why == ENOSPC ? "E-SPACE" : "E-DIRECTORY",
                     fmt::format("the directory '{}' cannot be made: {}", directory.string(),
                                 why == EEXIST ? "a file has its name" : std::strerror(why)),
-                    "write elsewhere: --output-dir names the folder that written paths start from");
+                    "write elsewhere: --output-dir sets the folder that written paths start from");
     }
 }
 

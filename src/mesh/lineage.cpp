@@ -233,7 +233,7 @@ Fate fate_of(const Attribute& a, const Ancestry& ancestry) {
         break;
     case Role::joints:
     case Role::weights:
-        fate.why = "united at new elements, the strongest kept and renormalised";
+        fate.why = "combined at new elements, the strongest kept and renormalised";
         break;
     default:
         fate.why = "mixed at new elements";

@@ -86,9 +86,9 @@ std::vector<std::string> measure_summary(const Json& result) {
     }
     const Json &edges = parts[0]["edges"], &faces = parts[0]["faces"];
     lines.push_back(joined({range_text("edges", edges["length"]), range_text("angles", faces["angle"])}));
-    lines.push_back(fmt::format("{} convex, {} concave, {} flat and {} boundary edges, {} sharp",
+    lines.push_back(fmt::format("{} convex, {} concave, {} flat and {} boundary edges, {} feature edges",
                                 number(edges["convex"]), number(edges["concave"]), number(edges["flat"]),
-                                number(edges["boundary"]), number(edges["sharp"])));
+                                number(edges["boundary"]), number(edges["feature"])));
     std::erase(lines, "");
     return lines;
 }

@@ -13,13 +13,14 @@ const std::vector<CommonKey>& common_keys() {
         const Json condition = {
             {"anyOf", Json::array({{{"type", Json::array({"boolean", "string"})}}, assertions_schema()})}};
         return std::vector<CommonKey>{
-            {"name", "How the report, --set and messages call this step. Unique in the pipeline.", text},
+            {"name", "The name of this step in the report, in --set and in messages. Unique in the pipeline.",
+             text},
             {"when",
-             "Runs the step only when this holds: a bool param, ${a} == value, or properties as in ensure.",
+             "Runs the step only if this holds: a bool param, ${a} == value, or properties as in ensure.",
              condition},
-            {"only", "The parts it works on: names or globs of parts or materials; \"!glob\" excludes.",
+            {"only", "The parts that it works on: names or globs of parts or materials; \"!glob\" excludes.",
              texts},
-            {"ensure", "A contract on the scene that leaves the step: {closed: true, faces: {max: 5000}}.",
+            {"ensure", "A contract on the result of the step: {closed: true, faces: {max: 5000}}.",
              contract_schema()},
         };
     }();

@@ -42,25 +42,26 @@ DeviationSettings DeviationLimits::settings() const {
 void declare_deviation(Declare<DeviationLimits>& d) {
     using From = DeviationLimits::From;
     d.option("max", &DeviationLimits::max,
-             "The largest distance from either surface to the other, at most (a length).")
+             "The limit of the largest distance from either surface to the other (a length).")
         .at_least(0)
         .primary();
-    d.option("rms", &DeviationLimits::rms, "The root mean square distance over the area, at most (a length).")
+    d.option("rms", &DeviationLimits::rms,
+             "The limit of the root mean square distance over the area (a length).")
         .at_least(0);
-    d.option("mean", &DeviationLimits::mean, "The mean distance over the area, at most (a length).")
+    d.option("mean", &DeviationLimits::mean, "The limit of the mean distance over the area (a length).")
         .at_least(0);
     d.choice<From>(
         "from", &DeviationLimits::from,
         {{"stage", From::stage, "the scene that entered the step"},
          {"load", From::load, "the scene as last loaded"}},
         "What the scene is compared with; as a stage of its own ensure always compares with load.");
-    d.option(
-         "samples", &DeviationLimits::samples,
-         "How many points of the area are measured each way (a count); all vertices are measured besides.")
+    d.option("samples", &DeviationLimits::samples,
+             "The number of points measured on the area, each way (a count); all vertices are measured in "
+             "addition.")
         .between(0, 1e9);
-    d.option("seed", &DeviationLimits::seed, "Where the samples fall.").at_least(0);
+    d.option("seed", &DeviationLimits::seed, "The seed of the sample positions.").at_least(0);
     d.option("certify", &DeviationLimits::certify,
-             "Hold max against a guaranteed upper bound rather than against the largest sample.");
+             "Compares max with a guaranteed upper bound instead of the largest sample.");
 }
 
 void verify_deviation(const DeviationLimits& limits, const Mark& where, Problems& problems) {
@@ -84,7 +85,8 @@ bool parse_contract(const Value& value, Contract& out, Problems& problems) {
 Json contract_schema() {
     Json schema = assertions_schema();
     Json deviation = deviation_declaration().schema();
-    deviation["description"] = "How far the surface may be from what entered the step, both ways.";
+    deviation["description"] =
+        "How far the surface may be from the scene that entered the step, measured both ways.";
     schema["properties"]["deviation"] = std::move(deviation);
     return schema;
 }

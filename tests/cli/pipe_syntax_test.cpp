@@ -47,12 +47,12 @@ bool same(const std::string& line, const std::string& text) {
 TEST_CASE("bare values, options and separators become steps", "[cli]") {
     CHECK(same("load a.stl ! relax 3 ! write a.glb", "[{load: a.stl}, {relax: 3}, {write: a.glb}]"));
     CHECK(same("load a.stl + relax", "[{load: a.stl}, {relax: null}]"));
-    CHECK(same("relax 3 --factor 0.5", "[{relax: {factor: 0.5, iterations: 3}}]"));
-    CHECK(same("relax --factor=0.5", "[{relax: {factor: 0.5}}]"));
+    CHECK(same("relax 3 --lambda 0.5", "[{relax: {lambda: 0.5, iterations: 3}}]"));
+    CHECK(same("relax --lambda=0.5", "[{relax: {lambda: 0.5}}]"));
 }
 
 TEST_CASE("values may begin with a dash", "[cli]") {
-    CHECK(same("load - ! relax --factor -0.5", "[{load: '-'}, {relax: {factor: -0.5}}]"));
+    CHECK(same("load - ! relax --lambda -0.5", "[{load: '-'}, {relax: {lambda: -0.5}}]"));
 }
 
 TEST_CASE("dotted keys nest, vectors and lists are split at commas", "[cli]") {
@@ -117,11 +117,11 @@ TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
     CHECK(yaml("branch near [ relax")
               .starts_with("command line:1:28: error[E-PIPE]: this '[' is not closed\n"));
     CHECK(yaml("relax ]").starts_with("command line:1:22: error[E-PIPE]: ']' without '['\n"));
-    CHECK(yaml("relax --factor 1 --factor 2")
-              .starts_with("command line:1:33: error[E-PIPE]: '--factor' is given twice\n"));
+    CHECK(yaml("relax --lambda 1 --lambda 2")
+              .starts_with("command line:1:33: error[E-PIPE]: '--lambda' is given twice\n"));
     CHECK(
         same("clean --self_intersections ! orient", "[{clean: {self_intersections: true}}, {orient: null}]"));
-    CHECK(yaml("relax --factor").starts_with("command line:1:22: error[E-PIPE]: '--factor' needs a value\n"));
+    CHECK(yaml("relax --lambda").starts_with("command line:1:22: error[E-PIPE]: '--lambda' needs a value\n"));
 }
 
 TEST_CASE("no line of brackets, separators and options crashes the parser", "[cli][property]") {

@@ -139,7 +139,8 @@ TEST_CASE("content decides over the name, and the name where content does not te
     const Scene scene = io::read_scene(io::Input::of("a.stl", {bytes.begin(), bytes.end()}), {}, log);
     CHECK(scene.face_count() == 1);
     REQUIRE(log.warnings.size() == 1);
-    CHECK(log.warnings[0].message == "'a.stl' is read as off, which it is, whatever its name");
+    CHECK(log.warnings[0].message ==
+          "'a.stl' is read as off, because that is its content, whatever its name");
     CHECK(reading("standard input", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") == "nothing");
     CHECK(reading("notes.txt", "hello")
               .starts_with("usage [E-FORMAT] the format of 'notes.txt' is not recognised | say it with "

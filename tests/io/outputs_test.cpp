@@ -60,8 +60,9 @@ TEST_CASE("a rename that fails puts back what was renamed before it", "[io]") {
     outputs.add(dir / "c", bytes_of("new"));
     fs::create_directories(dir / "c/in-the-way");
     CHECK(failure([&] { outputs.commit(); }) ==
-          fmt::format("output [E-DIRECTORY] '{}' is a directory, expected a file | name a file in it",
-                      (dir / "c").string()));
+          fmt::format(
+              "output [E-DIRECTORY] '{}' is a directory, expected a file | give the name of a file in it",
+              (dir / "c").string()));
     CHECK(get(dir / "a") == "old");
     CHECK(dir.names() == Names{"a", "c", "c/in-the-way"});
 }
@@ -72,14 +73,13 @@ TEST_CASE("targets that cannot be written are refused before anything is", "[io]
     fs::create_directory(dir / "folder");
     Outputs outputs;
     CHECK(failure([&] { outputs.add(dir / "folder", bytes_of("x")); }) ==
-          fmt::format("output [E-DIRECTORY] '{}' is a directory, expected a file | name a file in it",
-                      (dir / "folder").string()));
-    CHECK(
-        failure([&] { outputs.add(dir / "file/below", bytes_of("x")); }) ==
-        fmt::format(
-            "output [E-DIRECTORY] the directory '{}' cannot be made: a file has its name | write elsewhere: "
-            "--output-dir names the folder that written paths start from",
-            (dir / "file").string()));
+          fmt::format(
+              "output [E-DIRECTORY] '{}' is a directory, expected a file | give the name of a file in it",
+              (dir / "folder").string()));
+    CHECK(failure([&] { outputs.add(dir / "file/below", bytes_of("x")); }) ==
+          fmt::format("output [E-DIRECTORY] the directory '{}' cannot be made: a file has its name | write "
+                      "elsewhere: --output-dir sets the folder that written paths start from",
+                      (dir / "file").string()));
     outputs.add(dir / "once", bytes_of("x"));
     CHECK(failure([&] { outputs.add(dir / "folder/../once", bytes_of("y")); }) ==
           fmt::format("output [E-DUPLICATE-OUTPUT] '{}' is written twice in one run, with different contents | give the "

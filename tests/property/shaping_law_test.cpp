@@ -48,14 +48,14 @@ TEST_CASE("law: crumpling by nothing is nothing", "[property]") {
     for (const Mesh& m : surfaces()) CHECK(crumple(m, {.amplitude = 0}).mesh.positions == m.positions);
 }
 
-TEST_CASE("law: relaxation stays within the bounds, and no factor leaves them", "[property]") {
+TEST_CASE("law: relaxation stays within the bounds, and no lambda leaves them", "[property]") {
     for (const Mesh& m : surfaces())
-        for (const double factor : {0.25, 1.0}) {
+        for (const double lambda : {0.25, 1.0}) {
             Box box = m.bounds();
             const Vec3 slack = box.extent() * 1e-12;
             box.add(box.min - slack), box.add(box.max + slack);
             for (const Vec3& p :
-                 relax(m, {.iterations = 4, .factor = factor, .boundary = RelaxSettings::Boundary::free})
+                 relax(m, {.iterations = 4, .lambda = lambda, .boundary = RelaxSettings::Boundary::free})
                      .mesh.positions)
                 for (std::size_t i = 0; i < 3; ++i) CHECK((p[i] >= box.min[i] && p[i] <= box.max[i]));
         }

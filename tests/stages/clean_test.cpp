@@ -56,7 +56,7 @@ TEST_CASE("clean reports what it united; true is all, false is off", "[stages]")
          {"{self_intersections: union}", "{self_intersections: all}", "{self_intersections: true}"}) {
         const auto run = run_stage("clean", options, scene_of(mesh));
         const auto& part = run.record.result["parts"][0];
-        CHECK(part["united_pieces"] == 2);
+        CHECK(part["united_components"] == 2);
         CHECK(part["refined_faces"] == 12);
         CHECK(part["covered_faces"] == 0);
         CHECK(inspect(run.scene).volume == 1.875);
@@ -83,7 +83,7 @@ TEST_CASE("clean takes lengths in the world", "[stages]") {
     Scene scene = scene_of(mesh, Unit::mm);
     for (int i = 0; i < 3; ++i) scene.parts[0].transform.m[i][i] = 10; // the gap is 0.1 mm in the world
     const auto closed = [&](const std::string& within) {
-        return inspect(run_stage("clean", "{stitch: near, within: " + within + "}", scene).scene).closed;
+        return inspect(run_stage("clean", "{stitch: near, tolerance: " + within + "}", scene).scene).closed;
     };
     CHECK_FALSE(closed("0.05mm"));
     CHECK(closed("0.2mm"));
@@ -94,11 +94,11 @@ TEST_CASE("clean refuses options that make no sense together", "[stages]") {
         return failure([&] { run_stage("clean", options, scene_of(shapes::cube())); });
     };
     CHECK(refusal("{weld: near}") ==
-          "usage [E-MISSING] test.yaml:1:1: clean: near needs a length | within: 0.01% (or 0.1mm)");
-    CHECK(refusal("{within: 1}") ==
-          "usage [E-CONFLICT] test.yaml:1:1: clean: within has no effect on exact steps | "
-          "weld: near, stitch: near or t_vertices: near");
-    CHECK(refusal("{components: {}}") == "usage [E-MISSING] test.yaml:1:1: clean: components needs to know "
-                                         "which are small | components: {faces: "
-                                         "100}, {size: 1%}, {area: 1%} or {keep: 1}");
+          "usage [E-MISSING] test.yaml:1:1: clean: near needs a tolerance | tolerance: 0.01% (or 0.1mm)");
+    CHECK(refusal("{tolerance: 1}") ==
+          "usage [E-CONFLICT] test.yaml:1:1: clean: tolerance has no effect, because no step is set to near "
+          "| weld: near, stitch: near or t_junctions: near");
+    CHECK(refusal("{components: {}}") ==
+          "usage [E-MISSING] test.yaml:1:1: clean: components needs a limit that says which components are "
+          "small | components: {min_faces: 100}, {min_size: 1%}, {min_area: 1%} or {keep: 1}");
 }

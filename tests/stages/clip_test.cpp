@@ -199,7 +199,7 @@ TEST_CASE("clip says when everything or nothing stays, and names open contours",
         return all;
     };
     CHECK(warnings(text("z=-1"), shapes::cube()) ==
-          "W-CLIP-ALL clip: no plane met part 'part', all of it was kept\n");
+          "W-CLIP-ALL clip: no plane cuts part 'part'; all of it was kept\n");
     CHECK(warnings(text("z=2"), shapes::cube()) == "W-CLIP-NOTHING clip: nothing of part 'part' was kept\n");
     CHECK(warnings(map({{"plane", text("x=1.5")}, {"cap", text("true")}}), shapes::grid(3, 1)) ==
           "W-CAP-OPEN clip: a contour of 2 edges of part 'part' is open and was not capped; it ends at (1.5, "
@@ -245,7 +245,6 @@ TEST_CASE("split takes a method or a grid", "[stages]") {
         }) ==
         "usage [E-CONFLICT] split: 'grid' goes with the method grid only | leave out either method or grid");
     CHECK(test::failure([&] { faces(text("grid")); }) ==
-          "usage [E-MISSING] split: the method grid needs 'grid', the number of pieces per edge | for "
-          "example split: "
-          "{grid: 3}");
+          "usage [E-MISSING] split: the method grid needs 'grid', the number of segments per edge | for "
+          "example split: {grid: 3}");
 }

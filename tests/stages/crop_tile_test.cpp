@@ -50,7 +50,7 @@ TEST_CASE("tile refuses what makes no grid", "[stages]") {
     CHECK(refusal("tile", "0") == "usage [E-TILE] tile: 'size' must be above 0, found 0");
     CHECK(
         refusal("tile", "{size: 1, axes: xx}") ==
-        "usage [E-TILE] tile: 'axes' names each of x, y, z at most once, found 'xx' | for example axes: xy");
+        "usage [E-TILE] tile: 'axes' takes each of x, y, z at most once, found 'xx' | for example axes: xy");
     CHECK(refusal("tile", "{size: [1, 2, 3]}") ==
           "usage [E-TILE] tile: 3 sizes for 2 axes | give one size, or one for each axis");
     CHECK(refusal("tile", "{size: 1, origin: [1]}") ==
@@ -68,7 +68,7 @@ TEST_CASE("tile refuses what makes no grid", "[stages]") {
               run_stage("section", "{hatch: 1%}", scene_of(point));
           }).starts_with("stage [E-HATCH] the spacing of 'hatch' comes to 0 in this scene"));
     CHECK(test::failure([&] {
-              run_stage("section", "{every: 1%}", scene_of(point));
+              run_stage("section", "{spacing: 1%}", scene_of(point));
           }).starts_with("stage [E-SECTION] 'every' must be above zero"));
 }
 
@@ -106,9 +106,8 @@ TEST_CASE("crop stands walls on the outline on request", "[stages]") {
     CHECK(open.record.warnings[0].id == "W-CAP-OPEN");
     CHECK(open.scene.materials.empty());
     CHECK(refusal("crop", "{footprint: [[0, 0], [1, 0], [1, 1]], cap: true, by: whole}") ==
-          "usage [E-CONFLICT] crop: walls stand on the outline, and by whole faces nothing is cut there | leave "
-          "out "
-          "cap, or take by: cut");
+          "usage [E-CONFLICT] crop: cap needs a cut at the outline, and with whole faces there is none | "
+          "leave out cap, or use by: cut");
 }
 
 TEST_CASE("crop keeps both sides as two parts", "[stages]") {
@@ -158,7 +157,7 @@ TEST_CASE("crop says when nothing or all is kept", "[stages]") {
     };
     CHECK(warned("[[10, 10], [11, 10], [11, 11]]") == "W-CROP-NOTHING crop: nothing of part 'part' was kept");
     CHECK(warned("[[-9, -9], [99, -9], [99, 99], [-9, 99]]") ==
-          "W-CROP-ALL crop: the outline does not meet part 'part', all of it was kept");
+          "W-CROP-ALL crop: the outline does not cut part 'part'; all of it was kept");
 }
 
 TEST_CASE("crop refuses footprints before it runs", "[stages]") {

@@ -41,28 +41,32 @@ TEST_CASE("generate: a percentage of noise is of the shape itself", "[stages]") 
 }
 
 TEST_CASE("generate: options of other shapes are refused", "[stages]") {
-    CHECK(problems_of("generate", options({{"shape", "cube"}, {"level", "2"}})) ==
-          "E-CONFLICT generate: 'level' goes with icosphere, menger, not with cube | leave it out");
-    CHECK(problems_of("generate", options({{"shape", "sphere"}, {"faces", "100"}, {"around", "9"}})) ==
-          "E-CONFLICT generate: 'faces' stands for 'around' and 'across' | give either faces, or around and "
-          "across");
-    CHECK(problems_of("generate", options({{"shape", "menger"}, {"level", "5"}})) ==
-          "E-RANGE 'level' of menger must be 1 <= x <= 4, not 5");
+    CHECK(problems_of("generate", options({{"shape", "cube"}, {"subdivisions", "2"}})) ==
+          "E-CONFLICT generate: 'subdivisions' goes with icosphere, menger, not with cube | leave it out");
+    CHECK(
+        problems_of("generate", options({{"shape", "sphere"}, {"faces", "100"}, {"segments", "9"}})) ==
+        "E-CONFLICT generate: 'faces' stands for 'segments' and 'rings' | give either faces, or segments and "
+        "rings");
+    CHECK(problems_of("generate", options({{"shape", "menger"}, {"subdivisions", "5"}})) ==
+          "E-RANGE 'subdivisions' of menger must be 1 <= x <= 4, not 5");
     CHECK(problems_of("generate", {}).substr(0, 9) == "E-MISSING");
 }
 
 TEST_CASE("generate: what cannot be a shape is refused before it is made", "[stages]") {
-    CHECK(problems_of("generate", options({{"shape", "torus"}, {"tube", "1"}})) ==
-          "E-RANGE generate: tube must be below the radius, which is 1 unless given, not 1 | use a thinner "
-          "tube or a larger radius");
-    CHECK(problems_of("generate", options({{"shape", "torus"}, {"tube", "3mm"}, {"radius", "2mm"}})) ==
-          "E-RANGE generate: tube must be below the radius 2mm, not 3mm | use a thinner tube or a larger "
-          "radius");
-    CHECK(problems_of("generate", options({{"shape", "torus"}, {"tube", "2"}, {"radius", "3"}})) == "");
-    CHECK(problems_of("generate", options({{"shape", "torus"}, {"across", "2"}})) ==
-          "E-RANGE 'across' of torus must be 3 <= x <= 1000000, not 2");
-    CHECK(problems_of("generate", options({{"shape", "sphere"}, {"across", "1"}})) ==
-          "E-RANGE 'across' of sphere must be 2 <= x <= 1000000, not 1");
+    CHECK(problems_of("generate", options({{"shape", "torus"}, {"minor_radius", "1"}})) ==
+          "E-RANGE generate: minor_radius must be below the radius, which is 1 unless given, not 1 | use a "
+          "smaller minor_radius or a larger radius");
+    CHECK(
+        problems_of("generate", options({{"shape", "torus"}, {"minor_radius", "3mm"}, {"radius", "2mm"}})) ==
+        "E-RANGE generate: minor_radius must be below the radius 2mm, not 3mm | use a smaller minor_radius "
+        "or a "
+        "larger radius");
+    CHECK(problems_of("generate", options({{"shape", "torus"}, {"minor_radius", "2"}, {"radius", "3"}})) ==
+          "");
+    CHECK(problems_of("generate", options({{"shape", "torus"}, {"rings", "2"}})) ==
+          "E-RANGE 'rings' of torus must be 3 <= x <= 1000000, not 2");
+    CHECK(problems_of("generate", options({{"shape", "sphere"}, {"rings", "1"}})) ==
+          "E-RANGE 'rings' of sphere must be 2 <= x <= 1000000, not 1");
 }
 
 TEST_CASE("generate: a percentage of the scene is the same whatever the shape's unit", "[stages]") {
@@ -76,8 +80,8 @@ TEST_CASE("generate: a percentage of the scene is the same whatever the shape's 
 TEST_CASE("generate: a percentage of nothing is refused", "[stages]") {
     CHECK(test::failure([] {
               run_stage("generate", options({{"shape", "sphere"}, {"radius", "10%"}}), {});
-          }) == "usage [E-RANGE] generate: 'radius' is 10%, but the scene is empty yet | give a number, or a "
-                "length with a unit");
+          }) == "usage [E-RANGE] generate: 'radius' is 10%, but the scene is still empty | give a number, or "
+                "a length with a unit");
     CHECK(test::failure([] {
               run_stage("generate", options({{"shape", "sphere"}, {"noise", "1% of load"}}), {});
           }) == "usage [E-RANGE] generate: 'noise' is 1% of load, but nothing has been loaded yet | give a "

@@ -156,15 +156,14 @@ TEST_CASE("write tells when rounding makes a mesh less sound", "[stages]") {
     REQUIRE(b.record.warnings.size() == 1);
     CHECK(b.record.warnings[0].id == "W-ROUNDED");
     CHECK(b.record.warnings[0].message ==
-          fmt::format("'{}' as read again is less sound than the scene: 2 degenerate_faces (before: 0)",
+          fmt::format("'{}' is less sound when read back than the scene: 2 degenerate_faces (before: 0)",
                       (b.dir / "c.ply").string()));
     CHECK(b.record.warnings[0].hint == "32-bit floats put 1 point on others: precision: full keeps all bits");
     CHECK(b.state.record.outputs[1].read_back["closed"] == true);
     b.run("write", Value::scalar("c.stl"));
     REQUIRE(b.record.warnings.size() == 2);
-    CHECK(b.record.warnings[1].hint ==
-          "the 32-bit floats of stl put 1 point on others: put clean before write, "
-          "or write PLY, OBJ or OFF with precision: full");
+    CHECK(b.record.warnings[1].hint == "the 32-bit floats of stl put 1 point on others: use clean before "
+                                       "write, or write PLY, OBJ or OFF with precision: full");
 }
 
 namespace {
@@ -193,7 +192,7 @@ TEST_CASE("write says of seams that come apart that they do", "[stages]") {
     b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = shapes::uv_cube(); // closed, 24 wedges on 8 vertices
     const std::string ply = told_of(b, Value::scalar("c.ply"));
-    CHECK(ply == "ply has one set of attributes at a vertex, so seams came apart and 16 vertices were added: "
+    CHECK(ply == "ply has one set of attributes per vertex, so seams were cut and 16 vertices were added: "
                  "write OBJ or glTF, or weld after loading (clean)");
     for (const char* path : {"c.obj", "c.glb"}) {
         b.record.warnings.clear();
@@ -209,10 +208,9 @@ TEST_CASE("write says of vertices that the format makes one that it does", "[sta
           "stl has no shared vertices, so corners at the same place are one when it is read (2 fewer): write "
           "PLY, OBJ or OFF");
     b.record.warnings.clear();
-    CHECK(
-        told_of(b, Value::scalar("c.glb")) ==
-        "vertices of glb at the same place are one when it is read (2 fewer): mesh_manifold: true, or write "
-        "PLY, OBJ or OFF");
+    CHECK(told_of(b, Value::scalar("c.glb")) ==
+          "vertices of glb at the same position are merged when it is read (2 fewer): mesh_manifold: true, "
+          "or write PLY, OBJ or OFF");
     for (const Value& value : {Value::scalar("c.ply"), Value::scalar("c.obj"), Value::scalar("c.off"),
                                options({{"path", "d.glb"}, {"mesh_manifold", "true"}})}) {
         b.record.warnings.clear();
@@ -243,11 +241,11 @@ TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages
     b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = shapes::cube();
     b.scene.parts[0].name = "cube";
-    for (const auto& [normals, crease, wedges] :
+    for (const auto& [normals, feature_angle, wedges] :
          {std::tuple{"smooth", "", 8U}, {"smooth", "40deg", 24U}, {"flat", "", 24U}, {"keep", "", 8U}}) {
-        const std::string path = std::string(normals) + crease + ".glb";
+        const std::string path = std::string(normals) + feature_angle + ".glb";
         Value given = options({{"path", path}, {"normals", normals}});
-        if (*crease) given.set("crease", Value::scalar(crease));
+        if (*feature_angle) given.set("feature_angle", Value::scalar(feature_angle));
         b.run("write", given);
         CHECK(b.record.warnings.empty());
         CHECK(b.state.record.outputs.back().read_back["closed"] == true);
@@ -262,8 +260,8 @@ TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages
         CHECK(mesh.wedge_count() == wedges);
         CHECK((mesh.find("NORMAL", Domain::wedge) != nullptr) == (std::string_view(normals) != "keep"));
     }
-    CHECK(problems_of("write", options({{"path", "a.glb"}, {"crease", "30"}})) ==
-          "E-CONFLICT write: 'crease' goes with normals: smooth only | add normals: smooth");
+    CHECK(problems_of("write", options({{"path", "a.glb"}, {"feature_angle", "30"}})) ==
+          "E-CONFLICT write: 'feature_angle' goes with normals: smooth only | add normals: smooth");
     CHECK(problems_of("write", options({{"path", "a.stl"}, {"normals", "smooth"}}))
               .starts_with(
                   "E-CONFLICT write: 'normals' goes with drc, glb, gltf, obj, off, ply, not with stl"));
@@ -277,8 +275,8 @@ TEST_CASE("write refuses what it cannot mean", "[stages]") {
                   "usage [E-FORMAT] the suffix of 'c.xyz' names no format | say it with 'format', one of: "));
     CHECK(failure([&] {
               b.run("write", options({{"path", "c.stl"}, {"unit", "mm"}}));
-          }) == "stage [E-UNIT] the scene has no unit, so it cannot be written in mm | say what was loaded: "
-                "load: {path: ..., unit: mm}");
+          }) == "stage [E-UNIT] the scene has no unit, so it cannot be written in mm | give the unit when it "
+                "is loaded: load: {path: ..., unit: mm}");
 }
 
 TEST_CASE("a name that ends in .gz is compressed, and read so", "[stages]") {

@@ -75,7 +75,7 @@ TEST_CASE("areas and curvature are attributes when asked for", "[stages]") {
 TEST_CASE("measure writes all as JSON and the faces as a table", "[stages]") {
     test::TemporaryDirectory directory;
     const auto json = (directory / "a.json").string(), csv = (directory / "a.csv").string();
-    const auto r = run_stage("measure", "{to: [" + json + ", " + csv + "]}", scene_of(shapes::quad_cube()));
+    const auto r = run_stage("measure", "{path: [" + json + ", " + csv + "]}", scene_of(shapes::quad_cube()));
     r.state->outputs.commit();
     CHECK(Json::parse(test::get(json)) == r.record.result);
     const std::string table = test::get(csv);
@@ -85,7 +85,7 @@ TEST_CASE("measure writes all as JSON and the faces as a table", "[stages]") {
 
 TEST_CASE("measure refuses what it cannot use", "[stages]") {
     CHECK(refusal("{density: 0}").find("E-RANGE") != std::string::npos);
-    CHECK(refusal("{to: a.xls}").find("measure cannot write 'a.xls'") != std::string::npos);
+    CHECK(refusal("{path: a.xls}").find("measure cannot write 'a.xls'") != std::string::npos);
 }
 
 TEST_CASE("measure says the main numbers on the terminal", "[stages]") {
@@ -95,7 +95,7 @@ TEST_CASE("measure says the main numbers on the terminal", "[stages]") {
     CHECK(run_stage("measure", "{}", scene).record.said ==
           Lines{"area 6 mm2, volume 1 mm3, centroid 0.5 0.5 0.5",
                 "edges 1 to 1.41421 (mean 1.13807), angles 45 to 90 (mean 60)",
-                "12 convex, 0 concave, 6 flat and 0 boundary edges, 12 sharp"});
+                "12 convex, 0 concave, 6 flat and 0 boundary edges, 12 feature edges"});
     scene.parts.push_back(scene_of(shapes::grid(2, 1)).parts[0]);
     scene.parts[1].name = "sheet";
     const auto said = run_stage("measure", "{density: 2}", scene).record.said;

@@ -41,7 +41,7 @@ TEST_CASE("points are inside, outside or on, with the closest face", "[stages]")
 TEST_CASE("one point, also as a one-liner has it, and a tolerance", "[stages]") {
     CHECK(probed("[0.5, 0.5, 1.1]", scene_of(shapes::cube()))["outside"] == 1);
     CHECK(probed("\"0.5,0.5,0.5\"", scene_of(shapes::cube()))["inside"] == 1);
-    CHECK(probed("{points: [0.5, 0.5, 1.1], on: 0.2}", scene_of(shapes::cube()))["on"] == 1);
+    CHECK(probed("{points: [0.5, 0.5, 1.1], tolerance: 0.2}", scene_of(shapes::cube()))["on"] == 1);
 }
 
 TEST_CASE("an open surface is warned of", "[stages]") {
@@ -88,7 +88,7 @@ TEST_CASE("a face alone tells the note's cases", "[stages]") {
           Json({{"hit", 1}, {"outside facet", 1}, {"parallel", 1}, {"outside segment", 1}, {"in plane", 1}}));
     CHECK(r["answers"][0]["plane"]["t"] == 0.5);
     CHECK(refusal("{face: 6, rays: [0, 0, 0, 1, 0, 0]}", scene_of(shapes::quad_cube())) ==
-          "E-FACE there is no face 6: the last is 5");
+          "E-FACE there is no face 6; the last one is 5");
 }
 
 TEST_CASE("rays along an attribute measure walls", "[stages]") {
@@ -144,8 +144,8 @@ TEST_CASE("probes are read from a table and answers written as one", "[stages]")
     test::TemporaryDirectory directory;
     const auto in = (directory / "in.csv").string(), out = (directory / "out.csv").string();
     test::put(in, "x,y,z\n0.5,0.5,0.5\n0.5,0.5,2\n");
-    const auto run =
-        run_stage("probe", "{points: " + in + ", to: " + out + ", list: 1}", scene_of(shapes::cube()));
+    const auto run = run_stage("probe", "{points: " + in + ", path: " + out + ", max_answers: 1}",
+                               scene_of(shapes::cube()));
     run.state->outputs.commit();
     CHECK(run.record.result["answers"].size() == 1);
     CHECK(run.state->record.inputs.at(0).path == in);
@@ -154,7 +154,7 @@ TEST_CASE("probes are read from a table and answers written as one", "[stages]")
         "x,y,z,side,winding,distance,closest_x,closest_y,closest_z,part,face\n0.5,0.5,0.5,inside,1,0.5,"));
     CHECK(table.find("0.5,0.5,2,outside,0,1,0.5,0.5,1,part,") != std::string::npos);
     const auto lines = (directory / "lines.csv").string();
-    run_stage("probe", "{rays: [0.5, 0.25, -1, 0, 0, 1], to: " + lines + "}", scene_of(shapes::quad_cube()))
+    run_stage("probe", "{rays: [0.5, 0.25, -1, 0, 0, 1], path: " + lines + "}", scene_of(shapes::quad_cube()))
         .state->outputs.commit();
     CHECK(test::get(lines).starts_with("line,hit,t,x,y,z,enters,part,face\n0,0,1,0.5,0.25,0,1,part,"));
 }
@@ -164,10 +164,10 @@ TEST_CASE("probe refuses what it cannot use", "[stages]") {
     CHECK(refusal("[1, 2]") == "E-TYPE expected rows of 3 numbers or a .csv file, found a list of 2");
     CHECK(refusal("[1, 2, x]") == "E-TYPE expected rows of 3 numbers or a .csv file, found 'x'");
     CHECK(refusal("{points: [0, 0, 0], face: 1}") == "E-CONFLICT 'face' goes with segments or rays");
-    CHECK(refusal("{points: [0, 0, 0], to: a.txt}") == "E-FORMAT probe cannot write 'a.txt'");
+    CHECK(refusal("{points: [0, 0, 0], path: a.txt}") == "E-FORMAT probe cannot write 'a.txt'");
     CHECK(refusal("{points: [0, 0, 0], reverse: true}") == "E-CONFLICT 'reverse' goes with along");
     CHECK(refusal("{points: [0, 0, 0], hits: first}") == "E-CONFLICT 'hits' goes with segments or rays");
-    CHECK(refusal("{points_of: part}") == "E-PART 'points_of' leaves no part to ask");
+    CHECK(refusal("{points_of: part}") == "E-PART 'points_of' leaves no part as the surface");
     CHECK(refusal("none.csv").starts_with("E-FILE"));
 }
 

@@ -63,9 +63,9 @@ TEST_CASE("render says what it was not given", "[stages]") {
                   scene_of({}));
     CHECK(run.warnings() == std::vector<std::string>{"W-NO-ATTRIBUTE"});
     CHECK(run.record.result["pixels_per_unit"] == 0.0);
-    CHECK(problems_of("render", options({{"path", "a.jpg"}})) ==
-          "E-PICTURE render: pictures are PNG, and 'a.jpg' does not end in .png | for example render: "
-          "view.png");
+    CHECK(
+        problems_of("render", options({{"path", "a.jpg"}})) ==
+        "E-PICTURE render: images are PNG, and 'a.jpg' does not end in .png | for example render: view.png");
     CHECK(problems_of("render", options({{"path", "a.png"}, {"from", "0,0,0"}}))
               .starts_with("E-DIRECTION render: 'from' needs a direction"));
     CHECK(problems_of("render", options({{"path", "a.png"}, {"from", "0,0,1"}, {"view", "top"}}))

@@ -74,12 +74,12 @@ TEST_CASE("a count of sections is spread over the extent and meets the volume", 
 }
 
 TEST_CASE("every distance through the whole extent, or from the plane on with count", "[stages]") {
-    CHECK(run_stage("section", "{plane: z=0.1, every: 0.25}", scene_of(shapes::cube()))
+    CHECK(run_stage("section", "{plane: z=0.1, spacing: 0.25}", scene_of(shapes::cube()))
               .record.result["planes"] == 4);
-    const auto run = run_stage("section", "{plane: z=0.1, every: 0.5, count: 3}", scene_of(shapes::cube()));
+    const auto run = run_stage("section", "{plane: z=0.1, spacing: 0.5, count: 3}", scene_of(shapes::cube()));
     CHECK(run.record.result["planes"] == 3);
     CHECK(run.record.result["empty"] == 1); // z = 1.1 misses
-    CHECK(run_stage("section", "{every: 2mm, plane: z=1mm}", scene_of(shapes::cube(), Unit::cm))
+    CHECK(run_stage("section", "{spacing: 2mm, plane: z=1mm}", scene_of(shapes::cube(), Unit::cm))
               .record.result["planes"] == 5);
 }
 
@@ -101,8 +101,8 @@ TEST_CASE("sections are written as drawings", "[stages]") {
     const test::TemporaryDirectory directory;
     const std::string at = directory.path().string();
     const auto run = run_stage("section",
-                               "{plane: z=0.5, hatch: {spacing: 0.1, angle: 30}, to: ['" + at + "/a.svg', '" +
-                                   at + "/a.dxf', '" + at + "/a.json']}",
+                               "{plane: z=0.5, hatch: {spacing: 0.1, angle: 30}, path: ['" + at +
+                                   "/a.svg', '" + at + "/a.dxf', '" + at + "/a.json']}",
                                scene_of(shapes::cube()));
     run.state->outputs.commit();
     for (const char* name : {"a.svg", "a.dxf", "a.json"})
@@ -113,7 +113,7 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
     const auto refusal = [](const char* options) {
         return failure([&] { run_stage("section", options, scene_of(shapes::cube())); });
     };
-    CHECK(refusal("{to: a.pdf}") ==
+    CHECK(refusal("{path: a.pdf}") ==
           "usage [E-DRAWING] test.yaml:1:6: section: drawings are not written as 'a.pdf' | the formats "
           "are .svg, .dxf and .json");
     CHECK(refusal("{plane: {normal: [0, 0, 0]}}") ==
@@ -122,9 +122,9 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
     CHECK(refusal("w=2") ==
           "usage [E-TYPE] test.yaml:1:1: expected a plane ({normal: [0, 0, 1], through: centre}, z=0.2, "
           "x=10%, [A, B, C, D]), found 'w=2'");
-    CHECK(refusal("{every: 9.5367431640625e-07}") ==
-          "limit [E-SECTION] the stack would have 1048577 planes, and at most 100000 are cut | "
-          "choose a larger distance in 'every'");
+    CHECK(refusal("{spacing: 9.5367431640625e-07}") ==
+          "limit [E-SECTION] the stack would have 1048577 planes, and at most 100000 are cut | choose a "
+          "larger spacing");
     CHECK(refusal("{plane: z=2mm}") ==
           "usage [E-UNIT] 'plane' is 2mm, but the scene has no unit | say what the numbers of the file "
           "mean (load: {unit: mm}), or give a bare number or a percentage");

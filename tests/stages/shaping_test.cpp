@@ -30,7 +30,7 @@ TEST_CASE("relax: the ledger has every attribute", "[stages]") {
 }
 
 TEST_CASE("relax: options out of range are refused with the range", "[stages]") {
-    CHECK(problems_of("relax", options({{"factor", "0"}})).substr(0, 8) == "E-RANGE ");
+    CHECK(problems_of("relax", options({{"lambda", "0"}})).substr(0, 8) == "E-RANGE ");
     CHECK(problems_of("relax", options({{"iterations", "-1"}})).substr(0, 8) == "E-RANGE ");
 }
 
@@ -108,12 +108,10 @@ TEST_CASE("crumple: forbid names faces of the input and a place on them", "[stag
     unsigned found = 0, a = 99, b = 99;
     double x = 9, y = 9, z = 9;
     const std::size_t at = text.find("crumple: ");
-    const char* both =
-        "crumple: %u pairs of pieces of faces would run into each other, first faces %u and %u of "
-        "part 'part', near (%lf, %lf, %lf)";
-    const char* one =
-        "crumple: %u pairs of pieces of faces would run into each other, first in face %u itself of "
-        "part 'part', near (%lf, %lf, %lf)";
+    const char* both = "crumple: %u pairs of subdivided faces would intersect, first faces %u and %u of part "
+                       "'part', near (%lf, %lf, %lf)";
+    const char* one = "crumple: %u pairs of subdivided faces would intersect, first in face %u itself of "
+                      "part 'part', near (%lf, %lf, %lf)";
     const bool two = std::sscanf(text.c_str() + at, both, &found, &a, &b, &x, &y, &z) == 6;
     CHECK((two || std::sscanf(text.c_str() + at, one, &found, &a, &x, &y, &z) == 5));
     CHECK(a < 6);
@@ -145,7 +143,7 @@ TEST_CASE("crumple: octaves go with a frequency, and refusals speak of crumple",
         run_stage("crumple", options({{"grid", "10000"}}), scene_of(shapes::icosphere(2)));
     });
     CHECK(giant.starts_with("limit [E-LIMIT] crumple: part 'part', every face split 10000 x 10000: "));
-    CHECK(giant.ends_with("| use a smaller grid, or simplify before"));
+    CHECK(giant.ends_with("| use a smaller grid, or simplify first"));
     const Value avoid = options({{"grid", "9000"}, {"self_intersections", "avoid"}});
     CHECK(test::failure([&] {
               run_stage("crumple", avoid, scene_of(shapes::icosphere(2)));
@@ -184,8 +182,8 @@ TEST_CASE("crumple: an amplitude beyond the edges is warned of, with the way out
     const auto r =
         run_stage("crumple", options({{"amplitude", "2"}, {"grid", "1"}}), scene_of(shapes::quad_cube()));
     REQUIRE(r.warnings() == std::vector<std::string>{"W-AMPLITUDE"});
-    CHECK(r.record.warnings[0].message == "crumple: the amplitude 2 is larger than the mean edge 1 of part "
-                                          "'part': faces run into each other");
+    CHECK(r.record.warnings[0].message ==
+          "crumple: the amplitude 2 is larger than the mean edge 1 of part 'part': faces intersect");
     CHECK(r.record.warnings[0].hint == "use self_intersections: avoid, or an amplitude below about 0.25");
     CHECK(run_stage("crumple", options({{"amplitude", "0.1"}, {"grid", "1"}}), scene_of(shapes::cube()))
               .warnings()
@@ -193,10 +191,10 @@ TEST_CASE("crumple: an amplitude beyond the edges is warned of, with the way out
 }
 
 TEST_CASE("split: smooth methods refuse non-manifold parts by name", "[stages]") {
-    CHECK(
-        test::failure([] { run_stage("split", Value::scalar("loop"), scene_of(shapes::fan3())); }) ==
-        "stage [E-MANIFOLD] split: loop needs a manifold, oriented mesh; the edge of vertices 0 and 1 has 3 "
-        "faces (part 'part') | clean repairs non-manifold places; midpoint splits them as they are");
+    CHECK(test::failure([] { run_stage("split", Value::scalar("loop"), scene_of(shapes::fan3())); }) ==
+          "stage [E-MANIFOLD] split: loop needs a manifold, oriented mesh; the edge of vertices 0 and 1 has "
+          "3 faces (part 'part') | clean repairs non-manifold edges and vertices; midpoint splits them as "
+          "they are");
 }
 
 TEST_CASE("split: a mesh in a single point has no edges longer than a percentage of it", "[stages]") {
@@ -229,14 +227,14 @@ TEST_CASE("split: targets and what they report", "[stages]") {
     CHECK(part["smallest_angle"]["before"].get<double>() == Approx(45));
     CHECK(part["stopped_by"] == "max_edge");
     CHECK(r.warnings().empty());
-    const auto few = run_stage("split", options({{"faces", "100"}}), scene_of(shapes::cube()));
+    const auto few = run_stage("split", options({{"max_faces", "100"}}), scene_of(shapes::cube()));
     CHECK(few.mesh().face_count() <= 100);
     CHECK(few.mesh().face_count() > 92);
-    CHECK(few.record.result["parts"][0]["stopped_by"] == "faces");
+    CHECK(few.record.result["parts"][0]["stopped_by"] == "max_faces");
     CHECK(problems_of("split", options({{"method", "core"}, {"max_edge", "1"}})).substr(0, 11) == "E-CONFLICT ");
-    CHECK(problems_of("split", options({{"min_angle", "20"}, {"faces", "9"}})).substr(0, 11) ==
+    CHECK(problems_of("split", options({{"min_angle", "20"}, {"max_faces", "9"}})).substr(0, 11) ==
           "E-CONFLICT ");
-    CHECK(problems_of("split", options({{"method", "sqrt3"}, {"creases", "20"}})).substr(0, 11) ==
+    CHECK(problems_of("split", options({{"method", "sqrt3"}, {"feature_angle", "20"}})).substr(0, 11) ==
           "E-CONFLICT ");
     CHECK(problems_of("split", options({{"cut", "widest-angle"}})).substr(0, 11) == "E-CONFLICT ");
 }
@@ -248,13 +246,13 @@ TEST_CASE("split: a target that is not reached is warned of", "[stages]") {
     REQUIRE(r.warnings() == std::vector<std::string>{"W-SPLIT-STOPPED"});
     CHECK(r.record.warnings[0].message == "part 'part' has edges of 0.7071 left, above max_edge "
                                           "0.1732: passes (1) ended the split");
-    const auto full = run_stage("split", options({{"faces", "4"}}), scene_of(shapes::cube()));
+    const auto full = run_stage("split", options({{"max_faces", "4"}}), scene_of(shapes::cube()));
     CHECK(full.mesh().face_count() == 12);
     REQUIRE(full.warnings() == std::vector<std::string>{"W-SPLIT-NOTHING"});
     CHECK(full.record.warnings[0].message ==
-          "part 'part' has 12 faces, and its share of the target is 4: nothing is split");
+          "part 'part' has 12 faces, and its share of max_faces is 4: nothing is split");
     CHECK(run_stage("split", options({{"max_edge", "9"}}), scene_of(shapes::cube())).warnings().empty());
-    for (const char* target : {"max_edge", "min_angle", "faces"})
+    for (const char* target : {"max_edge", "min_angle", "max_faces"})
         CHECK(problems_of("split", options({{"cut", "widest-angle"}, {"method", "bisect"}, {target, "9"}})) ==
               std::string("E-CONFLICT split: 'cut: widest-angle' does not go with the target '") + target +
                   "', which its cuts may never reach | leave out cut, or give passes and no target");
@@ -282,7 +280,7 @@ TEST_CASE("relax: area and volume before and after; options that go with methods
     CHECK(run_stage("relax", Value{}, scene_of(shapes::grid(2, 2)))
               .record.result["parts"][0]["after"]["volume"]
               .is_null());
-    CHECK(problems_of("relax", options({{"method", "taubin"}, {"factor", "0.9"}})).substr(0, 8) ==
+    CHECK(problems_of("relax", options({{"method", "taubin"}, {"lambda", "0.9"}})).substr(0, 8) ==
           "E-RANGE ");
     CHECK(problems_of("relax", options({{"pass_band", "0.2"}})) ==
           "E-CONFLICT relax: 'pass_band' goes with the method taubin only");

@@ -183,7 +183,7 @@ TEST_CASE("simplify: options that do not go together are told at once", "[stages
         return test::problems_of("simplify", pipeline::parse_yaml(source, found));
     };
     CHECK(problems("{ratio: 10%, method: cluster, lock: boundary, self_intersections: avoid}")
-              .find("cluster cannot hold vertices") != std::string::npos);
+              .find("cluster cannot lock vertices") != std::string::npos);
     CHECK(problems("{ratio: 10%, method: cluster, lock: boundary, self_intersections: avoid}")
               .find("cluster cannot avoid self-intersections") != std::string::npos);
     CHECK(problems("{ratio: 10%, method: shortest-edge, weights: {uv: 2}}").find("weights go with") !=

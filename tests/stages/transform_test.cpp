@@ -31,7 +31,7 @@ TEST_CASE("transform moves, scales and turns", "[stages]") {
     check_box(box_after("{scale: 2}"), {0, 0, 0}, {2, 2, 2});
     check_box(box_after("{scale: [1, 2, -3]}"), {0, 0, -3}, {1, 2, 0});
     check_box(box_after("{rotate: 90deg}"), {-1, 0, 0}, {0, 1, 1});
-    check_box(box_after("{rotate: {axis: [1, 0, 0], angle: 90}, about: centre}"), {0, 0, 0}, {1, 1, 1});
+    check_box(box_after("{rotate: {axis: [1, 0, 0], angle: 90}, pivot: centre}"), {0, 0, 0}, {1, 1, 1});
     check_box(box_after("{matrix: [0, 0, 1, 5, 1, 0, 0, 0, 0, 1, 0, 0]}"), {5, 0, 0}, {6, 1, 1});
     check_box(box_after("{scale: 2, centre: true}"), {-1, -1, -1}, {1, 1, 1});
     check_box(box_after("{translate: [0, 0, -7], ground: true}"), {0, 0, 0}, {1, 1, 1});
@@ -80,7 +80,7 @@ TEST_CASE("merge leaves no joints without a skin, thicken no skin without joints
     CHECK_FALSE(merged.scene.parts[0].skinned);
     CHECK(merged.scene.parts[0].mesh.find("JOINTS_0", Domain::wedge) == nullptr);
     CHECK(merged.scene.parts[0].mesh.find("WEIGHTS_0", Domain::wedge) == nullptr);
-    const auto wires = run_stage("thicken", "{thickness: 0.1, what: edges}", scene);
+    const auto wires = run_stage("thicken", "{thickness: 0.1, mode: edges}", scene);
     CHECK_FALSE(wires.scene.parts[0].skinned);
     CHECK(wires.scene.bounds().max.x < 2);
     CHECK(wires.record.warnings.at(0).id == "W-SKIN");
@@ -138,8 +138,8 @@ TEST_CASE("separate leaves cavities in their solids, unless it is told to", "[st
 
 TEST_CASE("options without effect are named", "[stages]") {
     CHECK(failure([] {
-              run_stage("transform", "{about: centre}", scene_of(shapes::cube()));
-          }).find("about goes with scale or rotate") != std::string::npos);
+              run_stage("transform", "{pivot: centre}", scene_of(shapes::cube()));
+          }).find("pivot goes with scale or rotate") != std::string::npos);
     CHECK(failure([] {
               run_stage("separate", "{attribute: patch}", scene_of(shapes::cube()));
           }).find("'attribute' goes with by: group") != std::string::npos);
@@ -219,9 +219,8 @@ TEST_CASE("separate parts by material, and keeps a part of one piece as it is", 
 
 TEST_CASE("separate refuses a group that is not there, and too many parts", "[stages]") {
     CHECK(failure([] { run_stage("separate", "group", scene_of(shapes::cube())); }) ==
-          "stage [E-GROUP] separate: part 'part' has no face attribute 'group' | merge makes 'group'; info "
-          "lists the "
-          "attributes");
+          "stage [E-GROUP] separate: part 'part' has no face attribute 'group' | merge creates 'group'; "
+          "facetmill info lists the attributes");
     for (const double value : {0.5, HUGE_VAL - HUGE_VAL, HUGE_VAL, 1e300}) {
         Scene scene = scene_of(shapes::tetrahedron());
         scene.parts[0].mesh.attributes.push_back(
@@ -235,10 +234,11 @@ TEST_CASE("separate refuses a group that is not there, and too many parts", "[st
     Mesh soup;
     for (Index i = 0; i < 9; ++i)
         soup.positions.push_back({double(i), double(i * i), 0}), soup.corners.push_back(i);
-    CHECK(failure([&] { run_stage("separate", "{most: 2}", scene_of(soup)); }) ==
-          "stage [E-PARTS] separate: there would be 3 parts or more, and most is 2 | remove small pieces "
+    CHECK(failure([&] { run_stage("separate", "{max_parts: 2}", scene_of(soup)); }) ==
+          "stage [E-PARTS] separate: there would be 3 parts or more, and max_parts is 2 | remove small "
+          "components "
           "first (clean: "
-          "{components: {faces: 10}}), or raise most");
+          "{components: {min_faces: 10}}), or raise max_parts");
 }
 
 TEST_CASE("two-sided marks materials", "[stages]") {
@@ -260,7 +260,7 @@ TEST_CASE("thicken takes its thickness in the world, and reports it as measured"
     const auto thick = run_stage("thicken", "0.5", scene_of(testing::noisy_icosphere(2, 0.3, 1)));
     REQUIRE(thick.record.warnings.size() > 0);
     CHECK(thick.record.warnings.back().id == "W-THICKEN");
-    CHECK(run_stage("thicken", "{thickness: 0.1, what: edges}", scene_of(shapes::cube()))
+    CHECK(run_stage("thicken", "{thickness: 0.1, mode: edges}", scene_of(shapes::cube()))
               .record.result["parts"][0]["cylinders"] == 18);
 }
 

@@ -19,6 +19,6 @@ TEST_CASE("triangulate: quads pairs what is flat enough", "[stages]") {
     const auto run = run_stage("triangulate", "quads", scene_of(shapes::cube()));
     CHECK(run.scene.parts[0].mesh.face_count() == 6);
     CHECK(run.record.result["parts"][0]["quads"] == 6);
-    CHECK(run_stage("triangulate", "{to: quads, bend: 1}", scene_of(shapes::icosphere(1)))
+    CHECK(run_stage("triangulate", "{to: quads, feature_angle: 1}", scene_of(shapes::icosphere(1)))
               .record.result["parts"][0]["quads"] == 0);
 }

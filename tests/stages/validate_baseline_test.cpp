@@ -294,7 +294,7 @@ TEST_CASE("what is no baseline is refused", "[stages]") {
     gate.put(R"({"failures":[{"check":"closed","part":"","expected":"true","found":false,"locations":8}]})");
     CHECK(reason() == no + "is no baseline of validate" + hint);
     gate.put(R"({"facetmill_baseline":2,"failures":[]})");
-    CHECK(reason() == no + "is a baseline of another form than this facetmill reads" + hint);
+    CHECK(reason() == no + "is a baseline of a version that this facetmill does not read" + hint);
 }
 
 TEST_CASE("a baseline of very many locations is bounded, and still tells new ones", "[stages]") {

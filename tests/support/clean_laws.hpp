@@ -89,7 +89,7 @@ inline std::string broken_clean_law(const Mesh& mesh, const CleanSettings& setti
     const auto sound = sound_faces(mesh);
     const CleanResult once = clean(mesh, settings);
     if (const auto broken = broken_invariants(once.mesh); !broken.empty()) return broken.front();
-    if (!settings.components && !settings.shells && settings.self_intersections == Untangle::off) {
+    if (!settings.components && !settings.inner_components && settings.self_intersections == Untangle::off) {
         std::vector<Shape> after;
         for (Index f = 0; f < once.mesh.face_count(); ++f) after.push_back(shape_of(once.mesh, f));
         std::sort(after.begin(), after.end());

@@ -21,7 +21,7 @@ bool untangle(Work& work, const CleanSettings& s) {
     if (work.untangled) return false;
     if (found.count > found.pairs.size()) {
         work.not_done.push_back({"self_intersections",
-                                 fmt::format("{} pairs of faces intersect, and more than {} are not tried",
+                                 fmt::format("{} pairs of faces intersect, and at most {} are processed",
                                              found.count, most_pairs),
                                  middle_of_face(work.mesh, found.pairs[0].first)});
         return false;
@@ -42,12 +42,12 @@ bool one_round(Work& work, const CleanSettings& s) {
     // What a patch runs into is united with it in the next round, or told there.
     const bool may_cross = s.self_intersections == Untangle::unite || s.self_intersections == Untangle::all;
     if (s.weld != Nearness::off) did(weld_equal(work, s.non_manifold));
-    if (s.weld == Nearness::near) did(weld_near(work, s.within));
+    if (s.weld == Nearness::near) did(weld_near(work, s.tolerance));
     if (s.degenerate) did(remove_degenerate(work));
     if (s.duplicates) did(remove_duplicates(work));
-    if (s.t_vertices != Nearness::off)
-        did(resolve_t_vertices(work, s.t_vertices == Nearness::near ? s.within : 0));
-    if (s.stitch != Nearness::off) did(stitch(work, s.stitch == Nearness::near ? s.within : 0));
+    if (s.t_junctions != Nearness::off)
+        did(resolve_t_junctions(work, s.t_junctions == Nearness::near ? s.tolerance : 0));
+    if (s.stitch != Nearness::off) did(stitch(work, s.stitch == Nearness::near ? s.tolerance : 0));
     if (s.holes && s.non_manifold) { // holes that touch at a vertex would be one hole once it is split
         const std::size_t told = work.not_done.size();
         did(fill_holes(work, *s.holes, nullptr, may_cross));
@@ -57,7 +57,7 @@ bool one_round(Work& work, const CleanSettings& s) {
     changed |= untangle(work, s);
     if (s.holes) did(fill_holes(work, *s.holes, nullptr, may_cross));
     if (s.components) did(remove_components(work, *s.components));
-    if (s.shells) did(remove_inner_shells(work));
+    if (s.inner_components) did(remove_inner_components(work));
     if (s.isolated) did(remove_isolated(work));
     return changed;
 }
@@ -73,9 +73,9 @@ Fates fates_of(const Mesh& mesh, const Fates& mixed) {
 } // namespace
 
 std::size_t CleanCounts::total() const {
-    return welded_vertices + stitched_edges + t_vertices + repeated_corners + degenerate_faces +
-           duplicate_faces + split_vertices + split_edges + filled_holes + components + shells +
-           isolated_vertices + intersecting_faces + united_pieces;
+    return welded_vertices + stitched_edges + t_junctions + repeated_corners + degenerate_faces +
+           duplicate_faces + split_vertices + split_edges + filled_holes + components + inner_components +
+           isolated_vertices + intersecting_faces + united_components;
 }
 
 CleanResult clean(Mesh mesh, const CleanSettings& settings) {

@@ -27,14 +27,14 @@ enum class Untangle {
 
 struct HoleSettings {
     HoleFill method = HoleFill::minimal;
-    std::size_t most_edges = 0; ///< larger holes stay; 0: no limit
-    double longest = 0;         ///< holes with a longer outline stay, mesh units; 0: no limit
+    std::size_t max_edges = 0; ///< larger holes stay; 0: no limit
+    double max_length = 0;     ///< holes with a longer outline stay, mesh units; 0: no limit
 };
 
 struct ComponentSettings {
-    std::size_t fewest_faces = 0; ///< pieces of fewer faces go
-    double smallest = 0;          ///< pieces whose box has a shorter diagonal go, mesh units
-    double least_area = 0;        ///< pieces with a smaller share of the whole area go
+    std::size_t min_faces = 0;    ///< pieces of fewer faces go
+    double min_size = 0;          ///< pieces whose box has a shorter diagonal go, mesh units
+    double min_area = 0;          ///< pieces with a smaller share of the whole area go
     std::size_t keep = 0;         ///< all but so many of largest area go; 0: no limit
 };
 
@@ -42,16 +42,16 @@ struct ComponentSettings {
 struct CleanSettings {
     Nearness weld = Nearness::exact; ///< vertices at one place become one; near: ends of open edges too
     Nearness stitch = Nearness::off; ///< open edges that run along each other become one, so do their ends
-    Nearness t_vertices = Nearness::exact; ///< open edges get the vertices of other open edges along them
+    Nearness t_junctions = Nearness::exact; ///< open edges get the vertices of other open edges along them
     bool degenerate = true;                ///< faces of exactly zero area, and repeated corners, go
     bool duplicates = true;   ///< one face of each set with the same vertices stays, none of an inner wall
     bool non_manifold = true; ///< edges of more than two faces and vertices of several fans come apart
     bool isolated = true;     ///< vertices that no face uses go
-    bool shells = false;      ///< closed pieces inside others go
+    bool inner_components = false; ///< closed pieces inside others go
     Untangle self_intersections = Untangle::off;
     std::optional<HoleSettings> holes;
     std::optional<ComponentSettings> components;
-    double within = 0; ///< how near is near
+    double tolerance = 0; ///< how near is near
 };
 
 /// A repair that was not done, and why.
@@ -64,11 +64,11 @@ struct NotDone {
 
 /// What was done, in pieces.
 struct CleanCounts {
-    std::size_t welded_vertices = 0, stitched_edges = 0, t_vertices = 0, repeated_corners = 0,
+    std::size_t welded_vertices = 0, stitched_edges = 0, t_junctions = 0, repeated_corners = 0,
                 degenerate_faces = 0, duplicate_faces = 0, split_vertices = 0, split_edges = 0,
-                filled_holes = 0, hole_faces = 0, components = 0, component_faces = 0, shells = 0,
-                shell_faces = 0, isolated_vertices = 0, intersecting_faces = 0;
-    std::size_t united_pieces = 0; ///< closed pieces that intersected and are part of a union now
+                filled_holes = 0, hole_faces = 0, components = 0, component_faces = 0, inner_components = 0,
+                inner_component_faces = 0, isolated_vertices = 0, intersecting_faces = 0;
+    std::size_t united_components = 0; ///< closed pieces that intersected and are part of a union now
     std::size_t refined_faces = 0; ///< cut where they intersected, once per pass
     std::size_t covered_faces = 0; ///< intersected nothing and lay inside another piece
     /// Edges of more than two faces that unions made, where solids touch; none if non_manifold takes them
@@ -88,9 +88,10 @@ struct CleanResult {
 
 /// Applies the steps that are on, in rounds, until a round changes nothing; so a mesh that was cleaned is not
 /// changed by cleaning it again. Faces that no step concerns keep their corners, attributes and order. In a
-/// round: weld, degenerate, duplicates, t_vertices, stitch, non_manifold, self_intersections, holes,
-/// components, shells, isolated. Each step's meaning is told with its setting; see clean_steps.hpp for how
-/// each decides. Attributes are copied, and interpolated at new vertices. Never throws for a valid mesh.
+/// round: weld, degenerate, duplicates, t_junctions, stitch, non_manifold, self_intersections, holes,
+/// components, inner_components, isolated. Each step's meaning is told with its setting; see clean_steps.hpp
+/// for how each decides. Attributes are copied, and interpolated at new vertices. Never throws for a valid
+/// mesh.
 CleanResult clean(Mesh mesh, const CleanSettings& settings);
 
 } // namespace facetmill

@@ -79,9 +79,8 @@ class Untangler {
             if (k.given_up)
                 work_.not_done.push_back(
                     {"self_intersections",
-                     fmt::format("the hole that the faces of {} intersecting pairs would "
-                                 "leave cannot be filled without new intersections, or "
-                                 "is half of the piece",
+                     fmt::format("the hole that the faces of {} intersecting pairs would leave cannot be "
+                                 "filled without new intersections, or is half of the component",
                                  k.pairs),
                      k.at});
         return changed;

@@ -4,10 +4,10 @@
 
 namespace facetmill::clean_steps {
 
-bool resolve_t_vertices(Work& work, double within) {
+bool resolve_t_junctions(Work& work, double within) {
     auto insertions = find_t_junctions(work.mesh, within);
     if (insertions.empty()) return false;
-    work.counts.t_vertices += insertions.size();
+    work.counts.t_junctions += insertions.size();
     work.mesh = insert_on_edges(work.mesh, std::move(insertions), {}, &work.fates);
     return true;
 }

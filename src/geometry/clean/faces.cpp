@@ -167,9 +167,9 @@ bool remove_degenerate(Work& work) {
     work.counts.degenerate_faces += count;
     if (count > 0) {
         work.mesh = keep_faces(work.mesh, kept);
-        const std::size_t before = work.counts.t_vertices;
-        resolve_t_vertices(work, 0);
-        work.counts.t_vertices = before;
+        const std::size_t before = work.counts.t_junctions;
+        resolve_t_junctions(work, 0);
+        work.counts.t_junctions = before;
     }
     return repeated + count > 0;
 }
@@ -201,8 +201,8 @@ bool remove_duplicates(Work& work) {
         for (const Index f : all[g].faces) gone[f] = left[same_way(mesh, first, f)]-- <= 0, count += gone[f];
         if (sheet && beside)
             work.not_done.push_back({"duplicates",
-                                     "both sides of a sheet of its own beside closed pieces stay: one alone "
-                                     "would be open; components removes small ones",
+                                     "both sides of a separate sheet beside closed components are kept, "
+                                     "because one alone would be open; components removes small ones",
                                      mesh.point(mesh.face_begin(first))});
     }
     if (count == 0) return false;
@@ -229,7 +229,7 @@ bool remove_components(Work& work, const ComponentSettings& s) {
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) p.box.add(mesh.point(c));
     }
     for (Piece& p : all)
-        p.goes = p.faces < s.fewest_faces || p.box.diagonal() < s.smallest || p.area < s.least_area * whole;
+        p.goes = p.faces < s.min_faces || p.box.diagonal() < s.min_size || p.area < s.min_area * whole;
     if (s.keep > 0 && all.size() > s.keep) {
         std::vector<std::size_t> order(all.size());
         for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

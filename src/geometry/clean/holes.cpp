@@ -44,10 +44,9 @@ class Filler {
         left_ = &left;
         Outlines(mesh_).each([&](const Outline& o) { fill(o), ++outline_; },
                              [&](Index c) {
-                                 refuse(
-                                     "neighbouring faces disagree about the outside, or the edge belongs to "
-                                     "more than two faces; orient first",
-                                     mesh_.point(c));
+                                 refuse("neighbouring faces are oriented inconsistently, or the edge has "
+                                        "more than two faces: use orient first",
+                                        mesh_.point(c));
                              });
         return filled_ > 0;
     }
@@ -78,24 +77,24 @@ class Filler {
         double around = 0;
         for (const Index w : o.wedges) ring.push_back(mesh_.positions[mesh_.vertex_of_wedge(w)]);
         for (std::size_t i = 0; i < n; ++i) around += length(ring[(i + 1) % n] - ring[i]);
-        if (n < 3) return refuse("its outline has fewer than three edges", ring[0]);
-        if (settings_.most_edges > 0 && n > settings_.most_edges)
-            return refuse(fmt::format("its outline has {} edges, more than {}", n, settings_.most_edges),
+        if (n < 3) return refuse("its boundary loop has fewer than three edges", ring[0]);
+        if (settings_.max_edges > 0 && n > settings_.max_edges)
+            return refuse(fmt::format("its boundary loop has {} edges, more than {}", n, settings_.max_edges),
                           ring[0]);
-        if (settings_.longest > 0 && around > settings_.longest)
-            return refuse(
-                fmt::format("its outline is {:.6g} long, more than {:.6g}", around, settings_.longest),
-                ring[0]);
+        if (settings_.max_length > 0 && around > settings_.max_length)
+            return refuse(fmt::format("its boundary loop is {:.6g} long, more than {:.6g}", around,
+                                      settings_.max_length),
+                          ring[0]);
         if (std::all_of(o.faces.begin(), o.faces.end(), [&](Index f) { return f == o.faces[0]; }))
-            return refuse("it is the outline of a single face", ring[0]);
+            return refuse("it is the boundary of a single face", ring[0]);
         std::string why;
         HolePatch patch = patch_for(o, ring, why);
         if (patch.triangles.empty()) return refuse(why, ring[0]);
         if (collides(o, patch) || lacks_area(ring, patch)) patch = fan_around_middle(ring);
-        if (lacks_area(ring, patch)) return refuse("no patch has area everywhere", ring[0]);
+        if (lacks_area(ring, patch)) return refuse("every patch would have faces without area", ring[0]);
         if (collides(o, patch))
-            return refuse("a patch would double a face or make an edge of more than two", ring[0]);
-        if (left_->contains(outline_)) return refuse("a patch would run into other faces", ring[0]);
+            return refuse("a patch would duplicate a face or make an edge with more than two faces", ring[0]);
+        if (left_->contains(outline_)) return refuse("a patch would intersect other faces", ring[0]);
         add(o, ring, patch);
     }
 
@@ -162,11 +161,11 @@ class Filler {
             for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, std::abs(p[i]));
         const double rounding = 0x1p-21 * largest; // of files with coordinates of 32 bits
         if (cut.kinds.non_planar > 0 && cut.kinds.deviation > rounding) {
-            why = fmt::format("its outline is not planar, by {:.6g}", cut.kinds.deviation);
+            why = fmt::format("its boundary loop is not planar, by {:.6g}", cut.kinds.deviation);
             return patch;
         }
         if (cut.fans > 0) {
-            why = "its outline crosses itself or has no area";
+            why = "its boundary loop intersects itself or has no area";
             return patch;
         }
         for (Index c = 0; c < cut.mesh.corner_count(); c += 3)

@@ -28,7 +28,7 @@ std::vector<std::uint8_t> closed_pieces(const Mesh& mesh, const Components& piec
 
 } // namespace
 
-bool remove_inner_shells(Work& work) {
+bool remove_inner_components(Work& work) {
     const Mesh& mesh = work.mesh;
     const Components pieces = face_components(mesh, false); // all faces of an edge are of one piece
     if (pieces.count < 2) return false;
@@ -58,8 +58,8 @@ bool remove_inner_shells(Work& work) {
     std::vector<std::uint8_t> gone(mesh.face_count());
     for (Index f = 0; f < gone.size(); ++f) gone[f] = inside[pieces.of_face[f]];
     const auto kept = faces_without(gone);
-    work.counts.shells += count;
-    work.counts.shell_faces += gone.size() - kept.size();
+    work.counts.inner_components += count;
+    work.counts.inner_component_faces += gone.size() - kept.size();
     work.mesh = keep_faces(mesh, kept);
     return true;
 }

@@ -18,11 +18,11 @@ const char* reason(Fitness f) {
     case Fitness::fit:
         break;
     case Fitness::open:
-        return "is open (only closed pieces can be united; holes closes them)";
+        return "is open (only closed components can be united; holes closes them)";
     case Fitness::disagreeing:
-        return "has faces that disagree about the outside (orient first)";
+        return "has inconsistently oriented faces (use orient first)";
     case Fitness::flat:
-        return "has faces without area (see degenerate), or of no finite size";
+        return "has faces without area (see degenerate) or without a finite size";
     }
     return "";
 }
@@ -78,7 +78,7 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& pieces,
     std::vector<NotDone> all;
     for (const auto& [piece, place] : places)
         all.push_back({"self_intersections",
-                       fmt::format("{} pairs of faces intersect on a piece that {}", place.pairs,
+                       fmt::format("{} pairs of faces intersect on a component that {}", place.pairs,
                                    reason(fitness[piece])),
                        middle_of_face(mesh, place.face)});
     return all;

@@ -37,7 +37,7 @@ bool remove_degenerate(Work& work);
 bool remove_duplicates(Work& work);
 /// A vertex on (near: within the length of) an open edge of another face, with an open edge of its own along
 /// that one, is put on it.
-bool resolve_t_vertices(Work& work, double within);
+bool resolve_t_junctions(Work& work, double within);
 /// At an edge of more than two faces those stay together that have the inside of the surface between them, by
 /// the exact order around the edge; each fan of faces around a vertex gets a vertex of its own. Where both
 /// ends of such an edge are held together by other faces, the second pair gets a point in the middle of the

@@ -47,7 +47,7 @@ class Trial {
     /// The clusters that cannot be united, if any.
     Failures run(const SelfIntersections& first) {
         for (Index p = 0; p < solids_.pieces.count; ++p)
-            work_.counts.united_pieces += solids_.cluster[p] != none;
+            work_.counts.united_components += solids_.cluster[p] != none;
         SelfIntersections found = first;
         double within = 0;
         Solids solids = solids_;
@@ -130,7 +130,7 @@ class Trial {
         for (const auto& [f, g] : found.pairs)
             for (const auto& [one, other] : {std::pair{f, g}, std::pair{g, f}})
                 if ((marks[other] & ~fresh) == 0)
-                    fail(marks[one], "the union, rounded, would run into another piece");
+                    fail(marks[one], "the union, rounded, would intersect another component");
                 else if (!solids.closed[solids.pieces.of_face[one]])
                     fail(marks[one], "the union, rounded, would not be closed");
     }
@@ -183,7 +183,8 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
                 if (std::find(solids.cluster.begin(), solids.cluster.end(), c) != solids.cluster.end())
                     work.not_done.push_back(
                         {"self_intersections",
-                         "given up, since too many others of the part could not be united", solids.at[c]});
+                         "not tried, because too many other components of the part could not be united",
+                         solids.at[c]});
             break;
         }
         Trial trial(work, solids, settings);

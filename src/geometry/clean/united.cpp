@@ -13,13 +13,13 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-constexpr const char* inside_out = "a piece is inside out and no cavity of a solid around it: which side is "
-                                   "inside must be said first (orient)";
-constexpr const char* too_many = "more than a million pairs of triangles meet, or the lines where they do "
-                                 "could cross more than two million "
-                                 "times: more than can be united in reasonable time";
+constexpr const char* inside_out = "a component is inside out and is not a cavity of a solid around it: use "
+                                   "orient first to decide which side is inside";
+constexpr const char* too_many =
+    "more than a million pairs of triangles intersect, or their intersection lines could cross more than two "
+    "million times: that is more than can be united in reasonable time";
 
-constexpr const char* no_memory = "there is not enough memory to unite so many faces that intersect";
+constexpr const char* no_memory = "there is not enough memory to unite this many intersecting faces";
 
 /// The winding number on the two sides of a patch, by what turns outward and what turns inward.
 struct Sides {

@@ -16,8 +16,8 @@ Inside::Inside(const Footprint& footprint, InsideBy by)
     if (by != InsideBy::half_planes && by != InsideBy::angles_3d) return;
     if (spans_.size() != 1 || !polygon::is_convex(spans_[0]))
         throw Error(ErrorKind::usage, "E-FOOTPRINT",
-                    "this rule for points inside needs a footprint of one convex ring",
-                    "take inside_by: crossings, which takes any");
+                    "this test for points needs a footprint of one convex ring",
+                    "use inside_by: crossings, which accepts any footprint");
     for (const Vec2& p : spans_[0]) flat_.push_back({p.x, p.y, 0});
 }
 

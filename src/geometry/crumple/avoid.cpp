@@ -133,10 +133,10 @@ class TestSheet {
         if (found.count > found.pairs.size())
             throw Error(
                 ErrorKind::limit, "E-LIMIT",
-                fmt::format("crumple: {} pairs of faces meet already, at most {} can be told from new "
-                            "ones",
-                            found.count, most_pairs_),
-                "clean takes doubled faces away; self_intersections: allow looks at none");
+                fmt::format(
+                    "crumple: {} pairs of faces intersect already, and at most {} can be told from new ones",
+                    found.count, most_pairs_),
+                "clean removes duplicate faces; self_intersections: allow does not search for intersections");
         exempt_ = found.pairs;
     }
 
@@ -201,7 +201,7 @@ AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look, std::size
         if (!more) break;
         ++result.rounds;
         if (!lower(marked, levels)) // where nothing moves, all pairs were there before
-            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that stay where they are came to meet");
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
         for (auto& test : tests) test.place(levels, marked);
     }
     for (std::size_t s = 0; s < sheets.size(); ++s) {

@@ -70,7 +70,7 @@ void declare_deviation_fields(DeclareFields<DeviationResult>& d) {
         .null_when("it is beyond the range of numbers");
     const auto self = [](const DeviationResult& r) -> const DeviationResult& { return r; };
     d.object("percent", self, "The same in percent of the diagonal.", declare_percent);
-    d.field("seed", &DeviationResult::seed, "Where the samples fall.");
+    d.field("seed", &DeviationResult::seed, "The seed of the sample positions.");
     d.object("forward", &DeviationResult::forward, "From the first surface, what entered, to the second.",
              declare_way);
     d.object("backward", &DeviationResult::backward, "From the second surface, what left, to the first.",

@@ -39,16 +39,16 @@ void refuse_giants(const Settings& s) {
             ErrorKind::limit, "E-LIMIT",
             fmt::format("generate: the shape would have about {:.3g} faces, at most {:.3g} are possible",
                         faces, 2147483648.0 / 3),
-            "ask for fewer faces, cells or levels");
+            "ask for fewer faces, cells or subdivisions");
     // Per triangle: three corners and half a vertex, twice while quads are cut, and what sorting takes.
     require_memory(100 * faces, fmt::format("generate: a shape of {:.3g} faces", faces),
-                   "ask for fewer faces, cells or levels");
+                   "ask for fewer faces, cells or subdivisions");
 }
 
-/// Points in rows of `around`, row r and place i of a row by at(r, i).
+/// Points in rows of `segments`, row r and place i of a row by at(r, i).
 struct Rows {
-    Index around, first = 0;
-    Index at(Index row, Index i) const { return first + row * around + i % around; }
+    Index segments, first = 0;
+    Index at(Index row, Index i) const { return first + row * segments + i % segments; }
 };
 
 void add_quad(Mesh& mesh, Index a, Index b, Index c, Index d) {
@@ -79,52 +79,52 @@ void add_ring(Mesh& mesh, const std::vector<Direction>& directions, double radiu
 
 /// Quads between row and the row above it.
 void add_band(Mesh& mesh, const Rows& rows, Index below, Index above) {
-    for (Index i = 0; i < rows.around; ++i)
+    for (Index i = 0; i < rows.segments; ++i)
         add_quad(mesh, rows.at(below, i), rows.at(below, i + 1), rows.at(above, i + 1), rows.at(above, i));
 }
 /// Triangles from a row to a point: above it (up) or below it.
 void add_fan(Mesh& mesh, const Rows& rows, Index row, Index apex, bool up) {
-    for (Index i = 0; i < rows.around; ++i)
+    for (Index i = 0; i < rows.segments; ++i)
         up ? add_triangle(mesh, rows.at(row, i), rows.at(row, i + 1), apex)
            : add_triangle(mesh, rows.at(row, i + 1), rows.at(row, i), apex);
 }
 
 Mesh sphere(const Settings& s) {
     Mesh mesh;
-    const auto directions = circle(s.around);
-    const Index bands = static_cast<Index>(s.across), rings = bands - 1;
-    for (Index r = 1; r <= rings; ++r) {
+    const auto directions = circle(s.segments);
+    const Index bands = static_cast<Index>(s.rings), inner = bands - 1;
+    for (Index r = 1; r <= inner; ++r) {
         const double a = pi * r / bands;
         add_ring(mesh, directions, s.radius * sine(a), -s.radius * cosine(a));
     }
     mesh.positions.push_back({0, 0, -s.radius});
     mesh.positions.push_back({0, 0, s.radius});
-    const Rows rows{static_cast<Index>(s.around)};
+    const Rows rows{static_cast<Index>(s.segments)};
     const auto south = static_cast<Index>(mesh.positions.size() - 2);
     add_fan(mesh, rows, 0, south, false);
-    for (Index r = 0; r + 1 < rings; ++r) add_band(mesh, rows, r, r + 1);
-    add_fan(mesh, rows, rings - 1, south + 1, true);
+    for (Index r = 0; r + 1 < inner; ++r) add_band(mesh, rows, r, r + 1);
+    add_fan(mesh, rows, inner - 1, south + 1, true);
     return mesh;
 }
 
 Mesh torus(const Settings& s) {
     Mesh mesh;
-    const auto directions = circle(s.around);
-    for (const auto& tube : circle(s.across))
-        add_ring(mesh, directions, s.radius + s.tube * tube.cosine, s.tube * tube.sine);
-    const Rows rows{static_cast<Index>(s.around)};
-    const auto across = static_cast<Index>(s.across);
+    const auto directions = circle(s.segments);
+    for (const auto& tube : circle(s.rings))
+        add_ring(mesh, directions, s.radius + s.minor_radius * tube.cosine, s.minor_radius * tube.sine);
+    const Rows rows{static_cast<Index>(s.segments)};
+    const auto across = static_cast<Index>(s.rings);
     for (Index r = 0; r < across; ++r) add_band(mesh, rows, r, (r + 1) % across);
     return mesh;
 }
 
 Mesh cylinder(const Settings& s) {
     Mesh mesh;
-    const auto directions = circle(s.around);
-    const auto across = static_cast<Index>(s.across);
+    const auto directions = circle(s.segments);
+    const auto across = static_cast<Index>(s.rings);
     for (Index r = 0; r <= across; ++r)
         add_ring(mesh, directions, s.radius, s.height * (static_cast<double>(r) / across - 0.5));
-    const Rows rows{static_cast<Index>(s.around)};
+    const Rows rows{static_cast<Index>(s.segments)};
     for (Index r = 0; r < across; ++r) add_band(mesh, rows, r, r + 1);
     if (!s.caps) return mesh;
     const auto centre = static_cast<Index>(mesh.positions.size());
@@ -137,14 +137,14 @@ Mesh cylinder(const Settings& s) {
 
 Mesh cone(const Settings& s) {
     Mesh mesh;
-    const auto directions = circle(s.around);
-    const auto across = static_cast<Index>(s.across);
+    const auto directions = circle(s.segments);
+    const auto across = static_cast<Index>(s.rings);
     for (Index r = 0; r < across; ++r) {
         const double t = static_cast<double>(r) / across;
         add_ring(mesh, directions, s.radius * (1 - t), s.height * (t - 0.5));
     }
     mesh.positions.push_back({0, 0, s.height / 2});
-    const Rows rows{static_cast<Index>(s.around)};
+    const Rows rows{static_cast<Index>(s.segments)};
     const auto apex = static_cast<Index>(mesh.positions.size() - 1);
     for (Index r = 0; r + 1 < across; ++r) add_band(mesh, rows, r, r + 1);
     add_fan(mesh, rows, across - 1, apex, true);
@@ -181,7 +181,7 @@ Mesh shaped(const Settings& s) {
     case Shape::sphere:
         return sphere(s);
     case Shape::icosphere:
-        return scaled(shapes::icosphere(static_cast<int>(s.level)), s.radius);
+        return scaled(shapes::icosphere(static_cast<int>(s.subdivisions)), s.radius);
     case Shape::cube:
         return scaled(lattice_cube(s.cells), s.size);
     case Shape::grid:
@@ -197,7 +197,7 @@ Mesh shaped(const Settings& s) {
             return s.height * exponential(-(x * x + y * y) / (2 * s.spread * s.spread));
         });
     case Shape::menger:
-        return scaled(lattice_sponge(static_cast<int>(s.level)), s.size);
+        return scaled(lattice_sponge(static_cast<int>(s.subdivisions)), s.size);
     }
     throw Error(ErrorKind::bug, "E-BUG", "generate: unknown shape");
 }
@@ -205,11 +205,11 @@ Mesh shaped(const Settings& s) {
 } // namespace
 
 double generate_face_estimate(const Settings& s) {
-    const double around = static_cast<double>(s.around), across = static_cast<double>(s.across),
+    const double around = static_cast<double>(s.segments), across = static_cast<double>(s.rings),
                  cells = static_cast<double>(s.cells);
     const auto power = [&](double base) {
         double x = 1;
-        for (std::int64_t i = 0; i < s.level && x < 1e18; ++i) x *= base;
+        for (std::int64_t i = 0; i < s.subdivisions && x < 1e18; ++i) x *= base;
         return x;
     };
     switch (s.shape) {
@@ -246,17 +246,20 @@ void check_generate_settings(const Settings& s) {
     if (tall || s.shape == Shape::gaussian) need_length(s.height, "height");
     if (s.shape == Shape::gaussian) need_length(s.spread, "spread");
     if (s.shape == Shape::torus) {
-        need_length(s.tube, "tube");
-        need(s.tube < s.radius, fmt::format("tube is below the radius {}", to_string(s.radius)),
-             to_string(s.tube), "use a thinner tube or a larger radius");
+        need_length(s.minor_radius, "minor_radius");
+        need(s.minor_radius < s.radius,
+             fmt::format("minor_radius is below the radius {}", to_string(s.radius)),
+             to_string(s.minor_radius), "use a smaller minor_radius or a larger radius");
     }
     const bool round = tall || s.shape == Shape::sphere || s.shape == Shape::torus;
-    if (round) need_count(s.around, 3, "around");
-    if (round) need_count(s.across, s.shape == Shape::torus ? 3 : s.shape == Shape::sphere ? 2 : 1, "across");
+    if (round) need_count(s.segments, 3, "segments");
+    if (round) need_count(s.rings, s.shape == Shape::torus ? 3 : s.shape == Shape::sphere ? 2 : 1, "rings");
     if (s.shape == Shape::menger)
-        need(s.level >= 1 && s.level <= 4, "level is 1 to 4", std::to_string(s.level));
+        need(s.subdivisions >= 1 && s.subdivisions <= 4, "subdivisions is 1 to 4",
+             std::to_string(s.subdivisions));
     if (s.shape == Shape::icosphere)
-        need(s.level >= 0 && s.level <= 12, "level is 0 to 12", std::to_string(s.level));
+        need(s.subdivisions >= 0 && s.subdivisions <= 12, "subdivisions is 0 to 12",
+             std::to_string(s.subdivisions));
 }
 
 SphereBands sphere_bands(std::int64_t faces) {
@@ -270,7 +273,7 @@ SphereBands sphere_bands(std::int64_t faces) {
         const double ratio = static_cast<double>(around) / (2 * static_cast<double>(across)),
                      skew = std::max(ratio, 1 / ratio);
         const auto rank = std::tuple(miss, count, skew);
-        if (best.around > 0 && !(rank < std::tuple(best_miss, best_count, best_skew))) return;
+        if (best.segments > 0 && !(rank < std::tuple(best_miss, best_count, best_skew))) return;
         best = {around, across}, best_miss = miss, best_count = count, best_skew = skew;
     };
     // Wider than 4 across it cannot be, and across - 1 is half / around or the next.

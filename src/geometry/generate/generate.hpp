@@ -23,15 +23,15 @@ enum class Shape {
 struct GenerateSettings {
     Shape shape = Shape::sphere;
     double radius = 1;   ///< sphere, icosphere, cylinder, cone; torus: of the circle that the tube follows
-    double tube = 0.4;   ///< torus: of the tube, below radius
+    double minor_radius = 0.4; ///< torus: of the tube, below radius
     double size = 2;     ///< side of cube, grid, gaussian, menger
     double height = 2;   ///< cylinder, cone; gaussian: of the peak
     double spread = 0.3; ///< gaussian: its standard deviation s
-    std::int64_t around = 48; ///< sphere, torus, cylinder, cone: pieces around the axis, at least 3
-    std::int64_t across = 24; ///< sphere: bands from pole to pole, at least 2; torus: pieces around the tube,
+    std::int64_t segments = 48; ///< sphere, torus, cylinder, cone: pieces around the axis, at least 3
+    std::int64_t rings = 24;  ///< sphere: bands from pole to pole, at least 2; torus: pieces around the tube,
                               ///< at least 3; cylinder, cone: rows, at least 1
     std::int64_t cells = 10;  ///< cube, grid, gaussian: cells along a side, at least 1
-    std::int64_t level = 3;   ///< icosphere 0 to 12: refinements; menger 1 to 4
+    std::int64_t subdivisions = 3; ///< icosphere 0 to 12: refinements; menger 1 to 4
     bool caps = true;         ///< cylinder, cone: closed by fans
     bool quads = false;       ///< quads where the shape has them, rather than triangles
     double noise = 0;       ///< standard deviation of Gaussian noise on x, y and z of each vertex; at least 0
@@ -51,13 +51,13 @@ double generate_face_estimate(const GenerateSettings& settings);
 /// The shape with noise on x, y and z of each vertex, of that standard deviation: crumple's.
 Mesh with_noise(Mesh mesh, double deviation, std::uint64_t seed);
 
-/// The pieces around and across a latitude-longitude sphere of about that many triangles, which is 2 around
-/// (across - 1). Of all pairs of at least 3 around and 2 across whose facets at the equator are neither more
-/// than twice as wide as high nor the reverse (across <= around <= 4 across): the one nearest in number
-/// (ties: fewer), then nearest to square facets (around = 2 across), then with fewer around. 4000 gives 80
+/// The segments and rings of a latitude-longitude sphere of about that many triangles, which is 2 segments
+/// (rings - 1). Of all pairs of at least 3 segments and 2 rings whose facets at the equator are neither more
+/// than twice as wide as high nor the reverse (rings <= segments <= 4 rings): the one nearest in number
+/// (ties: fewer), then nearest to square facets (segments = 2 rings), then with fewer segments. 4000 gives 80
 /// x 26.
 struct SphereBands {
-    std::int64_t around = 0, across = 0;
+    std::int64_t segments = 0, rings = 0;
 };
 SphereBands sphere_bands(std::int64_t faces);
 

@@ -74,7 +74,7 @@ double aspect_of(const Vec3& a, const Vec3& b, const Vec3& c, double area) {
 
 // Of meshes whose boxes are not far from 1 in size.
 
-EdgeResult edges_of(const Mesh& mesh, const SharpSettings& settings) {
+EdgeResult edges_of(const Mesh& mesh, const EdgeSettings& settings) {
     const Turns t = turns_of(mesh, area_vectors(mesh));
     EdgeResult r;
     std::vector<double> lengths(t.edges.size());
@@ -85,7 +85,7 @@ EdgeResult edges_of(const Mesh& mesh, const SharpSettings& settings) {
         r.non_manifold += faces > 2;
         const double turn = t.turn[e];
         if (!(turn == turn)) continue;
-        r.sharp += std::abs(turn) > settings.sharp;
+        r.feature += std::abs(turn) > settings.feature_angle;
         if (std::abs(turn) <= settings.flat)
             ++r.flat;
         else
@@ -176,7 +176,7 @@ void unscale(std::vector<double>& numbers, int power) {
 
 } // namespace
 
-EdgeResult measure_edges(const Mesh& mesh, const SharpSettings& settings) {
+EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings) {
     const PowerScale scale = even_scale(mesh.bounds());
     if (scale.none()) return edges_of(mesh, settings);
     EdgeResult r = edges_of(scale(mesh), settings);

@@ -65,15 +65,15 @@ struct EdgeResult {
     Statistics
         turn; ///< of edges with two faces that agree: the angle between normals, negative where concave
     std::size_t convex = 0, concave = 0,
-                flat = 0;                       ///< among them; flat: within the angle of SharpSettings::flat
-    std::size_t sharp = 0;                      ///< turn beyond SharpSettings::sharp either way
+                flat = 0;                       ///< among them; flat: within the angle of EdgeSettings::flat
+    std::size_t feature = 0;                    ///< turn beyond EdgeSettings::feature_angle either way
     std::size_t boundary = 0, non_manifold = 0; ///< edges with one face; with three or more
 };
-struct SharpSettings {
-    double sharp = 0.5235987755982988; ///< 30 degrees
+struct EdgeSettings {
+    double feature_angle = 0.5235987755982988; ///< 30 degrees
     double flat = 1e-6;
 };
-EdgeResult measure_edges(const Mesh& mesh, const SharpSettings& settings = {});
+EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
 
 /// Inner angles at the corners of faces, and areas.
 struct FaceResult {

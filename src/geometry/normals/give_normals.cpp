@@ -111,13 +111,13 @@ void set_wedges(Mesh& mesh, const std::vector<Index>& wedge_of_corner, const std
     mesh.wedge_vertex = std::move(vertex_of);
 }
 
-void set_smooth_normals(Mesh& mesh, double crease) {
+void set_smooth_normals(Mesh& mesh, double feature_angle) {
     std::vector<Vec3> normals(mesh.face_count());
     parallel_for(normals.size(),
                  [&](std::size_t f) { normals[f] = normalised(area_vector(mesh, static_cast<Index>(f))); });
     const auto face_of = corner_faces(mesh);
     const auto corners_at = corners_at_vertices(mesh);
-    const double least_cosine = crease >= pi ? -2 : cosine(crease);
+    const double least_cosine = feature_angle >= pi ? -2 : cosine(feature_angle);
     std::vector<Index> wedge_of_corner(mesh.corner_count()), first(mesh.vertex_count());
     parallel_chunks(mesh.vertex_count(), [&](std::size_t begin, std::size_t end) {
         SmoothFan fan(mesh, face_of, normals, least_cosine);
@@ -176,7 +176,7 @@ Fates without_normals(Mesh& mesh, bool had) {
 
 } // namespace
 
-Fates give_normals(Mesh& mesh, NormalKind kind, double crease) {
+Fates give_normals(Mesh& mesh, NormalKind kind, double feature_angle) {
     if (kind == NormalKind::keep) return {};
     const bool had = mesh.find("NORMAL", Domain::wedge) != nullptr;
     forget_normals(mesh);
@@ -187,10 +187,10 @@ Fates give_normals(Mesh& mesh, NormalKind kind, double crease) {
             {"NORMAL", Domain::wedge, Role::normal, 3, false, std::vector<float>(3 * mesh.wedge_count())});
         set_facet_normals(mesh);
     } else
-        set_smooth_normals(mesh, crease);
-    Fates fates{
-        {"NORMAL", Domain::wedge, Fate::Kind::recomputed,
-         kind == NormalKind::flat ? "those of the faces" : "the mean of the faces around, by angles"}};
+        set_smooth_normals(mesh, feature_angle);
+    Fates fates{{"NORMAL", Domain::wedge, Fate::Kind::recomputed,
+                 kind == NormalKind::flat ? "the normals of the faces"
+                                          : "the mean of the surrounding faces, weighted by angles"}};
     if (straighten_tangents(mesh))
         fates.push_back(
             {"TANGENT", Domain::wedge, Fate::Kind::recomputed, "perpendicular to the new normals"});

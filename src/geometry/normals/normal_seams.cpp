@@ -249,14 +249,14 @@ std::size_t merge_wedges(Mesh& mesh, const std::vector<Vec3>& areas, const std::
 
 } // namespace
 
-NormalSeams merge_normal_seams(Mesh& mesh, double crease) {
+NormalSeams merge_normal_seams(Mesh& mesh, double feature_angle) {
     NormalSeams result;
     const Attribute* normals = mesh.find("NORMAL", Domain::wedge);
-    if (!mesh.has_seams() || !normals || normals->components != 3 || !(crease > 0)) return result;
+    if (!mesh.has_seams() || !normals || normals->components != 3 || !(feature_angle > 0)) return result;
     const auto areas = area_vectors(mesh);
     const auto face_of = corner_faces(mesh);
     const bool faceted = flat_shaded(mesh, *normals, areas, face_of);
-    result.merged = merge_wedges(mesh, areas, face_of, faceted, cosine(crease));
+    result.merged = merge_wedges(mesh, areas, face_of, faceted, cosine(feature_angle));
     if (result.merged == 0) return result;
     result.shading = faceted ? NormalSeams::Shading::faceted : NormalSeams::Shading::smoothed;
     return result;

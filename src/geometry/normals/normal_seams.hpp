@@ -8,7 +8,7 @@ namespace facetmill {
 struct NormalSeams {
     enum class Shading {
         as_given, ///< nothing to merge
-        smoothed, ///< seams below the crease angle are gone; the normals there are new
+        smoothed, ///< seams below the feature angle are gone; the normals there are new
         faceted,  ///< the mesh was flat-shaded: its normals are gone until set_facet_normals
     };
     Shading shading = Shading::as_given;
@@ -19,11 +19,11 @@ struct NormalSeams {
 ///
 /// A mesh is flat-shaded when nearly all bent edges are normal seams and nearly all corners have the normal
 /// of their face; all such wedges of it are merged. Else wedges are merged across edges where the faces meet
-/// at less than the crease angle, and get the area-weighted normal of the faces so joined; sharper seams
-/// stay. Seams of any other attribute stay. crease: radians; 0 leaves everything as it is.
+/// at less than the feature angle, and get the area-weighted normal of the faces so joined; sharper seams
+/// stay. Seams of any other attribute stay. feature_angle: radians; 0 leaves everything as it is.
 ///
 /// Vertices that no face uses are dropped when something is merged. The tangent of the first wedge is taken.
-NormalSeams merge_normal_seams(Mesh& mesh, double crease);
+NormalSeams merge_normal_seams(Mesh& mesh, double feature_angle);
 
 /// Takes the normals away, and merges the wedges of a vertex that differ in nothing else but TANGENT (the
 /// first one's is taken). Returns how many wedges went. Vertices that no face uses are dropped then.

@@ -46,7 +46,7 @@ Fates flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags) {
     for (const auto& a : mesh.attributes) {
         const bool turns = any && (a.role == Role::normal || a.role == Role::tangent);
         fates.push_back({a.name, a.domain, turns ? Fate::Kind::recomputed : Fate::Kind::kept,
-                         turns ? "turned where it pointed against its faces" : ""});
+                         turns ? "reversed where it pointed against its faces" : ""});
     }
     if (!any) return fates;
     parallel_for(mesh.face_count(), [&](std::size_t f) {

@@ -27,7 +27,7 @@ void tidy(std::vector<Vec2>& ring, std::size_t number) {
     if (ring.size() < 3)
         refuse(fmt::format("ring {} of the footprint has {} corners, and a ring needs three", number,
                            ring.size()),
-               "give the corners in order; the last joins the first by itself");
+               "give the corners in order; the last one is joined to the first");
 }
 
 std::vector<std::vector<Vec2>> tidied(std::vector<std::vector<Vec2>> rings) {
@@ -47,12 +47,12 @@ void refuse_crossings(const RingTree& tree) {
             if (j <= i || ea * eb >= 0 || fa * fb >= 0) return true;
             const double a = cross(e.b - e.a, f.a - e.a), b = cross(e.b - e.a, f.b - e.a);
             const Vec2 at = f.a + (f.b - f.a) * (a / (a - b));
-            refuse(fmt::format("the footprint crosses itself near ({:.6g}, {:.6g}): {} and {}", at.x, at.y,
+            refuse(fmt::format("the footprint intersects itself near ({:.6g}, {:.6g}): {} and {}", at.x, at.y,
                                fmt::format("the segment from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", e.a.x,
                                            e.a.y, e.b.x, e.b.y),
                                fmt::format("that from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", f.a.x, f.a.y,
                                            f.b.x, f.b.y)),
-                   "mend the outline, or crop by its simple parts one after the other");
+                   "repair the outline, or crop by its simple parts one after the other");
         });
 }
 

@@ -61,11 +61,11 @@ RelaxStep cotangent_step(const Mesh& mesh, const Neighbourhoods& near, const Rel
     auto cotangents = std::make_shared<Cotangents>(mesh);
     return [&near, &settings, cotangents](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
         cotangents->weigh(from);
-        const double factor = relax_factor(settings);
+        const double lambda = relax_lambda(settings);
         parallel_for(from.size(), [&](std::size_t i) {
             const auto v = static_cast<Index>(i);
             const auto others = near.lists.of(v);
-            const double share = settings.mask.empty() ? factor : factor * settings.mask[v];
+            const double share = settings.mask.empty() ? lambda : lambda * settings.mask[v];
             if (others.empty()) {
                 to[v] = from[v];
             } else if (!near.along.empty() && near.along[v]) {

@@ -14,12 +14,12 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// The vertices that one linear system is about; all others count as known. Symmetric and positive definite:
-/// with n neighbours, mask w and factor f the row of vertex v is n / w (x - p) + f sum(x - xj) = 0.
+/// with n neighbours, mask w and lambda f the row of vertex v is n / w (x - p) + f sum(x - xj) = 0.
 class System {
   public:
-    System(const VertexLists& near, std::vector<Index> unknown, double factor,
+    System(const VertexLists& near, std::vector<Index> unknown, double lambda,
            const std::vector<double>& mask)
-        : near_(near), unknown_(std::move(unknown)), factor_(factor), mask_(mask) {
+        : near_(near), unknown_(std::move(unknown)), lambda_(lambda), mask_(mask) {
         rows_.assign(near.offsets.size() - 1, none);
         for (std::size_t i = 0; i < unknown_.size(); ++i) rows_[unknown_[i]] = static_cast<Index>(i);
         fill();
@@ -46,9 +46,9 @@ class System {
         for (std::size_t i = 0; i < unknown_.size(); ++i) {
             const auto row = static_cast<int>(i);
             const auto others = near_.of(unknown_[i]);
-            entries.emplace_back(row, row, mass(unknown_[i]) + factor_ * static_cast<double>(others.size()));
+            entries.emplace_back(row, row, mass(unknown_[i]) + lambda_ * static_cast<double>(others.size()));
             for (const Index o : others)
-                if (rows_[o] != none) entries.emplace_back(row, static_cast<int>(rows_[o]), -factor_);
+                if (rows_[o] != none) entries.emplace_back(row, static_cast<int>(rows_[o]), -lambda_);
         }
         const auto n = static_cast<Eigen::Index>(unknown_.size());
         matrix_.resize(n, n);
@@ -64,7 +64,7 @@ class System {
             guess[i] = start[v][axis];
             right[i] = mass(v) * start[v][axis];
             for (const Index o : near_.of(v))
-                if (rows_[o] == none) right[i] += factor_ * places[o][axis];
+                if (rows_[o] == none) right[i] += lambda_ * places[o][axis];
         }
         Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver;
         solver.setTolerance(1e-10);
@@ -73,14 +73,14 @@ class System {
         if (solver.info() != Eigen::Success || !x.allFinite())
             throw Error(ErrorKind::stage, "E-SOLVE",
                         "relax: the linear system of the implicit method did not converge",
-                        "use a smaller factor and more iterations");
+                        "use a smaller lambda and more iterations");
         return x;
     }
 
     const VertexLists& near_;
     std::vector<Index> unknown_; ///< vertex of each row
     std::vector<Index> rows_;    ///< row of each vertex, or none
-    double factor_;
+    double lambda_;
     const std::vector<double>& mask_;
     Matrix matrix_;
 };
@@ -93,9 +93,9 @@ RelaxStep implicit_step(const Neighbourhoods& near, const RelaxSettings& setting
         if (near.lists.of(v).empty()) continue;
         (!near.along.empty() && near.along[v] ? curves : surface).push_back(v);
     }
-    const double factor = relax_factor(settings);
-    auto first = std::make_shared<System>(near.lists, std::move(curves), factor, settings.mask);
-    auto second = std::make_shared<System>(near.lists, std::move(surface), factor, settings.mask);
+    const double lambda = relax_lambda(settings);
+    auto first = std::make_shared<System>(near.lists, std::move(curves), lambda, settings.mask);
+    auto second = std::make_shared<System>(near.lists, std::move(surface), lambda, settings.mask);
     return [first, second](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
         to = from;
         first->solve(from, to);

@@ -154,9 +154,9 @@ void refuse_giants(const Mesh& mesh, const Settings& settings) {
 class Choice {
   public:
     Choice(const Mesh& mesh, const Settings& settings) : mesh_(mesh), settings_(settings) {
-        if (!settings.features) return;
-        straight_ = cosine(*settings.features);
-        tracks_ = sharp_ends(mesh, *settings.features, settings.to_world,
+        if (!settings.feature_angle) return;
+        straight_ = cosine(*settings.feature_angle);
+        tracks_ = sharp_ends(mesh, *settings.feature_angle, settings.to_world,
                              settings.boundary == Settings::Boundary::slide);
     }
 
@@ -168,7 +168,7 @@ class Choice {
         if (!settings_.mask.empty() && settings_.mask[v] == 0) return {.held = true};
         const bool boundary = !around.boundary.empty();
         if (boundary && settings_.boundary == Settings::Boundary::fixed) return {.held = true};
-        if (settings_.features && !tracks_.of(v).empty()) {
+        if (settings_.feature_angle && !tracks_.of(v).empty()) {
             if (tracks_.of(v).size() != 2 || turns(v)) return {.held = true};
             return {.list = tracks_.of(v), .along = true};
         }
@@ -201,7 +201,7 @@ Neighbourhoods neighbourhoods(const Mesh& mesh, const Settings& settings) {
     Neighbourhoods result;
     auto& offsets = result.lists.offsets;
     offsets.assign(n + 1, 0);
-    if (settings.features || settings.boundary == Settings::Boundary::slide) result.along.resize(n);
+    if (settings.feature_angle || settings.boundary == Settings::Boundary::slide) result.along.resize(n);
     struct Part {
         std::vector<Index> items;
         std::size_t held = 0;

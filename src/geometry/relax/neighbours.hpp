@@ -13,8 +13,8 @@ struct Neighbourhoods {
     std::vector<std::uint8_t> along; ///< [vertices] 1: moves along its boundary or feature only; may be empty
 };
 
-/// Only neighbours, boundary, features, to_world and whether mask is 0 count. Parallel, O(corners) for faces
-/// of bounded size. Throws limit (E-LIMIT) for polygons whose neighbours cannot be counted.
+/// Only neighbours, boundary, feature_angle, to_world and whether mask is 0 count. Parallel, O(corners) for
+/// faces of bounded size. Throws limit (E-LIMIT) for polygons whose neighbours cannot be counted.
 Neighbourhoods neighbourhoods(const Mesh& mesh, const RelaxSettings& settings);
 
 /// One byte per vertex: 1 when it is the end of an edge that has exactly one face.

@@ -20,14 +20,14 @@ void need(bool holds, const char* name, const char* range, const std::string& fo
         throw Error(ErrorKind::usage, "E-RANGE", fmt::format("relax: {} is {}, not {}", name, range, found));
 }
 
-void check_factor(const Settings& s) {
-    const double f = relax_factor(s);
+void check_lambda(const Settings& s) {
+    const double f = relax_lambda(s);
     if (s.method == Method::implicit)
-        need(f > 0 && f <= 1e6, "factor", "0 < x <= 1e+06 for implicit", to_string(f));
+        need(f > 0 && f <= 1e6, "lambda", "0 < x <= 1e+06 for implicit", to_string(f));
     else if (s.method == Method::taubin) // the step out would grow what the step in has turned around
-        need(f > 0 && f < 0.7, "factor", "0 < x < 0.7 for taubin", to_string(f));
+        need(f > 0 && f < 0.7, "lambda", "0 < x < 0.7 for taubin", to_string(f));
     else
-        need(f > 0 && f <= 1, "factor", "0 < x <= 1", to_string(f));
+        need(f > 0 && f <= 1, "lambda", "0 < x <= 1", to_string(f));
 }
 
 /// The places after at most so many iterations.
@@ -95,7 +95,7 @@ Fates relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& sett
         Fate fate{a.name, a.domain, Fate::Kind::kept, "not relaxed"};
         const auto start = is_position_target(a) ? target_places(mesh, a) : std::vector<Vec3>{};
         if (is_position_target(a) && start.empty() && mesh.vertex_count() > 0)
-            fate.why = "not relaxed: the wedges of a vertex disagree";
+            fate.why = "not relaxed: the wedges of a vertex differ";
         if (!start.empty()) {
             const Run target = run(mesh, near, settings, start, base.iterations, 0);
             set_target(mesh, a, target.places, base.places);
@@ -110,10 +110,10 @@ Fates relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& sett
 
 void check_relax_settings(const Settings& s) {
     need(s.iterations >= 0, "iterations", "at least 0", std::to_string(s.iterations));
-    check_factor(s);
+    check_lambda(s);
     need(s.pass_band > 0 && s.pass_band < 1, "pass_band", "0 < x < 1", to_string(s.pass_band));
-    need(s.original >= 0 && s.original <= 1, "original", "0 <= x <= 1", to_string(s.original));
-    need(s.push_back >= 0 && s.push_back <= 1, "push_back", "0 <= x <= 1", to_string(s.push_back));
+    need(s.alpha >= 0 && s.alpha <= 1, "alpha", "0 <= x <= 1", to_string(s.alpha));
+    need(s.beta >= 0 && s.beta <= 1, "beta", "0 <= x <= 1", to_string(s.beta));
     need(s.until >= 0, "until", "at least 0", to_string(s.until));
 }
 

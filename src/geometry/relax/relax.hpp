@@ -10,7 +10,7 @@ struct RelaxSettings {
         laplacian, ///< the note's: towards the mean of the neighbours
         taubin,    ///< a step in and a step out: shrinks hardly
         cotangent, ///< towards the mean weighted by the angles: vertices do not drift along the surface
-        implicit,  ///< one linear system per iteration: any factor is stable
+        implicit,  ///< one linear system per iteration: any lambda is stable
         hc,        ///< towards the mean, then pushed back by what the neighbours moved: keeps the volume
     };
     enum class Neighbours {
@@ -20,20 +20,20 @@ struct RelaxSettings {
     enum class Boundary {
         fixed, ///< boundary vertices stay
         slide, ///< averaged with their neighbours along the boundary only: its corners become round, but for
-               ///< those that features hold
+               ///< those that feature_angle holds
         free,  ///< as all others: an open surface shrinks
     };
     Method method = Method::laplacian;
     std::int64_t iterations = 1;       ///< 0 and more
-    std::optional<double> factor = {}; ///< share of the way to the mean; none: 1, for taubin 0.5. 0 < factor
+    std::optional<double> lambda = {}; ///< share of the way to the mean; none: 1, for taubin 0.5. 0 < lambda
                                        ///< <= 1, below 0.7 for taubin, above 0 for implicit
     Neighbours neighbours = Neighbours::faces;
     Boundary boundary = Boundary::fixed;
-    std::optional<double> features = {}; ///< radians: edges that bend more are kept; vertices on them move
-                                         ///< along them only
+    std::optional<double> feature_angle = {}; ///< radians: edges that bend more are kept; vertices on them
+                                              ///< move along them only
     double pass_band = 0.1;              ///< taubin: 0 < k < 1, what of the surface's frequencies is kept
-    double original = 0;                 ///< hc: alpha, 0 to 1: how much the first surface counts
-    double push_back = 0.5;              ///< hc: beta, 0 to 1: the vertex's own share of what is pushed back
+    double alpha = 0;                    ///< hc: 0 to 1: how much the first surface counts
+    double beta = 0.5;                   ///< hc: 0 to 1: the vertex's own share of what is pushed back
     std::vector<double> mask = {};       ///< [vertices] 0 to 1: share of the move; empty: all of it
     double until = 0;        ///< stop when no vertex moved farther in an iteration, world units; 0: never
     Transform to_world = {}; ///< part space -> world, where angles and moves are measured
@@ -50,15 +50,15 @@ struct RelaxResult {
     std::size_t held = 0;        ///< vertices that had to stay: boundary, corners of features, mask 0
 };
 
-/// P' = P + factor (mean of the neighbours - P) per iteration, simultaneously for all vertices.
+/// P' = P + lambda (mean of the neighbours - P) per iteration, simultaneously for all vertices.
 ///
 /// laplacian takes the plain mean (note, 1997). taubin (1995) follows each step by one of mu = 1 / (pass_band
-/// - 1 / factor), which is negative. cotangent weights each neighbour by the cotangents of the two angles
+/// - 1 / lambda), which is negative. cotangent weights each neighbour by the cotangents of the two angles
 /// opposite to the edge (Pinkall, Polthier 1993), computed anew in every iteration; obtuse angles count 0 and
 /// slivers at most 10^6, so the mean stays among the neighbours, and triangles without area count nothing.
-/// implicit (Desbrun 1999) solves P' = P + factor (mean' - P') with Eigen's conjugate gradients to a relative
-/// residual of 1e-10. hc (Vollmer 1999) takes the laplacian step and pushes back by push_back of the vertex's
-/// and 1 - push_back of the neighbours' mean difference to original * first + (1 - original) * previous
+/// implicit (Desbrun 1999) solves P' = P + lambda (mean' - P') with Eigen's conjugate gradients to a relative
+/// residual of 1e-10. hc (Vollmer 1999) takes the laplacian step and pushes back by beta of the vertex's
+/// and 1 - beta of the neighbours' mean difference to alpha * first + (1 - alpha) * previous
 /// place.
 ///
 /// A boundary edge is one with exactly one face; edges with three and more faces are not boundary, but are

@@ -16,25 +16,24 @@ using Method = RelaxSettings::Method;
 RelaxStep hc_step(const Neighbourhoods& near, const RelaxSettings& settings, const std::vector<Vec3>& start) {
     auto difference = std::make_shared<std::vector<Vec3>>(start.size());
     return [&, difference](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
-        umbrella_step(from, to, near.lists, relax_factor(settings), settings.mask);
+        umbrella_step(from, to, near.lists, relax_lambda(settings), settings.mask);
         auto& b = *difference;
         parallel_for(from.size(), [&](std::size_t v) {
-            b[v] = to[v] - (start[v] * settings.original + from[v] * (1 - settings.original));
+            b[v] = to[v] - (start[v] * settings.alpha + from[v] * (1 - settings.alpha));
         });
         parallel_for(from.size(), [&](std::size_t v) {
             const auto others = near.lists.of(static_cast<Index>(v));
             if (others.empty()) return;
             Vec3 sum;
             for (const Index o : others) sum += b[o];
-            to[v] -= b[v] * settings.push_back +
-                     sum * ((1 - settings.push_back) / static_cast<double>(others.size())) *
-                         (settings.mask.empty() ? 1 : settings.mask[v]);
+            to[v] -= b[v] * settings.beta + sum * ((1 - settings.beta) / static_cast<double>(others.size())) *
+                                                (settings.mask.empty() ? 1 : settings.mask[v]);
         });
     };
 }
 
 RelaxStep taubin_step(const Neighbourhoods& near, const RelaxSettings& settings) {
-    const double in = relax_factor(settings), out = 1 / (settings.pass_band - 1 / in);
+    const double in = relax_lambda(settings), out = 1 / (settings.pass_band - 1 / in);
     auto middle = std::make_shared<std::vector<Vec3>>();
     return [&near, &settings, in, out, middle](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
         middle->resize(from.size());
@@ -45,12 +44,12 @@ RelaxStep taubin_step(const Neighbourhoods& near, const RelaxSettings& settings)
 
 } // namespace
 
-double relax_factor(const RelaxSettings& s) {
-    return s.factor.value_or(s.method == Method::taubin ? 0.5 : 1);
+double relax_lambda(const RelaxSettings& s) {
+    return s.lambda.value_or(s.method == Method::taubin ? 0.5 : 1);
 }
 
 void umbrella_step(const std::vector<Vec3>& from, std::vector<Vec3>& to, const VertexLists& near,
-                   double factor, const std::vector<double>& mask) {
+                   double lambda, const std::vector<double>& mask) {
     const Vec3* const p = from.data();
     parallel_chunks(from.size(), [&](std::size_t begin, std::size_t end) {
         const Index* other = near.items.data() + near.offsets[begin];
@@ -64,7 +63,7 @@ void umbrella_step(const std::vector<Vec3>& from, std::vector<Vec3>& to, const V
             Vec3 sum;
             for (; other != last; ++other) sum += p[*other];
             const Vec3 mean = sum / n;
-            const double share = mask.empty() ? factor : factor * mask[v];
+            const double share = mask.empty() ? lambda : lambda * mask[v];
             to[v] = share == 1 ? mean : p[v] + (mean - p[v]) * share;
         }
     });
@@ -85,7 +84,7 @@ RelaxStep relax_step(const Mesh& mesh, const Neighbourhoods& near, const RelaxSe
         break;
     }
     return [&near, &settings](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
-        umbrella_step(from, to, near.lists, relax_factor(settings), settings.mask);
+        umbrella_step(from, to, near.lists, relax_lambda(settings), settings.mask);
     };
 }
 

@@ -15,14 +15,14 @@ using RelaxStep = std::function<void(const std::vector<Vec3>& from, std::vector<
 RelaxStep relax_step(const Mesh& mesh, const Neighbourhoods& near, const RelaxSettings& settings,
                      const std::vector<Vec3>& start);
 
-/// to = from moved by factor (times the mask) towards the neighbours' mean.
+/// to = from moved by lambda (times the mask) towards the neighbours' mean.
 void umbrella_step(const std::vector<Vec3>& from, std::vector<Vec3>& to, const VertexLists& near,
-                   double factor, const std::vector<double>& mask);
+                   double lambda, const std::vector<double>& mask);
 
 RelaxStep cotangent_step(const Mesh& mesh, const Neighbourhoods& near, const RelaxSettings& settings);
 RelaxStep implicit_step(const Neighbourhoods& near, const RelaxSettings& settings);
 
-/// The factor that is used: the given one, or the method's own.
-double relax_factor(const RelaxSettings& settings);
+/// The lambda that is used: the given one, or the method's own.
+double relax_lambda(const RelaxSettings& settings);
 
 } // namespace facetmill

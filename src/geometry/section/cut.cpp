@@ -94,9 +94,9 @@ std::vector<Piece> pieces_of(const Mesh& mesh, const StackPlanes& stack, const P
     const std::size_t count = exclusive_scan(first);
     if (count > (std::size_t{1} << 30))
         throw Error(ErrorKind::limit, "E-SECTION",
-                    fmt::format("the sections would have {} pieces, and at most {} are kept", count,
+                    fmt::format("the sections would have {} segments, and at most {} are kept", count,
                                 std::size_t{1} << 30),
-                    "take fewer planes");
+                    "use fewer planes");
     std::vector<Piece> all(count);
     parallel_for(
         chunks,

@@ -40,7 +40,7 @@ Stack stack_of(const Extent& extent, std::optional<double> spacing, std::optiona
         throw Error(
             ErrorKind::limit, "E-SECTION",
             fmt::format("the stack would have {:.0f} planes, and at most {} are cut", planes, most_planes),
-            "choose a larger distance in 'every'");
+            "choose a larger spacing");
     for (std::int64_t i = 0; static_cast<double>(i) < planes; ++i)
         stack.heights.push_back(first + static_cast<double>(i) * stack.spacing);
     return stack;

@@ -38,7 +38,7 @@ void check_weights(const AttributeWeights& w) {
 
 void check_cluster(const SimplifySettings& s) {
     if (s.lock.boundary || s.lock.seams || s.lock.groups || !s.lock.body.empty() || !s.lock.vertices.empty())
-        refuse("cluster cannot hold vertices: no lock");
+        refuse("cluster cannot lock vertices");
     if (s.self_intersections == SimplifySettings::Intersections::avoid)
         refuse("cluster cannot avoid self-intersections");
 }

@@ -133,9 +133,9 @@ void refuse_giant_split(const Mesh& mesh, double corners) {
 double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings) {
     const bool refines = settings.method == SplitMethod::bisect && mesh.all_triangles();
     SplitCensus census(mesh);
-    if (refines && (settings.max_edge > 0 || settings.faces > 0)) {
+    if (refines && (settings.max_edge > 0 || settings.max_faces > 0)) {
         double faces = settings.max_edge > 0 ? refined_estimate(mesh, settings) : 1e300;
-        if (settings.faces > 0) faces = std::min(faces, static_cast<double>(settings.faces));
+        if (settings.max_faces > 0) faces = std::min(faces, static_cast<double>(settings.max_faces));
         for (int pass = 0; pass < settings.passes && census.faces() < faces; ++pass)
             census.pass(settings.method, settings.grid);
         return 3 * std::max(std::min(faces, census.faces()), static_cast<double>(mesh.face_count()));
@@ -145,7 +145,7 @@ double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings) {
         if (settings.max_edge > 0 && longest <= settings.max_edge) break;
         SplitCensus next = census;
         next.pass(settings.method, settings.grid);
-        if (settings.faces > 0 && next.faces() > static_cast<double>(settings.faces)) break;
+        if (settings.max_faces > 0 && next.faces() > static_cast<double>(settings.max_faces)) break;
         census = next;
         if (settings.max_edge > 0)
             longest = pass == 0 ? longest_after_first(mesh, settings, longest) : longest / 2;

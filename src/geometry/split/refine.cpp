@@ -68,8 +68,8 @@ SplitResult refine(const Mesh& mesh, const SplitSettings& settings) {
     using Stop = SplitResult::Stop;
     SplitResult result;
     const double limit = settings.max_edge * settings.max_edge;
-    const bool budget = settings.faces > 0;
-    const std::uint64_t most = budget ? settings.faces : UINT64_MAX;
+    const bool budget = settings.max_faces > 0;
+    const std::uint64_t most = budget ? settings.max_faces : UINT64_MAX;
     const Mesh* from = &mesh;
     while (result.stop != Stop::budget) {
         const MeasuredEdges edges = measure_edges(*from, settings.to_world);

@@ -15,7 +15,7 @@ SmoothRings::SmoothRings(const Mesh& m, const EdgeTable& e, const SplitSettings&
         next_[c] = next_corner(mesh, faces[c], c);
         previous_[next_[c]] = c;
     });
-    const double limit = settings.creases ? cosine(*settings.creases) : -2;
+    const double limit = settings.feature_angle ? cosine(*settings.feature_angle) : -2;
     const auto normal = [&](Index c) { return normalised(area_vector(mesh, faces[c], settings.to_world)); };
     parallel_for(edges.size(), [&](std::size_t i) {
         const auto at = edges.corners_of(static_cast<Index>(i));
@@ -24,7 +24,7 @@ SmoothRings::SmoothRings(const Mesh& m, const EdgeTable& e, const SplitSettings&
             return;
         }
         twin_[at[0]] = at[1], twin_[at[1]] = at[0];
-        if (settings.creases) sharp_[i] = bends_more(dot(normal(at[0]), normal(at[1])), limit);
+        if (settings.feature_angle) sharp_[i] = bends_more(dot(normal(at[0]), normal(at[1])), limit);
     });
 }
 

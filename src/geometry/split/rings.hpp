@@ -7,7 +7,7 @@
 namespace facetmill {
 
 /// Halfedges are corners: corner c runs from its vertex to the next corner's. An edge is sharp when it has
-/// one face or bends more than the creases allow.
+/// one face or bends by more than the feature angle.
 class SmoothRings {
   public:
     SmoothRings(const Mesh& mesh, const EdgeTable& edges, const SplitSettings& settings);

@@ -263,12 +263,12 @@ void require_manifold(const Mesh& mesh, SplitMethod method) {
         const auto& [low, high] = table.edges[e];
         if (at.size() > 2)
             refuse(method, fmt::format("the edge of vertices {} and {} has {} faces", low, high, at.size()),
-                   "clean repairs non-manifold places; midpoint splits them as they are");
+                   "clean repairs non-manifold edges and vertices; midpoint splits them as they are");
         if (at.size() == 2 && (mesh.vertex(at[0]) == low) == (mesh.vertex(at[1]) == low))
-            refuse(
-                method,
-                fmt::format("the faces at the edge of vertices {} and {} disagree in direction", low, high),
-                "orient makes neighbours agree; midpoint splits them as they are");
+            refuse(method,
+                   fmt::format("the faces at the edge of vertices {} and {} are oriented inconsistently", low,
+                               high),
+                   "orient makes neighbouring faces consistent; midpoint splits them as they are");
     }
     for (Index c = 0; c < mesh.corner_count(); ++c)
         if (table.corner_edge[c] == none)
@@ -277,8 +277,8 @@ void require_manifold(const Mesh& mesh, SplitMethod method) {
     const auto fans = fans_at_vertices(mesh, table);
     for (Index v = 0; v < fans.size(); ++v)
         if (fans[v] > 1)
-            refuse(method, fmt::format("{} fans of faces meet at vertex {} only", fans[v], v),
-                   "clean repairs non-manifold places; midpoint splits them as they are");
+            refuse(method, fmt::format("{} fans of faces meet only at vertex {}", fans[v], v),
+                   "clean repairs non-manifold edges and vertices; midpoint splits them as they are");
 }
 
 Mesh split_smooth(const Mesh& mesh, const SplitSettings& settings, int pass, Fates& fates) {

@@ -39,8 +39,8 @@ void check_polygons(const Mesh& mesh, SplitMethod method) {
             throw Error(ErrorKind::stage, "E-POLYGON",
                         fmt::format("split: {} takes faces of at most {} corners, face {} has {}",
                                     to_string(method), most, f, mesh.face_size(f)),
-                        most == 4 ? "'split: quads' before it makes quads of every face"
-                                  : "'triangulate' before it makes triangles of every face");
+                        most == 4 ? "use 'split: quads' first to make quads of every face"
+                                  : "use triangulate first to make triangles of every face");
 }
 
 /// Whether every face becomes as many as it has corners, or four, and all edges are cut.
@@ -114,7 +114,7 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
         const Mesh& next_from = quads_left ? triangles : *from;
         SplitCensus next(next_from);
         next.pass(settings.method, settings.grid);
-        if (settings.faces > 0 && next.faces() > static_cast<double>(settings.faces)) {
+        if (settings.max_faces > 0 && next.faces() > static_cast<double>(settings.max_faces)) {
             result.stop = Stop::budget;
             break;
         }
@@ -155,10 +155,10 @@ void check_split_targets(const SplitSettings& s) {
         refuse("max_edge", "bisect, midpoint, quads, loop, butterfly or catmull-clark");
     if (s.min_angle > 0 && s.method != SplitMethod::bisect && s.method != SplitMethod::notch)
         refuse("min_angle", "bisect or notch");
-    if (s.cut == SplitSettings::Cut::widest_angle && (s.max_edge > 0 || s.min_angle > 0 || s.faces > 0))
+    if (s.cut == SplitSettings::Cut::widest_angle && (s.max_edge > 0 || s.min_angle > 0 || s.max_faces > 0))
         throw Error(ErrorKind::usage, "E-CONFLICT", "split: the cut at the widest angle reaches no target",
                     "cut in the middle of the longest edge, or give passes and no target");
-    if (s.min_angle > 0 && (s.max_edge > 0 || s.faces > 0))
+    if (s.min_angle > 0 && (s.max_edge > 0 || s.max_faces > 0))
         throw Error(ErrorKind::usage, "E-CONFLICT", "split: min_angle goes with no other target",
                     "use two split stages");
 }
@@ -168,7 +168,7 @@ SplitResult split(const Mesh& mesh, const SplitSettings& settings) {
     check_polygons(mesh, settings.method);
     if (settings.min_angle <= 0) refuse_giant_split(mesh, split_corner_estimate(mesh, settings));
     if (is_smooth(settings.method) && settings.passes > 0) require_manifold(mesh, settings.method);
-    if (settings.method == SplitMethod::bisect && (settings.max_edge > 0 || settings.faces > 0))
+    if (settings.method == SplitMethod::bisect && (settings.max_edge > 0 || settings.max_faces > 0))
         return refine(mesh, settings);
     return repeated(mesh, settings);
 }

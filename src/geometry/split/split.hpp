@@ -43,9 +43,9 @@ struct SplitSettings {
     Cut cut = Cut::longest_edge; ///< of bisect
     double max_edge = 0;         ///< target, world units: until no edge is longer (0: none)
     double min_angle = 0;        ///< target, radians: only triangles with an angle below (0: none)
-    std::uint64_t faces = 0;     ///< target: longest edges first, and never more faces than this (0: none)
-    std::optional<double> creases = {}; ///< smooth methods, radians: edges that bend more stay sharp (none:
-                                        ///< only boundaries do)
+    std::uint64_t max_faces = 0; ///< target: longest edges first, and never more faces than this (0: none)
+    std::optional<double> feature_angle = {}; ///< smooth methods, radians: edges that bend more stay sharp
+                                              ///< (none: only boundaries do)
     Transform to_world = {};            ///< part space -> world, where lengths and angles are measured
 };
 
@@ -96,10 +96,10 @@ struct SplitResult {
 /// as fit.
 ///
 /// Smooth methods: Loop 1987 (Biermann's boundary rules), Kobbelt 2000, Zorin, Schroeder, Sweldens 1996,
-/// Catmull, Clark 1978. Their masks are those of OpenMesh's subdividers, which test them. A crease follows
-/// Hoppe 1994: cubic B-spline along it (butterfly: four-point curve), a vertex of three or more crease edges
-/// or at the end of a boundary stays, one of a single crease edge is smooth. They require a manifold,
-/// consistently oriented mesh.
+/// Catmull, Clark 1978. Their masks are those of OpenMesh's subdividers, which test them. A feature edge
+/// follows Hoppe 1994: cubic B-spline along it (butterfly: four-point curve), a vertex of three or more
+/// feature edges or at the end of a boundary stays, one of a single feature edge is smooth. They require a
+/// manifold, consistently oriented mesh.
 ///
 /// Requires a valid mesh. Refuses (stage, E-POLYGON) faces that the method does not know: more than four
 /// corners for grid, halve and diagonal, more than three for bisect, notch, loop, sqrt3, butterfly; (stage,

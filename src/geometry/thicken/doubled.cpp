@@ -52,7 +52,7 @@ void turn_wedges(Mesh& mesh, std::size_t first, Fates& fates) {
         }
         for (auto& f : fates)
             if (f.attribute == a.name && f.domain == a.domain)
-                f = {a.name, a.domain, Fate::Kind::recomputed, "turned on the back"};
+                f = {a.name, a.domain, Fate::Kind::recomputed, "reversed on the back"};
     }
 }
 

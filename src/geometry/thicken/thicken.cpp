@@ -179,7 +179,7 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     std::vector<Index> back(n), copies(n);
     for (Index v = 0; v < n; ++v) back[v] = n + v, copies[v] = v;
     Doubled d = doubled(mesh, back, copies);
-    const Directions ways = directions(mesh, s.corner_limit, s.to_world);
+    const Directions ways = directions(mesh, s.miter_limit, s.to_world);
     const double out = s.side == ThickenSide::outward   ? s.thickness
                        : s.side == ThickenSide::centred ? s.thickness / 2
                                                         : 0;

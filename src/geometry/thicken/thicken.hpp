@@ -15,7 +15,7 @@ enum class ThickenSide { outward, inward, centred };
 struct ThickenSettings {
     double thickness = 1; ///< above zero; in the space that to_world leads to
     ThickenSide side = ThickenSide::inward;
-    double corner_limit = 3;        ///< a vertex moves at most so many times the distance, at least 1
+    double miter_limit = 3;         ///< a vertex moves at most so many times the distance, at least 1
     bool self_intersections = true; ///< count them in the result
     Transform to_world{};           ///< where thickness is meant and measured; not singular
 };
@@ -24,7 +24,7 @@ struct ThickenResult {
     Mesh mesh;
     Fates fates;
     std::size_t wall_faces = 0;    ///< along open edges
-    std::size_t limited = 0;       ///< vertices that corner_limit held back
+    std::size_t limited = 0;       ///< vertices that miter_limit held back
     std::size_t still = 0;         ///< vertices without a normal (or of no face): they did not move
     double thinnest = 0, mean = 0; ///< from vertices and middles of faces of the front to the back, in world
     std::size_t unbalanced =
@@ -37,7 +37,7 @@ struct ThickenResult {
 /// of it turned round at the thickness behind, and walls along open edges. A closed surface becomes a hollow
 /// solid with a cavity. A vertex moves so that the planes of its faces move by the distance each, as nearly
 /// as one point allows (least squares, weighted by the angles of the faces at the vertex); where that goes
-/// farther than corner_limit it is held back. Wedges of the back have normals turned; walls have their own
+/// farther than miter_limit it is held back. Wedges of the back have normals turned; walls have their own
 /// when the mesh has normals. Requires a consistently oriented surface to be closed afterwards. Sheets that
 /// meet at an edge of more than two faces, or only at a vertex, are taken apart first, as clean does: each
 /// becomes a solid of its own. O(n log n).

@@ -398,7 +398,7 @@ Json manifold_extension(Builder& builder, const Mesh& mesh, const std::vector<In
         written.warnings.push_back(
             {Severity::warning,
              "W-MANIFOLD",
-             fmt::format("part '{}' is no closed manifold, so EXT_mesh_manifold is not written", name),
+             fmt::format("part '{}' is not a closed manifold, so EXT_mesh_manifold is not written", name),
              {},
              ""});
         return nullptr;

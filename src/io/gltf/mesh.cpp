@@ -477,7 +477,8 @@ bool merge_as_told(Source& source, const Place& mesh_place, Mesh& mesh, std::vec
     std::vector<Index> vertex_of(mesh.positions.size(), none);
     for (std::size_t c = 0; c < vertices.size(); ++c) {
         Index& v = vertex_of[mesh.corners[c]];
-        if (v != none && v != vertices[c]) return ignore("it puts one vertex of a primitive at two places");
+        if (v != none && v != vertices[c])
+            return ignore("it puts one vertex of a primitive at two positions");
         v = vertices[c];
         if (!(mesh.positions[v] == mesh.positions[mesh.corners[c]]))
             return ignore("it merges different positions");

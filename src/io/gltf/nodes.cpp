@@ -62,7 +62,7 @@ void link_children(const Place& node, std::size_t index, std::vector<NodeFrame>&
         int& parent = frames[child].parent;
         if (parent >= 0 && warn)
             warn("W-NODES",
-                 fmt::format("{}: node {} has two parents and is taken to stand under the first, nodes[{}]",
+                 fmt::format("{}: node {} has two parents and is placed under the first, nodes[{}]",
                              children->at(c).path(), child, parent));
         if (parent < 0) parent = static_cast<int>(index);
     }

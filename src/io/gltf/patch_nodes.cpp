@@ -122,11 +122,10 @@ void warn_of_animated_ancestor(Patch& patch, std::size_t n, const std::set<std::
     for (int p = patch.frames[n].parent; p >= 0; p = patch.frames[static_cast<std::size_t>(p)].parent) {
         const auto parent = static_cast<std::size_t>(p);
         if (animated.contains(parent) && wanted[parent] == patch.frames[parent].world)
-            return patch.warn(
-                "W-TRANSFORM",
-                fmt::format("nodes[{}] has moved under the animated nodes[{}], which stays: the "
-                            "animation plays about the old place",
-                            n, p));
+            return patch.warn("W-TRANSFORM",
+                              fmt::format("nodes[{}] has moved under the animated nodes[{}], which stays: "
+                                          "the animation plays around the old position",
+                                          n, p));
     }
 }
 

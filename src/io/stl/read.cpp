@@ -58,7 +58,7 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
                               bytes.size()));
     if (head + n * record != bytes.size())
         log.warnings.push_back({Severity::warning, "W-TRAILING",
-                                fmt::format("{} bytes behind the last of {} triangles are skipped",
+                                fmt::format("{} bytes after the last of {} triangles are skipped",
                                             bytes.size() - head - n * record, n),
                                 file_mark(input.name()), ""});
     check_count(input, settings, 3 * n);

@@ -23,15 +23,16 @@ std::string OptionType<BoxCorners>::print(const BoxCorners& value) {
 Json OptionType<BoxCorners>::schema() { return numbers_schema(6); }
 
 void declare_box(Declare<BoxOption>& d) {
-    d.option("min", &BoxOption::min, "The corner with the least coordinates, in scene units.");
-    d.option("max", &BoxOption::max, "The corner with the greatest.");
-    d.option("centre", &BoxOption::centre, "The middle, in scene units; with size.");
+    d.option("min", &BoxOption::min, "The corner with the smallest coordinates, in scene units.");
+    d.option("max", &BoxOption::max, "The corner with the largest coordinates, in scene units.");
+    d.option("centre", &BoxOption::centre, "The centre, in scene units; given together with size.");
     d.option("size", &BoxOption::size, "The lengths of the edges, in scene units.");
-    d.option("axis", &BoxOption::axis, "The direction around which angle turns the box, about its middle.");
-    d.option("angle", &BoxOption::angle, "How far the box is turned, anticlockwise seen against the axis.");
+    d.option("axis", &BoxOption::axis, "The axis of rotation for angle, through the centre of the box.");
+    d.option("angle", &BoxOption::angle,
+             "The rotation of the box, anticlockwise when looking against the axis.");
     d.at_most_one({"min", "centre"});
     d.at_most_one({"max", "size"});
-    d.shorthand("[x, y, z, X, Y, Z]: the least and the greatest corner", OptionType<BoxCorners>::schema(),
+    d.shorthand("[x, y, z, X, Y, Z]: the smallest and the largest corner", OptionType<BoxCorners>::schema(),
                 [](const Value& value, BoxOption& out, Problems& problems) {
                     BoxCorners c;
                     if (!OptionType<BoxCorners>::parse(value, c, problems)) return false;

@@ -25,7 +25,7 @@ void warn_of_open(std::string_view stage, const Part& part, const std::vector<Op
             fmt::format("{}: a contour of {} edges of part '{}' is open and was not capped; it ends at "
                         "({:.6g}, {:.6g}, {:.6g})",
                         stage, contour.edges, part.name, at.x, at.y, at.z),
-            "the part has a hole where the plane meets it; fill it first");
+            "the part has a hole where the plane cuts it: fill it first (clean: {holes: minimal})");
     }
 }
 

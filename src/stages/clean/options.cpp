@@ -16,40 +16,49 @@ void declare_holes(Declare<CleanHoleOptions>& d) {
     d.choice<HoleFill>(
          "method", &CleanHoleOptions::method,
          {{"minimal", HoleFill::minimal,
-           "triangles between the vertices of the outline, of least bend and area"},
-          {"planar", HoleFill::planar, "the outline as a polygon; only where it lies in a plane"},
-          {"smooth", HoleFill::smooth, "with new vertices, as dense as around the hole and curved as it"}},
-         "What a hole is filled with.")
+           "triangles between the vertices of the boundary loop, with the smallest dihedral angles and then "
+           "the smallest area"},
+          {"planar", HoleFill::planar, "the boundary loop as one polygon; only where it lies in a plane"},
+          {"smooth", HoleFill::smooth,
+           "a patch with new vertices that continues the density and the curvature around the hole"}},
+         "How a hole is filled.")
         .primary();
-    d.option("edges", &CleanHoleOptions::edges, "Holes with more edges stay (a count); 0: no limit.")
+    d.option("max_edges", &CleanHoleOptions::max_edges,
+             "Holes with more edges are left open (a count); 0: no limit.")
         .at_least(0);
-    d.option("length", &CleanHoleOptions::length, "Holes with a longer outline stay.").above(0);
+    d.option("max_length", &CleanHoleOptions::max_length, "Holes with a longer boundary loop are left open.")
+        .above(0);
 }
 
 void declare_components(Declare<CleanComponentOptions>& d) {
-    d.option("faces", &CleanComponentOptions::faces, "Pieces of fewer faces go (a count).")
+    d.option("min_faces", &CleanComponentOptions::min_faces,
+             "Components with fewer faces are removed (a count).")
         .at_least(0)
         .primary();
-    d.option("size", &CleanComponentOptions::size, "Pieces whose box has a shorter diagonal go.").above(0);
-    d.option("area", &CleanComponentOptions::area, "Pieces with a smaller share of the part's area go.")
+    d.option("min_size", &CleanComponentOptions::min_size,
+             "Components whose bounding box has a shorter diagonal are removed.")
+        .above(0);
+    d.option("min_area", &CleanComponentOptions::min_area,
+             "Components with a smaller share of the part's area are removed.")
         .at_most(1);
     d.option("keep", &CleanComponentOptions::keep,
-             "Only so many pieces stay, those of largest area (a count); 0: all.")
+             "At most this many components are kept, those of largest area (a count); 0: all.")
         .at_least(0);
 }
 
 /// A choice for which true and false are spellings, too.
 void declare_self_intersections(Declare<CleanOptions>& d) {
-    Option& o = d.choice<Untangle>("self_intersections", &CleanOptions::self_intersections,
-                                   {{"off", Untangle::off, "not at all (also: false)"},
-                                    {"local", Untangle::local,
-                                     "faces that intersect are replaced place by place, where that ends it"},
-                                    {"union", Untangle::unite,
-                                     "closed pieces that pass through each other or themselves become one "
-                                     "solid, exactly"},
-                                    {"all", Untangle::all, "union, then local for the rest (also: true)"}},
-                                   "What becomes of faces that intersect.")
-                    .option();
+    Option& o =
+        d.choice<Untangle>(
+             "self_intersections", &CleanOptions::self_intersections,
+             {{"off", Untangle::off, "they are left as they are (also: false)"},
+              {"local", Untangle::local,
+               "intersecting faces are replaced region by region, where that resolves the intersection"},
+              {"union", Untangle::unite,
+               "closed components that pass through each other or themselves become one solid, exactly"},
+              {"all", Untangle::all, "union, then local for what remains (also: true)"}},
+             "What is done about intersecting faces.")
+            .option();
     o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
         const auto yes = v.is_scalar() && !v.deferred ? v.as_bool() : std::nullopt;
         if (!yes) return plain(self, v, target, problems);
@@ -62,31 +71,36 @@ void declare_self_intersections(Declare<CleanOptions>& d) {
 } // namespace
 
 void declare_clean(Declare<CleanOptions>& d) {
-    d.choice<Nearness>("weld", &CleanOptions::weld,
-                       nearness("vertices at exactly the same place become one",
-                                "and ends of open edges within `within`, but for corners of one face"),
-                       "Merges vertices; attributes stay apart, so seams stay seams.");
+    d.choice<Nearness>(
+        "weld", &CleanOptions::weld,
+        nearness(
+            "vertices at exactly the same position",
+            "also the ends of boundary edges within `tolerance` of each other, except corners of one face"),
+        "Merges vertices; their attributes stay separate, so seams stay seams.");
     d.option("degenerate", &CleanOptions::degenerate,
-             "Removes faces of exactly zero area and repeated corners, and closes what that opens.");
-    d.option("duplicates", &CleanOptions::duplicates,
-             "Keeps one of the faces with the same vertices; inner walls of two opposite faces go.");
-    d.choice<Nearness>(
-        "t_vertices", &CleanOptions::t_vertices,
-        nearness("a vertex exactly on an open edge is put on it", "and one within `within` of it"),
-        "Closes cracks where an open edge faces several shorter ones.");
-    d.choice<Nearness>(
-        "stitch", &CleanOptions::stitch,
-        nearness("open edges at exactly the same place", "open edges whose ends are within `within`"),
-        "Joins open edges that run against each other.");
+             "Removes faces of exactly zero area and repeated corners, and closes the gaps that this opens.");
+    d.option(
+        "duplicates", &CleanOptions::duplicates,
+        "Keeps one of several faces with the same vertices, and removes inner walls of two opposite faces.");
+    d.choice<Nearness>("t_junctions", &CleanOptions::t_junctions,
+                       nearness("where a vertex lies exactly on a boundary edge",
+                                "also where it lies within `tolerance` of it"),
+                       "Closes cracks where one boundary edge runs along several shorter ones, by inserting "
+                       "their vertices into it.");
+    d.choice<Nearness>("stitch", &CleanOptions::stitch,
+                       nearness("boundary edges at exactly the same position",
+                                "boundary edges whose ends are within `tolerance` of each other"),
+                       "Joins boundary edges that run in opposite directions.");
     d.option("non_manifold", &CleanOptions::non_manifold,
-             "Takes edges of more than two faces and vertices of several fans apart.");
+             "Separates edges with more than two faces and vertices with several fans.");
     declare_self_intersections(d);
-    d.group("holes", &CleanOptions::holes, "Fills holes; without it they stay.", declare_holes);
-    d.group("components", &CleanOptions::components, "Removes small pieces; without it they stay.",
+    d.group("holes", &CleanOptions::holes, "Fills holes; if not given, they stay open.", declare_holes);
+    d.group("components", &CleanOptions::components, "Removes small components; if not given, they are kept.",
             declare_components);
-    d.option("shells", &CleanOptions::shells, "Removes closed pieces that lie inside others.");
+    d.option("inner_components", &CleanOptions::inner_components,
+             "Removes closed components that lie inside others.");
     d.option("isolated", &CleanOptions::isolated, "Removes vertices that no face uses.");
-    d.option("within", &CleanOptions::within, "How near `near` is.").above(0);
+    d.option("tolerance", &CleanOptions::tolerance, "The distance for steps that are set to near.").above(0);
 }
 
 CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part, Context& context) {
@@ -95,32 +109,36 @@ CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Pa
         return l ? context.resolve(*l, scene, option, &part) / stretch : 0;
     };
     CleanSettings s;
-    s.weld = o.weld, s.stitch = o.stitch, s.t_vertices = o.t_vertices;
+    s.weld = o.weld, s.stitch = o.stitch, s.t_junctions = o.t_junctions;
     s.degenerate = o.degenerate, s.duplicates = o.duplicates, s.non_manifold = o.non_manifold;
-    s.isolated = o.isolated, s.shells = o.shells, s.self_intersections = o.self_intersections;
-    s.within = local(o.within, "within");
+    s.isolated = o.isolated, s.inner_components = o.inner_components,
+    s.self_intersections = o.self_intersections;
+    s.tolerance = local(o.tolerance, "tolerance");
     if (o.holes)
-        s.holes = HoleSettings{o.holes->method, static_cast<std::size_t>(o.holes->edges),
-                               local(o.holes->length, "holes.length")};
+        s.holes = HoleSettings{o.holes->method, static_cast<std::size_t>(o.holes->max_edges),
+                               local(o.holes->max_length, "holes.max_length")};
     if (o.components)
-        s.components = ComponentSettings{
-            static_cast<std::size_t>(o.components->faces), local(o.components->size, "components.size"),
-            o.components->area ? o.components->area->value : 0, static_cast<std::size_t>(o.components->keep)};
+        s.components = ComponentSettings{static_cast<std::size_t>(o.components->min_faces),
+                                         local(o.components->min_size, "components.min_size"),
+                                         o.components->min_area ? o.components->min_area->value : 0,
+                                         static_cast<std::size_t>(o.components->keep)};
     return s;
 }
 
 void verify_clean(const CleanOptions& o, const Value& given, Problems& problems) {
     const bool near =
-        o.weld == Nearness::near || o.stitch == Nearness::near || o.t_vertices == Nearness::near;
-    if (near && !o.within)
-        problems.add(given.mark, "E-MISSING", "clean: near needs a length", "within: 0.01% (or 0.1mm)");
-    if (!near && o.within)
-        problems.add(given.mark, "E-CONFLICT", "clean: within has no effect on exact steps",
-                     "weld: near, stitch: near or t_vertices: near");
+        o.weld == Nearness::near || o.stitch == Nearness::near || o.t_junctions == Nearness::near;
+    if (near && !o.tolerance)
+        problems.add(given.mark, "E-MISSING", "clean: near needs a tolerance", "tolerance: 0.01% (or 0.1mm)");
+    if (!near && o.tolerance)
+        problems.add(given.mark, "E-CONFLICT",
+                     "clean: tolerance has no effect, because no step is set to near",
+                     "weld: near, stitch: near or t_junctions: near");
     const auto& c = o.components;
-    if (c && c->faces == 0 && !c->size && !c->area && c->keep == 0)
-        problems.add(given.mark, "E-MISSING", "clean: components needs to know which are small",
-                     "components: {faces: 100}, {size: 1%}, {area: 1%} or {keep: 1}");
+    if (c && c->min_faces == 0 && !c->min_size && !c->min_area && c->keep == 0)
+        problems.add(given.mark, "E-MISSING",
+                     "clean: components needs a limit that says which components are small",
+                     "components: {min_faces: 100}, {min_size: 1%}, {min_area: 1%} or {keep: 1}");
 }
 
 } // namespace facetmill

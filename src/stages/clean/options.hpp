@@ -8,22 +8,22 @@ namespace facetmill {
 
 struct CleanHoleOptions {
     HoleFill method = HoleFill::minimal;
-    std::int64_t edges = 0;
-    std::optional<Length> length;
+    std::int64_t max_edges = 0;
+    std::optional<Length> max_length;
 };
 
 struct CleanComponentOptions {
-    std::int64_t faces = 0;
-    std::optional<Length> size;
-    std::optional<Ratio> area;
+    std::int64_t min_faces = 0;
+    std::optional<Length> min_size;
+    std::optional<Ratio> min_area;
     std::int64_t keep = 0;
 };
 
 struct CleanOptions {
-    Nearness weld = Nearness::exact, stitch = Nearness::off, t_vertices = Nearness::exact;
-    bool degenerate = true, duplicates = true, non_manifold = true, isolated = true, shells = false;
+    Nearness weld = Nearness::exact, stitch = Nearness::off, t_junctions = Nearness::exact;
+    bool degenerate = true, duplicates = true, non_manifold = true, isolated = true, inner_components = false;
     Untangle self_intersections = Untangle::off;
-    std::optional<Length> within;
+    std::optional<Length> tolerance;
     std::optional<CleanHoleOptions> holes;
     std::optional<CleanComponentOptions> components;
 };

@@ -12,11 +12,12 @@ namespace {
 void warn(const Part& part, const ClipResult& r, bool had_faces, Context& context) {
     warn_of_open("clip", part, r.open, context);
     if (!r.changed && had_faces)
-        context.warn("W-CLIP-ALL", fmt::format("clip: no plane met part '{}', all of it was kept", part.name),
-                     "check the plane's place and side; info prints the bounds");
+        context.warn("W-CLIP-ALL",
+                     fmt::format("clip: no plane cuts part '{}'; all of it was kept", part.name),
+                     "check the position and direction of the plane; info prints the bounds");
     if (had_faces && r.front.face_count() + r.back.face_count() == 0)
         context.warn("W-CLIP-NOTHING", fmt::format("clip: nothing of part '{}' was kept", part.name),
-                     "check the plane's place and side; keep: back keeps the other side");
+                     "check the position and direction of the plane; keep: back keeps the other side");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
-#include "stages/clip/parts.hpp"
 #include "stage/options/snap.hpp"
 #include "stage/stage.hpp"
+#include "stages/clip/help.hpp"
+#include "stages/clip/parts.hpp"
 
 namespace facetmill {
 
@@ -21,21 +22,20 @@ void declare(Declare<ClipOptions>& d) {
         "keep", &ClipOptions::keep,
         {{"inside", Keep::front, "of a box: the same as front"},
          {"outside", Keep::back, "of a box: the same as back"},
-         {"front", Keep::front, "what lies on the side that the normal points to, or in the box"},
+         {"front", Keep::front, "what lies on the side that the normal points to, or inside the box"},
          {"back", Keep::back, "what lies on the other side, or around the box"},
          {"both", Keep::both,
-          "both, as parts NAME.front and NAME.back (NAME.inside, NAME.outside); of several planes the back "
-          "is all that is not in front of every one"}},
-        "Which side stays.");
+          "both, as parts NAME.front and NAME.back (NAME.inside, NAME.outside); with several planes the back "
+          "is everything that is not in front of all of them"}},
+        "Which side is kept.");
     declare_cap(d, &ClipOptions::cap, &ClipOptions::cap_material);
     d.option("triangulate", &ClipOptions::triangulate,
-             "Leave triangles only; without it a cut triangle may become a quad.");
+             "Cut all faces into triangles; without this, a cut triangle may become a quad.");
     declare_space(d);
-    d.choice<Coplanar>(
-        "coplanar", &ClipOptions::coplanar,
-        {{"keep", Coplanar::keep, "they stay"}, {"drop", Coplanar::drop, "they go"}},
-        "Faces of open parts that lie in the plane. Those of closed parts stay when they look away "
-        "from what stays.");
+    d.choice<Coplanar>("coplanar", &ClipOptions::coplanar,
+                       {{"keep", Coplanar::keep, "they stay"}, {"drop", Coplanar::drop, "they go"}},
+                       "What is done with faces of open parts that lie in the plane. Those of closed parts "
+                       "are kept when they face away from what is kept.");
     declare_snap(d, &ClipOptions::snap, "a plane");
 }
 
@@ -76,27 +76,8 @@ Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& repor
 
 const RegisterStage clip_stage = make_stage<ClipOptions>(
     {.name = "clip",
-     .about = "Clips by planes and boxes, with watertight caps.",
-     .details =
-         "Every vertex is classified once, by the exact sign of its distance, so neighbours always agree and "
-         "a vertex on the plane is neither in front nor behind. Each cut edge gets one new vertex, shared by "
-         "all faces there. Triangles, quads and larger faces, convex or not, are cut directly. A closed part "
-         "that is capped stays closed, whatever it looks like: with several planes in a row, non-manifold, "
-         "or crossing itself (where it covers a place twice, so does its cap). Points that a clip made on a "
-         "plane count as on it when the plane comes again, in this stage or a later one, until a stage moves "
-         "them.\n\n"
-         "Planes stand in the scene; parts with a node transform are cut where they stand. A closed part's "
-         "face in the plane stays only when it looks away from what stays. A contour that does not close "
-         "cannot be capped: it is named (W-CAP-OPEN) and the rest is done. A plane that misses says so "
-         "(W-CLIP-ALL, W-CLIP-NOTHING); a part of which nothing is kept stays as an empty part.\n\n"
-         "A box keeps what is in it, or around it: the two fit exactly, and with caps both are closed. So it "
-         "is with several planes and keep: both; keep: back alone is what is behind each of them.\n\n"
-         "New vertices and wedges are interpolated, once per edge and pair of wedges, so seams stay seams; "
-         "pieces copy the attributes of their face. Caps have a primitive and material of their own, the "
-         "plane's normal, planar texture coordinates when the part has TEXCOORD_0, and zeros in other face "
-         "attributes; the face attributes cut_id (the plane's number; 0 elsewhere) and group tell them "
-         "apart.\n\n"
-         "Source: the note on clipping facets by a plane (1997).",
+     .about = help::clip::about,
+     .details = help::clip::details,
      .examples = {"clip: z=0.2", "clip: {plane: {normal: [0, 0, 1], through: centre}, cap: true}",
                   "clip: {planes: [x=10%, [-1, 0, 0, 0.5]], cap: true}",
                   "clip: {plane: z=centre, keep: both, cap: true}",

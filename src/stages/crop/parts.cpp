@@ -57,7 +57,8 @@ class CropRun {
     }
 
     void warn(const Part& part, const std::vector<CropResult>& sides, std::size_t faces) {
-        constexpr const char* hint = "check the footprint's place and axis; info prints the bounds";
+        constexpr const char* hint =
+            "check the position of the footprint and the axis; info prints the bounds";
         std::size_t left = 0;
         bool changed = false;
         for (const CropResult& r : sides) {
@@ -71,8 +72,7 @@ class CropRun {
         else if (faces > 0 && !changed)
             context_.warn(
                 "W-CROP-ALL",
-                fmt::format("crop: the outline does not meet part '{}', all of it was kept", part.name),
-                hint);
+                fmt::format("crop: the outline does not cut part '{}'; all of it was kept", part.name), hint);
     }
 
     Scene& scene_;

@@ -1,8 +1,9 @@
 #include "stage/options/cap.hpp"
-#include "stages/crop/parts.hpp"
-#include "stages/crop/footprint.hpp"
 #include "stage/options/snap.hpp"
 #include "stage/stage.hpp"
+#include "stages/crop/footprint.hpp"
+#include "stages/crop/help.hpp"
+#include "stages/crop/parts.hpp"
 
 namespace facetmill {
 
@@ -24,9 +25,8 @@ struct CropOptions {
 
 void declare(Declare<CropOptions>& d) {
     d.option("footprint", &CropOptions::footprint,
-             "The polygon, in scene units: a GeoJSON, WKT or DXF file; WKT; a ring of points, or a list of "
-             "rings, of "
-             "which those within others are holes.")
+             "The polygon, in scene units: a GeoJSON, WKT or DXF file; WKT text; a ring of points; or a list "
+             "of rings, where a ring inside another is a hole.")
         .required()
         .primary();
     d.choice<Axis>("axis", &CropOptions::axis,
@@ -35,24 +35,26 @@ void declare(Declare<CropOptions>& d) {
                     {"y", Axis::y, "the footprint is in x and z"},
                     {"z", Axis::z, "the footprint is in x and y"}},
                    "The axis to look along.");
-    d.choice<CropBy>("by", &CropOptions::by,
-                     {{"cut", CropBy::cut, "faces are cut at the outline"},
-                      {"whole", CropBy::whole, "faces that lie wholly on the kept side stay"},
-                      {"centre", CropBy::centre, "faces whose corners' mean lies there stay"},
-                      {"touching", CropBy::touching, "faces of which any part lies there stay"}},
-                     "What happens to faces at the outline.");
+    d.choice<CropBy>(
+        "by", &CropOptions::by,
+        {{"cut", CropBy::cut, "faces are cut at the outline"},
+         {"whole", CropBy::whole, "faces that lie entirely on the kept side are kept whole"},
+         {"centre", CropBy::centre,
+          "faces whose centroid (the mean of their corners) lies on the kept side are kept whole"},
+         {"touching", CropBy::touching, "faces of which any part lies on the kept side are kept whole"}},
+        "What is done with faces at the outline.");
     d.choice<CropKeep>("keep", &CropOptions::keep,
                        {{"inside", CropKeep::inside, "what lies in the polygon and not in its holes"},
                         {"outside", CropKeep::outside, "the rest"},
                         {"both", CropKeep::both, "both, as parts NAME.inside and NAME.outside"}},
-                       "Which side stays.");
+                       "Which side is kept.");
     d.choice<InsideBy>(
         "inside_by", &CropOptions::inside_by,
-        {{"crossings", InsideBy::crossings, "how many edges lie to one side; exact and fast"},
+        {{"crossings", InsideBy::crossings, "the number of edges that a ray crosses; exact and fast"},
          {"angles", InsideBy::angles, "the sum of the angles that the edges subtend"},
-         {"half_planes", InsideBy::half_planes, "one side of all edges; for one convex ring"},
+         {"half_planes", InsideBy::half_planes, "being on the same side of all edges; for one convex ring"},
          {"angles_3d", InsideBy::angles_3d, "the sum of unsigned angles; for one convex ring"}},
-        "How it is found whether a point is inside; all give the same.");
+        "How points are tested; all methods give the same result.");
     declare_cap(d, &CropOptions::cap, &CropOptions::cap_material);
     declare_snap(d, &CropOptions::snap, "the outline");
 }
@@ -92,8 +94,8 @@ void verify(const CropOptions& o, const Value& given, Problems& problems) {
     if (footprint) verify_footprint(o.footprint, *footprint, "crop", problems);
     if (o.cap && o.by != CropBy::cut)
         problems.add(find("cap")->mark, "E-CONFLICT",
-                     "crop: walls stand on the outline, and by whole faces nothing is cut there",
-                     "leave out cap, or take by: cut");
+                     "crop: cap needs a cut at the outline, and with whole faces there is none",
+                     "leave out cap, or use by: cut");
 }
 
 StageFiles files(const CropOptions& o) {
@@ -103,25 +105,8 @@ StageFiles files(const CropOptions& o) {
 
 const RegisterStage registered{make_stage<CropOptions>(
     {.name = "crop",
-     .about = "Keeps what lies in a polygon seen along an axis, or outside it.",
-     .details =
-         "The footprint is a polygon with holes and islands, in the world's coordinates across the axis. "
-         "What is in an odd number of its rings is inside, whichever way round they run; a last point that "
-         "repeats the first may be there or not. A footprint that crosses itself is refused with the "
-         "place.\n\n"
-         "Cut at the outline, faces get points where the outline passes over them, one for each edge, shared "
-         "by the faces there, so no crack opens; a face at a corner of the outline falls into a few more "
-         "pieces than it must. With cap, a closed part stays closed: upright walls stand on the outline and "
-         "on its holes, and those of the inside and the outside fit exactly. cut_id numbers the walls by the "
-         "outline's segments, group by its rings. Without cap, closed parts become open. Positions that are "
-         "32-bit floats count as on the outline within one float's rounding of the part's bounds: the 0.1 of "
-         "an STL is not that of a footprint. New vertices and wedges are interpolated, pieces copy the "
-         "attributes of their face. By whole faces, nothing is mixed; corners on the outline count to either "
-         "side.\n\n"
-         "Files: GeoJSON (Polygon, MultiPolygon, features and collections of them), WKT (POLYGON, "
-         "MULTIPOLYGON), DXF as text (closed polylines and circles; arcs in segments of at most 5 "
-         "degrees).\n\n"
-         "Source: the note on points inside a polygon (1987).",
+     .about = help::crop::about,
+     .details = help::crop::details,
      .examples = {"crop: [[0, 0], [10, 0], [10, 5], [0, 5]]",
                   "crop: {footprint: \"POLYGON ((0 0, 4 0, 4 4, 0 4), (1 1, 2 1, 2 2, 1 2))\", by: whole}",
                   "crop: {footprint: parcel.geojson, keep: outside, axis: z}",

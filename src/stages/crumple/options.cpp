@@ -13,26 +13,23 @@ using Direction = CrumpleSettings::Direction;
 using Intersections = CrumpleOptions::Intersections;
 
 void declare_noise(Declare<CrumpleOptions>& d) {
-    d.option(
-         "frequency", &CrumpleOptions::frequency,
-         "How many bumps there are along the diagonal of the scene (a number without unit): vertices near "
-         "each other move alike. 0 moves every vertex on its own, as the note does.")
+    d.option("frequency", &CrumpleOptions::frequency,
+             "The number of bumps along the diagonal of the scene (a number without unit): vertices that are "
+             "near each other move alike. 0 moves every vertex independently.")
         .at_least(0);
-    d.option(
-         "octaves", &CrumpleOptions::octaves,
-         "Goes with frequency: how many noises are added, each of twice the frequency of the one before (a "
-         "count); several give a fractal surface.")
+    d.option("octaves", &CrumpleOptions::octaves,
+             "With frequency: the number of noise functions that are added, each of twice the frequency of "
+             "the one before (a count); several give a fractal surface.")
         .between(1, 32);
-    d.option(
-         "roughness", &CrumpleOptions::roughness,
-         "Goes with frequency and octaves: the amount of each beside the one before (a share, without unit).")
+    d.option("roughness", &CrumpleOptions::roughness,
+             "With frequency and octaves: the amplitude of each octave relative to the one before (a ratio, "
+             "without unit).")
         .above(0)
         .at_most(1);
-    d.option("seed", &CrumpleOptions::seed, "Another seed gives other noise (an integer, without unit).")
+    d.option("seed", &CrumpleOptions::seed, "The seed of the random numbers (an integer, without unit).")
         .at_least(0);
     d.option("truncate", &CrumpleOptions::truncate,
-             "No amount is larger than this many standard deviations (without unit); the distribution is cut "
-             "off there.")
+             "The distribution is cut off at this many standard deviations (a number without unit).")
         .between(0.1, 100);
 }
 
@@ -45,29 +42,30 @@ void declare_crumple(Declare<CrumpleOptions>& d) {
         .at_least(0)
         .primary();
     d.option("grid", &CrumpleOptions::grid,
-             "How many pieces each edge is cut into before (a count): every face becomes n x n; 1 leaves "
-             "them whole.")
+             "The number of segments that each edge is first cut into (a count): every face becomes n x n "
+             "faces; 1 leaves faces whole.")
         .between(1, 10000);
     d.choice<Direction>("direction", &CrumpleOptions::direction,
                         {{"free", Direction::free, "three independent amounts along x, y and z"},
                          {"normal", Direction::normal, "one amount along the vertex normal"}},
-                        "Where vertices go.");
+                        "The direction in which vertices move.");
     d.choice<Boundary>(
         "boundary", &CrumpleOptions::boundary,
-        {{"free", Boundary::free, "they move as all others"}, {"fixed", Boundary::fixed, "they stay"}},
-        "What boundary vertices do: those on an edge with exactly one face, unwelded copies counted as one.");
-    d.choice<Intersections>(
-        "self_intersections", &CrumpleOptions::self_intersections,
-        {{"allow", Intersections::allow, "faces may come to meet"},
-         {"avoid", Intersections::avoid,
-          "vertices of faces that would meet go 1/2, 1/4 ... 1/256 of their way, or stay"},
-         {"forbid", Intersections::forbid, "fail when faces would meet"}},
-        "What happens when faces of a part would run into each other or fold over. With avoid and forbid, "
-        "positions are rounded to float32, which is what files hold.");
+        {{"free", Boundary::free, "they move like all others"}, {"fixed", Boundary::fixed, "they stay"}},
+        "How boundary vertices move: those on an edge with exactly one face, where unwelded copies count as "
+        "one vertex.");
+    d.choice<Intersections>("self_intersections", &CrumpleOptions::self_intersections,
+                            {{"allow", Intersections::allow, "faces may come to intersect"},
+                             {"avoid", Intersections::avoid,
+                              "vertices of faces that would intersect move by 1/2, 1/4 ... 1/256 of their "
+                              "displacement, or stay in place"},
+                             {"forbid", Intersections::forbid, "fails when faces would intersect"}},
+                            "What is done when faces of a part would intersect or fold over. With avoid and "
+                            "forbid, positions are rounded to float32, the precision of most files.");
     d.group("mask", &CrumpleOptions::mask, mask_help, declare_mask);
     declare_noise(d);
     d.option("triangulate", &CrumpleOptions::triangulate,
-             "Cut the quads, which are no longer planar, into triangles along the shorter diagonal.");
+             "Cut the quads, which are no longer planar, into triangles along their shorter diagonal.");
 }
 
 void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& problems) {

@@ -72,11 +72,11 @@ void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> pa
     const Vec3 p = place_of(work, r.first.first);
     throw Error(
         ErrorKind::stage, "E-INTERSECTS",
-        fmt::format("crumple: {} pairs of {} would run into each other, first {} of part '{}', near "
-                    "({:.6g}, {:.6g}, {:.6g})",
-                    r.found, grid > 1 ? "pieces of faces" : "faces",
-                    a == b ? fmt::format("in face {} itself", a) : fmt::format("faces {} and {}", a, b),
-                    work.part->name, p.x, p.y, p.z),
+        fmt::format(
+            "crumple: {} pairs of {} would intersect, first {} of part '{}', near ({:.6g}, {:.6g}, {:.6g})",
+            r.found, grid > 1 ? "subdivided faces" : "faces",
+            a == b ? fmt::format("in face {} itself", a) : fmt::format("faces {} and {}", a, b),
+            work.part->name, p.x, p.y, p.z),
         "use self_intersections: avoid, or a smaller amplitude");
 }
 
@@ -85,19 +85,20 @@ void warn_of_tangles(const CrumpledPart& work, double amplitude, Context& contex
     if (!(amplitude > edge && edge > 0)) return;
     context.warn(
         "W-AMPLITUDE",
-        fmt::format("crumple: the amplitude {:.3g} is larger than the mean edge {:.3g} of part '{}': faces "
-                    "run into each other",
-                    amplitude, edge, work.part->name),
+        fmt::format(
+            "crumple: the amplitude {:.3g} is larger than the mean edge {:.3g} of part '{}': faces intersect",
+            amplitude, edge, work.part->name),
         fmt::format("use self_intersections: avoid, or an amplitude below about {:.2g}", edge / 4));
 }
 
 void warn_of_folds(const CrumpledPart& work, Context& context) {
     if (work.pieces.folded > 0)
-        context.warn("W-SPLIT-FOLDED",
-                     fmt::format("in part '{}' {} faces are concave or cross themselves: their pieces lie "
-                                 "over each other",
-                                 work.part->name, work.pieces.folded),
-                     "triangulate before it");
+        context.warn(
+            "W-SPLIT-FOLDED",
+            fmt::format(
+                "in part '{}' {} faces are concave or intersect themselves: the faces made of them overlap",
+                work.part->name, work.pieces.folded),
+            "use triangulate first");
 }
 
 void warn_of_parts(const Scene& scene, Context& context) {
@@ -114,10 +115,10 @@ void warn_of_parts(const Scene& scene, Context& context) {
             if (!overlap(boxes[i], boxes[j])) continue;
             if (!context.selects(a, scene) && !context.selects(b, scene)) continue;
             return context.warn("W-CRUMPLE-PARTS",
-                                fmt::format("crumple keeps faces of one part apart; the boxes of the parts "
-                                            "'{}' and '{}' overlap, so faces of one may meet the other",
+                                fmt::format("crumple keeps apart only faces of the same part; the boxes of "
+                                            "the parts '{}' and '{}' overlap, so their faces may intersect",
                                             a.name, b.name),
-                                "merge before it makes one part of them");
+                                "use merge first to make them one part");
         }
 }
 

@@ -1,9 +1,10 @@
 #include "base/memory.hpp"
 #include "geometry/edit/moved.hpp"
 #include "mesh/placement.hpp"
+#include "stage/stage.hpp"
+#include "stages/crumple/help.hpp"
 #include "stages/crumple/options.hpp"
 #include "stages/crumple/report.hpp"
-#include "stage/stage.hpp"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,7 @@ SplitResult split_part(const Part& part, std::int64_t grid) {
             if (d.message.starts_with("split: "))
                 d.message = fmt::format("crumple: part '{}', every face split {} x {}: {}", part.name, grid,
                                         grid, d.message.substr(7));
-            if (e.kind() == ErrorKind::limit) d.hint = "use a smaller grid, or simplify before";
+            if (e.kind() == ErrorKind::limit) d.hint = "use a smaller grid, or simplify first";
         }
         throw Error(e.kind(), std::move(diagnostics));
     }
@@ -91,29 +92,8 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
 
 const RegisterStage registered = make_stage<CrumpleOptions>(
     {.name = "crumple",
-     .about = "Roughens a surface: faces are split n x n and every vertex is displaced by a Gaussian amount.",
-     .details =
-         "Each vertex moves once, by normally distributed amounts of mean 0 and the given standard "
-         "deviation, cut off at `truncate`. Faces that share a vertex move with it, so nothing tears and the "
-         "topology stays, with boundary: fixed and under a mask too, where a place moves by the least share "
-         "of all vertices there; faces may come to intersect when the amplitude is large beside their "
-         "size.\n\n"
-         "The noise at a vertex depends on the seed and on its world position rounded to float32, and on "
-         "nothing else: vertices at one place move together across seams, unwelded copies, parts and files, "
-         "and neither the order of vertices nor the number of threads matters. Along the normal, places "
-         "shared by several parts have a normal in each and may part; and a frequency is counted along the "
-         "scene, so files crumple alike only when their diagonals are the same.\n\n"
-         "With self_intersections: avoid, each place has a share of its move: 1, 1/2 ... 1/256, 0. In every "
-         "round all pairs of faces that newly meet, fold over or lose their area are found, exactly, and "
-         "their vertices take the next lower share, all at once, until there are none; after eight rounds "
-         "the vertices around them too. Pairs that met before are exempt. The report has how many pairs "
-         "there would have been and how many vertices got which share. Only faces of the same part are kept "
-         "apart (W-CRUMPLE-PARTS warns when others are near), and what they need of memory is refused before "
-         "it starts.\n\n"
-         "Splitting interpolates vertex and wedge attributes and copies those of faces; then normals are "
-         "recomputed, tangents made perpendicular to them, and all else is kept. The report has the largest "
-         "and the root mean square displacement, in world units.\n\n"
-         "Source: the note 'Geometric crumpling' (1994).",
+     .about = help::crumple::about,
+     .details = help::crumple::details,
      .examples = {"crumple: 0.2%", "crumple: {grid: 3, amplitude: 0.5mm, seed: 7}",
                   "crumple: {grid: 1, amplitude: 1%, direction: normal, boundary: fixed}",
                   "crumple: {grid: 4, amplitude: 1%, self_intersections: avoid}",

@@ -1,5 +1,6 @@
 #include "stage/contract.hpp"
 #include "stage/stage.hpp"
+#include "stages/ensure/help.hpp"
 
 namespace facetmill {
 
@@ -12,11 +13,10 @@ struct EnsureOptions {
 
 void declare(Declare<EnsureOptions>& d) {
     declare_properties(d, &EnsureOptions::assertions, "ensure");
-    d.group(
-        "deviation", &EnsureOptions::deviation,
-        "How far the surface may be from the scene as loaded, both ways; as a common key of a stage, from "
-        "what entered it.",
-        declare_deviation);
+    d.group("deviation", &EnsureOptions::deviation,
+            "How far the surface may be from the scene as loaded, measured both ways; as a common key of a "
+            "stage, from the scene that entered it.",
+            declare_deviation);
 }
 
 Scene run(Scene scene, const EnsureOptions& o, Context& context) {
@@ -38,11 +38,8 @@ void verify(const EnsureOptions& o, const Value& given, Problems& problems) {
 
 const RegisterStage registered{make_stage<EnsureOptions>(
     {.name = "ensure",
-     .about = "A contract: the properties must hold here, or the run fails.",
-     .details =
-         "The same assertions as the common key `ensure`, as a stage of its own: what it says must hold for "
-         "the scene at this place. Use validate to judge with evidence, per part, or as a warning only. The "
-         "mesh is passed on as it is.",
+     .about = help::ensure::about,
+     .details = help::ensure::details,
      .examples = {"ensure: {closed: true}", "ensure: {faces: {max: 5000}, components: 1}",
                   "ensure: {deviation: 0.5%}", "ensure: {unit: mm, bounds: {max: [20cm, 20cm, 5cm]}}"},
      .checks = true},

@@ -17,15 +17,15 @@ struct ShapeOptions {
 
 const std::vector<ShapeOptions>& shape_table() {
     static const std::vector<ShapeOptions> table = {
-        {Shape::sphere, "sphere", {"radius", "faces", "around", "across"}},
-        {Shape::icosphere, "icosphere", {"radius", "level"}},
+        {Shape::sphere, "sphere", {"radius", "faces", "segments", "rings"}},
+        {Shape::icosphere, "icosphere", {"radius", "subdivisions"}},
         {Shape::cube, "cube", {"size", "cells"}},
         {Shape::grid, "grid", {"size", "cells"}},
-        {Shape::torus, "torus", {"radius", "tube", "around", "across"}},
-        {Shape::cylinder, "cylinder", {"radius", "height", "around", "across", "caps"}},
-        {Shape::cone, "cone", {"radius", "height", "around", "across", "caps"}},
+        {Shape::torus, "torus", {"radius", "minor_radius", "segments", "rings"}},
+        {Shape::cylinder, "cylinder", {"radius", "height", "segments", "rings", "caps"}},
+        {Shape::cone, "cone", {"radius", "height", "segments", "rings", "caps"}},
         {Shape::gaussian, "gaussian", {"size", "cells", "height", "spread"}},
-        {Shape::menger, "menger", {"size", "level"}},
+        {Shape::menger, "menger", {"size", "subdivisions"}},
     };
     return table;
 }
@@ -41,45 +41,44 @@ bool takes(const ShapeOptions& shape, const std::string& option) {
 
 void declare_sizes(Declare<GenerateOptions>& d) {
     d.option("radius", &GenerateOptions::radius,
-             "Of sphere, icosphere, cylinder and cone; of the circle that the torus' tube follows (a length; "
-             "1 unless given).")
+             "The radius of sphere, icosphere, cylinder and cone, and of the circle that the tube of the "
+             "torus follows (a length; 1 unless given).")
         .above(0);
-    d.option("tube", &GenerateOptions::tube, "Radius of the torus' tube (a length; 0.4 radii unless given).")
+    d.option("minor_radius", &GenerateOptions::minor_radius,
+             "The radius of the tube of the torus (a length; 0.4 times the radius unless given).")
         .above(0);
     d.option("size", &GenerateOptions::size,
-             "Side of cube, grid, gaussian and menger (a length; 2 unless given).")
+             "The side of cube, grid, gaussian and menger (a length; 2 unless given).")
         .above(0);
-    d.option(
-         "height", &GenerateOptions::height,
-         "Of cylinder and cone (a length; 2 radii unless given), or of the gaussian's peak (half its size "
-         "unless given).")
+    d.option("height", &GenerateOptions::height,
+             "The height of cylinder and cone (a length; twice the radius unless given), or of the peak of "
+             "the gaussian (half its size unless given).")
         .above(0);
     d.option("spread", &GenerateOptions::spread,
-             "Standard deviation of the gaussian (a length; 15% of its size unless given).")
+             "The standard deviation of the gaussian (a length; 15% of its size unless given).")
         .above(0);
 }
 
 void declare_counts(Declare<GenerateOptions>& d) {
     d.option("faces", &GenerateOptions::faces,
-             "Triangles of the sphere: the nearest number that bands allow whose faces at the equator are at "
-             "most twice as wide as high, or as high as wide (a count; 4000 unless given, which is 80 around "
-             "and 26 across).")
+             "The number of triangles of the sphere: segments and rings are chosen to come nearest to it "
+             "with faces at the equator that are at most twice as wide as high, or the reverse (a count; "
+             "4000 unless given, which is 80 segments and 26 rings).")
         .between(6, 700e6);
-    d.option("around", &GenerateOptions::around,
-             "Pieces around the axis of sphere, torus, cylinder and cone (a count; 48 unless given).")
+    d.option("segments", &GenerateOptions::segments,
+             "Segments around the axis of sphere, torus, cylinder and cone (a count; 48 unless given).")
         .between(3, 1e6);
-    d.option(
-         "across", &GenerateOptions::across,
-         "Bands of the sphere from pole to pole, pieces around the torus' tube (24 unless given), rows of "
-         "cylinder and cone (a count; 1 unless given).")
+    d.option("rings", &GenerateOptions::rings,
+             "Rings of faces of the sphere from pole to pole, or around the tube of the torus (24 unless "
+             "given), or along cylinder and cone (a count; 1 unless given).")
         .between(1, 1e6);
     d.option("cells", &GenerateOptions::cells,
              "Cells along each side of cube and grid (10 unless given) and of the gaussian (a count; 40 "
              "unless given).")
         .between(1, 20000);
-    d.option("level", &GenerateOptions::level,
-             "Of menger, 1 to 4 (2 unless given); how often the icosphere is refined, 0 to 12 (a count; 3 "
-             "unless given).")
+    d.option("subdivisions", &GenerateOptions::subdivisions,
+             "The level of menger, 1 to 4 (2 unless given), or how often the icosphere is refined, 0 to 12 "
+             "(a count; 3 unless given).")
         .between(0, 12);
 }
 
@@ -92,23 +91,26 @@ void verify_counts(const GenerateOptions& o, const Value& given, Problems& probl
                          fmt::format("'{}' of {} must be {} <= x <= {}, not {}", name, row_of(o.shape).name,
                                      least, most, *count));
     };
-    if (o.shape == Shape::menger) at_least("level", o.level, 1, 4);
-    if (o.shape == Shape::sphere) at_least("across", o.across, 2, 1000000);
-    if (o.shape == Shape::torus) at_least("across", o.across, 3, 1000000);
+    if (o.shape == Shape::menger) at_least("subdivisions", o.subdivisions, 1, 4);
+    if (o.shape == Shape::sphere) at_least("rings", o.rings, 2, 1000000);
+    if (o.shape == Shape::torus) at_least("rings", o.rings, 3, 1000000);
 }
 
 /// A tube that fills the torus' hole, as far as both lengths can be compared before there is a scene.
 void verify_torus(const GenerateOptions& o, const Value& given, Problems& problems) {
-    const Value* tube = given.find("tube");
-    if (o.shape != Shape::torus || !o.tube || !tube || tube->deferred) return;
+    const Value* minor = given.find("minor_radius");
+    if (o.shape != Shape::torus || !o.minor_radius || !minor || minor->deferred) return;
     const Value* radius = given.find("radius");
     if (radius && radius->deferred) return;
     const Length middle = o.radius.value_or(Length::scene(1));
-    if (middle.kind != o.tube->kind || middle.of != o.tube->of || o.tube->amount < middle.amount) return;
-    problems.add(tube->mark, "E-RANGE",
-                 fmt::format("generate: tube must be below the radius{}, not {}",
-                             o.radius ? " " + o.radius->text : ", which is 1 unless given", o.tube->text),
-                 "use a thinner tube or a larger radius");
+    if (middle.kind != o.minor_radius->kind || middle.of != o.minor_radius->of ||
+        o.minor_radius->amount < middle.amount)
+        return;
+    problems.add(minor->mark, "E-RANGE",
+                 fmt::format("generate: minor_radius must be below the radius{}, not {}",
+                             o.radius ? " " + o.radius->text : ", which is 1 unless given",
+                             o.minor_radius->text),
+                 "use a smaller minor_radius or a larger radius");
 }
 
 } // namespace
@@ -119,7 +121,7 @@ void declare_generate(Declare<GenerateOptions>& d) {
     d.choice<Shape>(
          "shape", &GenerateOptions::shape,
          {{"sphere", Shape::sphere, "latitude and longitude: faces crowd at the poles, on the z axis"},
-          {"icosphere", Shape::icosphere, "an icosahedron refined on the sphere: 20 * 4^level faces"},
+          {"icosphere", Shape::icosphere, "an icosahedron refined on the sphere: 20 * 4^subdivisions faces"},
           {"cube", Shape::cube, "a cube with gridded sides"},
           {"grid", Shape::grid, "a flat square, open"},
           {"torus", Shape::torus, "a ring around the z axis"},
@@ -127,21 +129,22 @@ void declare_generate(Declare<GenerateOptions>& d) {
           {"cone", Shape::cone, "along the z axis, apex up, with its base or open"},
           {"gaussian", Shape::gaussian, "the height field of a Gaussian over a square, open"},
           {"menger", Shape::menger, "the outer surface of a Menger sponge, closed"}},
-         "What is made.")
+         "The shape to generate.")
         .primary()
         .required();
     declare_sizes(d);
     declare_counts(d);
-    d.option("caps", &GenerateOptions::caps, "Close cylinder and cone.");
-    d.option("quads", &GenerateOptions::quads, "Keep quads where the shape has them: no triangles of them.");
+    d.option("caps", &GenerateOptions::caps, "Closes cylinder and cone with caps.");
+    d.option("quads", &GenerateOptions::quads,
+             "Keeps quads where the shape has them instead of cutting them into triangles.");
     d.option("noise", &GenerateOptions::noise,
-             "Standard deviation of Gaussian noise on x, y and z of every vertex (a length; a percentage is "
-             "of the shape's diagonal).")
+             "The standard deviation of Gaussian noise on x, y and z of every vertex (a length; a percentage "
+             "refers to the shape's diagonal).")
         .at_least(0);
-    d.option("seed", &GenerateOptions::seed, "Of the noise (an integer, without unit).").at_least(0);
+    d.option("seed", &GenerateOptions::seed, "The seed of the noise (an integer, without unit).").at_least(0);
     d.choice<Unit>("unit", &GenerateOptions::unit, unit_choices("auto", "the scene's"),
-                   "What one unit of the shape's numbers is.");
-    d.option("name", &GenerateOptions::name, "Of the new part; the shape's name unless given.");
+                   "The unit of the shape's numbers.");
+    d.option("name", &GenerateOptions::name, "The name of the new part; the name of the shape unless given.");
 }
 
 void verify_generate(const GenerateOptions& o, const Value& given, Problems& problems) {
@@ -161,9 +164,9 @@ void verify_generate(const GenerateOptions& o, const Value& given, Problems& pro
     }
     verify_counts(o, given, problems);
     verify_torus(o, given, problems);
-    if (o.faces && (o.around || o.across))
-        problems.add(given.mark, "E-CONFLICT", "generate: 'faces' stands for 'around' and 'across'",
-                     "give either faces, or around and across");
+    if (o.faces && (o.segments || o.rings))
+        problems.add(given.mark, "E-CONFLICT", "generate: 'faces' stands for 'segments' and 'rings'",
+                     "give either faces, or segments and rings");
 }
 
 } // namespace facetmill

@@ -8,8 +8,8 @@ namespace facetmill {
 
 struct GenerateOptions {
     Shape shape = Shape::sphere;
-    std::optional<Length> radius, tube, size, height, spread;
-    std::optional<std::int64_t> faces, around, across, cells, level;
+    std::optional<Length> radius, minor_radius, size, height, spread;
+    std::optional<std::int64_t> faces, segments, rings, cells, subdivisions;
     bool caps = true;
     bool quads = false;
     Length noise = Length::scene(0);

@@ -1,6 +1,7 @@
 #include "base/error.hpp"
-#include "mesh/power_scale.hpp"
 #include "io/convert.hpp"
+#include "mesh/power_scale.hpp"
+#include "stages/generate/help.hpp"
 #include "stages/generate/options.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ double resolved_length(const Length& length, const Made& made, const char* name,
         throw Error(ErrorKind::usage, "E-RANGE",
                     fmt::format("generate: '{}' is {}, but {}", name, length.text,
                                 length.of == Length::Of::load ? "nothing has been loaded yet"
-                                                              : "the scene is empty yet"),
+                                                              : "the scene is still empty"),
                     "give a number, or a length with a unit");
     return x;
 }
@@ -47,18 +48,18 @@ GenerateSettings resolved(const GenerateOptions& o, const Made& made, Context& c
     };
     set(s.radius, o.radius, "radius", 1);
     set(s.size, o.size, "size", 2);
-    set(s.tube, o.tube, "tube", 0.4 * s.radius);
+    set(s.minor_radius, o.minor_radius, "minor_radius", 0.4 * s.radius);
     set(s.height, o.height, "height", o.shape == Shape::gaussian ? s.size / 2 : 2 * s.radius);
     set(s.spread, o.spread, "spread", 0.15 * s.size);
     const bool rows = o.shape == Shape::cylinder || o.shape == Shape::cone;
-    s.around = o.around.value_or(48);
-    s.across = o.across.value_or(rows ? 1 : 24);
-    if (o.shape == Shape::sphere && !o.around && !o.across) {
+    s.segments = o.segments.value_or(48);
+    s.rings = o.rings.value_or(rows ? 1 : 24);
+    if (o.shape == Shape::sphere && !o.segments && !o.rings) {
         const SphereBands bands = sphere_bands(o.faces.value_or(4000));
-        s.around = bands.around, s.across = bands.across;
+        s.segments = bands.segments, s.rings = bands.rings;
     }
     s.cells = o.cells.value_or(o.shape == Shape::gaussian ? 40 : 10);
-    s.level = o.level.value_or(o.shape == Shape::menger ? 2 : 3);
+    s.subdivisions = o.subdivisions.value_or(o.shape == Shape::menger ? 2 : 3);
     s.caps = o.caps, s.quads = o.quads;
     return s;
 }
@@ -102,19 +103,9 @@ Scene run(Scene scene, const GenerateOptions& o, Context& context, GenerateRepor
 
 const RegisterStage registered = make_stage<GenerateOptions>(
     {.name = "generate",
-     .about = "Makes a shape from numbers and adds it to the scene: spheres, cube, torus, Menger sponge ...",
-     .details =
-         "The shape becomes a new part. It is centred on the origin with its axis along z (grid and gaussian "
-         "stand on z = 0), and all its faces are seen anticlockwise from outside. Sphere, icosphere, cube, "
-         "torus, menger, and cylinder and cone with caps are closed and manifold; grid and gaussian are "
-         "open. In a scene that has parts already, the shape is converted to the scene's unit and up "
-         "axis.\n\n"
-         "Faces are triangles, quads cut along their shorter diagonal, or quads on request. Noise moves each "
-         "vertex by independent normal amounts along x, y and z, cut off at three standard deviations; it "
-         "depends on the seed and the vertex's place alone. Each option goes with the shapes that its help "
-         "names and is refused with others. A shape that does not fit into memory is refused before it is "
-         "built (E-MEMORY).",
-     .examples = {"generate: sphere", "generate: {shape: menger, level: 3, quads: true}",
+     .about = help::generate::about,
+     .details = help::generate::details,
+     .examples = {"generate: sphere", "generate: {shape: menger, subdivisions: 3, quads: true}",
                   "generate: {shape: gaussian, cells: 60, noise: 0.3%, seed: 4}",
                   "generate: {shape: cylinder, radius: 5mm, height: 20mm, unit: mm}"},
      .loads = true},

@@ -5,6 +5,7 @@
 #include "mesh/power_scale.hpp"
 #include "stage/options/convention.hpp"
 #include "stage/stage.hpp"
+#include "stages/load/help.hpp"
 
 #include <fmt/format.h>
 
@@ -22,22 +23,23 @@ struct LoadOptions {
 
 void declare(Declare<LoadOptions>& d) {
     d.option("path", &LoadOptions::path,
-             "The mesh file, a glob (scan_*.ply), or a list of them; - is standard input.")
+             "The mesh file, a glob (scan_*.ply), or a list of these; - is standard input.")
         .primary()
         .required();
     d.choice<Unit>("unit", &LoadOptions::unit,
                    unit_choices("auto", "as the format says; unknown where it says nothing"),
-                   "What one unit of the file's numbers is.");
+                   "The unit of the file's numbers.");
     d.choice<UpAxis>("up", &LoadOptions::up,
                      up_choices("auto", "as the format says; unknown where it says nothing"),
-                     "Which axis points up in the file.");
-    d.option("format", &LoadOptions::format, "The format's name, when neither content nor suffix tell it.");
+                     "The axis that points up in the file.");
+    d.option("format", &LoadOptions::format,
+             "The name of the format, when neither content nor suffix shows it.");
     d.choice<io::Weld>(
         "weld", &LoadOptions::weld,
         {{"auto", io::Weld::automatic, "where the format has no indices (STL) or splits vertices (glTF)"},
          {"none", io::Weld::off, "never"},
          {"exact", io::Weld::exact, "always"}},
-        "Whether vertices at exactly the same place become one.");
+        "Whether vertices at exactly the same position are merged.");
 }
 
 void verify(const LoadOptions& o, const Value& given, Problems& problems) {
@@ -77,7 +79,7 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
         context.warn(
             "W-UNITS",
             fmt::format("'{}' has no unit: its numbers are taken as {}", input.name(), to_string(scene.unit)),
-            "say it: load: {path: ..., unit: mm}");
+            "give the unit: load: {path: ..., unit: mm}");
 }
 
 Scene run(Scene scene, const LoadOptions& o, Context& context) {
@@ -100,14 +102,8 @@ io::FileHeader header(const LoadOptions& o, const std::filesystem::path& path) {
 
 const RegisterStage registered{make_stage<LoadOptions>(
     {.name = "load",
-     .about = "Reads mesh files and adds their parts to the scene.",
-     .details = "Files are recognised by their content, else by their suffix; .gz is "
-                "inflated. Each mesh, solid or object of "
-                "a file becomes a part, named as in the file, else after the file; "
-                "names are made unique. A scene has the "
-                "unit and the up axis of what was loaded first, and later files are "
-                "converted to it. Broken meshes are held "
-                "as they are; a malformed file is refused with its line or byte.",
+     .about = help::load::about,
+     .details = help::load::details,
      .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",
                   "load: [body.obj, \"wheel_*.obj\"]"},
      .loads = true},

@@ -7,9 +7,9 @@ namespace facetmill {
 
 struct MeasureOptions {
     double density = 1;
-    Angle sharp = Angle::degrees(30);
+    Angle feature_angle = Angle::degrees(30);
     bool areas = false, curvature = false;
-    std::vector<PathText> to;
+    std::vector<PathText> path;
 };
 
 void declare_measure(Declare<MeasureOptions>& d);

@@ -70,7 +70,7 @@ Json edges_json(const EdgeResult& edges) {
             {"convex", edges.convex},
             {"concave", edges.concave},
             {"flat", edges.flat},
-            {"sharp", edges.sharp},
+            {"feature", edges.feature},
             {"boundary", edges.boundary},
             {"non_manifold", edges.non_manifold}};
 }

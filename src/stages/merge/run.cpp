@@ -1,4 +1,5 @@
 #include "stage/stage.hpp"
+#include "stages/merge/help.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,8 +14,10 @@ struct MergeOptions {
 };
 
 void declare(Declare<MergeOptions>& d) {
-    d.option("name", &MergeOptions::name, "The name of the joined part; unset, that of the first.").primary();
-    d.option("weld", &MergeOptions::weld, "Makes vertices at exactly the same place one.");
+    d.option("name", &MergeOptions::name,
+             "The name of the joined part; the name of the first part unless given.")
+        .primary();
+    d.option("weld", &MergeOptions::weld, "Merges vertices at exactly the same position.");
 }
 
 struct MergeReport {
@@ -92,18 +95,12 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
     return scene;
 }
 
-const RegisterStage registered = make_stage<MergeOptions>(
-    {.name = "merge",
-     .about = "Joins parts into one.",
-     .details =
-         "The parts (all, or those that `only` names) become one mesh in world space, at the place of the "
-         "first. Materials stay with their faces. An attribute that only some parts have is white "
-         "(colours), the normal of the faces, or zero in the others; in glTF those stay without it. The "
-         "face attribute `group` numbers the parts, so that `separate: group` takes them apart again. "
-         "Nodes, skins and instances of the parts are gone. Closedness is per part: solids that only "
-         "touch are one closed part, and with weld they share vertices.",
-     .examples = {"merge", "merge: body", "merge: {weld: true}"}},
-    declare, declare_report, run);
+const RegisterStage registered =
+    make_stage<MergeOptions>({.name = "merge",
+                              .about = help::merge::about,
+                              .details = help::merge::details,
+                              .examples = {"merge", "merge: body", "merge: {weld: true}"}},
+                             declare, declare_report, run);
 
 } // namespace
 

@@ -2,6 +2,7 @@
 
 #include "mesh/placement.hpp"
 #include "stage/stage.hpp"
+#include "stages/orient/help.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,16 +14,16 @@ namespace {
 void declare(Declare<OrientSettings>& d) {
     d.choice<OrientMethod>(
          "method", &OrientSettings::method,
-         {{"outward", OrientMethod::outward, "neighbours agree, and the front is the outside"},
+         {{"outward", OrientMethod::outward, "neighbours are consistent, and the front is on the outside"},
           {"consistent", OrientMethod::consistent,
-           "neighbours agree; the front is what most faces had as front"},
-          {"flip", OrientMethod::flip, "every face is turned round"}},
-         "What is done to the order of corners.")
+           "neighbours are consistent; the front is the side that most faces had as front"},
+          {"flip", OrientMethod::flip, "every face is reversed"}},
+         "How faces are oriented.")
         .primary();
     d.choice<Nested>("nested", &OrientSettings::nested,
-                     {{"cavities", Nested::cavities, "it is a cavity, its front looks into the hollow"},
+                     {{"cavities", Nested::cavities, "it is a cavity, and its front faces the hollow"},
                       {"solids", Nested::solids, "it is a solid of its own"}},
-                     "What a closed piece inside another is (with outward).");
+                     "What a closed component inside another one is (with outward).");
 }
 
 struct OrientedPart {
@@ -72,20 +73,19 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
     }
     if (crossed > 0) {
         const Vec3 at = in_world(part, first->conflict);
-        context.warn(
-            "W-ORIENT",
-            fmt::format(
-                "orient: {} of part '{}' is not orientable, like a Moebius strip, and stays as it was; "
-                "neighbours cannot agree at ({:.6g}, {:.6g}, {:.6g})",
-                crossed == 1 ? "a piece" : fmt::format("{} pieces", crossed), part.name, at.x, at.y, at.z),
-            "cut it there, or make it two-sided");
+        context.warn("W-ORIENT",
+                     fmt::format("orient: {} of part '{}' is not orientable, like a Moebius strip, and stays "
+                                 "as it was; neighbours cannot be consistent at ({:.6g}, {:.6g}, {:.6g})",
+                                 crossed == 1 ? "a piece" : fmt::format("{} pieces", crossed), part.name,
+                                 at.x, at.y, at.z),
+                     "cut it there, or use two-sided");
     }
     if (undecided > 0)
         context.warn(
             "W-ORIENT-OPEN",
             fmt::format("orient: {} of part '{}' without a side that is the outside: only made consistent",
                         undecided == 1 ? "a piece" : fmt::format("{} pieces", undecided), part.name),
-            "flip turns them round");
+            "method: flip reverses them");
 }
 
 Scene run(Scene scene, const OrientSettings& settings, Context& context, OrientReport& report) {
@@ -101,25 +101,8 @@ Scene run(Scene scene, const OrientSettings& settings, Context& context, OrientR
 
 const RegisterStage registered = make_stage<OrientSettings>(
     {.name = "orient",
-     .about = "Makes neighbouring faces agree about the outside, and turns the front outward.",
-     .details = "Order is spread over edges of two faces; edges of more part the surface into pieces. The "
-                "outside of a closed "
-                "piece is told by its volume and by how many closed pieces it lies in: one inside another is "
-                "its cavity and "
-                "looks inward, one inside a cavity outward again; pieces that touch or cross are no cavities "
-                "of each other. That is decided exactly, by rays along an "
-                "axis that never "
-                "hit an edge. The outside of an open piece is the side from which more rays escape; where "
-                "both sides are alike "
-                "(a flat sheet) it is only made consistent (W-ORIENT-OPEN). A piece that cannot be oriented, "
-                "like a Moebius "
-                "strip, stays as it was and is named (W-ORIENT).\n\n"
-                "A part whose node mirrors is looked at in its own space, as glTF has it. Corners are "
-                "reversed from the second "
-                "on. Normals that then point against their faces turn, and the handedness of their tangents; "
-                "all else is "
-                "kept.\n\n"
-                "Source: the note on facets, normals and vertex order.",
+     .about = help::orient::about,
+     .details = help::orient::details,
      .examples = {"orient", "orient: consistent", "orient: flip", "orient: {nested: solids}"}},
     declare, declare_report, run);
 

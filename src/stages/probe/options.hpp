@@ -16,9 +16,9 @@ struct ProbeOptions {
     bool reverse = false;
     Hits hits = Hits::all;
     std::optional<std::int64_t> face;
-    Length on = Length::scene(0);
-    std::int64_t list = 1000;
-    std::vector<PathText> to;
+    Length tolerance = Length::scene(0);
+    std::int64_t max_answers = 1000;
+    std::vector<PathText> path;
 };
 
 void declare_probe(Declare<ProbeOptions>& d);

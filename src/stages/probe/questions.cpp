@@ -19,7 +19,7 @@ Questions questions_of(const Scene& scene, const ProbeOptions& o, const Context&
         throw Error(ErrorKind::usage, "E-PART", "'points_of' names no part of the scene",
                     "facetmill info lists them");
     if (q.surface.empty() && !q.sources.empty())
-        throw Error(ErrorKind::usage, "E-PART", "'points_of' leaves no part to ask",
+        throw Error(ErrorKind::usage, "E-PART", "'points_of' leaves no part as the surface",
                     "the other parts are the surface: load one, or name fewer");
     return q;
 }
@@ -47,7 +47,7 @@ std::vector<Line> lines_asked(const ProbeOptions& o, Context& context) {
         const Vec3 from{r[0], r[1], r[2]}, to{r[3], r[4], r[5]};
         if (rays && to == Vec3{})
             throw Error(ErrorKind::usage, "E-RAY", fmt::format("ray {} has no direction", lines.size()),
-                        "a ray is a start and a direction; from point to point go segments");
+                        "a ray has an origin and a direction; use segments to go from point to point");
         lines.push_back({from, rays ? from + to : to, rays});
     }
     return lines;
@@ -78,7 +78,7 @@ std::vector<Vec3> directions_of(const Part& part, const std::string& name) {
         throw Error(
             ErrorKind::stage, "E-ATTRIBUTE",
             fmt::format("part '{}' has no attribute '{}' of three numbers at vertices", part.name, name),
-            "facetmill info lists the attributes of a file; NORMAL goes without");
+            "facetmill info lists the attributes of a file; NORMAL is always available");
     Mesh alone; // turned as the part is
     alone.attributes.push_back(*found);
     apply(alone, effective(part));
@@ -123,7 +123,7 @@ std::vector<Vec3> facet_asked(const Questions& q, std::int64_t number) {
         return corners;
     }
     throw Error(ErrorKind::usage, "E-FACE",
-                fmt::format("there is no face {}: the last is {}", number, number - left - 1),
+                fmt::format("there is no face {}; the last one is {}", number, number - left - 1),
                 "faces are numbered from 0");
 }
 

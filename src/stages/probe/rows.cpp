@@ -15,8 +15,9 @@ bool refuse(const Value& value, std::size_t columns, Problems& problems) {
     problems.add(
         value.mark, "E-TYPE",
         fmt::format("expected rows of {} numbers or a .csv file, found {}", columns, value.described()),
-        columns == 3 ? "[0, 0, 1], [[0, 0, 1], [1, 2, 3]] or points.csv; in one line 0,0,1 or '0,0,1; 1,2,3'"
-                     : "[0, 0, 9, 0, 0, -1] or lines.csv; in one line 0,0,9,0,0,-1");
+        columns == 3
+            ? "[0, 0, 1], [[0, 0, 1], [1, 2, 3]] or points.csv; on the command line 0,0,1 or '0,0,1; 1,2,3'"
+            : "[0, 0, 9, 0, 0, -1] or lines.csv; on the command line 0,0,9,0,0,-1");
     return false;
 }
 

@@ -1,7 +1,8 @@
 #include "geometry/inspect/connectivity.hpp"
-#include "stages/probe/report.hpp"
 #include "report/summary.hpp"
+#include "stages/probe/help.hpp"
 #include "stages/probe/questions.hpp"
+#include "stages/probe/report.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,7 @@ namespace {
 Json answer_points(const FaceTree& tree, const Scene& scene, const ProbeOptions& o, const Questions& q,
                    std::string* csv, std::size_t limit, Context& context) {
     PointSettings settings;
-    settings.tolerance = context.resolve(o.on, scene, "on");
+    settings.tolerance = context.resolve(o.tolerance, scene, "tolerance");
     std::vector<std::string> open;
     for (const Part* part : q.surface)
         if (count_links(part->mesh).uncancelled_edges != 0) open.push_back(part->name);
@@ -22,7 +23,7 @@ Json answer_points(const FaceTree& tree, const Scene& scene, const ProbeOptions&
             "W-PROBE-OPEN",
             fmt::format("the surface is open: nothing is inside or outside it ({} of {} parts, first '{}')",
                         open.size(), q.surface.size(), open.front()),
-            "close it (clean), or choose closed parts (only)");
+            "close it (clean: {holes: minimal}), or select closed parts (only)");
     const auto points = points_asked(o, q, context);
     const auto answers = probe_points(tree, points, settings);
     const report::FaceNames names(q.surface);
@@ -49,10 +50,10 @@ report::LineAnswers answer_lines(const FaceTree& tree, const ProbeOptions& o, co
 Scene run(Scene scene, const ProbeOptions& o, Context& context) {
     const Questions q = questions_of(scene, o, context);
     const FaceTree tree(surface_of(q.surface));
-    const bool wants_csv = std::any_of(o.to.begin(), o.to.end(), is_csv);
-    const bool wants_json = o.to.size() > (wants_csv ? 1 : 0) || (!o.to.empty() && !wants_csv);
+    const bool wants_csv = std::any_of(o.path.begin(), o.path.end(), is_csv);
+    const bool wants_json = o.path.size() > (wants_csv ? 1 : 0) || (!o.path.empty() && !wants_csv);
     constexpr std::size_t no_limit = std::size_t(-1);
-    const std::size_t limit = wants_json ? no_limit : static_cast<std::size_t>(o.list);
+    const std::size_t limit = wants_json ? no_limit : static_cast<std::size_t>(o.max_answers);
     std::string csv;
     Json result;
     if (o.points || !o.points_of.empty()) {
@@ -63,12 +64,12 @@ Scene run(Scene scene, const ProbeOptions& o, Context& context) {
         result = report::lines_json(answers, names, limit);
         if (wants_csv) csv = report::lines_csv(answers, names);
     }
-    for (const auto& path : o.to) {
+    for (const auto& path : o.path) {
         const std::string text = is_csv(path) ? csv : result.dump(2) + "\n";
         context.output(path.text, std::as_bytes(std::span(text)));
     }
     Json& list = result["answers"];
-    while (list.size() > static_cast<std::size_t>(o.list)) list.erase(list.size() - 1);
+    while (list.size() > static_cast<std::size_t>(o.max_answers)) list.erase(list.size() - 1);
     context.say(report::probe_summary(result));
     context.result() = std::move(result);
     return scene;
@@ -76,23 +77,11 @@ Scene run(Scene scene, const ProbeOptions& o, Context& context) {
 
 const RegisterStage registered = make_stage<ProbeOptions>(
     {.name = "probe",
-     .about = "Asks points, segments and rays about the surface: inside or outside, closest face, hits.",
-     .details =
-         "A point is inside, outside or on the surface, and has a winding number (how often the surface goes "
-         "around it), its distance, and the closest point with its part and face. Inside is where the "
-         "winding number is not zero; it is decided exactly, by the crossings of a ray with the faces. An "
-         "open surface has no inside (W-PROBE-OPEN); distances are measured all the same.\n\n"
-         "Segments and rays have hits: t (0 to 1 along a segment, the distance along a ray), the point, part "
-         "and face, and whether the line enters there. Whether a line meets a face is decided by exact "
-         "signs. A line through an edge or a corner counts as the line beside it, always to the same side, "
-         "so a surface that is crossed is crossed once; a line within a face's plane does not meet that "
-         "face. An end on the surface is a hit.\n\n"
-         "The scene passes on unchanged. World space, scene units. Sources: the notes 'Intersection of a "
-         "line segment and a facet' (1999) and 'Determining if a point lies on the interior of a polygon' "
-         "(1987).",
-     .examples = {"probe: [0, 0, 1]", "probe: {points: probes.csv, to: answers.csv}",
+     .about = help::probe::about,
+     .details = help::probe::details,
+     .examples = {"probe: [0, 0, 1]", "probe: {points: probes.csv, path: answers.csv}",
                   "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
-                  "probe: {along: NORMAL, reverse: true, to: walls.csv}"}},
+                  "probe: {along: NORMAL, reverse: true, path: walls.csv}"}},
     declare_probe, run, {.files = probe_files, .verify = verify_probe});
 
 } // namespace

@@ -9,19 +9,19 @@ namespace facetmill {
 struct RelaxOptions {
     std::optional<std::int64_t> iterations; ///< none: 1, or 1000 with until
     RelaxSettings::Method method = RelaxSettings::Method::laplacian;
-    std::optional<double> factor;
+    std::optional<double> lambda;
     RelaxSettings::Neighbours neighbours = RelaxSettings::Neighbours::faces;
     RelaxSettings::Boundary boundary = RelaxSettings::Boundary::fixed;
-    std::optional<Angle> features;
+    std::optional<Angle> feature_angle;
     std::optional<Length> until;
     double pass_band = RelaxSettings{}.pass_band;
-    double original = RelaxSettings{}.original;
-    double push_back = RelaxSettings{}.push_back;
+    double alpha = RelaxSettings{}.alpha;
+    double beta = RelaxSettings{}.beta;
     std::optional<MaskSettings> mask;
 };
 
 void declare_relax(Declare<RelaxOptions>& d);
-/// What the declaration cannot say: options of other methods, factors that a method cannot take.
+/// What the declaration cannot say: options of other methods, a lambda that a method cannot take.
 void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems);
 
 /// What is the same for all parts; until, mask and the transform are each part's own.

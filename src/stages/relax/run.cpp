@@ -1,7 +1,8 @@
 #include "geometry/edit/moved.hpp"
 #include "mesh/placement.hpp"
-#include "stages/relax/options.hpp"
 #include "stage/stage.hpp"
+#include "stages/relax/help.hpp"
+#include "stages/relax/options.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -70,8 +71,8 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
         const SurfaceSize after = surface_size(part.mesh, settings.to_world, before.volume.has_value());
         if (o.until && !r.settled && r.iterations > 0)
             context.warn("W-RELAX-STOPPED",
-                         fmt::format("part '{}' did not settle: the last of {} iterations moved a vertex by "
-                                     "{:.4g}, more than until {:.4g}",
+                         fmt::format("part '{}' did not converge: the last of {} iterations moved a vertex "
+                                     "by {:.4g}, more than until {:.4g}",
                                      part.name, r.iterations, r.last_move, settings.until),
                          "allow more iterations, or a larger until");
         report.parts.push_back({std::move(r), part.name, before, after, o.until.has_value()});
@@ -82,23 +83,11 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
 
 const RegisterStage registered = make_stage<RelaxOptions>(
     {.name = "relax",
-     .about = "Smooths a surface: every vertex moves towards the mean of its neighbours.",
-     .details =
-         "In each iteration P becomes P + factor / n * sum(Pj - P) over its n neighbours Pj, for all "
-         "vertices at the same time, so neither their order nor the number of threads matters. A closed "
-         "surface shrinks a little with every iteration of laplacian, cotangent and implicit; taubin and hc "
-         "keep its volume nearly, and the report has area and volume before and after. Open, non-manifold "
-         "and degenerate input is taken as it is: faces without area weigh nothing, a vertex without "
-         "neighbours stays.\n\n"
-         "Faces, wedges and topology stay, so Euler's number and closedness do. Normals are recomputed and "
-         "tangents made perpendicular to them; morph targets of positions are relaxed with the surface, each "
-         "as the surface it stands for; all other attributes are kept. The report has the number of moved "
-         "and of held vertices and the largest move, in world units.\n\n"
-         "Sources: the note 'Surface relaxation and smoothing' (1997); G. Taubin (1995); U. Pinkall and K. "
-         "Polthier (1993); M. Desbrun and others (1999); J. Vollmer and others (1999).",
-     .examples = {"relax: 3", "relax: {iterations: 10, factor: 0.5, boundary: slide}",
-                  "relax: {method: taubin, iterations: 20, features: 30deg}",
-                  "relax: {method: implicit, factor: 20}",
+     .about = help::relax::about,
+     .details = help::relax::details,
+     .examples = {"relax: 3", "relax: {iterations: 10, lambda: 0.5, boundary: slide}",
+                  "relax: {method: taubin, iterations: 20, feature_angle: 30deg}",
+                  "relax: {method: implicit, lambda: 20}",
                   "relax: {until: 0.01%, mask: {material: \"skin*\"}}"}},
     declare_relax, declare_report, run, {.verify = verify_relax});
 

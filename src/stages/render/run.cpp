@@ -1,4 +1,5 @@
 #include "io/png.hpp"
+#include "stages/render/help.hpp"
 #include "stages/render/options.hpp"
 
 #include <fmt/format.h>
@@ -76,21 +77,8 @@ Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& r
 
 const RegisterStage registered{make_stage<RenderOptions>(
     {.name = "render",
-     .about = "Takes a picture: PNG, shaded by the angle between each face and the light.",
-     .details =
-         "The parts (those that `only` names) as large as fits, in parallel projection, each face in one "
-         "shade, "
-         "four samples a pixel. The light comes from the upper left of the viewer. `shading: one-sided` "
-         "takes "
-         "the cosine of the angle between the normal of a face and the light, so that faces whose vertices "
-         "run "
-         "the wrong way round are dark; `absolute` takes its absolute value, which hides that; `beside` "
-         "shows "
-         "both, and where they differ a face is turned (orient) or the surface wants to be two-sided. Inner "
-         "sides are orange by default, so holes and turned faces are seen at once. The scene passes on "
-         "unchanged. The same bytes on any number of threads. Source: the note on facets, planes, normals "
-         "and "
-         "rendering.",
+     .about = help::render::about,
+     .details = help::render::details,
      .examples = {"render: view.png", "render: {path: sides.png, shading: beside, background: white}",
                   "render: {path: top.png, view: top, width: 2000, height: 2000, edges: all}",
                   "render: {path: failed.png, attribute: failed}"}},

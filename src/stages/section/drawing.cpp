@@ -28,18 +28,18 @@ void check_hatching(const std::vector<Section>& sections, double spacing) {
 
 } // namespace
 
-Stack stack_for(const Scene& scene, const Plane& plane, const std::optional<Length>& distance,
+Stack stack_for(const Scene& scene, const Plane& plane, const std::optional<Length>& given,
                 const std::optional<std::int64_t>& count, Context& context) {
-    if (!distance && !count) return {};
-    std::optional<double> every;
-    if (distance) every = context.resolve(*distance, scene, "every");
-    if (every && !(*every > 0))
-        throw Error(ErrorKind::stage, "E-SECTION", "'every' must be above zero, and it is 0 in this scene",
+    if (!given && !count) return {};
+    std::optional<double> spacing;
+    if (given) spacing = context.resolve(*given, scene, "spacing");
+    if (spacing && !(*spacing > 0))
+        throw Error(ErrorKind::stage, "E-SECTION", "'spacing' must be above zero, and it is 0 in this scene",
                     "give a length in scene units, or count");
     Extent extent;
     for (const Part& part : scene.parts)
         if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, effective(part)));
-    return stack_of(extent, every, count);
+    return stack_of(extent, spacing, count);
 }
 
 io::Drawing draw_sections(const Scene& scene, const Plane& plane, const Stack& stack,

@@ -7,9 +7,9 @@
 
 namespace facetmill {
 
-/// The planes: one alone without distance and count, else as geometry/section_stack says over the extent of
-/// the parts selected. Throws stage (E-SECTION) for a distance that comes to 0, and what stack_of throws.
-Stack stack_for(const Scene& scene, const Plane& plane, const std::optional<Length>& distance,
+/// The planes: one alone without spacing and count, else as geometry/section_stack says over the extent of
+/// the parts selected. Throws stage (E-SECTION) for a spacing that comes to 0, and what stack_of throws.
+Stack stack_for(const Scene& scene, const Plane& plane, const std::optional<Length>& spacing,
                 const std::optional<std::int64_t>& count, Context& context);
 
 /// A sheet for each plane, with the sections of the parts selected and their hatching. Throws what section

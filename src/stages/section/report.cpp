@@ -34,16 +34,17 @@ void warn(const io::DrawingTotals& totals, Context& context) {
             "W-OPEN-SECTION",
             fmt::format("{} of {} contours are open: the mesh has a boundary where the plane cuts it",
                         totals.open, totals.contours),
-            "close the mesh, or weld it (clean), before");
+            "use clean first, to weld the mesh or fill its holes");
     if (!totals.oriented)
         context.warn("W-UNORIENTED",
-                     "neighbouring faces disagree, so outlines and holes were told by nesting",
-                     "orient the mesh before");
+                     "neighbouring faces are inconsistent, so nesting decided which contours are outlines "
+                     "and which are holes",
+                     "use orient first");
     const auto crossed = totals.count(polygon::Kind::self_intersecting);
     if (crossed > 0)
         context.warn(
             "W-SECTION-CROSSES",
-            fmt::format("{} contours intersect themselves: no centroid and moments for them", crossed));
+            fmt::format("{} contours intersect themselves and have no centroid and moments", crossed));
 }
 
 } // namespace

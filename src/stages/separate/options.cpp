@@ -46,12 +46,12 @@ PieceLabels by_group(const Part& part, const std::string& attribute) {
     if (!a)
         throw Error(ErrorKind::stage, "E-GROUP",
                     fmt::format("separate: part '{}' has no face attribute '{}'", part.name, attribute),
-                    "merge makes 'group'; info lists the attributes");
+                    "merge creates 'group'; facetmill info lists the attributes");
     constexpr double largest = 9007199254740992; // beyond 2^53 doubles skip integers
     for (Index f = 0; f < part.mesh.face_count(); ++f)
         if (const double x = a->value(f, 0); !(std::abs(x) <= largest) || x != std::floor(x))
             throw Error(ErrorKind::stage, "E-GROUP",
-                        fmt::format("separate: '{}' of part '{}' numbers no groups: it is {} at face {}",
+                        fmt::format("separate: '{}' of part '{}' does not number groups: it is {} at face {}",
                                     attribute, part.name, x, f),
                         "a group is a whole number");
     return labelled(
@@ -62,20 +62,21 @@ PieceLabels by_group(const Part& part, const std::string& attribute) {
 } // namespace
 
 void declare_separate(Declare<SeparateOptions>& d) {
-    d.choice<By>(
-         "by", &SeparateOptions::by,
-         {{"component", By::component, "pieces connected through edges, cavities with the solid around them"},
-          {"material", By::material, "faces of one material"},
-          {"group", By::group, "faces with the same number in a face attribute"}},
-         "What becomes a part of its own.")
+    d.choice<By>("by", &SeparateOptions::by,
+                 {{"component", By::component,
+                   "components connected through edges, with each cavity in the solid around it"},
+                  {"material", By::material, "faces of one material"},
+                  {"group", By::group, "faces with the same number in a face attribute"}},
+                 "What becomes a part of its own.")
         .primary();
     d.option("attribute", &SeparateOptions::attribute,
              "The face attribute that numbers the groups (with group).");
-    d.option(
-        "cavities", &SeparateOptions::cavities,
-        "With component: closed pieces that look inward become parts of their own, too; else they stay with "
-        "the solid that they lie in.");
-    d.option("most", &SeparateOptions::most, "Refuses to make more parts than this (a count).").at_least(1);
+    d.option("cavities", &SeparateOptions::cavities,
+             "With component: cavities (closed components that face inward) become parts of their own; "
+             "without this they stay with the solid that they lie in.");
+    d.option("max_parts", &SeparateOptions::max_parts,
+             "The maximum number of parts (a count); more are refused.")
+        .at_least(1);
 }
 
 void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems) {

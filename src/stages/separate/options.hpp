@@ -11,7 +11,7 @@ struct SeparateOptions {
     By by = By::component;
     std::string attribute = "group";
     bool cavities = false;
-    std::int64_t most = 10000;
+    std::int64_t max_parts = 10000;
 };
 
 void declare_separate(Declare<SeparateOptions>& d);

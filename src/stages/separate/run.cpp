@@ -1,4 +1,5 @@
 #include "geometry/edit/surgery.hpp"
+#include "stages/separate/help.hpp"
 #include "stages/separate/options.hpp"
 
 #include <fmt/format.h>
@@ -34,11 +35,12 @@ std::string unique_name(std::string name, std::set<std::string>& taken) {
 }
 
 /// Refuses to make more parts than is wanted.
-void require_few(std::size_t parts, std::int64_t most) {
-    if (parts > static_cast<std::size_t>(most))
-        throw Error(ErrorKind::stage, "E-PARTS",
-                    fmt::format("separate: there would be {} parts or more, and most is {}", parts, most),
-                    "remove small pieces first (clean: {components: {faces: 10}}), or raise most");
+void require_few(std::size_t parts, std::int64_t max_parts) {
+    if (parts > static_cast<std::size_t>(max_parts))
+        throw Error(
+            ErrorKind::stage, "E-PARTS",
+            fmt::format("separate: there would be {} parts or more, and max_parts is {}", parts, max_parts),
+            "remove small components first (clean: {components: {min_faces: 10}}), or raise max_parts");
 }
 
 /// The first piece keeps the part's node, the others stand beside it; all keep its skin and its animation.
@@ -68,7 +70,7 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateRepor
             parts.push_back(std::move(part));
             continue;
         }
-        require_few(parts.size() + labels.names.size(), o.most);
+        require_few(parts.size() + labels.names.size(), o.max_parts);
         auto pieces = separated(part.mesh, labels.of_face, labels.names.size());
         Fates fates;
         for (const auto& a : part.mesh.attributes) fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
@@ -84,13 +86,8 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateRepor
 
 const RegisterStage registered = make_stage<SeparateOptions>(
     {.name = "separate",
-     .about = "Takes parts apart: by component, material or group.",
-     .details = "Each piece becomes a part of its own, named after the part and its number, material or "
-                "group, in the order of their first faces. Vertices and wedges that pieces share are copied, "
-                "attributes kept, isolated vertices dropped. The first piece keeps the part's node, the "
-                "others stand beside it; all keep its skin and its "
-                "animation. A part of one "
-                "piece stays as it is.",
+     .about = help::separate::about,
+     .details = help::separate::details,
      .examples = {"separate", "separate: material", "separate: {by: group, attribute: cut_id}"}},
     declare_separate, declare_report, run, {.verify = verify_separate});
 

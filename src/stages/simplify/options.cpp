@@ -36,10 +36,11 @@ bool parse_locks(const Value& value, LockOptions& out, Problems& problems) {
 }
 
 void declare_lock(Declare<LockOptions>& d) {
-    d.option("boundary", &LockOptions::boundary, "The vertices of the boundary stay, all of them.");
-    d.option("seams", &LockOptions::seams, "The vertices of seams and of borders of materials stay.");
-    d.option("group", &LockOptions::group, "The vertices of borders between the groups of an OBJ file stay.");
-    d.group("box", &LockOptions::box, "The vertices within this box stay, in world space.", declare_box);
+    d.option("boundary", &LockOptions::boundary, "Keeps all vertices of the boundary.");
+    d.option("seams", &LockOptions::seams, "Keeps the vertices of seams and of borders of materials.");
+    d.option("group", &LockOptions::group,
+             "Keeps the vertices of borders between the groups of an OBJ file.");
+    d.group("box", &LockOptions::box, "Keeps the vertices within this box, in world space.", declare_box);
     const Json words = {{"enum", {"boundary", "seams", "group"}}};
     d.shorthand("boundary, seams or group, or a list of them",
                 {{"anyOf", Json::array({words, {{"type", "array"}, {"items", words}}})}}, parse_locks);
@@ -47,17 +48,20 @@ void declare_lock(Declare<LockOptions>& d) {
 
 void declare_weights(Declare<AttributeWeights>& d) {
     d.option("uv", &AttributeWeights::uv,
-             "Texture coordinates: a texture that slides by a length counts as much as this many times a "
-             "surface that is off by it (a factor).")
+             "Texture coordinates: a texture that slides by a length counts as this many times a surface "
+             "displaced by that length (a factor).")
         .at_least(0);
     d.option("normal", &AttributeWeights::normal,
-             "Normals: a difference of 1 counts as much as a surface that is off by so many percent of the "
-             "part's diagonal (a factor).")
+             "Normals: a difference of 1 counts as a surface displaced by this percentage of the part's "
+             "diagonal (a factor).")
         .at_least(0);
-    d.option("colour", &AttributeWeights::colour, "Colours: full intensity counts so, too (a factor).")
+    d.option("colour", &AttributeWeights::colour,
+             "Colours: a difference of full intensity counts as a surface displaced by this percentage of "
+             "the part's diagonal (a factor).")
         .at_least(0);
     d.option("skin", &AttributeWeights::skin,
-             "Skin weights: all of a joint's pull counts so, too (a factor).")
+             "Skin weights: a difference of 1 counts as a surface displaced by this percentage of the part's "
+             "diagonal (a factor).")
         .at_least(0);
     d.shorthand("one number for all, 0 for the shape alone", OptionType<double>::schema(),
                 [](const Value& v, AttributeWeights& out, Problems& problems) {
@@ -72,23 +76,23 @@ void declare_weights(Declare<AttributeWeights>& d) {
 
 void declare_constraints(Declare<ConstraintOptions>& d) {
     d.option("normal_deviation", &ConstraintOptions::normal_deviation,
-             "No face turns farther from the normal that it came with.")
+             "The largest angle between the normal of a face and its original normal.")
         .between(0, 180);
     d.option("aspect_ratio", &ConstraintOptions::aspect_ratio,
-             "No face gets a larger ratio of longest edge to height (a ratio, at least 1.16).")
+             "The largest ratio of a face's longest edge to its height (a ratio, at least 1.16).")
         .at_least(1);
     d.option("roundness", &ConstraintOptions::roundness,
-             "No face gets a smaller roundness: 1 is equilateral, 0 is flat (a share, without unit).")
+             "The smallest roundness of a face: 1 is equilateral, 0 is degenerate (a ratio, without unit).")
         .between(0, 1);
     d.option("hausdorff", &ConstraintOptions::hausdorff,
-             "No vertex that went is farther from the faces near by.")
+             "The largest distance of a removed vertex from the faces near it.")
         .above(0);
 }
 
 void declare_levels(Declare<LevelOptions>& d) {
-    d.option(
-         "ratios", &LevelOptions::ratios,
-         "What remains at each level, from fine to coarse, of the triangles of each part: [100%, 50%, 10%].")
+    d.option("ratios", &LevelOptions::ratios,
+             "The ratio of the triangles of each part that remains at each level, from fine to coarse: "
+             "[100%, 50%, 10%].")
         .required();
     d.shorthand("a list of ratios", {{"type", "array"}},
                 [](const Value& v, LevelOptions& out, Problems& problems) {
@@ -99,18 +103,20 @@ void declare_levels(Declare<LevelOptions>& d) {
 
 void declare_targets(Declare<SimplifyOptions>& d) {
     d.option("ratio", &SimplifyOptions::ratio,
-             "What remains, as a ratio of the triangles of each part: 25%, or 0.25.")
+             "The ratio of the triangles of each part that remains: 25%, or 0.25.")
         .above(0)
         .at_most(1)
         .primary();
     d.option("faces", &SimplifyOptions::faces,
-             "At most so many triangles (a count), shared among the parts in proportion to their own.")
+             "The maximum number of triangles that remain (a count), shared among the parts in proportion to "
+             "their own.")
         .at_least(1);
     d.option("vertices", &SimplifyOptions::vertices,
-             "At most so many vertices (a count), shared among the parts in proportion to their own.")
+             "The maximum number of vertices that remain (a count), shared among the parts in proportion to "
+             "their own.")
         .at_least(1);
     d.option("max_error", &SimplifyOptions::max_error,
-             "As far as the deviation from what came in, measured both ways, stays within this.")
+             "The largest deviation from the input, measured both ways.")
         .above(0);
 }
 
@@ -118,33 +124,34 @@ void declare_method(Declare<SimplifyOptions>& d) {
     d.choice<Method>(
         "method", &SimplifyOptions::method,
         {{"quadric", Method::quadric,
-          "least squared distance to the planes of the faces; vertices go where that is least"},
+          "smallest squared distance to the planes of the faces; new vertices are placed where it is "
+          "smallest"},
          {"quadric-endpoints", Method::quadric_endpoints,
-          "the same, but no vertex moves: those that remain are some of those that came in"},
+          "the same, but no vertex moves: the remaining vertices are vertices of the input"},
          {"constrained", Method::constrained,
           "quadric-endpoints under constraints, by OpenMesh; see constraints"},
-         {"shortest-edge", Method::shortest_edge,
-          "the shortest edge goes, and the rest meets at its midpoint"},
+         {"shortest-edge", Method::shortest_edge, "the shortest edge is collapsed to its midpoint"},
          {"cluster", Method::cluster,
-          "all vertices in a cell of a grid become one: very fast, for previews; topology is not kept"}},
-        "Which edge goes next.");
-    d.choice<Topology>(
-        "topology", &SimplifyOptions::topology,
-        {{"keep", Topology::keep, "genus, components and boundary loops stay"},
-         {"allow", Topology::allow,
-          "small components may vanish, holes close and handles be pinched off; the report counts them"}},
-        "Whether the topology may change.");
+          "all vertices in a grid cell are merged: very fast, for previews; topology is not kept"}},
+        "Which edge is collapsed next.");
+    d.choice<Topology>("topology", &SimplifyOptions::topology,
+                       {{"keep", Topology::keep, "genus, components and boundary loops are kept"},
+                        {"allow", Topology::allow,
+                         "small components may vanish, holes may close and handles may be pinched off; the "
+                         "report counts them"}},
+                       "Whether the topology may change.");
     d.group("lock", &SimplifyOptions::lock,
-            "What stays vertex by vertex. Boundaries, seams and borders that are not locked collapse along "
-            "themselves only.",
+            "What is kept vertex by vertex. Boundaries, seams and borders that are not locked collapse only "
+            "along themselves.",
             declare_lock);
     d.group("weights", &SimplifyOptions::weights,
-            "What attributes weigh in the error of the quadric methods, beside the shape; 0 leaves one out.",
+            "The weights of attributes in the error of the quadric methods, relative to the shape; 0 ignores "
+            "an attribute.",
             declare_weights);
-    d.option(
-         "crease", &SimplifyOptions::crease,
-         "Seams that only normals make are merged where the faces meet at less than this angle; flat-shaded "
-         "meshes stay flat-shaded. 0 keeps every normal seam.")
+    d.option("feature_angle", &SimplifyOptions::feature_angle,
+             "Seams that exist only in the normals are merged at edges whose dihedral angle is below this "
+             "(an angle between the normals of the two faces); flat-shaded meshes stay flat-shaded. 0 keeps "
+             "every such seam.")
         .between(0, 180);
 }
 
@@ -168,10 +175,10 @@ void verify_levels(const SimplifyOptions& o, Together& together, const Mark& mar
     together.refuse(o.ratio || o.faces || o.vertices || o.max_error, "lods", "lods has its own targets",
                     "leave out ratio, faces, vertices and max_error");
     together.refuse(o.self_intersections == Intersections::avoid, "lods",
-                    "lods cannot avoid self-intersections",
+                    "lods cannot be combined with self_intersections: avoid",
                     "use self_intersections: count, or one simplify stage for each level");
     together.refuse(o.method == Method::cluster, "lods",
-                    "lods is one chain of collapses, and cluster makes none",
+                    "lods needs a chain of collapses, which the method cluster does not have",
                     "use another method, or one simplify stage for each level");
     if (o.lods->ratios.empty())
         problems.add(mark, "E-RANGE", "simplify: lods: at least one ratio", "for example [100%, 50%, 10%]");
@@ -192,22 +199,22 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
     declare_method(d);
     d.choice<Intersections>(
         "self_intersections", &SimplifyOptions::self_intersections,
-        {{"ignore", Intersections::ignore, "not looked for"},
-         {"count", Intersections::count, "pairs of faces that run into each other, counted before and after"},
+        {{"ignore", Intersections::ignore, "they are not searched for"},
+         {"count", Intersections::count, "intersecting pairs of faces are counted before and after"},
          {"avoid", Intersections::avoid,
-          "none is new: where faces would run into others, less is taken away"}},
-        "What is done about faces that come to run into each other.");
+          "new intersections are avoided: where faces would intersect, fewer are removed"}},
+        "What is done about faces that come to intersect.");
     d.group("constraints", &SimplifyOptions::constraints,
-            "For the method constrained: what no collapse may bring about.", declare_constraints);
-    d.group(
-        "lods", &SimplifyOptions::lods,
-        "Levels of detail in place of one target: each is made from the one before, and all are parts of the "
-        "scene: NAME, NAME.lod1, NAME.lod2, ... (write: {lods: true} puts them into one glTF as MSFT_lod).",
-        declare_levels);
+            "For the method constrained: limits that no collapse may exceed.", declare_constraints);
+    d.group("lods", &SimplifyOptions::lods,
+            "Levels of detail instead of one target: each is made from the one before, and all become parts "
+            "of the scene: NAME, NAME.lod1, NAME.lod2, ... (write: {lods: true} puts them into one glTF as "
+            "MSFT_lod).",
+            declare_levels);
     d.option("measure", &SimplifyOptions::measure,
-             "Measure the deviation from what came in, both ways, and report it.");
+             "Measures the deviation from the input, both ways, and reports it.");
     d.option("certify", &SimplifyOptions::certify,
-             "Also find a guaranteed upper bound of the deviation (it costs).");
+             "Also finds a guaranteed upper bound of the deviation (this takes time).");
     d.at_least_one({"ratio", "faces", "vertices", "max_error", "lods"});
 }
 
@@ -216,12 +223,12 @@ void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& pro
     const bool constrained = o.method == Method::constrained, cluster = o.method == Method::cluster;
     const bool locks = o.lock.boundary || o.lock.seams || o.lock.group || o.lock.box;
     together.refuse(constrained && o.max_error, "max_error", "constrained takes no max_error",
-                    "constraints: {hausdorff: 0.1%} bounds the error");
+                    "use constraints: {hausdorff: 0.1%} to limit the error");
     together.refuse(constrained && o.lods, "lods", "constrained takes no lods",
                     "use another method, or one simplify stage for each level");
     together.refuse(constrained && o.topology == Topology::allow, "topology",
                     "constrained keeps the topology", "use the method quadric");
-    together.refuse(cluster && locks, "lock", "cluster cannot hold vertices", "use the method quadric");
+    together.refuse(cluster && locks, "lock", "cluster cannot lock vertices", "use the method quadric");
     together.refuse(cluster && o.self_intersections == Intersections::avoid, "self_intersections",
                     "cluster cannot avoid self-intersections", "count them, or use the method quadric");
     together.refuse(!constrained && together.has("constraints"), "constraints",
@@ -241,7 +248,7 @@ SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to
                        .self_intersections = o.self_intersections,
                        .weights = o.weights,
                        .lock = {.boundary = o.lock.boundary, .seams = o.lock.seams, .groups = o.lock.group},
-                       .feature_angle = o.crease.radians};
+                       .feature_angle = o.feature_angle.radians};
     if (o.lock.box)
         for (const Plane& p : planes_of(*o.lock.box)) s.lock.body.push_back(pulled_back(p, to_world));
     if (o.ratio) s.ratio = o.ratio->value;

@@ -29,7 +29,7 @@ struct SimplifyOptions {
     SimplifySettings::Topology topology = SimplifySettings::Topology::keep;
     LockOptions lock;
     AttributeWeights weights;
-    Angle crease = Angle::degrees(30);
+    Angle feature_angle = Angle::degrees(30);
     SimplifySettings::Intersections self_intersections = SimplifySettings::Intersections::ignore;
     std::optional<LevelOptions> lods;
     ConstraintOptions constraints;

@@ -37,7 +37,7 @@ void warn(const Part& part, const SimplifyResult& r, Context& context) {
                                  r.faces_after, report::held_by(r)),
                      report::way_out(r));
     if (r.faces_before > 0 && r.faces_after == 0)
-        context.warn("W-SIMPLIFY-VANISHED", fmt::format("of part '{}' no face is left", part.name),
+        context.warn("W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
                      "ask for more faces, or keep the topology (topology: keep, and no cluster)");
 }
 

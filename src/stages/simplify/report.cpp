@@ -99,19 +99,18 @@ struct Reason {
 };
 
 std::vector<Reason> reasons(const SimplifyResult::Blocked& b) {
-    return {
-        {b.seams, "held by seams and borders of materials and groups",
-         "islands of a texture, materials and groups keep their borders: with fewer of them it goes further"},
-        {b.borders, "by boundaries and locks", "ask for more faces, or lock less"},
-        {b.non_manifold, "at places that are not manifold", "put clean before simplify: it repairs them"},
-        {b.topology, "by topology", "topology: allow lets small components, holes and handles go"},
-        {b.flips, "would flip a face", "ask for more faces"}};
+    return {{b.seams, "held by seams and by borders of materials and groups",
+             "texture islands, materials and groups keep their borders: fewer of them allow more collapses"},
+            {b.borders, "by boundaries and locks", "ask for more faces, or lock less"},
+            {b.non_manifold, "at places that are not manifold", "use clean before simplify to repair them"},
+            {b.topology, "by topology", "topology: allow lets small components, holes and handles vanish"},
+            {b.flips, "would flip a face", "ask for more faces"}};
 }
 
 } // namespace
 
 std::string held_by(const SimplifyResult& r) {
-    if (r.cell) return "with larger cells no face would be left";
+    if (r.cell) return "with larger cells no face would remain";
     std::string text;
     for (const auto& [edges, what, way_out] : reasons(r.blocked))
         if (edges > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(edges), what);

@@ -13,67 +13,70 @@ using Method = std::optional<SplitMethod>;
 
 const std::vector<NamedChoice<Method>> methods = {
     {"midpoint", SplitMethod::midpoint,
-     "edges halved: a triangle becomes 4 triangles, a quad 4 quads, an n-gon n quads; no finer angles"},
+     "at the midpoints of edges: a triangle becomes 4 triangles, a quad 4 quads, an n-gon n quads; angles "
+     "get no smaller in triangles"},
     {"bisect", SplitMethod::bisect,
-     "triangles in 2 at their longest edge, in 3 or 4 where neighbours cut the other edges; see cut"},
+     "triangles into 2 at their longest edge, into 3 or 4 where neighbours cut the other edges; see cut"},
     {"notch", SplitMethod::notch,
-     "triangles between the middles of their two longest edges: a triangle and a quad; four triangles where "
-     "the third edge is cut too"},
+     "triangles between the midpoints of their two longest edges, into a triangle and a quad; into 4 "
+     "triangles where the third edge is cut as well"},
     {"centroid", SplitMethod::centroid,
-     "triangles from every edge to the centroid: a triangle becomes 3, a quad 4"},
+     "into triangles from every edge to the centroid: a triangle becomes 3, a quad 4"},
     {"core", SplitMethod::core,
-     "the same shape at half size and a quad along every edge: a triangle becomes 4 faces"},
-    {"quads", SplitMethod::quads, "quads around the centroid: a triangle becomes 3, a quad 4"},
+     "into the same shape at half size and a quad along every edge: a triangle becomes 4 faces"},
+    {"quads", SplitMethod::quads, "into quads around the centroid: a triangle becomes 3, a quad 4"},
     {"halve", SplitMethod::halve,
-     "quads in 2 between the middles of their longer opposite edges; neighbours of those edges are cut too"},
+     "quads into 2 between the midpoints of their longer opposite edges; neighbours at those edges are cut "
+     "as well"},
     {"varignon", SplitMethod::varignon,
-     "the polygon of the edges' midpoints and a triangle at every corner: a quad becomes 5 faces"},
+     "into the polygon of the edges' midpoints and a triangle at every corner: a quad becomes 5 faces"},
     {"diagonal", SplitMethod::diagonal,
-     "quads in 2 triangles along their shorter diagonal, concave ones along the inner one"},
-    {"fan", SplitMethod::fan, "quads and larger in triangles to the centroid: a quad becomes 4"},
-    {"grid", SplitMethod::grid, "triangles in n * n triangles, quads in n x n quads; see grid"},
-    {"loop", SplitMethod::loop, "smooth: triangles in 4, the surface approaches a box spline"},
-    {"sqrt3", SplitMethod::sqrt3, "smooth: triangles in 3 and turned; nine times as many in two passes"},
-    {"butterfly", SplitMethod::butterfly, "smooth, through the old vertices: triangles in 4"},
-    {"catmull-clark", SplitMethod::catmull_clark, "smooth: every face in quads; a quad becomes 4"}};
+     "quads into 2 triangles along their shorter diagonal, concave quads along the inner one"},
+    {"fan", SplitMethod::fan, "quads and larger faces into triangles to the centroid: a quad becomes 4"},
+    {"grid", SplitMethod::grid, "triangles into n * n triangles, quads into n x n quads; see grid"},
+    {"loop", SplitMethod::loop, "smooth: triangles into 4; the surface approaches a box spline"},
+    {"sqrt3", SplitMethod::sqrt3,
+     "smooth: triangles into 3, with edges flipped; two passes make nine times as many"},
+    {"butterfly", SplitMethod::butterfly, "smooth, interpolating the existing vertices: triangles into 4"},
+    {"catmull-clark", SplitMethod::catmull_clark, "smooth: every face into quads; a quad becomes 4"}};
 
 } // namespace
 
 void declare_split(Declare<SplitOptions>& d) {
     d.choice<Method>("method", &SplitOptions::method, methods,
-                     "How faces are split; midpoint unless given, bisect with a target.")
+                     "How faces are split; midpoint unless given, or bisect when there is a target.")
         .primary();
     d.option("grid", &SplitOptions::grid,
-             "How many pieces each edge is cut into (a count); every face becomes n x n. Implies the method "
-             "grid.")
+             "The number of segments that each edge is cut into (a count); every face becomes n x n faces. "
+             "Implies the method grid.")
         .between(1, 10000);
     d.option("passes", &SplitOptions::passes,
-             "How many times the split is repeated (a count; 1 unless given); with max_edge or faces, how "
-             "many times at most (100 unless given). A max_edge that is not reached is warned of.")
+             "The number of passes (a count; 1 unless given); with max_edge or max_faces, the maximum number "
+             "(100 unless given). A warning says when max_edge was not reached.")
         .between(0, 100);
     d.choice<Cut>("cut", &SplitOptions::cut,
                   {{"longest-edge", Cut::longest_edge, "in the middle of the longest edge"},
                    {"widest-angle", Cut::widest_angle,
-                    "where the bisector of the widest angle meets the edge opposite to it; not with a "
-                    "target, which such cuts may never reach"}},
+                    "where the bisector of the widest angle meets the opposite edge; not with a target, "
+                    "which such cuts may never reach"}},
                   "Where bisect cuts a triangle.");
     d.option("max_edge", &SplitOptions::max_edge,
-             "Split until no edge is longer (a length): with bisect only where it is needed, with midpoint, "
-             "quads, loop, butterfly and catmull-clark everywhere.")
+             "Split until no edge is longer than this (a length): with bisect only where needed; with "
+             "midpoint, quads, loop, butterfly and catmull-clark everywhere.")
         .above(0);
     d.option("min_angle", &SplitOptions::min_angle,
-             "Split only triangles that have a smaller angle (an angle), by bisect or notch, and neighbours "
-             "that must follow, passes times. With bisect no angle becomes smaller than half the smallest "
-             "there was.")
+             "Split only triangles that have a smaller angle than this (an angle), by bisect or notch, and "
+             "the neighbours that must follow, once per pass. With bisect no angle becomes smaller than half "
+             "the smallest original one.")
         .above(0)
         .at_most(60);
-    d.option("faces", &SplitOptions::faces,
-             "Never more faces than this (a count, for all parts together): bisect cuts the longest edges "
-             "first, other methods stop before the pass that would exceed it.")
+    d.option("max_faces", &SplitOptions::max_faces,
+             "The maximum number of faces (a count, for all parts together): bisect cuts the longest edges "
+             "first; other methods stop before the pass that would exceed it.")
         .at_least(1);
-    d.option("creases", &SplitOptions::creases,
-             "Smooth methods: edges that bend by more than this stay sharp (an angle; only boundaries do "
-             "unless given).")
+    d.option("feature_angle", &SplitOptions::feature_angle,
+             "Smooth methods: edges whose dihedral angle is larger than this stay sharp (an angle between "
+             "the normals of the two faces; if not given, only boundaries do).")
         .between(0, 180);
 }
 
@@ -84,7 +87,7 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
                      "leave out either method or grid");
     if (o.method == SplitMethod::grid && !o.grid)
         problems.add(given.mark, "E-MISSING",
-                     "split: the method grid needs 'grid', the number of pieces per edge",
+                     "split: the method grid needs 'grid', the number of segments per edge",
                      "for example split: {grid: 3}");
     if (o.cut != Cut::longest_edge && method != SplitMethod::bisect)
         problems.add(mark_at(given, "cut"), "E-CONFLICT",
@@ -96,19 +99,20 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
                         "may never reach",
                         o.max_edge    ? "max_edge"
                         : o.min_angle ? "min_angle"
-                                      : "faces"),
+                                      : "max_faces"),
             "leave out cut, or give passes and no target");
-    if (o.creases && (!is_smooth(method) || method == SplitMethod::sqrt3))
-        problems.add(mark_at(given, "creases"), "E-CONFLICT",
-                     fmt::format("split: 'creases' goes with loop, butterfly and catmull-clark, not with {}",
-                                 to_string(method)));
-    if (o.min_angle && (o.max_edge || o.faces))
+    if (o.feature_angle && (!is_smooth(method) || method == SplitMethod::sqrt3))
+        problems.add(
+            mark_at(given, "feature_angle"), "E-CONFLICT",
+            fmt::format("split: 'feature_angle' goes with loop, butterfly and catmull-clark, not with {}",
+                        to_string(method)));
+    if (o.min_angle && (o.max_edge || o.max_faces))
         problems.add(mark_at(given, "min_angle"), "E-CONFLICT",
                      "split: 'min_angle' goes with no other target", "use two split stages");
     try {
         SplitSettings s;
         s.method = method;
-        s.max_edge = o.max_edge ? 1 : 0, s.min_angle = o.min_angle && !o.max_edge && !o.faces ? 1 : 0;
+        s.max_edge = o.max_edge ? 1 : 0, s.min_angle = o.min_angle && !o.max_edge && !o.max_faces ? 1 : 0;
         check_split_targets(s);
     } catch (const Error& e) {
         const auto& d = e.diagnostics().front();
@@ -119,11 +123,11 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
 SplitSettings split_settings(const SplitOptions& o) {
     SplitSettings settings;
     settings.method = o.chosen();
-    settings.passes = static_cast<int>(o.passes.value_or(o.max_edge || o.faces ? 100 : 1));
+    settings.passes = static_cast<int>(o.passes.value_or(o.max_edge || o.max_faces ? 100 : 1));
     settings.grid = static_cast<int>(o.grid.value_or(2));
     settings.cut = o.cut;
     if (o.min_angle) settings.min_angle = o.min_angle->radians;
-    if (o.creases) settings.creases = o.creases->radians;
+    if (o.feature_angle) settings.feature_angle = o.feature_angle->radians;
     return settings;
 }
 

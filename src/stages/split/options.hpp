@@ -8,12 +8,12 @@ namespace facetmill {
 
 struct SplitOptions {
     std::optional<SplitMethod> method; ///< none: midpoint, or bisect with a target
-    std::optional<std::int64_t> grid, passes, faces;
+    std::optional<std::int64_t> grid, passes, max_faces;
     SplitSettings::Cut cut = SplitSettings::Cut::longest_edge;
     std::optional<Length> max_edge;
-    std::optional<Angle> min_angle, creases;
+    std::optional<Angle> min_angle, feature_angle;
 
-    bool has_target() const { return max_edge || min_angle || faces; }
+    bool has_target() const { return max_edge || min_angle || max_faces; }
     SplitMethod chosen() const {
         return grid ? SplitMethod::grid
                     : method.value_or(has_target() ? SplitMethod::bisect : SplitMethod::midpoint);
@@ -24,7 +24,7 @@ void declare_split(Declare<SplitOptions>& d);
 /// What the declaration cannot say: options and targets that do not go together.
 void verify_split(const SplitOptions& o, const Value& given, Problems& problems);
 
-/// What is the same for all parts; max_edge, faces and the transform are each part's own.
+/// What is the same for all parts; max_edge, max_faces and the transform are each part's own.
 SplitSettings split_settings(const SplitOptions& o);
 
 } // namespace facetmill

@@ -2,30 +2,33 @@
 
 namespace facetmill {
 
-using What = ThickenOptions::What;
+using Mode = ThickenOptions::Mode;
 
 void declare_thicken(Declare<ThickenOptions>& d) {
-    d.option("thickness", &ThickenOptions::thickness, "Of the solid; the diameter of cylinders.")
+    d.option("thickness", &ThickenOptions::thickness,
+             "The thickness of the solid, or the diameter of cylinders.")
         .above(0)
         .required()
         .primary();
     d.choice<ThickenSide>(
         "side", &ThickenOptions::side,
-        {{"inward", ThickenSide::inward, "behind the front, which stays where it is"},
-         {"outward", ThickenSide::outward, "before it; what was the front is the back's place"},
-         {"centred", ThickenSide::centred, "half of it on either side"}},
-        "Where the thickness goes.");
-    d.choice<What>("what", &ThickenOptions::what,
-                   {{"surface", What::surface, "a shell with walls along open edges"},
-                    {"edges", What::edges, "every edge becomes a cylinder, and the faces go"},
-                    {"open-edges", What::open_edges, "only open edges do"}},
-                   "What becomes thick.");
-    d.option("corner_limit", &ThickenOptions::corner_limit,
-             "A vertex at a sharp corner moves at most so many times the thickness (a factor).")
+        {{"inward", ThickenSide::inward, "behind the front, which stays in place"},
+         {"outward", ThickenSide::outward, "in front of the surface, which becomes the back"},
+         {"centred", ThickenSide::centred, "half of the thickness on either side"}},
+        "The side to which the thickness is added.");
+    d.choice<Mode>(
+        "mode", &ThickenOptions::mode,
+        {{"surface", Mode::surface, "a solid of the given thickness, with walls along boundary edges"},
+         {"edges", Mode::edges, "every edge becomes a cylinder, and the faces are removed"},
+         {"boundary-edges", Mode::boundary_edges, "only boundary edges become cylinders"}},
+        "What gets a thickness.");
+    d.option("miter_limit", &ThickenOptions::miter_limit,
+             "The largest move of a vertex at a sharp corner, as a multiple of the thickness (a factor).")
         .between(1, 100);
-    d.option("sides", &ThickenOptions::sides, "Of each cylinder (a count).").between(3, 360);
+    d.option("sides", &ThickenOptions::sides, "The number of sides of each cylinder (a count).")
+        .between(3, 360);
     d.option("self_intersections", &ThickenOptions::self_intersections,
-             "Looks for them in the result and says so.");
+             "Searches the result for self-intersections and reports them.");
 }
 
 } // namespace facetmill

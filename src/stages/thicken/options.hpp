@@ -7,12 +7,12 @@
 namespace facetmill {
 
 struct ThickenOptions {
-    enum class What { surface, edges, open_edges };
+    enum class Mode { surface, edges, boundary_edges };
 
     Length thickness;
     ThickenSide side = ThickenSide::inward;
-    What what = What::surface;
-    double corner_limit = 3;
+    Mode mode = Mode::surface;
+    double miter_limit = 3;
     std::int64_t sides = 8;
     bool self_intersections = true;
 };

@@ -75,8 +75,8 @@ std::string line_of(const ThickenedSurface& surface) {
     const ThickenResult& r = surface.result;
     const std::string pairs =
         r.self_intersections ? fmt::format(", {} self-intersections", *r.self_intersections) : "";
-    return fmt::format("{}: wall thickness {:.6g} at least, {:.6g} in the mean{}", surface.part, r.thinnest,
-                       r.mean, pairs);
+    return fmt::format("{}: wall thickness at least {:.6g}, mean {:.6g}{}", surface.part, r.thinnest, r.mean,
+                       pairs);
 }
 
 } // namespace
@@ -101,25 +101,25 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, b
                      fmt::format("thicken: part '{}' is not closed at {} edges: its surface is not oriented "
                                  "there",
                                  part.name, r.unbalanced),
-                     "orient before it; a Moebius strip has no inside");
+                     "use orient first; a Moebius strip has no inside");
     if (r.thinnest < 0.5 * thickness)
-        context.warn("W-THICKEN-THIN",
-                     fmt::format("thicken: the wall of part '{}' is {:.6g} thin where it should be {:.6g}",
-                                 part.name, r.thinnest, thickness),
-                     "the surface bends or folds within the thickness there; try the other side or a smaller "
-                     "thickness");
+        context.warn(
+            "W-THICKEN-THIN",
+            fmt::format("thicken: the wall of part '{}' is only {:.6g} thick where it should be {:.6g}",
+                        part.name, r.thinnest, thickness),
+            "the surface curves or folds within the thickness there; try the other side or a smaller "
+            "thickness");
     if (r.self_intersections.value_or(0) > 0)
         context.warn("W-THICKEN",
                      fmt::format("thicken: {} pairs of faces of part '{}' intersect", *r.self_intersections,
                                  part.name),
-                     "a smaller thickness, the other side, or a smoother surface (relax) avoids it");
+                     "use a smaller thickness, the other side, or a smoother surface (relax)");
     if (looked && !r.self_intersections)
-        context.warn(
-            "W-THICKEN",
-            fmt::format("thicken: part '{}' is smaller than its thickness, {:.6g}: it was not looked "
-                        "through for self-intersections",
-                        part.name, thickness),
-            "is the thickness in the right unit?");
+        context.warn("W-THICKEN",
+                     fmt::format("thicken: part '{}' is smaller than its thickness, {:.6g}, so it was not "
+                                 "searched for self-intersections",
+                                 part.name, thickness),
+                     "is the thickness in the right unit?");
 }
 
 } // namespace facetmill

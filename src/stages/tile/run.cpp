@@ -1,6 +1,7 @@
 #include "options/mark_at.hpp"
 #include "stage/options/cap.hpp"
 #include "stage/stage.hpp"
+#include "stages/tile/help.hpp"
 #include "stages/tile/parts.hpp"
 
 #include <algorithm>
@@ -19,12 +20,13 @@ struct TileOptions {
 };
 
 void declare(Declare<TileOptions>& d) {
-    d.option("size", &TileOptions::size, "Edge length of the tiles: one, or one for each axis.")
+    d.option("size", &TileOptions::size, "The edge length of the tiles: one length, or one for each axis.")
         .required()
         .primary();
-    d.option("axes", &TileOptions::axes, "Across which axes it is cut: any of x, y and z.");
+    d.option("axes", &TileOptions::axes, "The axes along which the grid cuts: any of x, y and z.");
     d.option("origin", &TileOptions::origin,
-             "A corner of the grid: one length for each axis; 0 when not given. The grid goes on both ways.");
+             "A corner of the grid: one length for each axis; 0 unless given. The grid extends in both "
+             "directions.");
     declare_cap(d, &TileOptions::cap, &TileOptions::cap_material);
 }
 
@@ -35,7 +37,7 @@ void verify(const TileOptions& o, const Value& given, Problems& problems) {
     };
     if (o.axes.empty() || !std::all_of(o.axes.begin(), o.axes.end(), axis))
         problems.add(mark_at(given, "axes"), "E-TILE",
-                     fmt::format("tile: 'axes' names each of x, y, z at most once, found '{}'", o.axes),
+                     fmt::format("tile: 'axes' takes each of x, y, z at most once, found '{}'", o.axes),
                      "for example axes: xy");
     const Value* sizes = given.is_map() ? given.find("size") : &given;
     for (const Length& size : o.size)
@@ -59,7 +61,7 @@ std::vector<TileAxis> axes_of(const TileOptions& o, const Scene& scene, Context&
         const double edge = context.resolve(size, scene, "size");
         if (!(edge > 0))
             throw Error(ErrorKind::stage, "E-TILE", "the size of the tiles comes to 0 in this scene",
-                        "its box has no extent: give a length in scene units");
+                        "its bounding box has no extent: give a length in scene units");
         axes.push_back({static_cast<std::size_t>(o.axes[i] - 'x'), edge,
                         o.origin.empty() ? 0 : context.resolve(o.origin[i], scene, "origin")});
     }
@@ -93,15 +95,8 @@ Scene run(Scene scene, const TileOptions& o, Context& context, TileReport& repor
 
 const RegisterStage registered{make_stage<TileOptions>(
     {.name = "tile",
-     .about = "Cuts parts into the tiles of a grid, each a part of its own.",
-     .details =
-         "Tile k along an axis reaches from origin + k size to origin + (k + 1) size, in the world. Tiles "
-         "are named after their part and cell, NAME.x0.y1, and have the face attributes tile_x, tile_y, "
-         "tile_z of the axes that are cut; cells without faces give no part. foreach: {part: \"*\"} then "
-         "works on each.\n\n"
-         "Borders match exactly: neighbours come out of one cut, as of clip with keep: both, whose rules for "
-         "attributes, caps and faces in a plane hold here too. With cap: true a closed part gives closed "
-         "tiles, whose volumes add up.",
+     .about = help::tile::about,
+     .details = help::tile::details,
      .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",
                   "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"}},
     declare, declare_report, run, StageHooks<TileOptions>{.files = {}, .verify = verify})};

@@ -11,7 +11,7 @@ namespace facetmill {
 
 namespace {
 
-using About = TransformOptions::About;
+using Pivot = TransformOptions::Pivot;
 
 /// Rodrigues' formula.
 Transform rotation(const TransformRotation& r) {
@@ -41,31 +41,34 @@ Transform from_numbers(const std::vector<double>& m) {
 } // namespace
 
 void declare_transform(Declare<TransformOptions>& d) {
-    d.choice<Unit>("unit", &TransformOptions::unit, unit_choices("unknown", "as it is"),
-                   "The unit that numbers are in from here on; they change so that sizes stay.");
+    d.choice<Unit>(
+        "unit", &TransformOptions::unit, unit_choices("unknown", "as it is"),
+        "The unit of the numbers from here on; they are converted so that physical sizes stay the same.");
     d.choice<UpAxis>(
         "up", &TransformOptions::up,
         {{"unknown", UpAxis::unknown, "as it is"}, {"y", UpAxis::y, "+Y"}, {"z", UpAxis::z, "+Z"}},
-        "The axis that points up from here on; the scene turns so that up stays up, but where it had no up "
+        "The axis that points up from here on; the scene is rotated so that up stays up, unless it had no up "
         "axis (W-UP).");
-    d.option("scale", &TransformOptions::scale, "One factor, or one for each axis; negative ones mirror.");
-    d.group("rotate", &TransformOptions::rotate, "A rotation, anticlockwise seen against the axis.",
+    d.option("scale", &TransformOptions::scale, "One factor, or one for each axis; negative factors mirror.");
+    d.group("rotate", &TransformOptions::rotate, "A rotation, anticlockwise when looking against the axis.",
             [](Declare<TransformRotation>& r) {
-                r.option("angle", &TransformRotation::angle, "How far.").primary();
-                r.option("axis", &TransformRotation::axis, "Around which direction.");
+                r.option("angle", &TransformRotation::angle, "The angle of rotation.").primary();
+                r.option("axis", &TransformRotation::axis, "The axis of rotation.");
             });
-    d.choice<About>("about", &TransformOptions::about,
-                    {{"origin", About::origin, "the world's origin"},
-                     {"centre", About::centre, "the centre of the parts' box"}},
-                    "The point that scale and rotate leave where it is.");
+    d.choice<Pivot>("pivot", &TransformOptions::pivot,
+                    {{"origin", Pivot::origin, "the world's origin"},
+                     {"centre", Pivot::centre, "the centre of the parts' bounding box"}},
+                    "The point that scale and rotate leave in place.");
     d.option("matrix", &TransformOptions::matrix,
              "Twelve or sixteen numbers, row by row, applied to columns (x, y, z, 1).");
     d.option("translate", &TransformOptions::translate, "Three lengths.");
-    d.option("centre", &TransformOptions::centre, "Then moves the centre of the parts' box to the origin.");
+    d.option("centre", &TransformOptions::centre,
+             "Then moves the centre of the parts' bounding box to the origin.");
     d.option("ground", &TransformOptions::ground,
-             "Then rests the parts on the ground: the lowest point along up is at 0.");
+             "Then places the parts on the ground: the lowest point along the up axis is at 0.");
     d.option("bake", &TransformOptions::bake,
-             "Moves the vertices and leaves the parts' nodes without a transform; not of animated parts.");
+             "Applies the transform to the vertices and removes it from the parts' nodes; animated parts are "
+             "left out.");
 }
 
 void verify_transform(const TransformOptions& o, const Value& given, Problems& problems) {
@@ -86,9 +89,8 @@ void verify_transform(const TransformOptions& o, const Value& given, Problems& p
     if (o.matrix.size() == 16 &&
         (o.matrix[12] != 0 || o.matrix[13] != 0 || o.matrix[14] != 0 || o.matrix[15] != 1))
         refuse("matrix", "the last row of a matrix is 0, 0, 0, 1");
-    if (given.find("about") && o.scale.empty() && !o.rotate)
-        problems.add(mark_at(given, "about"), "E-CONFLICT",
-                     "transform: about goes with scale or rotate");
+    if (given.find("pivot") && o.scale.empty() && !o.rotate)
+        problems.add(mark_at(given, "pivot"), "E-CONFLICT", "transform: pivot goes with scale or rotate");
     if (o.rotate && !(length(o.rotate->axis) > 0)) refuse("rotate", "the axis of a rotation has no length");
 }
 

@@ -12,12 +12,12 @@ struct TransformRotation {
 
 struct TransformOptions {
     /// The point that scale and rotate leave where it is.
-    enum class About { origin, centre };
+    enum class Pivot { origin, centre };
 
     std::vector<Length> translate;
     std::optional<TransformRotation> rotate;
     std::vector<double> scale, matrix;
-    About about = About::origin;
+    Pivot pivot = Pivot::origin;
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
     bool centre = false, ground = false, bake = false;

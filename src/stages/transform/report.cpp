@@ -23,22 +23,22 @@ void warn_of_conversion(const io::Conversion& converted, const TransformOptions&
         context.warn(
             "W-UNITS",
             fmt::format("transform: the scene had no unit; its numbers are taken as {}", to_string(o.unit)),
-            "say what the file's numbers mean when it is loaded (load: {unit: mm})");
+            "give the unit when the file is loaded (load: {unit: mm})");
     if (converted.up_guessed)
         context.warn("W-UP",
-                     fmt::format("transform: the scene had no up axis; nothing is turned, and {} is up now",
+                     fmt::format("transform: the scene had no up axis; nothing is rotated, and {} is up now",
                                  to_string(o.up)),
-                     "say which axis is up in the file when it is loaded (load: {up: z})");
+                     "give the up axis when the file is loaded (load: {up: z})");
 }
 
 void warn_of_skin(const std::string& part, Context& context) {
-    context.warn("W-SKIN", fmt::format("transform: part '{}' moves in bind pose and loses its skin", part),
+    context.warn("W-SKIN", fmt::format("transform: part '{}' is moved in bind pose and loses its skin", part),
                  "move the node of its skeleton instead");
 }
 
 void warn_of_animation(const std::string& part, Context& context) {
     context.warn("W-TRANSFORM", fmt::format("transform: part '{}' is animated and is not baked", part),
-                 "its node has moved; merge makes it a part that stands still");
+                 "its node has been moved; merge makes it a part without animation");
 }
 
 } // namespace facetmill

@@ -1,5 +1,6 @@
 #include "io/gltf/gltf.hpp"
 #include "mesh/placement.hpp"
+#include "stages/transform/help.hpp"
 #include "stages/transform/report.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ class Mover {
         const io::Conversion converted = io::convert(scene_, {o_.unit, o_.up});
         warn_of_conversion(converted, o_, context_);
         const Transform spin = spin_of(o_);
-        const Vec3 fixed = o_.about == TransformOptions::About::centre ? box().centre() : Vec3{};
+        const Vec3 fixed = o_.pivot == TransformOptions::Pivot::centre ? box().centre() : Vec3{};
         if (!spin.identity()) move(moved(fixed) * spin * moved(-fixed));
         if (!o_.matrix.empty()) move(matrix_of(o_));
         if (!o_.translate.empty()) move(moved(translation()));
@@ -93,12 +94,8 @@ Scene run(Scene scene, const TransformOptions& o, Context& context, TransformRep
 
 const RegisterStage registered = make_stage<TransformOptions>(
     {.name = "transform",
-     .about = "Moves, turns and scales parts; converts units and the up axis.",
-     .details = "In this order, whatever the order of the options: unit and up (of the whole scene), scale, "
-                "rotate, matrix, translate, centre, ground. All in world space: the nodes of the parts move, "
-                "their meshes stay as they are, unless bake is on. Faces of a part that is mirrored keep "
-                "their front, as glTF has it. The ground is 0 along the up axis, +Z where that is unknown. A "
-                "skinned part moves in bind pose and loses its skin (W-SKIN).",
+     .about = help::transform::about,
+     .details = help::transform::details,
      .examples = {"transform: {scale: 0.001}",
                   "transform: {rotate: {axis: [1, 0, 0], angle: 90deg}, ground: true}",
                   "transform: {unit: m, up: y, centre: true, ground: true}",

@@ -4,6 +4,7 @@
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "geometry/triangulate/pair_triangles.hpp"
 #include "stage/stage.hpp"
+#include "stages/triangulate/help.hpp"
 
 #include <fmt/format.h>
 
@@ -15,17 +16,18 @@ enum class To { triangles, quads };
 
 struct TriangulateOptions {
     To to = To::triangles;
-    Angle bend = Angle::degrees(10);
+    Angle feature_angle = Angle::degrees(10);
 };
 
 void declare(Declare<TriangulateOptions>& d) {
     d.choice<To>("to", &TriangulateOptions::to,
                  {{"triangles", To::triangles, "every face becomes triangles"},
-                  {"quads", To::quads, "then pairs of triangles become quads, the squarest first"}},
-                 "What faces become.")
+                  {"quads", To::quads, "then pairs of triangles become quads, the most square pairs first"}},
+                 "What faces are turned into.")
         .primary();
-    d.option("bend", &TriangulateOptions::bend,
-             "How much the halves of a quad may be bent from each other (with to: quads).")
+    d.option("feature_angle", &TriangulateOptions::feature_angle,
+             "With to: quads, edges whose dihedral angle is larger than this are features and are kept (an "
+             "angle between the normals of the two faces).")
         .between(0, 90);
 }
 
@@ -63,7 +65,7 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context, Triangulat
         fans += result.fans;
         part.mesh = std::move(result.mesh);
         if (o.to == To::quads) {
-            auto paired = pair_triangles(part.mesh, {.cos_bend = cosine(o.bend.radians)});
+            auto paired = pair_triangles(part.mesh, {.cos_bend = cosine(o.feature_angle.radians)});
             part.mesh = std::move(paired.mesh);
             entry.quads = paired.quads;
             entry.triangles = paired.triangles;
@@ -84,23 +86,9 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context, Triangulat
 
 const RegisterStage registered{make_stage<TriangulateOptions>(
     {.name = "triangulate",
-     .about = "Cuts faces of any kind into triangles, or pairs triangles to quads.",
-     .details =
-         "Every face of n corners becomes n - 2 triangles without new points, so that closed stays closed. "
-         "Convex quads are "
-         "cut along the shorter diagonal; convex and concave faces, and faces with holes joined by "
-         "coincident edges, by "
-         "constrained Delaunay triangulation of the corners seen along the coordinate axis nearest to the "
-         "face's normal. "
-         "That is the projection for faces that are not planar as well. Faces that intersect themselves are "
-         "filled by "
-         "winding: a fan whose triangles add up, at every point, to how often the face winds around it.\n\n"
-         "The report counts the faces that came in by kind (triangle, quad, convex, concave, complex, "
-         "self-intersecting, "
-         "degenerate) and those that are not planar, with the largest deviation. Vertices, wedges and their "
-         "attributes stay "
-         "as they are; face attributes are copied. Source: the note on polygon types.",
-     .examples = {"triangulate", "triangulate: quads", "triangulate: {to: quads, bend: 5deg}"}},
+     .about = help::triangulate::about,
+     .details = help::triangulate::details,
+     .examples = {"triangulate", "triangulate: quads", "triangulate: {to: quads, feature_angle: 5deg}"}},
     declare, declare_report, run)};
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "geometry/thicken/thicken.hpp"
 #include "stage/stage.hpp"
+#include "stages/two-sided/help.hpp"
 
 #include <fmt/format.h>
 
@@ -15,8 +16,8 @@ struct TwoSidedOptions {
 
 void declare(Declare<TwoSidedOptions>& d) {
     d.choice<By>("by", &TwoSidedOptions::by,
-                 {{"faces", By::faces, "every face once more, in reversed order"},
-                  {"material", By::material, "materials are marked double-sided, faces stay as they are"}},
+                 {{"faces", By::faces, "every face is added once more, in reversed order"},
+                  {"material", By::material, "materials are marked double-sided; faces stay as they are"}},
                  "How the back becomes visible.")
         .primary();
 }
@@ -80,20 +81,12 @@ Scene run(Scene scene, const TwoSidedOptions& o, Context& context, TwoSidedRepor
     return scene;
 }
 
-const RegisterStage registered = make_stage<TwoSidedOptions>(
-    {.name = "two-sided",
-     .about = "Makes a surface visible from behind: by doubled faces, or by its material.",
-     .details = "By faces, every face is there once more in reversed order, after all others, with normals "
-                "turned; those that have a back at the same place already stay as they are. The back "
-                "has its own vertices, except along open edges, which both sides share: an open surface "
-                "becomes a closed one "
-                "without volume. Files that are welded by position (STL, glTF) will have both sides share "
-                "all of them. By "
-                "material, glTF's doubleSided is set on every material of the parts; only glTF can say that. "
-                "thicken gives a "
-                "surface a real back.\n\nSource: the note on facets.",
-     .examples = {"two-sided", "two-sided: material"}},
-    declare, declare_report, run);
+const RegisterStage registered =
+    make_stage<TwoSidedOptions>({.name = "two-sided",
+                                 .about = help::two_sided::about,
+                                 .details = help::two_sided::details,
+                                 .examples = {"two-sided", "two-sided: material"}},
+                                declare, declare_report, run);
 
 } // namespace
 

@@ -178,10 +178,10 @@ class Judge {
         context_.result()["fixed"] = gone.failures;
         context_.result()["fixed_locations"] = gone.locations;
         if (known_.size() > 0 && any_ && !any_known_)
-            context_.warn("W-BASELINE",
-                          fmt::format("nothing of what '{}' knows fails here, and other things do",
-                                      s_.baseline->string()),
-                          "is it the baseline of another mesh, or of other parts?");
+            context_.warn(
+                "W-BASELINE",
+                fmt::format("none of the failures in '{}' occurs here, but others do", s_.baseline->string()),
+                "is it the baseline of another mesh, or of other parts?");
         if (gone.failures + gone.locations == 0) return;
         std::string text = fmt::format("{} known failures waived", waived_);
         if (gone.failures > 0) text += fmt::format(", {} fixed", gone.failures);

@@ -134,7 +134,7 @@ KnownFailures KnownFailures::read(const std::filesystem::path& path) {
     if (!json.contains("facetmill_baseline") || !json["facetmill_baseline"].is_number_integer())
         throw refuse();
     if (json["facetmill_baseline"].get<std::int64_t>() != form)
-        throw refuse("is a baseline of another form than this facetmill reads");
+        throw refuse("is a baseline of a version that this facetmill does not read");
     KnownFailures known;
     for (const auto& f : json["failures"]) {
         if (!read_failure(f, known.failures_.emplace_back())) throw refuse();

@@ -117,13 +117,13 @@ std::vector<Share> texture_pixels(const Scene& scene) {
 
 void declare_limits(Declare<SceneLimits>& d) {
     d.option("parts", &SceneLimits::parts, "How many parts; a bare number is the maximum (10).");
-    d.option("materials", &SceneLimits::materials, "How many materials.");
+    d.option("materials", &SceneLimits::materials, "The number of materials.");
     d.option("bytes", &SceneLimits::documents_bytes,
-             "Bytes of the glTF documents as loaded, buffers and images included: 10MB, 500kB (1000 bytes), "
-             "1.5MiB, 500KiB (1024 bytes) or a number.");
+             "The size of the glTF documents as loaded, with buffers and images: 10MB, 500kB (1000 bytes "
+             "each), 1.5MiB, 500KiB (1024 bytes each) or a number of bytes.");
     d.option("texture_pixels", &SceneLimits::texture_pixels,
-             "Pixels of all PNG and JPEG images together (a count).");
-    d.option("names", &SceneLimits::names, "Patterns; every part's name has to match one of them.");
+             "The number of pixels of all PNG and JPEG images together (a count).");
+    d.option("names", &SceneLimits::names, "Patterns; the name of every part must match one of them.");
     d.option("extensions", &SceneLimits::extensions,
              "Names or patterns of the glTF extensions that may be used.");
 }

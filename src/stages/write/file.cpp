@@ -24,13 +24,13 @@ std::string rounding(std::size_t points, const io::Codec& codec, const io::Write
                                  ? fmt::format("put {} point{} on others", points, points == 1 ? "" : "s")
                                  : std::string("moved points onto lines of others");
     if (settings.draco.on)
-        return fmt::format("Draco's {} bits {}: more draco.position_bits, or no draco",
+        return fmt::format("Draco's {} bits {}: use more draco.position_bits, or no draco",
                            settings.draco.position_bits, what);
     if (codec.can.full_precision && !settings.double_positions)
         return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
-    return fmt::format("the 32-bit floats of {} {}: put clean before write, or write PLY, OBJ or OFF with "
-                       "precision: full",
-                       codec.name, what);
+    return fmt::format(
+        "the 32-bit floats of {} {}: use clean before write, or write PLY, OBJ or OFF with precision: full",
+        codec.name, what);
 }
 
 /// Why a file is less sound than the scene, and the hint.
@@ -38,7 +38,7 @@ std::string reason(const io::VertexChanges& changes, const io::Codec& codec,
                    const io::WriteSettings& settings) {
     std::vector<std::string> reasons;
     if (changes.added > 0)
-        reasons.push_back(fmt::format("{} has one set of attributes at a vertex, so seams came apart and {} "
+        reasons.push_back(fmt::format("{} has one set of attributes per vertex, so seams were cut and {} "
                                       "vertices were added: write OBJ or glTF, or weld after loading (clean)",
                                       codec.name, changes.added));
     if (changes.merged > 0 && !codec.can.shares_vertices)
@@ -47,8 +47,8 @@ std::string reason(const io::VertexChanges& changes, const io::Codec& codec,
                                       codec.name, changes.merged));
     else if (changes.merged > 0)
         reasons.push_back(
-            fmt::format("vertices of {} at the same place are one when it is read ({} fewer): "
-                        "{}write PLY, OBJ or OFF",
+            fmt::format("vertices of {} at the same position are merged when it is read ({} fewer): {}write "
+                        "PLY, OBJ or OFF",
                         codec.name, changes.merged,
                         settings.mesh_manifold || settings.draco.on ? "" : "mesh_manifold: true, or "));
     if (changes.rounded > 0 || reasons.empty()) reasons.push_back(rounding(changes.rounded, codec, settings));
@@ -64,16 +64,16 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
     if (o.unit != Unit::unknown && scene.unit == Unit::unknown)
         throw Error(ErrorKind::stage, "E-UNIT",
                     fmt::format("the scene has no unit, so it cannot be written in {}", to_string(o.unit)),
-                    "say what was loaded: load: {path: ..., unit: mm}", context.where());
+                    "give the unit when it is loaded: load: {path: ..., unit: mm}", context.where());
     if (o.up != UpAxis::unknown && scene.up == UpAxis::unknown)
-        throw Error(ErrorKind::stage, "E-UP", "the scene has no up axis, so it cannot be turned",
-                    "say what was loaded: load: {path: ..., up: z}", context.where());
+        throw Error(ErrorKind::stage, "E-UP", "the scene has no up axis, so it cannot be rotated",
+                    "give the up axis when it is loaded: load: {path: ..., up: z}", context.where());
     const io::Conversion done = io::convert(scene, target);
     if (done.unit_guessed)
         context.warn("W-UNITS",
                      fmt::format("the scene has no unit: '{}' gets its numbers as they are, and {} means {}",
                                  o.path.text, codec.name, to_string(target.unit)),
-                     "say what was loaded: load: {path: ..., unit: mm, up: z}");
+                     "give both when it is loaded: load: {path: ..., unit: mm, up: z}");
     if (codec.can.skins)
         for (const auto& name : done.lost_skins)
             context.warn("W-SKIN",
@@ -99,7 +99,8 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
         else
             for (const Part& part : scene.parts) look(part.mesh);
         s.draco.position_bits = most.value_or(usual);
-        why = most ? "the fewest from 14 that keep vertices apart" : "24 would not keep all vertices apart";
+        why =
+            most ? "the fewest from 14 on that keep vertices apart" : "24 would not keep all vertices apart";
     }
     report.draco = WriteReport::Bits{s.draco.position_bits, why};
 }
@@ -127,7 +128,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& target
     run.record.outputs[first].read_back = back.json();
     if (!back.losses.empty())
         context.warn("W-ROUNDED",
-                     fmt::format("'{}' as read again is less sound than the scene: {}", target.string(),
+                     fmt::format("'{}' is less sound when read back than the scene: {}", target.string(),
                                  fmt::join(back.losses, ", ")),
                      reason(back.changes, codec, settings));
 }

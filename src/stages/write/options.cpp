@@ -15,15 +15,16 @@ using Precision = WriteOptions::Precision;
 
 void declare_draco(Declare<DracoOptions>& d) {
     d.option("position_bits", &DracoOptions::position_bits,
-             "Bits of each coordinate: the largest side is cut into 2^bits - 1 steps (a count); unset, the "
-             "fewest from 14 to 24 at which no two vertices fall together, or 14 where 24 are too few.")
+             "Bits of each coordinate: the longest side is divided into 2^bits - 1 steps (a count); unless "
+             "given, the fewest from 14 to 24 at which no two vertices coincide, or 14 if 24 are too few.")
         .between(1, 30);
     d.option("normal_bits", &DracoOptions::normal_bits, "Bits of normals (a count).").between(1, 30);
     d.option("uv_bits", &DracoOptions::uv_bits, "Bits of texture coordinates (a count).").between(1, 30);
     d.option("colour_bits", &DracoOptions::colour_bits, "Bits of colours (a count).").between(1, 30);
     d.option("generic_bits", &DracoOptions::generic_bits, "Bits of every other attribute (a count).")
         .between(1, 30);
-    d.option("speed", &DracoOptions::speed, "0 gives the smallest file, 10 the fastest coding (a count).")
+    d.option("speed", &DracoOptions::speed,
+             "0 gives the smallest file, 10 the fastest compression (a count).")
         .between(0, 10);
     d.shorthand("true or false", {{"type", "boolean"}},
                 [](const Value& v, DracoOptions& out, Problems& problems) {
@@ -61,9 +62,9 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
             fmt::format("write: '{}' goes with {}, not with {}", name, fmt::join(formats, ", "), codec.name),
             "leave it out");
     }
-    if (o.crease && o.normals != NormalKind::smooth)
-        problems.add(mark_at(given, "crease"), "E-CONFLICT", "write: 'crease' goes with normals: smooth only",
-                     "add normals: smooth");
+    if (o.feature_angle && o.normals != NormalKind::smooth)
+        problems.add(mark_at(given, "feature_angle"), "E-CONFLICT",
+                     "write: 'feature_angle' goes with normals: smooth only", "add normals: smooth");
 }
 
 /// The file's name without suffix and .gz.
@@ -76,13 +77,13 @@ std::string title_of(const std::filesystem::path& target) {
 
 void declare_write(Declare<WriteOptions>& d) {
     d.option("path", &WriteOptions::path,
-             "The file to write; its suffix says the format; - is standard output.")
+             "The file to write; its suffix decides the format; - is standard output.")
         .primary()
         .required();
-    d.option("format", &WriteOptions::format, "The format's name, when the suffix does not tell it.");
+    d.option("format", &WriteOptions::format, "The name of the format, when the suffix does not show it.");
     d.choice<Unit>("unit", &WriteOptions::unit,
                    unit_choices("auto", "the format's (glTF: metres), else the scene's"),
-                   "The unit that the file's numbers are in.");
+                   "The unit of the numbers in the file.");
     d.choice<UpAxis>("up", &WriteOptions::up, up_choices("auto", "the format's (glTF: y), else the scene's"),
                      "The axis that points up in the file.");
     d.option("ascii", &WriteOptions::ascii, "PLY and STL as text instead of binary.");
@@ -93,20 +94,23 @@ void declare_write(Declare<WriteOptions>& d) {
                         "How positions are written.");
     d.choice<NormalKind>(
         "normals", &WriteOptions::normals,
-        {{"keep", NormalKind::keep, "those of the scene; readers of glTF shade what has none flat"},
+        {{"keep", NormalKind::keep,
+          "those of the scene; viewers of glTF use flat shading where there are none"},
          {"smooth", NormalKind::smooth, "the mean of the faces around a vertex, weighted by angle"},
-         {"flat", NormalKind::flat, "those of the faces"},
-         {"none", NormalKind::none, "not written, nor tangents"}},
+         {"flat", NormalKind::flat, "the normals of the faces"},
+         {"none", NormalKind::none, "neither normals nor tangents are written"}},
         "The normals in the file; the scene keeps its own.");
-    d.option("crease", &WriteOptions::crease,
-             "With smooth normals: edges that bend by more stay sharp; unset, none does.")
+    d.option("feature_angle", &WriteOptions::feature_angle,
+             "With normals: smooth, edges whose dihedral angle is larger than this stay sharp (an angle "
+             "between the normals of the two faces; if not given, none does).")
         .above(0);
-    d.group("draco", &WriteOptions::draco, "glTF with KHR_draco_mesh_compression: true, or its settings.",
-            declare_draco);
+    d.group("draco", &WriteOptions::draco,
+            "Writes glTF with KHR_draco_mesh_compression: true, or its settings.", declare_draco);
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
-             "glTF with EXT_mesh_manifold, so that readers need not weld.");
+             "Writes glTF with EXT_mesh_manifold, so that readers need not weld.");
     d.option("lods", &WriteOptions::lods,
-             "glTF with MSFT_lod: the parts X.lod1, X.lod2, ... are shown in place of X, not beside it.");
+             "Writes glTF with MSFT_lod: the parts X.lod1, X.lod2, ... become levels of detail of X rather "
+             "than nodes beside it.");
 }
 
 void verify_write(const WriteOptions& o, const Value& given, Problems& problems) {
@@ -121,7 +125,7 @@ void verify_write(const WriteOptions& o, const Value& given, Problems& problems)
                      suggestion(o.format, names));
     else if (!codec)
         problems.add(mark, "E-FORMAT", fmt::format("the suffix of '{}' names no format", o.path.text),
-                     fmt::format("say it with 'format', one of: {}", fmt::join(names, ", ")));
+                     fmt::format("give 'format', one of: {}", fmt::join(names, ", ")));
     else if (!codec->write)
         problems.add(mark, "E-FORMAT", fmt::format("{} is read but not written", codec->name),
                      suggestion("", names));

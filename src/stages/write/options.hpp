@@ -22,7 +22,7 @@ struct WriteOptions {
     bool ascii = false, big_endian = false, mesh_manifold = false, lods = false;
     Precision precision = Precision::single;
     NormalKind normals = NormalKind::keep;
-    std::optional<Angle> crease; ///< of smooth normals
+    std::optional<Angle> feature_angle; ///< of smooth normals
     std::optional<DracoOptions> draco;
 };
 

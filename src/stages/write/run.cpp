@@ -1,5 +1,6 @@
 #include "base/portable_math.hpp"
 #include "stages/write/file.hpp"
+#include "stages/write/help.hpp"
 
 #include <fmt/format.h>
 
@@ -21,7 +22,8 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& part = out.parts[k];
         lent[k].mesh = part.mesh;
-        context.ledger(part, give_normals(part.mesh, o.normals, o.crease ? o.crease->radians : pi));
+        context.ledger(part,
+                       give_normals(part.mesh, o.normals, o.feature_angle ? o.feature_angle->radians : pi));
         part.changed = true;
     }
 }
@@ -54,7 +56,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     if (out.face_count() == 0)
         throw Error(ErrorKind::stage, "E-EMPTY",
                     fmt::format("there is nothing to write to '{}': the scene has no faces", o.path.text),
-                    "see what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
+                    "check what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
                     context.where());
     give_normals(out, lent, o, context);
     to_convention(out, o, *codec, context, report);
@@ -76,15 +78,11 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
 
 const RegisterStage registered = make_stage<WriteOptions>(
     {.name = "write",
-     .about = "Writes the scene to a mesh file; it passes on as it is.",
-     .details = "Files are written beside their targets and appear together when the run has succeeded; what "
-                "was there before stays until then. The file is decoded again and compared with the scene: "
-                "the number of faces, and how far positions moved (float32, Draco). Units and the up axis "
-                "are converted to the format's convention; formats without nodes get all parts in world "
-                "space. What the format cannot hold is in the ledger. A name that ends in .gz is compressed.",
+     .about = help::write::about,
+     .details = help::write::details,
      .examples = {"write: part.glb", "write: {path: part.glb, draco: true}",
                   "write: {path: print.stl, unit: mm, up: z}",
-                  "write: {path: web.glb, normals: smooth, crease: 40deg}"}},
+                  "write: {path: web.glb, normals: smooth, feature_angle: 40deg}"}},
     declare_write, declare_report, run, {.files = files_of_write, .verify = verify_write});
 
 } // namespace

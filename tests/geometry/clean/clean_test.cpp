@@ -13,7 +13,7 @@ namespace {
 
 CleanSettings nothing() {
     CleanSettings s;
-    s.weld = s.t_vertices = Nearness::off;
+    s.weld = s.t_junctions = Nearness::off;
     s.degenerate = s.duplicates = s.non_manifold = s.isolated = false;
     return s;
 }
@@ -78,7 +78,7 @@ TEST_CASE("clean welds near ends of open edges only", "[geometry]") {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
         mesh.positions[v].x += 1e-4 * static_cast<double>(v % 3);
     CleanSettings s;
-    s.weld = Nearness::near, s.within = 1e-3;
+    s.weld = Nearness::near, s.tolerance = 1e-3;
     CHECK(is_sound_solid(cleaned(mesh, s).mesh));
     Mesh thin = shapes::cube(); // opposite walls nearer than the length stay apart
     for (Vec3& p : thin.positions) p.z *= 1e-4;
@@ -98,11 +98,11 @@ TEST_CASE("clean stitches open edges whose ends are near", "[geometry]") {
     mesh.positions.push_back(mesh.positions[mesh.corners[0]] + Vec3{0.01, 0.01, 0});
     mesh.corners[0] = stray;
     CleanSettings s = nothing();
-    s.stitch = Nearness::near, s.within = 0.05;
+    s.stitch = Nearness::near, s.tolerance = 0.05;
     const auto r = cleaned(mesh, s);
     CHECK(r.counts.stitched_edges == 2);
     CHECK(is_sound_solid(r.mesh));
-    s.within = 0.001;
+    s.tolerance = 0.001;
     CHECK(cleaned(mesh, s).counts.total() == 0);
 }
 
@@ -205,7 +205,7 @@ TEST_CASE("clean resolves T-vertices", "[geometry]") {
     const Mesh mesh =
         triangles({{0, 0, 0}, {2, 0, 0}, {0, -2, 0}, {0, 2, 0}, {1, 0, 0}}, {0, 2, 1, 0, 4, 3, 4, 1, 3});
     const auto r = cleaned(mesh);
-    CHECK(r.counts.t_vertices == 1);
+    CHECK(r.counts.t_junctions == 1);
     CHECK(r.mesh.face_count() == 4);
     CHECK(inspect(r.mesh).boundary_edges == 4);
     CHECK(inspect(r.mesh).boundary_loops == 1);
@@ -215,9 +215,9 @@ TEST_CASE("clean resolves T-vertices beside the edge when they are near", "[geom
     const Mesh mesh =
         triangles({{0, 0, 0}, {2, 0, 0}, {0, -2, 0}, {0, 2, 0}, {1, 1e-4, 0}}, {0, 2, 1, 0, 4, 3, 4, 1, 3});
     CleanSettings s = nothing();
-    s.t_vertices = Nearness::exact;
+    s.t_junctions = Nearness::exact;
     CHECK(cleaned(mesh, s).counts.total() == 0);
-    s.t_vertices = Nearness::near, s.within = 1e-3;
+    s.t_junctions = Nearness::near, s.tolerance = 1e-3;
     CHECK(inspect(cleaned(mesh, s).mesh).boundary_edges == 4);
 }
 
@@ -279,20 +279,19 @@ TEST_CASE("clean fills only the holes that are small enough", "[geometry]") {
     const auto r = cleaned(open, s);
     CHECK(r.counts.filled_holes == 1);
     CHECK(inspect(r.mesh).boundary_loops == 1);
-    CHECK(r.not_done.at(0).why == "its outline has 8 edges, more than 5");
+    CHECK(r.not_done.at(0).why == "its boundary loop has 8 edges, more than 5");
 }
 
 TEST_CASE("clean does not fill the outline of one face, nor a Moebius strip's edge", "[geometry]") {
     CleanSettings s;
     s.holes = HoleSettings{};
     auto r = cleaned(triangles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}), s);
-    CHECK(r.not_done.at(0).why == "it is the outline of a single face");
+    CHECK(r.not_done.at(0).why == "it is the boundary of a single face");
     CHECK(r.mesh.face_count() == 1);
     r = cleaned(shapes::moebius(9), s);
     CHECK(r.counts.total() == 0);
-    CHECK(r.not_done.at(0).why ==
-          "neighbouring faces disagree about the outside, or the edge belongs to more than "
-          "two faces; orient first");
+    CHECK(r.not_done.at(0).why == "neighbouring faces are oriented inconsistently, or the edge has more than "
+                                  "two faces: use orient first");
 }
 
 TEST_CASE("clean removes small components by faces, size, area or rank", "[geometry]") {
@@ -321,8 +320,8 @@ TEST_CASE("clean removes isolated vertices", "[geometry]") {
 TEST_CASE("clean takes an empty mesh and one of points", "[geometry]") {
     CleanSettings s;
     s.holes = HoleSettings{}, s.components = ComponentSettings{2, 0, 0, 0};
-    s.shells = true, s.self_intersections = Untangle::all;
-    s.weld = s.stitch = s.t_vertices = Nearness::near, s.within = 1;
+    s.inner_components = true, s.self_intersections = Untangle::all;
+    s.weld = s.stitch = s.t_junctions = Nearness::near, s.tolerance = 1;
     CHECK(cleaned({}, s).counts.total() == 0);
     Mesh points;
     points.positions = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}};
@@ -338,10 +337,10 @@ TEST_CASE("clean drops shells inside others, and keeps those that touch or stand
     };
     add(0.3, {0.2, 0, 0}), add(0.3, {3, 0, 0}), add(0.3, {0.9, 0, 0});
     CleanSettings s;
-    s.shells = true;
+    s.inner_components = true;
     const auto r = cleaned(mesh, s);
-    CHECK(r.counts.shells == 1);
-    CHECK(r.counts.shell_faces == 80);
+    CHECK(r.counts.inner_components == 1);
+    CHECK(r.counts.inner_component_faces == 80);
     CHECK(inspect(r.mesh).components == 3);
 }
 

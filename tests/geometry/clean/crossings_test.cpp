@@ -87,7 +87,7 @@ TEST_CASE("clean does not cut a tube that passes through another", "[geometry]")
 
 TEST_CASE("clean does not take a mesh away for its intersections", "[geometry]") {
     CleanSettings s = untangling();
-    s.holes = HoleSettings{}, s.shells = true, s.stitch = Nearness::exact;
+    s.holes = HoleSettings{}, s.inner_components = true, s.stitch = Nearness::exact;
     for (const Mesh& mesh : {shapes::fan3(), shapes::crossing(), shapes::hourglass(),
                              random_triangles(60, 0.3, 7), shapes::folded_quad()}) {
         const auto r = clean(mesh, s);
@@ -147,7 +147,7 @@ TEST_CASE("clean leaves a hole whose patch would run into other faces, and says 
         REQUIRE(r.not_done.size() == 1);
         CHECK(r.not_done[0].step == "holes");
         CHECK(r.not_done[0].at.x <= 1);
-        CHECK(r.not_done[0].why == "a patch would run into other faces");
+        CHECK(r.not_done[0].why == "a patch would intersect other faces");
         CHECK(test::broken_clean_law(open, s).empty());
     }
     s.self_intersections = Untangle::unite; // then the patch and the spike become one solid

@@ -58,7 +58,7 @@ Mesh united(const Mesh& mesh) {
     CHECK(test::edge_manifold(r.mesh));
     CHECK(clean_steps::crossings(r.mesh).count == 0);
     CHECK(r.not_done.empty());
-    CHECK(r.counts.united_pieces > 0);
+    CHECK(r.counts.united_components > 0);
     CHECK(test::broken_clean_law(mesh, uniting()).empty());
     return r.mesh;
 }
@@ -135,7 +135,7 @@ TEST_CASE("clean unites grids that overlap and meet in their edges only", "[geom
     CHECK(test::euler(result) == 2);
     // Beside each other along an edge they do not overlap.
     const auto beside = clean(together({a, block({2, 2, 0})}), uniting());
-    CHECK(beside.counts.united_pieces == 0);
+    CHECK(beside.counts.united_components == 0);
     CHECK(test::volume(beside.mesh) == 16);
 }
 
@@ -211,7 +211,7 @@ TEST_CASE("clean refuses to unite what has no inside, and leaves it as it was", 
     const Mesh far = moved(together({solid, other}), {10, 0, 0});
     const auto r = clean(together({solid, inside_out(other), far}), uniting());
     CHECK(r.not_done.size() == 1);
-    CHECK(r.counts.united_pieces == 2);
+    CHECK(r.counts.united_components == 2);
     CHECK(test::volume(r.mesh) == Approx(8 - 8 + 15));
 }
 

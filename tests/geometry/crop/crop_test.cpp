@@ -143,9 +143,8 @@ TEST_CASE("all rules for points inside crop the same", "[geometry]") {
     }
     settings.inside_by = InsideBy::half_planes;
     CHECK(test::failure([&] { crop(sphere, Footprint(with_hole), settings); }) ==
-          "usage [E-FOOTPRINT] this rule for points inside needs a footprint of one convex ring | take "
-          "inside_by: "
-          "crossings, which takes any");
+          "usage [E-FOOTPRINT] this test for points needs a footprint of one convex ring | use inside_by: "
+          "crossings, which accepts any footprint");
 }
 
 TEST_CASE("crops along other axes and of moved parts", "[geometry]") {
@@ -170,15 +169,15 @@ TEST_CASE("walls along the outline go with what they bound", "[geometry]") {
 TEST_CASE("footprints that are none are refused", "[geometry]") {
     const auto refusal = [](Rings rings) { return test::failure([&] { Footprint{rings}; }); };
     CHECK(refusal({}) == "usage [E-FOOTPRINT] the footprint has no rings");
-    CHECK(refusal({{{0, 0}, {1, 0}, {0, 0}}}) == "usage [E-FOOTPRINT] ring 1 of the footprint has 2 corners, "
-                                                 "and a ring needs three | give the corners in "
-                                                 "order; the last joins the first by itself");
+    CHECK(refusal({{{0, 0}, {1, 0}, {0, 0}}}) ==
+          "usage [E-FOOTPRINT] ring 1 of the footprint has 2 corners, and a ring needs three | give the "
+          "corners in order; the last one is joined to the first");
     CHECK(refusal({{{0, 0}, {1, 0}, {2, 0}}}) ==
           "usage [E-FOOTPRINT] ring 1 of the footprint has no area | its corners lie on one line");
     CHECK(refusal({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}) ==
-          "usage [E-FOOTPRINT] the footprint crosses itself near (1, 1): the segment from (0, 0) to (2, 2) "
-          "and that "
-          "from (2, 0) to (0, 2) | mend the outline, or crop by its simple parts one after the other");
+          "usage [E-FOOTPRINT] the footprint intersects itself near (1, 1): the segment from (0, 0) to (2, "
+          "2) and that from (2, 0) to (0, 2) | repair the outline, or crop by its simple parts one after the "
+          "other");
     CHECK(refusal({{{0, 0}, {NAN, 2}, {2, 0}}}) ==
           "usage [E-FOOTPRINT] ring 1 of the footprint has a corner that is not finite");
 }

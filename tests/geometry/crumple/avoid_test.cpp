@@ -33,7 +33,7 @@ Mesh apart(Mesh mesh, const CrumpleSettings& s, AvoidResult* result = nullptr, b
 
 Mesh sponge() {
     GenerateSettings s;
-    s.shape = Shape::menger, s.level = 2, s.size = 1;
+    s.shape = Shape::menger, s.subdivisions = 2, s.size = 1;
     return generate(s);
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("a crumpled sponge has no faces that meet, in float32 too", "[geometry
 
 TEST_CASE("a crumpled sponge of level 3 has no faces that meet", "[geometry]") {
     GenerateSettings s;
-    s.shape = Shape::menger, s.level = 3, s.size = 1;
+    s.shape = Shape::menger, s.subdivisions = 3, s.size = 1;
     AvoidResult r;
     const Mesh after = apart(generate(s), by(0.015), &r);
     CHECK(r.found > 1000);

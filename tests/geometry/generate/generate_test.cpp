@@ -32,7 +32,7 @@ TEST_CASE("closed shapes are sound and have their Euler number", "[geometry]") {
             return test::sound(mesh, euler);
         };
         GenerateSettings s = of(Shape::cylinder);
-        s.across = 3;
+        s.rings = 3;
         CHECK(sound(s, 2));
         s.shape = Shape::cone;
         CHECK(sound(s, 2));
@@ -58,9 +58,9 @@ TEST_CASE("bands of a sphere: the nearest number that well-shaped ones give, by 
     };
     const auto made = [](std::int64_t faces) {
         const SphereBands b = sphere_bands(faces);
-        CHECK(b.around >= std::max<std::int64_t>(3, b.across));
-        CHECK(b.around <= 4 * b.across);
-        return 2 * b.around * (b.across - 1);
+        CHECK(b.segments >= std::max<std::int64_t>(3, b.rings));
+        CHECK(b.segments <= 4 * b.rings);
+        return 2 * b.segments * (b.rings - 1);
     };
     for (std::int64_t faces = 6; faces < 1500; ++faces) {
         CAPTURE(faces);
@@ -73,10 +73,10 @@ TEST_CASE("bands of a sphere: the nearest number that well-shaped ones give, by 
 }
 
 TEST_CASE("a sphere of the note's 4000 faces", "[geometry]") {
-    CHECK(sphere_bands(4000).around == 80);
-    CHECK(sphere_bands(4000).across == 26);
+    CHECK(sphere_bands(4000).segments == 80);
+    CHECK(sphere_bands(4000).rings == 26);
     GenerateSettings s = of(Shape::sphere);
-    s.around = 80, s.across = 26, s.radius = 3;
+    s.segments = 80, s.rings = 26, s.radius = 3;
     const Mesh mesh = generate(s);
     CHECK(mesh.face_count() == 4000);
     for (const Vec3& p : mesh.positions) CHECK(length(p) == Approx(3).epsilon(1e-14));
@@ -84,11 +84,11 @@ TEST_CASE("a sphere of the note's 4000 faces", "[geometry]") {
 
 TEST_CASE("cylinder and cone: their volumes, and open without caps", "[geometry]") {
     GenerateSettings s = of(Shape::cylinder);
-    s.radius = 2, s.height = 5, s.around = 1000, s.across = 4;
+    s.radius = 2, s.height = 5, s.segments = 1000, s.rings = 4;
     CHECK(*inspect(generate(s)).volume == Approx(exact_pi * 4 * 5).epsilon(1e-4));
     s.shape = Shape::cone;
     CHECK(*inspect(generate(s)).volume == Approx(exact_pi * 4 * 5 / 3).epsilon(1e-4));
-    s.around = 12, s.caps = false;
+    s.segments = 12, s.caps = false;
     CHECK(inspect(generate(s)).boundary_loops == 1);
     s.shape = Shape::cylinder;
     CHECK(inspect(generate(s)).boundary_loops == 2);
@@ -112,7 +112,7 @@ TEST_CASE("the Menger sponge has only its outer surface", "[geometry]") {
     const std::size_t faces[] = {72, 1056, 18048};
     const double volumes[] = {20.0 / 27, 400.0 / 729, 8000.0 / 19683};
     for (int level = 1; level <= 3; ++level) {
-        s.level = level, s.size = 1;
+        s.subdivisions = level, s.size = 1;
         const Mesh mesh = generate(s);
         CHECK(mesh.face_count() == faces[level - 1]);
         const Properties p = inspect(mesh);
@@ -120,7 +120,7 @@ TEST_CASE("the Menger sponge has only its outer surface", "[geometry]") {
         CHECK(*p.volume == Approx(volumes[level - 1]).epsilon(1e-12));
         CHECK(p.components == 1);
     }
-    s.level = 1;
+    s.subdivisions = 1;
     CHECK(inspect(generate(s)).genus == 5);
 }
 
@@ -141,22 +141,23 @@ TEST_CASE("noise moves every vertex, the same for the same seed", "[geometry]") 
 
 TEST_CASE("shapes out of range are refused", "[geometry]") {
     GenerateSettings s = of(Shape::torus);
-    s.tube = 1;
-    CHECK(test::failure([&] { generate(s); }) == "usage [E-RANGE] generate: tube is below the radius 1, not "
-                                                 "1 | use a thinner tube or a larger radius");
+    s.minor_radius = 1;
+    CHECK(test::failure([&] { generate(s); }) ==
+          "usage [E-RANGE] generate: minor_radius is below the radius 1, "
+          "not 1 | use a smaller minor_radius or a larger radius");
     s = of(Shape::sphere);
     s.radius = 1e300;
     CHECK(test::failure([&] { generate(s); }) ==
           "usage [E-RANGE] generate: radius is at most 1e+37, because files hold float32, not 1e+300 | use a "
           "smaller length, or a larger unit");
     s = of(Shape::menger);
-    s.level = 5;
-    CHECK(test::failure([&] { generate(s); }) == "usage [E-RANGE] generate: level is 1 to 4, not 5");
+    s.subdivisions = 5;
+    CHECK(test::failure([&] { generate(s); }) == "usage [E-RANGE] generate: subdivisions is 1 to 4, not 5");
     s = of(Shape::sphere);
-    s.across = 1;
-    CHECK(test::failure([&] { generate(s); }) == "usage [E-RANGE] generate: across is at least 2, not 1");
-    s.across = 1 << 20, s.around = 1 << 20;
+    s.rings = 1;
+    CHECK(test::failure([&] { generate(s); }) == "usage [E-RANGE] generate: rings is at least 2, not 1");
+    s.rings = 1 << 20, s.segments = 1 << 20;
     CHECK(test::failure([&] { generate(s); }) == "limit [E-LIMIT] generate: the shape would have about "
                                                  "2.2e+12 faces, at most 7.16e+08 are possible | ask for "
-                                                 "fewer faces, cells or levels");
+                                                 "fewer faces, cells or subdivisions");
 }

@@ -127,7 +127,7 @@ TEST_CASE("edges turn by a right angle around a cube, and not at all within its 
     CHECK(r.length.count == 18);
     CHECK(r.length.minimum == 1);
     CHECK(r.length.maximum == Approx(std::sqrt(2.0)));
-    CHECK((r.convex == 12 && r.flat == 6 && r.concave == 0 && r.sharp == 12));
+    CHECK((r.convex == 12 && r.flat == 6 && r.concave == 0 && r.feature == 12));
     CHECK(r.turn.maximum == Approx(pi / 2).epsilon(1e-15));
     const EdgeResult l = measure_edges(l_prism());
     CHECK((l.convex == 17 && l.concave == 1));

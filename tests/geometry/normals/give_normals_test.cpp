@@ -46,7 +46,7 @@ TEST_CASE("smooth normals do not depend on how flat areas are cut", "[geometry]"
     for (Index v = 0; v < 8; ++v) CHECK(length(normal_of(m, v) - normalised(m.positions[v])) < 1e-7);
 }
 
-TEST_CASE("creases stay sharp", "[geometry]") {
+TEST_CASE("feature edges stay sharp", "[geometry]") {
     Mesh m = centred_cube();
     give_normals(m, NormalKind::smooth, 40 * pi / 180);
     CHECK(m.wedge_count() == 24);

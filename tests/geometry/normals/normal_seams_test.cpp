@@ -92,7 +92,7 @@ TEST_CASE("facets in one plane share their wedges", "[geometry]") {
     CHECK(worst_facing(m) > 0.999999);
 }
 
-TEST_CASE("normal seams go where faces meet at less than the crease angle", "[geometry]") {
+TEST_CASE("normal seams go where faces meet at less than the feature angle", "[geometry]") {
     const double turn = 10 * pi / 180;
     Mesh round = prism(24, turn); // 15 degrees at every edge
     const auto merged = merge_normal_seams(round, thirty);
@@ -131,6 +131,6 @@ TEST_CASE("a flat-shaded sphere simplifies like any other", "[geometry]") {
     REQUIRE(r.fates.size() == 1);
     CHECK(r.fates[0].kind == Fate::Kind::recomputed);
     CHECK(r.fates[0].why == "flat shading: the normals of the new faces");
-    CHECK(simplify(flat_shaded(shapes::icosphere(3)), {.crease = 0, .ratio = 0.1}).stop ==
+    CHECK(simplify(flat_shaded(shapes::icosphere(3)), {.feature_angle = 0, .ratio = 0.1}).stop ==
           SimplifyResult::Stop::stuck);
 }

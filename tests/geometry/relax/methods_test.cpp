@@ -78,9 +78,9 @@ TEST_CASE("cotangent leaves a flat, irregular grid where it is; laplacian does n
 TEST_CASE("implicit solves the equation that it states", "[geometry]") {
     const Mesh mesh = noisy_sphere();
     RelaxSettings s = by(Method::implicit);
-    s.factor = 7;
+    s.lambda = 7;
     const Mesh after = relax(mesh, s).mesh;
-    // P' - factor (mean' - P') = P, so a step back of the explicit method returns.
+    // P' - lambda (mean' - P') = P, so a step back of the explicit method returns.
     std::vector<Vec3> sums(mesh.vertex_count());
     std::vector<double> counts(mesh.vertex_count());
     for (Index f = 0; f < mesh.face_count(); ++f)
@@ -92,17 +92,17 @@ TEST_CASE("implicit solves the equation that it states", "[geometry]") {
         const Vec3& p = after.positions[v];
         CHECK(length(p - (sums[v] / counts[v] - p) * 7 - mesh.positions[v]) < 1e-8);
     }
-    s.factor = 1e5;
+    s.lambda = 1e5;
     CHECK(finite(relax(mesh, s).mesh));
 }
 
-TEST_CASE("features keep the edges of a cube", "[geometry]") {
+TEST_CASE("feature_angle keeps the edges of a cube", "[geometry]") {
     const Mesh cube = grid_split(shapes::cube(), 6).mesh;
     for (const Method method : every_method) {
         CAPTURE(static_cast<int>(method));
         RelaxSettings s = by(method, 8);
         CHECK(std::abs(1 - volume(relax(cube, s).mesh)) > 1e-4);
-        s.features = 0.5;
+        s.feature_angle = 0.5;
         const RelaxResult r = relax(cube, s);
         CHECK(volume(r.mesh) == Approx(1).epsilon(1e-9));
         CHECK(r.held == 8); // the corners
@@ -114,7 +114,7 @@ TEST_CASE("a boundary slides along itself with every method", "[geometry]") {
     for (auto& p : mesh.positions) p.x = p.x * p.x / 8; // uneven along x
     for (const Method method : every_method) {
         RelaxSettings s = by(method, 4);
-        s.boundary = Boundary::slide, s.features = 1;
+        s.boundary = Boundary::slide, s.feature_angle = 1;
         const RelaxResult r = relax(mesh, s);
         CAPTURE(static_cast<int>(method));
         CHECK(r.mesh.bounds().min.y == Approx(0).margin(1e-9));
@@ -185,7 +185,7 @@ TEST_CASE("degenerate and non-manifold places give numbers", "[geometry]") {
             for (const bool features : {false, true}) {
                 RelaxSettings s = by(method, 3);
                 s.boundary = boundary;
-                if (features) s.features = 0.3;
+                if (features) s.feature_angle = 0.3;
                 CAPTURE(static_cast<int>(method), static_cast<int>(boundary), features);
                 for (const Mesh& m : {mesh, shapes::fan3(), shapes::bowtie(), shapes::hourglass(),
                                       shapes::moebius(12), shapes::folded_quad(), shapes::quad_cube()})
@@ -198,20 +198,20 @@ TEST_CASE("every method gives the same for any number of threads", "[geometry]")
     const Mesh mesh = crumple(shapes::icosphere(5), {.amplitude = 0.01}).mesh;
     for (const Method method : every_method) {
         RelaxSettings s = by(method, 3);
-        s.features = 1;
+        s.feature_angle = 1;
         CHECK(test::same_for_any_threads([&] { return relax(mesh, s).mesh; }));
     }
 }
 
 TEST_CASE("relax: factors that a method cannot take are refused", "[geometry]") {
     RelaxSettings s = by(Method::taubin);
-    s.factor = 0.7;
+    s.lambda = 0.7;
     CHECK(test::failure([&] { relax(shapes::cube(), s); }) ==
-          "usage [E-RANGE] relax: factor is 0 < x < 0.7 for taubin, not 0.7");
+          "usage [E-RANGE] relax: lambda is 0 < x < 0.7 for taubin, not 0.7");
     s = by(Method::hc);
-    s.factor = 1.5;
+    s.lambda = 1.5;
     CHECK(test::failure([&] { relax(shapes::cube(), s); }) ==
-          "usage [E-RANGE] relax: factor is 0 < x <= 1, not 1.5");
+          "usage [E-RANGE] relax: lambda is 0 < x <= 1, not 1.5");
     s.method = Method::implicit;
     CHECK_NOTHROW(relax(shapes::cube(), s));
 }
@@ -252,12 +252,12 @@ TEST_CASE("a mask by material, group and attribute", "[geometry]") {
           "stage [E-MASK] mask: part 'head' has no attribute 'cold' | it has primitive, group, heat");
 }
 
-TEST_CASE("slide rounds the corners of the outline, and features hold them", "[geometry]") {
+TEST_CASE("slide rounds the corners of the outline, and feature_angle holds them", "[geometry]") {
     const Mesh square = shapes::grid(6, 6);
     RelaxSettings s;
     s.iterations = 5, s.boundary = RelaxSettings::Boundary::slide;
     CHECK(test::area(relax(square, s).mesh) < 36);
-    s.features = 30 * 3.14159265358979 / 180;
+    s.feature_angle = 30 * 3.14159265358979 / 180;
     const Mesh held = relax(square, s).mesh;
     CHECK(test::area(held) == Approx(36).epsilon(1e-12));
     for (const Index corner : {0, 6, 42, 48}) CHECK(held.positions[corner] == square.positions[corner]);
@@ -266,8 +266,8 @@ TEST_CASE("slide rounds the corners of the outline, and features hold them", "[g
 TEST_CASE("edges that bend by exactly the angle are no features", "[geometry]") {
     const double right = 1.5707963267948966;
     RelaxSettings s;
-    s.features = right;
+    s.feature_angle = right;
     CHECK(relax(shapes::cube(), s).held == 0);
-    s.features = right - 1e-6;
+    s.feature_angle = right - 1e-6;
     CHECK(relax(shapes::cube(), s).held == 8);
 }

@@ -48,8 +48,8 @@ TEST_CASE("a step of relaxation puts a vertex at its neighbours' mean", "[geomet
     CHECK(r.largest_move == Approx(length(m.positions[0])));
 }
 
-TEST_CASE("factor goes part of the way", "[geometry]") {
-    const auto r = relax(raised_quads(), {.factor = 0.25});
+TEST_CASE("lambda goes part of the way", "[geometry]") {
+    const auto r = relax(raised_quads(), {.lambda = 0.25});
     CHECK(r.mesh.positions[4] == Vec3{1, 1, 6});
 }
 
@@ -109,6 +109,6 @@ TEST_CASE("relaxation gives the same bytes for any number of threads", "[geometr
 TEST_CASE("relaxation refuses settings out of range", "[geometry]") {
     CHECK(test::failure([] { relax(shapes::cube(), {.iterations = -1}); }) ==
           "usage [E-RANGE] relax: iterations is at least 0, not -1");
-    CHECK(test::failure([] { relax(shapes::cube(), {.factor = 1.5}); }) ==
-          "usage [E-RANGE] relax: factor is 0 < x <= 1, not 1.5");
+    CHECK(test::failure([] { relax(shapes::cube(), {.lambda = 1.5}); }) ==
+          "usage [E-RANGE] relax: lambda is 0 < x <= 1, not 1.5");
 }

@@ -328,7 +328,7 @@ TEST_CASE("max_error bounds the measured deviation, and nearly reaches it", "[ge
         }
 }
 
-TEST_CASE("with max_error and a count the first one met stops the work", "[geometry]") {
+TEST_CASE("with max_error and a count only the first one met stops the work", "[geometry]") {
     const Mesh m = shapes::icosphere(4); // 5120 faces
     CHECK(simplify(m, {.faces = 4000, .max_error = 0.5}).stop == Stop::faces);
     CHECK(simplify(m, {.faces = 10, .max_error = 0.01}).stop == Stop::max_error);

@@ -141,14 +141,14 @@ TEST_CASE("a budget of faces is kept and nearly used up, the longest edges first
     const Mesh mesh = rough();
     SplitSettings s = by(SplitMethod::bisect);
     for (const std::uint64_t faces : {1281, 1500, 3000, 20000}) {
-        s.faces = faces;
+        s.max_faces = faces;
         const SplitResult r = split(mesh, s);
         CHECK(r.mesh.face_count() <= faces);
         CHECK(r.mesh.face_count() + 40 > faces);
         CHECK(r.stop == SplitResult::Stop::budget);
         CHECK(test::sound(r.mesh, 2));
     }
-    s.faces = 20000;
+    s.max_faces = 20000;
     CHECK(facet_shape(split(mesh, s).mesh).longest_edge < 0.4 * facet_shape(mesh).longest_edge);
     s.method = SplitMethod::midpoint;
     CHECK(split(mesh, s).mesh.face_count() == 4 * mesh.face_count());
@@ -193,8 +193,8 @@ TEST_CASE("targets that a method cannot reach are refused", "[geometry]") {
 TEST_CASE("targets give the same for any number of threads", "[geometry]") {
     const Mesh mesh = rough();
     SplitSettings s = by(SplitMethod::bisect);
-    s.faces = 20000;
+    s.max_faces = 20000;
     CHECK(test::same_for_any_threads([&] { return split(mesh, s).mesh; }));
-    s.faces = 0, s.max_edge = 0.05;
+    s.max_faces = 0, s.max_edge = 0.05;
     CHECK(test::same_for_any_threads([&] { return split(mesh, s).mesh; }));
 }

@@ -91,21 +91,21 @@ TEST_CASE("smooth methods keep closedness and Euler's number, for vertices of an
     }
 }
 
-TEST_CASE("a cube with creases stays a cube, without them it becomes round", "[geometry]") {
+TEST_CASE("a cube with feature edges stays a cube, without them it becomes round", "[geometry]") {
     for (const auto method : {SplitMethod::loop, SplitMethod::butterfly, SplitMethod::catmull_clark}) {
         SplitSettings s = by(method, 3);
-        s.creases = 0.5;
+        s.feature_angle = 0.5;
         CAPTURE(to_string(method));
         CHECK(*inspect(split(shapes::cube(), s).mesh).volume == Approx(1).epsilon(1e-12));
-        s.creases = 1.6;
+        s.feature_angle = 1.6;
         CHECK(std::abs(*inspect(split(shapes::cube(), s).mesh).volume - 1) > 0.05);
-        s.creases = {};
+        s.feature_angle = {};
         CHECK(std::abs(*inspect(split(shapes::cube(), s).mesh).volume - 1) > 0.05);
     }
 }
 
-TEST_CASE("a crease is a smooth curve: the rim of a cylinder", "[geometry]") {
-    // A prism over an octagon: its rims are creases without corners.
+TEST_CASE("a line of feature edges is a smooth curve: the rim of a cylinder", "[geometry]") {
+    // A prism over an octagon: its rims are feature edges without corners.
     Mesh prism;
     constexpr Index n = 8;
     for (const double z : {0.0, 1.0})
@@ -122,7 +122,7 @@ TEST_CASE("a crease is a smooth curve: the rim of a cylinder", "[geometry]") {
     }
     add_face(prism, bottom), add_face(prism, top);
     SplitSettings s = by(SplitMethod::catmull_clark, 2);
-    s.creases = 1.2; // the caps meet the sides at 90 degrees, the sides each other at 45
+    s.feature_angle = 1.2; // the caps meet the sides at 90 degrees, the sides each other at 45
     const Mesh finer = split(prism, s).mesh;
     std::size_t on_rims = 0;
     for (const Vec3& p : finer.positions)
@@ -145,20 +145,18 @@ TEST_CASE("smooth methods interpolate wedges along seams and recompute normals",
 }
 
 TEST_CASE("smooth methods refuse what is not manifold, with the place", "[geometry]") {
-    CHECK(
-        test::failure([] { split(shapes::fan3(), by(SplitMethod::loop)); }) ==
-        "stage [E-MANIFOLD] split: loop needs a manifold, oriented mesh; the edge of vertices 0 and 1 has 3 "
-        "faces | clean repairs non-manifold places; midpoint splits them as they are");
+    CHECK(test::failure([] { split(shapes::fan3(), by(SplitMethod::loop)); }) ==
+          "stage [E-MANIFOLD] split: loop needs a manifold, oriented mesh; the edge of vertices 0 and 1 has "
+          "3 faces | clean repairs non-manifold edges and vertices; midpoint splits them as they are");
     CHECK(test::failure([] { split(shapes::hourglass(), by(SplitMethod::sqrt3)); }) ==
-          "stage [E-MANIFOLD] split: sqrt3 needs a manifold, oriented mesh; 2 fans of faces meet at vertex 0 "
-          "only | clean repairs non-manifold places; midpoint splits them as they are");
+          "stage [E-MANIFOLD] split: sqrt3 needs a manifold, oriented mesh; 2 fans of faces meet only at "
+          "vertex 0 | clean repairs non-manifold edges and vertices; midpoint splits them as they are");
     CHECK(test::failure([] {
               split(shapes::moebius(9), by(SplitMethod::catmull_clark));
           }).find("disagree in direction") != std::string::npos);
-    CHECK(
-        test::failure([] { split(shapes::quad_cube(), by(SplitMethod::loop)); }) ==
-        "stage [E-POLYGON] split: loop takes faces of at most 3 corners, face 0 has 4 | 'triangulate' before "
-        "it makes triangles of every face");
+    CHECK(test::failure([] { split(shapes::quad_cube(), by(SplitMethod::loop)); }) ==
+          "stage [E-POLYGON] split: loop takes faces of at most 3 corners, face 0 has 4 | use triangulate "
+          "first to make triangles of every face");
 }
 
 TEST_CASE("smooth methods give the same for any number of threads", "[geometry]") {
@@ -167,15 +165,15 @@ TEST_CASE("smooth methods give the same for any number of threads", "[geometry]"
         CHECK(test::same_for_any_threads([&] { return split(mesh, by(method)).mesh; }));
 }
 
-TEST_CASE("creases: a right angle is not more than 90 degrees", "[geometry]") {
+TEST_CASE("feature_angle: a right angle is not more than 90 degrees", "[geometry]") {
     const double right = 1.5707963267948966;
     for (const auto method : {SplitMethod::loop, SplitMethod::catmull_clark}) {
         SplitSettings s;
         s.method = method;
         const Mesh without = split(shapes::cube(), s).mesh;
-        s.creases = right;
+        s.feature_angle = right;
         CHECK(split(shapes::cube(), s).mesh.positions == without.positions);
-        s.creases = right - 1e-6;
+        s.feature_angle = right - 1e-6;
         CHECK(split(shapes::cube(), s).mesh.positions != without.positions);
     }
 }

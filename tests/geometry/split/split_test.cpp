@@ -181,6 +181,6 @@ TEST_CASE("a result beyond 2^31 corners is refused before it is built", "[geomet
 TEST_CASE("faces that a method does not know are refused by name", "[geometry]") {
     CHECK(test::failure([] {
               split(square(), {SplitMethod::bisect, 1, 2});
-          }) == "stage [E-POLYGON] split: bisect takes faces of at most 3 corners, face 0 has 4 | "
-                "'triangulate' before it makes triangles of every face");
+          }) == "stage [E-POLYGON] split: bisect takes faces of at most 3 corners, face 0 has 4 | use "
+                "triangulate first to make triangles of every face");
 }

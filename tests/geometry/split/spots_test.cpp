@@ -180,15 +180,15 @@ TEST_CASE("why a split ended", "[geometry]") {
         CHECK(stop(s) == Stop::passes);
         s.passes = 100;
         CHECK(stop(s) == Stop::target);
-        s.faces = 20;
+        s.max_faces = 20;
         CHECK(stop(s) == Stop::budget);
-        s.max_edge = 0, s.faces = 12;
+        s.max_edge = 0, s.max_faces = 12;
         CHECK(stop(s) == Stop::budget);
     }
     SplitSettings s{SplitMethod::bisect, 9};
     s.min_angle = 0.1;
     CHECK(stop(s) == Stop::target);
-    s.min_angle = 0, s.faces = 99;
+    s.min_angle = 0, s.max_faces = 99;
     CHECK(stop(s, faces({{}, {}, {}}, {{0, 1, 2}})) == Stop::nothing);
 }
 

@@ -138,7 +138,7 @@ TEST_CASE("EXT_mesh_manifold gives the same vertices back, and says when a mesh 
     const io::Written open = test::written(test::scene_of(shapes::grid(1, 1)), "glb", settings);
     REQUIRE(open.warnings.size() == 1);
     CHECK(open.warnings[0].message ==
-          "part 'thing' is no closed manifold, so EXT_mesh_manifold is not written");
+          "part 'thing' is not a closed manifold, so EXT_mesh_manifold is not written");
 }
 
 TEST_CASE("attributes of types that glTF lacks are converted, face attributes dropped, and both said",

@@ -1,0 +1,37 @@
+#pragma once
+// What the help and the manual say about crumple.
+
+namespace facetmill::help::crumple {
+
+inline constexpr const char* about =
+    R"(Roughens a surface: splits every face n x n and displaces every vertex by a Gaussian amount.)";
+
+inline constexpr const char* details =
+    R"(Each vertex moves once, by normally distributed amounts with mean 0 and the given standard
+deviation, cut off at `truncate`. Faces that share a vertex move together, so nothing tears and the
+topology is kept. This also holds with boundary: fixed and under a mask, where all vertices at one
+position move by the smallest share of any of them. Faces may come to intersect when the amplitude
+is large compared with their size.
+
+The noise at a vertex depends only on the seed and on its world position rounded to float32:
+vertices at one position move together across seams, unwelded copies, parts and files, and neither
+the order of vertices nor the number of threads matters. There are two exceptions. Along the normal,
+a position shared by several parts has a normal in each of them, so the parts may separate there;
+and frequency is relative to the scene, so files are crumpled alike only when their diagonals are
+equal.
+
+With self_intersections: avoid, each position has a share of its move: 1, 1/2 ... 1/256, or 0. In
+every round all pairs of faces that newly intersect, fold over or lose their area are found exactly,
+and their vertices take the next lower share, all at once, until there are no such pairs; after
+eight rounds the vertices around them do so as well. Pairs that intersected before are exempt. The
+report says how many pairs there would have been and how many vertices got which share. Only faces
+of the same part are kept apart (W-CRUMPLE-PARTS warns when other parts are near). If the search
+needs more memory than there is, it is refused before it starts.
+
+The split interpolates vertex and wedge attributes and copies face attributes; then normals are
+recomputed, tangents are made perpendicular to them, and everything else is kept. The report gives
+the largest and the root mean square displacement, in world units.
+
+Source: P. Bourke, 'Geometric Crumpling' (1994).)";
+
+} // namespace facetmill::help::crumple

@@ -1,0 +1,32 @@
+#pragma once
+// What the help and the manual say about measure.
+
+namespace facetmill::help::measure {
+
+inline constexpr const char* about =
+    R"(Measures areas, volume, centroids, inertia, edges, angles and curvature.)";
+
+inline constexpr const char* details =
+    R"(The report gives the results for every part and in total, in world space and scene units; angles are
+in degrees. The area of a polygon in space is half the length of the sum of the cross products
+around it; this holds for concave faces, and for non-planar faces it is the area of their projection
+along the mean normal. shell is the surface without thickness; its centroid is weighted by area.
+solid is the inside of a closed surface, filled with the density: volume, mass, centroid, inertia
+about the centroid, principal moments (ascending) with their axes, and radii of gyration. It is null
+for open surfaces, and in the total when any part is open.
+
+The turn of an edge is the angle between the normals of its two faces, negative where the surface is
+concave. aspect is the longest edge of a triangle over its height on that edge, normalised to 1 for
+an equilateral triangle. kinds counts the types of polygon. The mean curvature at a vertex comes
+from the turns of its edges, and the Gaussian curvature from what its angles lack of a full turn,
+both divided by a third of the area around the vertex; their statistics leave out the boundary. For
+a manifold, total_in_turns is the Euler number, whatever its shape.
+
+The mesh passes on unchanged except for the attributes asked for.
+
+Sources: P. Bourke, 'Calculating the area of a 3D polygon' (2000), 'Polygon types' (1993) and
+'Centroid of a 3D shell described by 3 vertex facets'; D. Eberly, 'Polyhedral mass properties'
+(2002); M. Meyer et al., 'Discrete differential-geometry operators for triangulated 2-manifolds'
+(2003).)";
+
+} // namespace facetmill::help::measure

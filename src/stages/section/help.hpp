@@ -1,0 +1,30 @@
+#pragma once
+// What the help and the manual say about section.
+
+namespace facetmill::help::section {
+
+inline constexpr const char* about =
+    R"(Cuts plane sections: contours with areas, centroids and moments, and drawings to scale.)";
+
+inline constexpr const char* details =
+    R"(A plane, or a stack of parallel planes, gives polygons with holes, in a frame that the report
+states: its origin is the foot of the world's origin on the plane, u is the axis after the normal's
+longest component, and v is normal x u. Each contour has its orientation, kind (triangle, quad,
+convex, concave, complex, self-intersecting), area, centroid, second moments about the origin and
+about the centroid, and principal axes, all in the plane and in world space. So has the section as a
+whole, with its holes subtracted (its moments are the integrals of products of coordinates). For a
+stack, the sum of areas times spacing is compared with the volume. A plane that misses the mesh
+gives an empty section, which is a valid result.
+
+Vertices are classified once, by exact signs. A vertex on the plane counts as above it, so a section
+is the one just below the plane: for a cube standing on z = 0, the section at the bottom is empty
+and the section at the top is a square.
+
+Drawings are SVG (sections side by side), DXF (one layer per section) and JSON (all points and
+measures). The scene passes on unchanged.
+
+Sources: P. Bourke, 'Polygon types' (1993), 'Determining whether or not a polygon (2D) has its
+vertices ordered clockwise or counter-clockwise' (1998), 'Calculating the area and centroid of a
+polygon' (1988) and 'Clipping a line segment to a complex polygon' (1997) for hatch.)";
+
+} // namespace facetmill::help::section

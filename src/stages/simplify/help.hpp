@@ -1,0 +1,59 @@
+#pragma once
+// What the help and the manual say about simplify.
+
+namespace facetmill::help::simplify {
+
+inline constexpr const char* about =
+    R"(Reduces the number of faces while keeping the shape, the topology and the attributes.)";
+
+inline constexpr const char* details =
+    R"(Edges are collapsed, the cheapest first, until a target is met. With several targets the first one
+met ends the work; the report names it and gives the ratio achieved and what keeps the remaining
+edges from collapsing. Polygons are triangulated first. The method quadric measures the
+area-weighted squared distance to the planes of all faces that a vertex represents; shortest-edge
+always collapses the shortest edge. Collapses run in passes with a common cost threshold, so they
+follow the order of cost except at vertices that the same pass has already changed.
+
+Guaranteed by default: a closed manifold stays closed and manifold; genus, components and boundary
+loops are kept; no face turns by more than 60 degrees in one collapse; and no face becomes
+degenerate or a duplicate. Boundaries, UV seams, sharp normal seams, and the borders of materials
+and groups collapse only along themselves and stay matched; where several of them meet, the vertex
+stays. The same holds for boundaries at exactly the same position, within a part and between parts:
+parts with the same node transform, attributes and shading whose boundaries coincide are simplified
+as one, to a common target. Where a part meets another that differs in these, or that is not
+selected, its vertices stay. Non-manifold and inconsistently oriented regions are left as they are.
+Isolated vertices are removed. With topology: allow, components may vanish, holes may close and
+handles may be pinched off, which can leave edges of four faces; the report gives the counts before
+and after. The method cluster keeps neither topology nor borders, and reports that in the same way.
+
+UVs, normals, colours and skin weights enter the error of the quadric methods with weights. A vertex
+that moved takes the attributes of the original surface at the nearest point of the faces that it
+replaces, so textures do not slide; faces keep theirs. Wedges that differ only in their normals are
+merged below the feature angle; a flat-shaded mesh gets the normals of its new faces.
+
+max_error limits the measured deviation (100,000 samples each way and all vertices, seed 1), which
+is reported under deviation, in scene units and as a percentage of the part's diagonal. Points of
+the surface are tracked during simplification, and whatever exceeds the limit in the end is undone
+collapse by collapse. This takes many times as long as a ratio. cluster meets the limit by the size
+of its cells.
+
+lods makes one chain: each level is reached by further collapses from the level before. write:
+{path: x.glb, lods: true} puts the levels into one file as MSFT_lod; without lods they are written
+as nodes side by side. only: "*.lod1" writes one level into a file of its own.
+
+The method constrained keeps boundaries, seams and borders vertex by vertex.
+
+largest_error is, for quadric and cluster, the largest root mean square distance of a new vertex to
+its planes; for shortest-edge, half the length of the longest edge collapsed; for constrained, null.
+A target at or above the input does nothing (W-SIMPLIFY-NOTHING). When no collapse is left, the work
+stops and says why (W-SIMPLIFY-STOPPED). self_intersections: avoid repeats the whole work up to ten
+times, each time with half the error allowed for faces that came to intersect, and then up to six
+times with those faces kept as they were; the count that remains is reported.
+
+Sources: P. Bourke, 'Surface (polygonal) Simplification' (1997); M. Garland and P. Heckbert,
+'Surface simplification using quadric error metrics' (1997); H. Hoppe, 'New quadric metric for
+simplifying meshes with appearance attributes' (1999); J. Rossignac and P. Borrel, 'Multi-resolution
+3D approximations for rendering complex scenes' (1993) and P. Lindstrom, 'Out-of-core simplification
+of large polygonal models' (2000) for cluster.)";
+
+} // namespace facetmill::help::simplify

@@ -1,0 +1,15 @@
+#pragma once
+// What the help and the manual say about transform.
+
+namespace facetmill::help::transform {
+
+inline constexpr const char* about = R"(Moves, rotates and scales parts; converts units and the up axis.)";
+
+inline constexpr const char* details =
+    R"(The operations run in this order, whatever the order of the options: unit and up (of the whole
+scene), scale, rotate, matrix, translate, centre, ground. All are in world space: the nodes of the
+parts move and their meshes stay as they are, unless bake is on. Faces of a mirrored part keep their
+front, as glTF requires. The ground is at 0 along the up axis, or along +Z if the up axis is
+unknown. A skinned part is moved in its bind pose and loses its skin (W-SKIN).)";
+
+} // namespace facetmill::help::transform

@@ -1,0 +1,23 @@
+#pragma once
+// What the help and the manual say about triangulate.
+
+namespace facetmill::help::triangulate {
+
+inline constexpr const char* about =
+    R"(Cuts faces of any kind into triangles, or pairs triangles into quads.)";
+
+inline constexpr const char* details =
+    R"(Every face of n corners becomes n - 2 triangles without new points, so a closed surface stays
+closed. Convex quads are cut along the shorter diagonal. Convex and concave faces, and faces with
+holes joined by coincident edges, are cut by constrained Delaunay triangulation of their corners,
+projected along the coordinate axis nearest to the face's normal; non-planar faces are projected in
+the same way. Faces that intersect themselves are filled by winding number: by a fan whose triangles
+add up, at every point, to the number of times that the face winds around it.
+
+The report counts the input faces by kind (triangle, quad, convex, concave, complex,
+self-intersecting, degenerate) and the non-planar ones, with the largest deviation from a plane.
+Vertices, wedges and their attributes are kept; face attributes are copied.
+
+Source: P. Bourke, 'Polygon types' (1993).)";
+
+} // namespace facetmill::help::triangulate
