@@ -402,6 +402,15 @@ class DeclareFields {
     }
 };
 
+/// A getter of records that are one of several structs (std::variant): the member, where the record is an A.
+template <class A, class T>
+auto where_it_is(T A::*member) {
+    return [member](const auto& either) {
+        const A* a = std::get_if<A>(&either);
+        return a ? std::optional<T>(a->*member) : std::nullopt;
+    };
+}
+
 /// The fields of the record R, as `fill` declares them.
 template <class R, class Fill>
 Fields fields_of(Fill fill) {

@@ -1,84 +1,217 @@
 #include "stages/measure/report.hpp"
 
 #include "base/portable_math.hpp"
-#include "base/point_json.hpp"
+#include "base/readable_numbers.hpp"
+#include "geometry/measure/statistics_fields.hpp"
+#include "geometry/polygon/polygon.hpp"
+#include "geometry/triangulate/face_kinds_fields.hpp"
+#include "io/csv.hpp"
 
-namespace facetmill::report {
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
 
 namespace {
 
 constexpr double degrees = 180 / pi;
+constexpr const char* unknown = "it is not known: nothing is there, or it is beyond the range of numbers";
 
-/// Null unless all of it is known.
-Json known_point(bool known, const Vec3& p) { return known && is_finite(p) ? point_json(p) : Json(nullptr); }
+std::optional<Vec3> known_point(bool known, const Vec3& p) {
+    return known && is_finite(p) ? std::optional(p) : std::nullopt;
+}
 
-Json principal_json(const SolidMass& solid, double density) {
+std::optional<MeasuredSolid::Principal> principal(const SolidMass& solid, double density) {
     const Symmetric i = solid.inertia();
-    if (!is_finite({i.xx, i.yy, i.zz}) || !is_finite({i.xy, i.xz, i.yz})) return nullptr;
+    if (!is_finite({i.xx, i.yy, i.zz}) || !is_finite({i.xy, i.xz, i.yz})) return {};
     const Eigen3 e = eigen(i);
-    Json moments = Json::array(), axes = Json::array(), radii = Json::array();
+    MeasuredSolid::Principal p;
+    p.axes = e.vectors;
     for (std::size_t k = 0; k < 3; ++k) {
-        moments.push_back(e.values[k] * density);
-        axes.push_back(point_json(e.vectors[k]));
+        p.moments[k] = e.values[k] * density;
         const double square = solid.volume != 0 ? e.values[k] / solid.volume : 0;
         // A solid with a volume has moments: they vanish only below the range of numbers.
-        radii.push_back(square > 0 ? Json(std::sqrt(square)) : solid.volume != 0 ? Json(nullptr) : Json(0));
+        if (square > 0)
+            p.radii[k] = std::sqrt(square);
+        else if (solid.volume == 0)
+            p.radii[k] = 0;
     }
-    return {{"moments", moments}, {"axes", axes}, {"radii_of_gyration", radii}};
+    return p;
+}
+
+// --- fields
+
+void declare_shell(DeclareFields<ShellMass>& d) {
+    d.field("area", &ShellMass::area, "Of the surface.").unit("square scene units");
+    const auto centroid = [](const ShellMass& s) { return known_point(s.area > 0, s.centroid); };
+    d.field("centroid", centroid, "Weighted by area.").null_when(unknown);
+}
+
+void declare_principal(DeclareFields<MeasuredSolid::Principal>& d) {
+    using P = MeasuredSolid::Principal;
+    d.field("moments", &P::moments, "The principal moments of inertia, ascending.");
+    d.field("axes", &P::axes, "Their directions, a right-handed frame.");
+    d.field("radii_of_gyration", &P::radii, "About them; null below the range of numbers.")
+        .unit("scene units");
+}
+
+void declare_solid(DeclareFields<MeasuredSolid>& d) {
+    d.field("volume", &MeasuredSolid::volume, "Negative when the surface is inside out.")
+        .unit("cubic scene units");
+    d.field("mass", &MeasuredSolid::mass, "The volume times the density.");
+    d.field("centroid", &MeasuredSolid::centroid, "Of the inside.").null_when(unknown);
+    d.field("inertia", &MeasuredSolid::inertia, "The inertia tensor about the centroid, three rows.");
+    d.object("principal", &MeasuredSolid::principal, "Principal moments and axes.", declare_principal)
+        .null_when("they are beyond the range of numbers");
+}
+
+NamedCounts kinds_of(const FaceResult& faces) {
+    NamedCounts counts;
+    for (int k = 0; k < polygon::kinds; ++k) {
+        const auto kind = static_cast<polygon::Kind>(k);
+        if (faces.kinds.count(kind) > 0)
+            counts.emplace_back(polygon::to_string(kind), faces.kinds.count(kind));
+    }
+    return counts;
+}
+
+void declare_faces(DeclareFields<FaceResult>& d) {
+    std::vector<std::string> names;
+    for (int k = 0; k < polygon::kinds; ++k)
+        names.push_back(polygon::to_string(static_cast<polygon::Kind>(k)));
+    d.object("area", &FaceResult::area, "Their areas.", statistics_fields("square scene units"));
+    d.object("angle", &FaceResult::angle, "Their inner angles.", statistics_fields("degrees", degrees));
+    d.object("aspect", &FaceResult::aspect,
+             "Of triangles: longest edge over the height on it, 1 when equilateral.", statistics_fields());
+    d.counts("kinds", kinds_of, names, "How many there are of each kind, of those that there are.");
+    d.field(
+        "non_planar", [](const FaceResult& f) { return f.kinds.non_planar; },
+        "Faces farther from their plane than float32 coordinates would put them.");
+    d.field(
+         "farthest_from_plane", [](const FaceResult& f) { return f.kinds.deviation; },
+         "The farthest that a corner is from its face's plane.")
+        .unit("scene units");
+}
+
+void declare_edges(DeclareFields<EdgeResult>& d) {
+    d.object("length", &EdgeResult::length, "Their lengths.", statistics_fields("scene units"));
+    d.object("turn", &EdgeResult::turn,
+             "The angles between the normals of their two faces, negative where concave.",
+             statistics_fields("degrees", degrees));
+    d.field("convex", &EdgeResult::convex, "Edges that turn outward.");
+    d.field("concave", &EdgeResult::concave, "Edges that turn inward.");
+    d.field("flat", &EdgeResult::flat, "Edges between faces of one plane.");
+    d.field("feature", &EdgeResult::feature, "Edges that turn by more than feature_angle, either way.");
+    d.field("boundary", &EdgeResult::boundary, "Edges of one face.");
+    d.field("non_manifold", &EdgeResult::non_manifold, "Edges of three faces and more.");
+}
+
+void declare_curvature(DeclareFields<CurvatureResult>& d) {
+    d.object("gaussian", &CurvatureResult::of_gaussian, "Of vertices that are not on a boundary.",
+             statistics_fields("per square scene unit"));
+    d.object("mean", &CurvatureResult::of_mean, "Positive where the surface bulges outward.",
+             statistics_fields("per scene unit"));
+    d.field(
+        "total_in_turns", [](const CurvatureResult& c) { return c.total / (2 * pi); },
+        "What the angles of all vertices lack of a full turn: Euler's number of a manifold.");
+}
+
+constexpr const char* open = "the surface is open";
+
+void declare_part(DeclareFields<MeasuredPart>& d) {
+    d.field("part", &MeasuredPart::part, "Its name.");
+    d.object("shell", &MeasuredPart::shell, "The surface without thickness.", declare_shell);
+    d.object("solid", &MeasuredPart::solid, "The inside, filled with the density.", declare_solid)
+        .null_when(open);
+    d.object("faces", &MeasuredPart::faces, "Its faces.", declare_faces);
+    d.object("edges", &MeasuredPart::edges, "Its edges.", declare_edges);
+    d.object("curvature", &MeasuredPart::curvature, "At its vertices.", declare_curvature);
+}
+
+void declare_total(DeclareFields<MeasureReport::Total>& d) {
+    d.object("shell", &MeasureReport::Total::shell, "The surfaces.", declare_shell);
+    d.object("solid", &MeasureReport::Total::solid, "The insides.", declare_solid)
+        .null_when("a part is open, or there is none");
+}
+
+// --- lines
+
+/// "area 6 mm2, volume 1 mm3, centroid 0.5 0.5 0.5".
+std::string mass_text(const ShellMass& shell, const std::optional<MeasuredSolid>& solid,
+                      const MeasureReport& report) {
+    const std::string unit = report.unit == "unknown" ? "" : " " + report.unit;
+    std::string text = fmt::format("area {}{}", readable(shell.area), unit.empty() ? "" : unit + "2");
+    if (!solid)
+        return text + fmt::format(", open (no volume), centroid {}",
+                                  readable(known_point(shell.area > 0, shell.centroid)));
+    text += fmt::format(", volume {}{}", readable(solid->volume), unit.empty() ? "" : unit + "3");
+    if (report.density != 1) text += ", mass " + readable(solid->mass);
+    return text + fmt::format(", centroid {}", readable(solid->centroid));
+}
+
+std::vector<std::string> lines_of(const MeasureReport& report) {
+    constexpr std::size_t few = 5; // parts that are told one by one
+    const auto& parts = report.parts;
+    if (parts.empty()) return {"nothing to measure"};
+    std::vector<std::string> lines{mass_text(report.total.shell, report.total.solid, report)};
+    if (parts.size() > 1) {
+        for (std::size_t i = 0; i < std::min(few, parts.size()); ++i)
+            lines.push_back(parts[i].part + ": " + mass_text(parts[i].shell, parts[i].solid, report));
+        if (parts.size() > few) lines.push_back(fmt::format("and {} more parts", parts.size() - few));
+        return lines;
+    }
+    const EdgeResult& edges = parts[0].edges;
+    lines.push_back(
+        join_texts({range_text("edges", edges.length), range_text("angles", parts[0].faces.angle, degrees)}));
+    lines.push_back(fmt::format("{} convex, {} concave, {} flat and {} boundary edges, {} feature edges",
+                                readable(double(edges.convex)), readable(double(edges.concave)),
+                                readable(double(edges.flat)), readable(double(edges.boundary)),
+                                readable(double(edges.feature))));
+    std::erase(lines, "");
+    return lines;
 }
 
 } // namespace
 
-Json statistics_json(const Statistics& s, double factor) {
-    if (s.count == 0) return {{"count", 0}};
-    return {{"count", s.count},        {"minimum", s.minimum * factor}, {"maximum", s.maximum * factor},
-            {"mean", s.mean * factor}, {"median", s.median * factor},   {"deviation", s.deviation * factor}};
+MeasuredSolid measured(const SolidMass& solid, double density) {
+    const Symmetric i = solid.inertia();
+    return {solid.volume,
+            solid.volume * density,
+            known_point(solid.volume != 0, solid.centroid),
+            {Vec3{i.xx, i.xy, i.xz} * density, Vec3{i.xy, i.yy, i.yz} * density,
+             Vec3{i.xz, i.yz, i.zz} * density},
+            principal(solid, density)};
 }
 
-Json shell_json(const ShellMass& shell) {
-    return {{"area", shell.area}, {"centroid", known_point(shell.area > 0, shell.centroid)}};
+void declare_measure_report(DeclareFields<MeasureReport>& d) {
+    d.field("unit", &MeasureReport::unit, "The unit of the scene; unknown: none.");
+    d.field("density", &MeasureReport::density, "As given.");
+    d.object("total", &MeasureReport::total, "All parts together.", declare_total);
+    d.list("parts", &MeasureReport::parts, "Each part.", declare_part);
+    d.tell(lines_of);
 }
 
-Json solid_json(const std::optional<SolidMass>& solid, double density) {
-    if (!solid) return nullptr;
-    const double mass = solid->volume * density;
-    const Symmetric i = solid->inertia();
-    const Json inertia = Json::array({point_json(Vec3{i.xx, i.xy, i.xz} * density),
-                                      point_json(Vec3{i.xy, i.yy, i.yz} * density),
-                                      point_json(Vec3{i.xz, i.yz, i.zz} * density)});
-    return {{"volume", solid->volume},
-            {"mass", mass},
-            {"centroid", known_point(solid->volume != 0, solid->centroid)},
-            {"inertia", inertia},
-            {"principal", principal_json(*solid, density)}};
-}
-
-Json faces_json(const FaceResult& faces) {
-    Json kinds = Json::object();
-    for (int k = 0; k < polygon::kinds; ++k) {
-        const auto kind = static_cast<polygon::Kind>(k);
-        if (faces.kinds.count(kind) > 0) kinds[polygon::to_string(kind)] = faces.kinds.count(kind);
+std::string face_rows(const std::string& part, const Mesh& mesh) {
+    std::string csv;
+    std::vector<Vec3> corners;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        corners.clear();
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners.push_back(mesh.point(c));
+        const Vec3 area = polygon::area_vector(corners), normal = normalised(area);
+        // The fan's signed parts, about the first corner: right for concave faces too.
+        Vec3 moment;
+        for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+            const Vec3 a = corners[i] - corners[0], b = corners[i + 1] - corners[0];
+            moment += (a + b) * (dot(cross(a, b), normal) / 6);
+        }
+        const double size = length(area);
+        const Vec3 centroid = corners[0] + (size > 0 ? moment / size : Vec3{});
+        csv += fmt::format("{},{},{},{}", io::csv_text(part), f, corners.size(), io::csv_number(size));
+        for (const Vec3& v : {centroid, normal})
+            for (std::size_t i = 0; i < 3; ++i) csv += "," + io::csv_number(v[i]);
+        csv += "," + io::csv_number(polygon::plane_deviation(corners)) + "\n";
     }
-    return {{"area", statistics_json(faces.area)},     {"angle", statistics_json(faces.angle, degrees)},
-            {"aspect", statistics_json(faces.aspect)}, {"kinds", std::move(kinds)},
-            {"non_planar", faces.kinds.non_planar},    {"farthest_from_plane", faces.kinds.deviation}};
+    return csv;
 }
 
-Json edges_json(const EdgeResult& edges) {
-    return {{"length", statistics_json(edges.length)},
-            {"turn", statistics_json(edges.turn, degrees)},
-            {"convex", edges.convex},
-            {"concave", edges.concave},
-            {"flat", edges.flat},
-            {"feature", edges.feature},
-            {"boundary", edges.boundary},
-            {"non_manifold", edges.non_manifold}};
-}
-
-Json curvature_json(const CurvatureResult& curvature) {
-    return {{"gaussian", statistics_json(curvature.of_gaussian)},
-            {"mean", statistics_json(curvature.of_mean)},
-            {"total_in_turns", curvature.total / (2 * pi)}};
-}
-
-} // namespace facetmill::report
+} // namespace facetmill

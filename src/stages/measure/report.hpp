@@ -1,19 +1,47 @@
 #pragma once
-// Measures as reports have them. Angles in degrees.
+// What measure reports, and its table of faces.
 
-#include "base/json.hpp"
 #include "geometry/measure/measure.hpp"
+#include "options/fields.hpp"
 
-namespace facetmill::report {
+namespace facetmill {
 
-Json statistics_json(const Statistics& s,
-                     double factor = 1); ///< {count, minimum, maximum, mean, median, deviation}
-Json shell_json(const ShellMass& shell); ///< {area, centroid}
-/// {volume, mass, centroid, inertia: 3 x 3 about the centroid, principal: {moments, axes}, radii}; null for
-/// none.
-Json solid_json(const std::optional<SolidMass>& solid, double density);
-Json faces_json(const FaceResult& faces);
-Json edges_json(const EdgeResult& edges);
-Json curvature_json(const CurvatureResult& curvature);
+/// A solid filled with the density.
+struct MeasuredSolid {
+    struct Principal {
+        std::array<double, 3> moments{};
+        std::array<Vec3, 3> axes{};
+        std::array<std::optional<double>, 3> radii{};
+    };
+    double volume = 0, mass = 0;
+    std::optional<Vec3> centroid;
+    std::array<Vec3, 3> inertia{};
+    std::optional<Principal> principal;
+};
+MeasuredSolid measured(const SolidMass& solid, double density);
 
-} // namespace facetmill::report
+struct MeasuredPart {
+    std::string part;
+    ShellMass shell;
+    std::optional<MeasuredSolid> solid;
+    FaceResult faces;
+    EdgeResult edges;
+    CurvatureResult curvature;
+};
+
+struct MeasureReport {
+    std::string unit;
+    double density = 1;
+    struct Total {
+        ShellMass shell;
+        std::optional<MeasuredSolid> solid;
+    } total;
+    std::vector<MeasuredPart> parts;
+};
+void declare_measure_report(DeclareFields<MeasureReport>& d);
+
+inline constexpr const char* face_rows_head = "part,face,corners,area,x,y,z,nx,ny,nz,off_plane\n";
+/// One row per face: part, number, corners, area, centroid, unit normal, farthest corner from its plane.
+std::string face_rows(const std::string& part, const Mesh& mesh);
+
+} // namespace facetmill

@@ -1,24 +1,26 @@
 #include "stages/probe/report.hpp"
 
-#include "base/point_json.hpp"
-#include "geometry/measure/statistics.hpp"
+#include "base/readable_numbers.hpp"
+#include "geometry/measure/statistics_fields.hpp"
 #include "io/csv.hpp"
-#include "stages/measure/report.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill::report {
+namespace facetmill {
 
 namespace {
 
 /// The t that users see: of a ray, the distance from its start.
 double shown(const Line& line, double t) { return line.ray ? t * length(line.to - line.from) : t; }
 
-void name_face(Json& entry, const FaceNames& faces, Index face) {
+/// Puts the face's part and number into the answer; nothing for none.
+template <class Answer>
+void name_face(Answer& answer, const FaceNames& faces, Index face) {
     const auto [part, number] = faces.of(face);
-    entry["part"] = part ? Json(*part) : Json(nullptr);
-    entry["face"] = part ? Json(number) : Json(nullptr);
+    if (!part) return;
+    answer.part = *part;
+    answer.face = number;
 }
 
 std::string face_csv(const FaceNames& faces, Index face) {
@@ -30,26 +32,175 @@ std::string point_csv(const Vec3& p) {
     return fmt::format("{},{},{}", io::csv_number(p.x), io::csv_number(p.y), io::csv_number(p.z));
 }
 
-Json line_json(const LineAnswers& answers, std::size_t i, const FaceNames& faces) {
+bool crosses_plane(const SegmentFacet& m) {
+    return m.meeting != Meeting::parallel && m.meeting != Meeting::in_plane;
+}
+
+ProbedLine answer_of(const LineAnswers& answers, std::size_t i, const FaceNames& faces) {
     const Line& line = answers.lines[i];
-    Json hits = Json::array();
+    ProbedLine answer{line.from, {}, {}, {}, {}, {}};
+    if (line.ray)
+        answer.direction = line.to - line.from;
+    else
+        answer.to = line.to;
     for (const auto& hit : answers.hits.of(i)) {
-        Json one = {{"t", shown(line, hit.t)}, {"at", point_json(hit.point)}, {"enters", hit.way < 0}};
-        name_face(one, faces, hit.face);
-        hits.push_back(std::move(one));
+        answer.hits.push_back({shown(line, hit.t), hit.point, hit.way < 0, {}, {}});
+        name_face(answer.hits.back(), faces, hit.face);
     }
-    Json entry = {{"from", point_json(line.from)},
-                  {line.ray ? "direction" : "to", point_json(line.ray ? line.to - line.from : line.to)},
-                  {"hits", std::move(hits)}};
-    if (answers.meetings.empty()) return entry;
+    if (answers.meetings.empty()) return answer;
     const SegmentFacet& m = answers.meetings[i];
-    entry["meeting"] = to_string(m.meeting);
-    if (m.meeting != Meeting::parallel && m.meeting != Meeting::in_plane)
-        entry["plane"] = {{"t", shown(line, m.t)}, {"at", point_json(m.point)}};
-    return entry;
+    answer.meeting = to_string(m.meeting);
+    if (crosses_plane(m)) answer.plane = ProbedLine::InPlane{shown(line, m.t), m.point};
+    return answer;
+}
+
+// --- fields
+
+constexpr const char* points = "points are asked about";
+constexpr const char* lines = "segments or rays are asked about";
+constexpr const char* one_face = "they are held against one face";
+constexpr const char* no_face = "the surface has no face";
+
+void declare_hit(DeclareFields<ProbedHit>& d) {
+    d.field("t", &ProbedHit::t, "From 0 to 1 along a segment; of a ray the distance.");
+    d.field("at", &ProbedHit::at, "Where.");
+    d.field("enters", &ProbedHit::enters, "Whether the line goes in there.");
+    d.field("part", &ProbedHit::part, "The part hit.");
+    d.field("face", &ProbedHit::face, "The number of the face in that part.");
+}
+
+void declare_in_plane(DeclareFields<ProbedLine::InPlane>& d) {
+    d.field("t", &ProbedLine::InPlane::t, "From 0 to 1 along a segment; of a ray the distance.");
+    d.field("at", &ProbedLine::InPlane::at, "Where.");
+}
+
+void declare_point_answer(DeclareFields<ProbeAnswer>& d) {
+    d.field("point", where_it_is(&ProbedPoint::point), "The point asked about.").only_when(points);
+    d.choice("side", where_it_is(&ProbedPoint::side),
+             {{"inside", Side::inside, "the winding number is not 0"},
+              {"outside", Side::outside, "it is 0"},
+              {"on", Side::on, "the point is on the surface"},
+              {"unknown", Side::unknown, "the surface is open"}},
+             "Where it is.")
+        .only_when(points);
+    d.field("winding", where_it_is(&ProbedPoint::winding), "How often the surface goes around it; 0 on it.")
+        .only_when(points);
+    d.field("distance", where_it_is(&ProbedPoint::distance), "To the surface.")
+        .unit("scene units")
+        .only_when(points)
+        .null_when(no_face);
+    d.field("closest", where_it_is(&ProbedPoint::closest), "The closest point of the surface.")
+        .only_when(points)
+        .null_when(no_face);
+    d.field("part", where_it_is(&ProbedPoint::part), "The part that it is on.")
+        .only_when(points)
+        .null_when(no_face);
+    d.field("face", where_it_is(&ProbedPoint::face), "The number of the face in that part.")
+        .only_when(points)
+        .null_when(no_face);
+}
+
+void declare_answer(DeclareFields<ProbeAnswer>& d) {
+    declare_point_answer(d);
+    d.field("from", where_it_is(&ProbedLine::from), "Where the line begins.").only_when(lines);
+    const auto direction = [](const ProbeAnswer& a) {
+        const auto* line = std::get_if<ProbedLine>(&a);
+        return line ? line->direction : std::nullopt;
+    };
+    const auto to = [](const ProbeAnswer& a) {
+        const auto* line = std::get_if<ProbedLine>(&a);
+        return line ? line->to : std::nullopt;
+    };
+    d.field("direction", direction, "Where a ray goes.").only_when("rays are asked about");
+    d.field("to", to, "Where a segment ends.").only_when("segments are asked about");
+    d.list("hits", where_it_is(&ProbedLine::hits), "The faces that it meets, in order.", declare_hit)
+        .only_when(lines);
+    const auto meeting = [](const ProbeAnswer& a) {
+        const auto* line = std::get_if<ProbedLine>(&a);
+        return line ? line->meeting : std::nullopt;
+    };
+    d.field("meeting", meeting, "How it meets the face.").only_when(one_face);
+    const auto plane = [](const ProbeAnswer& a) {
+        const auto* line = std::get_if<ProbedLine>(&a);
+        return line ? line->plane : std::nullopt;
+    };
+    d.object("plane", plane, "Where it meets the face's plane.", declare_in_plane)
+        .only_when("they are held against one face, and neither parallel to its plane nor in it");
+}
+
+// --- lines for the terminal
+
+std::string name_of(const std::optional<std::string>& part) { return part.value_or("-"); }
+std::string number_of(const std::optional<Index>& face) { return face ? std::to_string(*face) : "null"; }
+
+std::string line_of(const ProbedPoint& a) {
+    const std::string text = fmt::format("{}: {}", readable(a.point), to_string(a.side));
+    if (!a.distance) return text;
+    return text + fmt::format(", {} from {} of {} face {}", readable(a.distance), readable(a.closest),
+                              name_of(a.part), number_of(a.face));
+}
+
+std::string line_of(const ProbedLine& a) {
+    const std::string text = fmt::format("{} {} {}: ", readable(a.from), a.to ? "to" : "along",
+                                         readable(a.to ? a.to : a.direction));
+    if (a.meeting) return text + *a.meeting;
+    if (a.hits.empty()) return text + "no hit";
+    const ProbedHit& first = a.hits[0];
+    return text + fmt::format("{} hit{}, t {} at {} on {} face {}", a.hits.size(),
+                              a.hits.size() == 1 ? "" : "s", readable(first.t), readable(first.at),
+                              name_of(first.part), number_of(first.face));
+}
+
+std::vector<std::string> lines_of(const ProbeReport& report) {
+    constexpr std::size_t few = 5; // answers that are told one by one
+    std::vector<std::string> counts;
+    const auto add = [&](std::uint64_t count, const std::string& kind) {
+        if (count > 0) counts.push_back(fmt::format("{} {}", grouped(count), kind));
+    };
+    if (report.sides)
+        for (const Side side : {Side::inside, Side::outside, Side::on, Side::unknown})
+            add((*report.sides)[static_cast<std::size_t>(side)], to_string(side));
+    if (report.meetings)
+        for (const auto& [kind, count] : *report.meetings) add(count, kind);
+    else if (report.hit) {
+        add(*report.hit, "hit");
+        add(report.missed.value_or(0), "missed");
+    }
+    std::string line = join_texts(counts);
+    if (report.distance) line = join_texts({line, range_text("distance", *report.distance)}, "; ");
+    std::vector<std::string> all{line.empty() ? "nothing was asked" : line};
+    for (std::size_t i = 0; i < std::min(few, report.answers.size()); ++i)
+        all.push_back(std::visit([](const auto& a) { return line_of(a); }, report.answers[i]));
+    if (report.count > few) all.push_back(fmt::format("and {} more", grouped(report.count - few)));
+    return all;
 }
 
 } // namespace
+
+void declare_probe_report(DeclareFields<ProbeReport>& d) {
+    d.field("count", &ProbeReport::count, "How many points or lines were asked about.");
+    for (const Side side : {Side::inside, Side::outside, Side::on, Side::unknown}) {
+        const auto count = [side](const ProbeReport& r) {
+            return r.sides ? std::optional((*r.sides)[static_cast<std::size_t>(side)]) : std::nullopt;
+        };
+        d.field(to_string(side), count, "Points there.").only_when(points);
+    }
+    d.field("hit", &ProbeReport::hit, "Lines that meet a face.").only_when(lines);
+    d.field("missed", &ProbeReport::missed, "Lines that meet none.").only_when(lines);
+    d.field("hits", &ProbeReport::hits, "Hits of all lines.").only_when(lines);
+    std::vector<std::string> meetings;
+    for (const Meeting m : {Meeting::hit, Meeting::parallel, Meeting::in_plane, Meeting::outside_segment,
+                            Meeting::outside_facet})
+        meetings.emplace_back(to_string(m));
+    d.counts("meetings", &ProbeReport::meetings, meetings, "How many lines meet the face how.")
+        .only_when(one_face);
+    d.object("distance", &ProbeReport::distance, "Of all points to the surface.",
+             statistics_fields("scene units"))
+        .only_when(points);
+    d.list("answers", &ProbeReport::answers, "The first answers, as many as max_answers says.",
+           declare_answer);
+    d.tell(lines_of);
+}
 
 FaceNames::FaceNames(const std::vector<const Part*>& parts) {
     Index first = 0;
@@ -67,53 +218,53 @@ std::pair<const std::string*, Index> FaceNames::of(Index face) const {
     return {names_[part], face - first_[part]};
 }
 
-Json points_json(std::span<const Vec3> points, std::span<const PointAnswer> answers, const FaceNames& faces,
-                 std::size_t limit) {
-    std::array<std::size_t, 4> of_side{};
+ProbeReport report_of(std::span<const Vec3> points, std::span<const PointAnswer> answers,
+                      const FaceNames& faces, std::size_t limit) {
+    ProbeReport report;
+    report.count = answers.size();
+    auto& sides = report.sides.emplace();
     std::vector<double> distances;
     for (const auto& a : answers) {
-        ++of_side[static_cast<std::size_t>(a.side)];
+        ++sides[static_cast<std::size_t>(a.side)];
         distances.push_back(a.closest.distance);
     }
-    Json list = Json::array();
+    report.distance = statistics(std::move(distances));
     for (std::size_t i = 0; i < std::min(limit, answers.size()); ++i) {
         const auto& a = answers[i];
-        Json entry = {{"point", point_json(points[i])}, {"side", to_string(a.side)}, {"winding", a.winding}};
-        const bool found = a.closest.face != none;
-        entry["distance"] = found ? Json(a.closest.distance) : Json(nullptr);
-        entry["closest"] = found ? point_json(a.closest.point) : Json(nullptr);
-        name_face(entry, faces, a.closest.face);
-        list.push_back(std::move(entry));
+        ProbedPoint one{points[i], a.side, a.winding, {}, {}, {}, {}};
+        name_face(one, faces, a.closest.face);
+        if (a.closest.face != none) {
+            one.distance = a.closest.distance;
+            one.closest = a.closest.point;
+        }
+        report.answers.emplace_back(std::move(one));
     }
-    Json result = {{"count", answers.size()}};
-    for (const Side side : {Side::inside, Side::outside, Side::on, Side::unknown})
-        result[to_string(side)] = of_side[static_cast<std::size_t>(side)];
-    result["distance"] = statistics_json(statistics(std::move(distances)));
-    result["answers"] = std::move(list);
-    return result;
+    return report;
 }
 
-Json lines_json(const LineAnswers& answers, const FaceNames& faces, std::size_t limit) {
-    Json list = Json::array();
+ProbeReport report_of(const LineAnswers& answers, const FaceNames& faces, std::size_t limit) {
+    ProbeReport report;
+    report.count = answers.lines.size();
     std::size_t hit = 0;
     for (std::size_t i = 0; i < answers.lines.size(); ++i) {
         hit += !answers.hits.of(i).empty();
-        if (i < limit) list.push_back(line_json(answers, i, faces));
+        if (i < limit) report.answers.emplace_back(answer_of(answers, i, faces));
     }
-    Json result = {{"count", answers.lines.size()},
-                   {"hit", hit},
-                   {"missed", answers.lines.size() - hit},
-                   {"hits", answers.hits.hits.size()}};
-    if (!answers.meetings.empty()) {
-        Json cases = Json::object();
-        for (const auto& m : answers.meetings) {
-            Json& count = cases[to_string(m.meeting)];
-            count = (count.is_null() ? 0 : count.get<std::size_t>()) + 1;
-        }
-        result["meetings"] = std::move(cases);
+    report.hit = hit;
+    report.missed = answers.lines.size() - hit;
+    report.hits = answers.hits.hits.size();
+    if (answers.meetings.empty()) return report;
+    auto& counts = report.meetings.emplace();
+    for (const auto& m : answers.meetings) {
+        const std::string name = to_string(m.meeting);
+        const auto known =
+            std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == name; });
+        if (known == counts.end())
+            counts.emplace_back(name, 1);
+        else
+            ++known->second;
     }
-    result["answers"] = std::move(list);
-    return result;
+    return report;
 }
 
 std::string points_csv(std::span<const Vec3> points, std::span<const PointAnswer> answers,
@@ -135,7 +286,7 @@ std::string lines_csv(const LineAnswers& answers, const FaceNames& faces) {
     for (std::size_t i = 0; i < answers.lines.size(); ++i) {
         if (meetings) {
             const auto& m = answers.meetings[i];
-            const bool crosses = m.meeting != Meeting::parallel && m.meeting != Meeting::in_plane;
+            const bool crosses = crosses_plane(m);
             csv += fmt::format(
                 "{},{},{}\n", i, to_string(m.meeting),
                 crosses ? io::csv_number(shown(answers.lines[i], m.t)) + "," + point_csv(m.point) : ",,,");
@@ -150,4 +301,4 @@ std::string lines_csv(const LineAnswers& answers, const FaceNames& faces) {
     return csv;
 }
 
-} // namespace facetmill::report
+} // namespace facetmill

@@ -1,10 +1,13 @@
 #pragma once
-// Answers to probes as reports and tables have them.
+// What probe reports of its answers, and their tables.
 
-#include "base/json.hpp"
+#include "geometry/measure/statistics.hpp"
 #include "geometry/probe/probe.hpp"
+#include "options/fields.hpp"
 
-namespace facetmill::report {
+#include <variant>
+
+namespace facetmill {
 
 /// Faces of a surface of several parts, by part and number there.
 class FaceNames {
@@ -23,13 +26,54 @@ struct LineAnswers {
     std::vector<SegmentFacet> meetings; ///< with one face, when that was asked; else empty
 };
 
-/// {count, inside, outside, on, unknown, distance: statistics, answers: the first `limit`}.
-Json points_json(std::span<const Vec3> points, std::span<const PointAnswer> answers, const FaceNames& faces,
-                 std::size_t limit);
-/// {count, hit, missed, hits, answers: the first `limit`}. t is 0 to 1 along a segment; of a ray a distance.
-Json lines_json(const LineAnswers& answers, const FaceNames& faces, std::size_t limit);
+struct ProbedPoint {
+    Vec3 point;
+    Side side = Side::unknown;
+    int winding = 0;
+    std::optional<double> distance;
+    std::optional<Vec3> closest;
+    std::optional<std::string> part;
+    std::optional<Index> face;
+};
+
+struct ProbedHit {
+    double t = 0; ///< 0 to 1 along a segment; of a ray a distance
+    Vec3 at;
+    bool enters = false;
+    std::optional<std::string> part;
+    std::optional<Index> face;
+};
+
+struct ProbedLine {
+    struct InPlane {
+        double t = 0;
+        Vec3 at;
+    };
+    Vec3 from;
+    std::optional<Vec3> direction, to; ///< of a ray, of a segment
+    std::vector<ProbedHit> hits;
+    std::optional<std::string> meeting; ///< with the one face
+    std::optional<InPlane> plane;
+};
+using ProbeAnswer = std::variant<ProbedPoint, ProbedLine>;
+
+struct ProbeReport {
+    std::size_t count = 0;
+    std::optional<std::array<std::size_t, 4>> sides; ///< points by Side
+    std::optional<std::size_t> hit, missed, hits;    ///< of lines
+    std::optional<NamedCounts> meetings;
+    std::optional<Statistics> distance;
+    std::vector<ProbeAnswer> answers; ///< the first of them
+};
+void declare_probe_report(DeclareFields<ProbeReport>& d);
+
+/// The report, with at most so many answers.
+ProbeReport report_of(std::span<const Vec3> points, std::span<const PointAnswer> answers,
+                      const FaceNames& faces, std::size_t limit);
+ProbeReport report_of(const LineAnswers& answers, const FaceNames& faces, std::size_t limit);
+
 std::string points_csv(std::span<const Vec3> points, std::span<const PointAnswer> answers,
                        const FaceNames& faces);
 std::string lines_csv(const LineAnswers& answers, const FaceNames& faces);
 
-} // namespace facetmill::report
+} // namespace facetmill

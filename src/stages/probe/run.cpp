@@ -1,5 +1,4 @@
 #include "geometry/inspect/connectivity.hpp"
-#include "report/summary.hpp"
 #include "stages/probe/help.hpp"
 #include "stages/probe/questions.hpp"
 #include "stages/probe/report.hpp"
@@ -10,8 +9,8 @@ namespace facetmill {
 
 namespace {
 
-Json answer_points(const FaceTree& tree, const Scene& scene, const ProbeOptions& o, const Questions& q,
-                   std::string* csv, std::size_t limit, Context& context) {
+ProbeReport answer_points(const FaceTree& tree, const Scene& scene, const ProbeOptions& o, const Questions& q,
+                          std::string* csv, std::size_t limit, Context& context) {
     PointSettings settings;
     settings.tolerance = context.resolve(o.tolerance, scene, "tolerance");
     std::vector<std::string> open;
@@ -26,14 +25,13 @@ Json answer_points(const FaceTree& tree, const Scene& scene, const ProbeOptions&
             "close it (clean: {holes: minimal}), or select closed parts (only)");
     const auto points = points_asked(o, q, context);
     const auto answers = probe_points(tree, points, settings);
-    const report::FaceNames names(q.surface);
-    if (csv) *csv = report::points_csv(points, answers, names);
-    return report::points_json(points, answers, names, limit);
+    const FaceNames names(q.surface);
+    if (csv) *csv = points_csv(points, answers, names);
+    return report_of(points, answers, names, limit);
 }
 
-report::LineAnswers answer_lines(const FaceTree& tree, const ProbeOptions& o, const Questions& q,
-                                 Context& context) {
-    report::LineAnswers answers;
+LineAnswers answer_lines(const FaceTree& tree, const ProbeOptions& o, const Questions& q, Context& context) {
+    LineAnswers answers;
     answers.lines = o.along.empty() ? lines_asked(o, context) : lines_along(o, q);
     if (o.face) {
         const auto facet = facet_asked(q, *o.face);
@@ -47,7 +45,7 @@ report::LineAnswers answer_lines(const FaceTree& tree, const ProbeOptions& o, co
     return answers;
 }
 
-Scene run(Scene scene, const ProbeOptions& o, Context& context) {
+Scene run(Scene scene, const ProbeOptions& o, Context& context, ProbeReport& report) {
     const Questions q = questions_of(scene, o, context);
     const FaceTree tree(surface_of(q.surface));
     const bool wants_csv = std::any_of(o.path.begin(), o.path.end(), is_csv);
@@ -55,23 +53,21 @@ Scene run(Scene scene, const ProbeOptions& o, Context& context) {
     constexpr std::size_t no_limit = std::size_t(-1);
     const std::size_t limit = wants_json ? no_limit : static_cast<std::size_t>(o.max_answers);
     std::string csv;
-    Json result;
     if (o.points || !o.points_of.empty()) {
-        result = answer_points(tree, scene, o, q, wants_csv ? &csv : nullptr, limit, context);
+        report = answer_points(tree, scene, o, q, wants_csv ? &csv : nullptr, limit, context);
     } else {
         const auto answers = answer_lines(tree, o, q, context);
-        const report::FaceNames names(q.surface);
-        result = report::lines_json(answers, names, limit);
-        if (wants_csv) csv = report::lines_csv(answers, names);
+        const FaceNames names(q.surface);
+        report = report_of(answers, names, limit);
+        if (wants_csv) csv = lines_csv(answers, names);
     }
+    const Fields fields = fields_of<ProbeReport>(declare_probe_report);
     for (const auto& path : o.path) {
-        const std::string text = is_csv(path) ? csv : result.dump(2) + "\n";
+        const std::string text = is_csv(path) ? csv : fields.json(&report).dump(2) + "\n";
         context.output(path.text, std::as_bytes(std::span(text)));
     }
-    Json& list = result["answers"];
-    while (list.size() > static_cast<std::size_t>(o.max_answers)) list.erase(list.size() - 1);
-    context.say(report::probe_summary(result));
-    context.result() = std::move(result);
+    if (report.answers.size() > static_cast<std::size_t>(o.max_answers))
+        report.answers.resize(static_cast<std::size_t>(o.max_answers));
     return scene;
 }
 
@@ -82,7 +78,7 @@ const RegisterStage registered = make_stage<ProbeOptions>(
      .examples = {"probe: [0, 0, 1]", "probe: {points: probes.csv, path: answers.csv}",
                   "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
                   "probe: {along: NORMAL, reverse: true, path: walls.csv}"}},
-    declare_probe, run, {.files = probe_files, .verify = verify_probe});
+    declare_probe, declare_probe_report, run, {.files = probe_files, .verify = verify_probe});
 
 } // namespace
 

@@ -14,14 +14,6 @@ auto of_surface(T ThickenResult::*member) {
         return surface ? std::optional<T>(surface->result.*member) : std::nullopt;
     };
 }
-template <class T>
-auto of_edges(T ThickenedEdges::*member) {
-    return [member](const ThickenedPart& part) {
-        const auto* edges = std::get_if<ThickenedEdges>(&part);
-        return edges ? std::optional<T>(edges->*member) : std::nullopt;
-    };
-}
-
 std::optional<ThickenResult> wall_of(const ThickenedPart& part) {
     const auto* surface = std::get_if<ThickenedSurface>(&part);
     if (!surface) return {};
@@ -61,9 +53,10 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
         .only_when("self_intersections is on and the part has faces")
         .null_when("the part is smaller than its thickness, so they were not looked for");
     constexpr const char* edges = "edges became cylinders";
-    d.field("cylinders", of_edges(&ThickenedEdges::cylinders), "Edges that became cylinders.")
+    d.field("cylinders", where_it_is(&ThickenedEdges::cylinders), "Edges that became cylinders.")
         .only_when(edges);
-    d.field("without_length", of_edges(&ThickenedEdges::without_length), "Edges without length, which went.")
+    d.field("without_length", where_it_is(&ThickenedEdges::without_length),
+            "Edges without length, which went.")
         .only_when(edges);
 }
 
