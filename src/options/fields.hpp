@@ -298,6 +298,33 @@ class DeclareFields {
         return {fields, fields.all.size() - 1};
     }
 
+    /// The fields of a record within this one, in its place: get returns a reference to it.
+    template <class Get, class Fill>
+    void embed(Get get, Fill fill) {
+        using T = Value<Get>;
+        DeclareFields<T> inner;
+        fill(inner);
+        const auto within = [get](const void* record) -> const void* {
+            const T& embedded = std::invoke(get, as_record(record));
+            return &embedded;
+        };
+        for (Field f : inner.fields.all) {
+            f.put = [put = f.put, within](const Field& self, const void* record, Json& object) {
+                put(self, within(record), object);
+            };
+            if (f.phrase)
+                f.phrase = [told = f.phrase, within](const void* record) { return told(within(record)); };
+            if (f.count)
+                f.count = [count = f.count, within](const void* record) { return count(within(record)); };
+            if (f.each)
+                f.each = [each = f.each, within](const void* record,
+                                                 const std::function<void(const void*)>& look) {
+                    each(within(record), look);
+                };
+            fields.all.push_back(std::move(f));
+        }
+    }
+
     /// Counts by name (NamedCounts), the names being some of those given.
     template <class Get>
     FieldRef counts(std::string name, Get get, const std::vector<std::string>& names, std::string help) {

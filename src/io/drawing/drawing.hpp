@@ -43,33 +43,9 @@ std::string to_dxf(const Drawing& drawing);
 /// All points and measures: {unit, sections: [{height, frame, parts: [{name, contours, hatch}]}]}.
 std::string to_json(const Drawing& drawing);
 
-/// A section as a whole, holes taken off (centroid null where it has none: see Section::moments), and its
-/// contours.
-Json section_json(const Section& section, bool points);
-/// A section's contours with their measures, in the plane's frame and in the world; points on request.
-Json contours_json(const Section& section, bool points);
-Json frame_json(const SectionFrame& frame);
-
 /// By the file's extension: .svg, .dxf or .json. Throws usage (E-DRAWING) for others.
 std::string drawing_for(const std::string& path, const Drawing& drawing);
 /// Whether drawing_for knows the extension.
 bool is_drawing(const std::string& path);
-
-/// Sums over all sheets and parts.
-struct DrawingTotals {
-    double area = 0;
-    std::size_t contours = 0, open = 0, holes = 0;
-    std::size_t touched = 0; ///< contours that shrank to a point or line
-    std::size_t empty = 0;   ///< sheets without contours
-    bool oriented = true;
-    std::array<std::size_t, polygon::kinds> kinds{}; ///< of closed contours
-
-    std::size_t count(polygon::Kind kind) const { return kinds[static_cast<std::size_t>(kind)]; }
-};
-DrawingTotals totals_of(const Drawing& drawing);
-
-/// The totals, the frame of the first sheet, and every sheet with its area; the measures of the first 200
-/// contours (a JSON drawing has all).
-Json summary_json(const Drawing& drawing, const DrawingTotals& totals);
 
 } // namespace facetmill::io

@@ -1,8 +1,9 @@
 #include "stages/section/report.hpp"
 
+#include "base/readable_numbers.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "io/drawing/drawing_fields.hpp"
 #include "mesh/placement.hpp"
-#include "report/summary.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -11,8 +12,37 @@ namespace facetmill {
 
 namespace {
 
-void add_volume(Json& result, const Scene& scene, const io::DrawingTotals& totals, double spacing,
-                Context& context) {
+constexpr const char* stack = "there are several planes, or spacing is given";
+
+void add(SectionReport& report, const Section& s) {
+    report.area += s.area;
+    report.touched += s.collapsed;
+    report.oriented = report.oriented && s.oriented;
+    report.contours += s.contours.size();
+    for (const Contour& c : s.contours) {
+        report.holes += c.role == ContourRole::hole;
+        report.open += c.role == ContourRole::open;
+        if (c.role != ContourRole::open) ++report.kinds[static_cast<std::size_t>(c.kind)];
+    }
+}
+
+/// listed: the contours that were listed so far.
+ReportedSection reported(const io::Sheet& sheet, std::size_t& listed) {
+    constexpr std::size_t max_listed = 200; // a JSON drawing has all
+    ReportedSection section{sheet.height, sheet.frame.origin, 0, 0, {}};
+    ReportedSection::Listed parts;
+    for (const auto& part : sheet.parts) {
+        const std::size_t count = part.section.contours.size();
+        section.area += part.section.area;
+        section.contours += count;
+        listed += count;
+        if (listed <= max_listed && count > 0) parts.emplace_back(part);
+    }
+    if (!parts.empty()) section.parts = std::move(parts);
+    return section;
+}
+
+void add_volume(SectionReport& report, const Scene& scene, double spacing, const Context& context) {
     if (!(spacing > 0)) return;
     std::optional<double> volume = 0.0;
     for (const Part& part : scene.parts) {
@@ -21,40 +51,140 @@ void add_volume(Json& result, const Scene& scene, const io::DrawingTotals& total
         volume = volume && own ? std::optional(*volume + *own * std::abs(effective(part).determinant()))
                                : std::nullopt;
     }
-    const double sum = totals.area * spacing;
-    result["spacing"] = spacing;
-    result["area_times_spacing"] = sum;
-    result["volume"] = volume ? Json(*volume) : Json(nullptr);
-    if (volume && *volume != 0) result["ratio"] = sum / *volume;
+    report.spacing = spacing;
+    report.area_times_spacing = report.area * spacing;
+    report.volume = volume;
+    if (volume && *volume != 0) report.ratio = *report.area_times_spacing / *volume;
 }
 
-void warn(const io::DrawingTotals& totals, Context& context) {
-    if (totals.open > 0)
+void warn(const SectionReport& report, Context& context) {
+    if (report.open > 0)
         context.warn(
             "W-OPEN-SECTION",
             fmt::format("{} of {} contours are open: the mesh has a boundary where the plane cuts it",
-                        totals.open, totals.contours),
+                        report.open, report.contours),
             "use clean first, to weld the mesh or fill its holes");
-    if (!totals.oriented)
+    if (!report.oriented)
         context.warn("W-UNORIENTED",
                      "neighbouring faces are inconsistent, so nesting decided which contours are outlines "
                      "and which are holes",
                      "use orient first");
-    const auto crossed = totals.count(polygon::Kind::self_intersecting);
+    const auto crossed = report.kinds[static_cast<std::size_t>(polygon::Kind::self_intersecting)];
     if (crossed > 0)
         context.warn(
             "W-SECTION-CROSSES",
             fmt::format("{} contours intersect themselves and have no centroid and moments", crossed));
 }
 
+// --- fields
+
+void declare_kinds(DeclareFields<SectionReport>& d) {
+    for (int k = 0; k < polygon::kinds; ++k)
+        d.field(
+            polygon::to_string(static_cast<polygon::Kind>(k)),
+            [k](const SectionReport& r) { return r.kinds[static_cast<std::size_t>(k)]; },
+            "Contours of this kind.");
+}
+
+void declare_part(DeclareFields<std::reference_wrapper<const io::DrawnPart>>& d) {
+    const auto section = [](const io::DrawnPart& part) -> const Section& { return part.section; };
+    d.embed(section, io::declare_section_fields);
+    d.field("part", &io::DrawnPart::name, "The name of the part.");
+}
+
+void declare_sheet(DeclareFields<ReportedSection>& d) {
+    d.field("height", &ReportedSection::height, "From the first plane, along the normal.")
+        .unit("scene units");
+    d.field("origin", &ReportedSection::origin, "Of the plane's frame, in the world.");
+    d.field("area", &ReportedSection::area, "Of all parts.").unit("square scene units");
+    d.field("contours", &ReportedSection::contours, "Of all parts.");
+    d.list("parts", &ReportedSection::parts, "The sections of single parts.", declare_part)
+        .only_when("it has contours and is among the first 200 of all");
+}
+
+std::optional<SectionFrame> first_frame(const SectionReport& r) {
+    return r.drawing && !r.drawing->sheets.empty() ? std::optional(r.drawing->sheets.front().frame)
+                                                   : std::nullopt;
+}
+
+// --- lines
+
+std::string counted(std::size_t n, const char* one, const char* several) {
+    return n == 0 ? std::string() : fmt::format("{} {}", grouped(n), n == 1 ? one : several);
+}
+
+std::vector<std::string> lines_of(const SectionReport& r) {
+    const Unit known = r.drawing->unit;
+    const std::string in = known == Unit::unknown ? "" : std::string(" ") + to_string(known);
+    std::string what = counted(r.contours, "contour", "contours");
+    const std::string of = join_texts({counted(r.holes, "hole", "holes"), counted(r.open, "open", "open")});
+    if (!of.empty()) what += " (" + of + ")";
+    if (r.empty > 0) what = join_texts({what, fmt::format("{} empty", grouped(r.empty))});
+    std::vector<std::string> lines{fmt::format("{}: area {}{}{}, {}",
+                                               counted(r.sections.size(), "section", "sections"),
+                                               readable(r.area), in, in.empty() ? "" : "2", what)};
+    const auto& parts = r.sections[0].parts;
+    if (r.sections.size() == 1 && parts && parts->size() == 1 && parts->front().get().section.moments) {
+        const Section& section = parts->front().get().section;
+        const auto& m = *section.moments;
+        lines.push_back(fmt::format("centroid {}, second moments about it {} to {}{}{}",
+                                    readable(section.frame.point(m.centroid)), readable(m.axes.smallest),
+                                    readable(m.axes.largest), in, in.empty() ? "" : "4"));
+    }
+    if (r.spacing) {
+        std::string line = fmt::format("areas times distance {}", readable(r.area_times_spacing));
+        if (*r.volume) line += fmt::format(", volume {}", readable(**r.volume));
+        lines.push_back(line);
+    }
+    return lines;
+}
+
 } // namespace
 
-void report_sections(const io::Drawing& drawing, const Scene& scene, double spacing, Context& context) {
-    const auto totals = io::totals_of(drawing);
-    context.result() = io::summary_json(drawing, totals);
-    add_volume(context.result(), scene, totals, spacing, context);
-    context.say(report::section_summary(context.result(), to_string(scene.unit)));
-    warn(totals, context);
+void declare_section_report(DeclareFields<SectionReport>& d) {
+    d.field(
+        "planes", [](const SectionReport& r) { return r.sections.size(); }, "How many planes there are.");
+    d.field("empty", &SectionReport::empty, "Planes that meet nothing.");
+    d.field("contours", &SectionReport::contours, "Contours of all planes.");
+    d.field("holes", &SectionReport::holes, "Those of them that are holes.");
+    d.field("open", &SectionReport::open, "Those that are not closed.");
+    d.field("touched", &SectionReport::touched,
+            "Contours that shrank to a point or line: the plane only touches.");
+    const auto self = [](const SectionReport& r) -> const SectionReport& { return r; };
+    d.object("kinds", self, "Closed contours by kind.", declare_kinds);
+    d.field("area", &SectionReport::area, "Of all planes, holes taken off.").unit("square scene units");
+    d.object("frame", first_frame, "Of the first plane.", io::declare_frame_fields)
+        .only_when("there is a plane");
+    d.list("sections", &SectionReport::sections, "What each plane cuts.", declare_sheet);
+    d.field("spacing", &SectionReport::spacing, "The distance between the planes.")
+        .unit("scene units")
+        .only_when(stack);
+    d.field("area_times_spacing", &SectionReport::area_times_spacing, "An estimate of the volume.")
+        .unit("cubic scene units")
+        .only_when(stack);
+    d.field("volume", &SectionReport::volume, "Of the parts.")
+        .unit("cubic scene units")
+        .only_when(stack)
+        .null_when("a part is not closed");
+    d.field("ratio", &SectionReport::ratio, "Of that estimate to the volume.")
+        .only_when("there are several planes, and a volume");
+    d.tell(lines_of);
+}
+
+SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, const Scene& scene, double spacing,
+                        Context& context) {
+    SectionReport report;
+    std::size_t listed = 0;
+    for (const auto& sheet : drawing->sheets) {
+        const std::size_t before = report.contours;
+        for (const auto& part : sheet.parts) add(report, part.section);
+        report.empty += report.contours == before;
+        report.sections.push_back(reported(sheet, listed));
+    }
+    report.drawing = std::move(drawing);
+    add_volume(report, scene, spacing, context);
+    warn(report, context);
+    return report;
 }
 
 } // namespace facetmill

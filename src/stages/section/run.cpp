@@ -46,7 +46,7 @@ void verify(const SectionOptions& o, const Value& given, Problems& problems) {
                          "the formats are .svg, .dxf and .json");
 }
 
-Scene run(Scene scene, const SectionOptions& o, Context& context) {
+Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport& report) {
     PlaneOption middle;
     middle.normal = Vec3{0, 0, 1};
     middle.through.kind = PlanePlace::Kind::centre;
@@ -54,10 +54,11 @@ Scene run(Scene scene, const SectionOptions& o, Context& context) {
     const Stack stack = stack_for(scene, plane, o.spacing, o.count, context);
     std::optional<polygon::HatchSettings> hatching;
     if (o.hatch) hatching = resolve_hatch(*o.hatch, scene, context);
-    const io::Drawing drawing = draw_sections(scene, plane, stack, hatching, context);
-    report_sections(drawing, scene, stack.spacing, context);
+    const auto drawing =
+        std::make_shared<const io::Drawing>(draw_sections(scene, plane, stack, hatching, context));
+    report = report_of(drawing, scene, stack.spacing, context);
     for (const auto& path : o.path) {
-        const std::string text = io::drawing_for(path.text, drawing);
+        const std::string text = io::drawing_for(path.text, *drawing);
         context.output(path.text, std::as_bytes(std::span(text)));
     }
     return scene;
@@ -71,7 +72,7 @@ const RegisterStage registered{make_stage<SectionOptions>(
                   "section: {plane: {normal: [1, 0, 1], through: centre}, path: cut.svg, hatch: 2%}",
                   "section: {plane: z=0, spacing: 2mm, path: [layers.svg, layers.dxf, layers.json]}",
                   "section: {count: 20}"}},
-    declare, run,
+    declare, declare_section_report, run,
     StageHooks<SectionOptions>{.files =
                                    [](const SectionOptions& o) {
                                        return StageFiles{{}, o.path};
