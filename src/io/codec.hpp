@@ -58,7 +58,7 @@ struct OutputFile {
 struct Written {
     std::vector<OutputFile> files;
     std::vector<Diagnostic> warnings;
-    Fates fates; ///< what the format cannot hold is dropped, and said
+    AttributeChanges changes; ///< what the format cannot hold is dropped, and said
 };
 
 /// What a format can hold, and in which ways it is written. `write` refuses options by it, and `facetmill

@@ -30,8 +30,8 @@ void leave_documents(Written& written, const Scene& scene, const char* format) {
         const Json json = Json::parse(document->json, nullptr, false);
         if (!json.is_object()) continue;
         const auto leave = [&](const std::string& what) {
-            written.fates.push_back(
-                {what, Domain::face, Fate::Kind::dropped, fmt::format("{} has no place for it", format)});
+            written.changes.push_back({what, Domain::face, AttributeChange::Kind::dropped,
+                                       fmt::format("{} has no place for it", format)});
         };
         for (const char* what : {"textures", "skins", "animations", "cameras"})
             if (const auto at = json.find(what); at != json.end() && at->is_array() && !at->empty())
@@ -43,7 +43,8 @@ void leave_documents(Written& written, const Scene& scene, const char* format) {
 }
 
 void dropped(Written& written, const Attribute& attribute, std::string why) {
-    written.fates.push_back({attribute.name, attribute.domain, Fate::Kind::dropped, std::move(why)});
+    written.changes.push_back(
+        {attribute.name, attribute.domain, AttributeChange::Kind::dropped, std::move(why)});
 }
 
 namespace {

@@ -20,7 +20,7 @@ class WorldMesh {
     Mesh own_;
 };
 
-/// What a format cannot hold, for the ledger.
+/// What a format cannot hold: its attribute changes.
 void dropped(Written& written, const Attribute& attribute, std::string why);
 
 /// ... and what of glTF documents it leaves behind: textures and other properties of materials, skins,

@@ -62,17 +62,4 @@ const char* to_string(Domain domain) {
     return domain == Domain::vertex ? "vertex" : domain == Domain::wedge ? "wedge" : "face";
 }
 
-const char* to_string(Fate::Kind kind) {
-    switch (kind) {
-    case Fate::Kind::kept:
-        return "kept";
-    case Fate::Kind::interpolated:
-        return "interpolated";
-    case Fate::Kind::recomputed:
-        return "recomputed";
-    default:
-        return "dropped";
-    }
-}
-
 } // namespace facetmill

@@ -76,17 +76,4 @@ T as_component(double x) {
 /// The name of a domain as users see it.
 const char* to_string(Domain domain);
 
-/// What became of an attribute in a stage: an entry of the report's ledger.
-struct Fate {
-    enum class Kind { kept, interpolated, recomputed, dropped };
-    std::string attribute;
-    Domain domain = Domain::wedge;
-    Kind kind = Kind::kept;
-    std::string why; ///< empty for kept
-
-    bool operator==(const Fate&) const = default;
-};
-const char* to_string(Fate::Kind kind);
-using Fates = std::vector<Fate>;
-
 } // namespace facetmill

@@ -222,24 +222,24 @@ void inherit_skin(Mesh& to, const Mesh& from, const Ancestry& ancestry, Domain d
     });
 }
 
-Fate fate_of(const Attribute& a, const Ancestry& ancestry) {
-    Fate fate{a.name, a.domain, Fate::Kind::kept, {}};
-    if (ancestry.mixed() == 0 || a.role == Role::index) return fate;
-    fate.kind = Fate::Kind::interpolated;
+AttributeChange change_of(const Attribute& a, const Ancestry& ancestry) {
+    AttributeChange change{a.name, a.domain, AttributeChange::Kind::kept, {}};
+    if (ancestry.mixed() == 0 || a.role == Role::index) return change;
+    change.kind = AttributeChange::Kind::interpolated;
     switch (a.role) {
     case Role::normal:
     case Role::tangent:
-        fate.why = "mixed at new elements and renormalised";
+        change.why = "mixed at new elements and renormalised";
         break;
     case Role::joints:
     case Role::weights:
-        fate.why = "combined at new elements, the strongest kept and renormalised";
+        change.why = "combined at new elements, the strongest kept and renormalised";
         break;
     default:
-        fate.why = "mixed at new elements";
+        change.why = "mixed at new elements";
         break;
     }
-    return fate;
+    return change;
 }
 
 void expect_size(const Mesh& to, Domain domain, std::size_t found) {
@@ -257,7 +257,7 @@ bool has_attributes(const Mesh& mesh, Domain domain) {
                        [&](const Attribute& a) { return a.domain == domain; });
 }
 
-Fates inherit_attributes(Mesh& to, const Mesh& from, const Descent& descent) {
+AttributeChanges inherit_attributes(Mesh& to, const Mesh& from, const Descent& descent) {
     const Lineage unmixed;
     const Ancestry of_vertices(descent.vertices, from.vertex_count()),
         of_wedges(descent.wedges_as_vertices ? descent.vertices : descent.wedges, from.wedge_count()),
@@ -270,14 +270,14 @@ Fates inherit_attributes(Mesh& to, const Mesh& from, const Descent& descent) {
     };
     to.primitives = from.primitives;
     to.attributes.clear();
-    Fates fates;
+    AttributeChanges changes;
     for (const auto& a : from.attributes) {
         to.attributes.push_back(inherited(a, ancestry(a.domain)));
-        fates.push_back(fate_of(a, ancestry(a.domain)));
+        changes.push_back(change_of(a, ancestry(a.domain)));
     }
     inherit_skin(to, from, of_wedges, Domain::wedge);
     inherit_skin(to, from, of_vertices, Domain::vertex);
-    return fates;
+    return changes;
 }
 
 } // namespace facetmill

@@ -40,6 +40,6 @@ bool has_attributes(const Mesh& mesh, Domain domain);
 /// index); Role::index takes the first parent's; integers are rounded to nearest, ties up. Each value is
 /// computed once, from its own parents, in double precision. Parallel; the same bytes for any number of
 /// threads. Returns what became of each attribute (kept when nothing was mixed).
-Fates inherit_attributes(Mesh& to, const Mesh& from, const Descent& descent);
+AttributeChanges inherit_attributes(Mesh& to, const Mesh& from, const Descent& descent);
 
 } // namespace facetmill

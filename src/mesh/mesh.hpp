@@ -10,7 +10,7 @@
 // mesh/topology.hpp for what can be derived and mesh/invariants.hpp for what always holds.
 
 #include "base/vec.hpp"
-#include "mesh/attribute.hpp"
+#include "mesh/attribute_changes.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -108,8 +108,8 @@ void append(Mesh& a, const Mesh& b);
 
 /// Sets wedge attribute NORMAL, if there is one, to the area-weighted normal over the faces that meet at the
 /// wedge's vertex and share its normal direction group: wedges that were apart by a normal seam stay apart.
-/// Returns the fate of the attribute, or none when the mesh has no normals.
-std::optional<Fate> recompute_normals(Mesh& mesh);
+/// Returns what became of the attribute, or none when the mesh has no normals.
+std::optional<AttributeChange> recompute_normals(Mesh& mesh);
 
 /// Applies t to positions, normals, tangents and morph vectors; flips faces when t mirrors.
 void apply(Mesh& mesh, const Transform& t);

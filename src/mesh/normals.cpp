@@ -36,7 +36,7 @@ void renew_at_vertex(const Mesh& mesh, std::span<const Index> corners, const std
 
 } // namespace
 
-std::optional<Fate> recompute_normals(Mesh& mesh) {
+std::optional<AttributeChange> recompute_normals(Mesh& mesh) {
     Attribute* normals = mesh.find("NORMAL", Domain::wedge);
     if (!normals || normals->components != 3) return {};
     std::vector<Vec3> areas(mesh.face_count());
@@ -50,8 +50,8 @@ std::optional<Fate> recompute_normals(Mesh& mesh) {
             renew_at_vertex(mesh, corners_at.of(static_cast<Index>(v)), face_of, areas, old, *normals,
                             groups);
     });
-    return Fate{"NORMAL", Domain::wedge, Fate::Kind::recomputed,
-                "area-weighted over the faces at each vertex"};
+    return AttributeChange{"NORMAL", Domain::wedge, AttributeChange::Kind::recomputed,
+                           "area-weighted over the faces at each vertex"};
 }
 
 } // namespace facetmill

@@ -105,16 +105,16 @@ std::string check_rows(const RunRecord& record) {
     return rows;
 }
 
-std::string ledger_rows(const RunRecord& record) {
+std::string attribute_change_rows(const RunRecord& record) {
     std::string rows;
     for (const auto& s : record.stages)
-        for (const auto& [part, fate] : s.ledger)
-            rows += fmt::format(
-                "<tr>{}{}{}{}{}{}</tr>\n", cell(escaped(s.name)), cell(escaped(part)),
-                cell(code(fate.attribute)), cell(to_string(fate.domain)),
-                cell(fmt::format("<span class=\"{}\">{}</span>",
-                                 fate.kind == Fate::Kind::dropped ? "warn" : "", to_string(fate.kind))),
-                cell(escaped(fate.why)));
+        for (const auto& [part, change] : s.attribute_changes)
+            rows += fmt::format("<tr>{}{}{}{}{}{}</tr>\n", cell(escaped(s.name)), cell(escaped(part)),
+                                cell(code(change.attribute)), cell(to_string(change.domain)),
+                                cell(fmt::format("<span class=\"{}\">{}</span>",
+                                                 change.kind == AttributeChange::Kind::dropped ? "warn" : "",
+                                                 to_string(change.kind))),
+                                cell(escaped(change.why)));
     return rows;
 }
 
@@ -178,7 +178,7 @@ std::string to_html(const RunRecord& record) {
     out +=
         table("Properties at the end", heads({"property", "value"}), property_rows(record.final_properties));
     out += table("What became of attributes", heads({"stage", "part", "attribute", "domain", "fate", "why"}),
-                 ledger_rows(record));
+                 attribute_change_rows(record));
     out += run_section(record);
     return out + fmt::format("<p class=\"soft\">facetmill {}</p>\n</body>\n</html>\n", FACETMILL_VERSION);
 }

@@ -33,12 +33,12 @@ Json files_json(const std::vector<FileRecord>& files, bool read_back) {
 
 Json stage_json(const StageRecord& stage) {
     Json ledger = Json::array();
-    for (const auto& [part, fate] : stage.ledger)
+    for (const auto& [part, change] : stage.attribute_changes)
         ledger.push_back({{"part", part},
-                          {"attribute", fate.attribute},
-                          {"domain", to_string(fate.domain)},
-                          {"fate", to_string(fate.kind)},
-                          {"why", text_or_null(fate.why)}});
+                          {"attribute", change.attribute},
+                          {"domain", to_string(change.domain)},
+                          {"fate", to_string(change.kind)},
+                          {"why", text_or_null(change.why)}});
     return {{"name", stage.name},
             {"stage", stage.stage},
             {"path", stage.path},

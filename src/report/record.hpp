@@ -3,7 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
-#include "mesh/attribute.hpp"
+#include "mesh/attribute_changes.hpp"
 
 #include <optional>
 #include <string>
@@ -32,9 +32,9 @@ struct Check {
     Mark where = {};
 };
 
-struct LedgerEntry {
+struct PartChange {
     std::string part;
-    Fate fate;
+    AttributeChange change;
 };
 
 struct StageRecord {
@@ -42,7 +42,7 @@ struct StageRecord {
     std::string stage;  ///< "clip"
     std::string path;   ///< where in the pipeline: "stages[3]" or "stages[5].branch.far[0]"
     Json before, after; ///< brief properties: vertices, faces, parts, bounds
-    std::vector<LedgerEntry> ledger;
+    std::vector<PartChange> attribute_changes;
     std::vector<Diagnostic> warnings;
     Json result = Json::object(); ///< what the stage itself reports
     Json resolved =

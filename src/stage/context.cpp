@@ -117,8 +117,8 @@ void Context::output(const std::string& path, io::Span bytes) {
     run_.record.outputs.push_back({staged.target.string(), staged.bytes, staged.sha256, {}});
 }
 
-void Context::ledger(const Part& part, const Fates& fates) {
-    for (const auto& fate : fates) record_.ledger.push_back({part.name, fate});
+void Context::attribute_changes(const Part& part, const AttributeChanges& changes) {
+    for (const auto& change : changes) record_.attribute_changes.push_back({part.name, change});
 }
 
 void Context::check(report::Check check) {

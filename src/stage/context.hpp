@@ -1,5 +1,5 @@
 #pragma once
-// What a stage gets besides its options and the scene: lengths resolved, warnings, the ledger, files.
+// What a stage gets besides its options and the scene: lengths resolved, warnings, attribute changes, files.
 
 #include "io/outputs.hpp"
 #include "mesh/scene.hpp"
@@ -56,7 +56,7 @@ class Context {
                    const Part* part = nullptr);
 
     void warn(std::string id, std::string message, std::string hint = {});
-    void ledger(const Part& part, const Fates& fates);
+    void attribute_changes(const Part& part, const AttributeChanges& changes);
     /// What the stage wants in the report under "result".
     Json& result() { return record_.result; }
     /// Records the result that a stage has filled, and says its lines on the terminal.

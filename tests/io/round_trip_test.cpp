@@ -41,9 +41,9 @@ Trip trip(const Scene& scene, const char* format, io::WriteSettings settings = {
     return t;
 }
 
-std::string fates(const io::Written& written) {
+std::string changes(const io::Written& written) {
     std::string text;
-    for (const auto& f : written.fates)
+    for (const auto& f : written.changes)
         text += fmt::format("{} {} {}: {}\n", to_string(f.domain), f.attribute, to_string(f.kind), f.why);
     return text;
 }
@@ -61,7 +61,7 @@ TEST_CASE("PLY holds polygons and shared vertices in every encoding", "[io]") {
             CHECK(back.corners == mesh.corners);
             CHECK(back.face_offsets == mesh.face_offsets);
             CHECK(back.vertex_count() == mesh.vertex_count());
-            CHECK(fates(t.written).empty());
+            CHECK(changes(t.written).empty());
         }
 }
 
@@ -110,14 +110,14 @@ TEST_CASE("PLY keeps a surface whole over texture seams, and splits it at others
     Mesh mesh = shapes::uv_cube();
     const Trip split = trip(scene_of(mesh), "ply");
     CHECK(split.scene.parts.at(0).mesh.vertex_count() == mesh.wedge_count());
-    CHECK(fates(split.written) == "vertex vertices recomputed: 8 vertices became 24: PLY has one set of "
-                                  "attributes at a vertex, so seams split\n");
+    CHECK(changes(split.written) == "vertex vertices recomputed: 8 vertices became 24: PLY has one set of "
+                                    "attributes at a vertex, so seams split\n");
     mesh.drop("NORMAL", Domain::wedge);
     for (const auto& settings : ply_settings) {
         const Trip whole = trip(scene_of(mesh), "ply", settings);
         const Mesh& back = whole.scene.parts.at(0).mesh;
         CHECK(back.vertex_count() == 8);
-        CHECK(fates(whole.written).empty());
+        CHECK(changes(whole.written).empty());
         for (Index c = 0; c < mesh.corner_count(); ++c) {
             CHECK(back.vertex(c) == mesh.vertex(c));
             for (int k = 0; k < 2; ++k)
@@ -148,9 +148,9 @@ TEST_CASE("STL holds triangles, welded again on reading", "[io]") {
         CHECK(t.scene.parts.at(0).mesh.vertex_count() == shapes::icosphere(1).vertex_count());
         const Trip quads = trip(scene_of(shapes::quad_cube()), "stl", {.ascii = ascii});
         CHECK(quads.scene.face_count() == 12);
-        CHECK(fates(quads.written) == "face polygons recomputed: STL holds triangles: cut into them\n");
+        CHECK(changes(quads.written) == "face polygons recomputed: STL holds triangles: cut into them\n");
     }
-    CHECK(fates(trip(scene_of(shapes::uv_cube()), "stl").written).find("STL holds positions only") !=
+    CHECK(changes(trip(scene_of(shapes::uv_cube()), "stl").written).find("STL holds positions only") !=
           std::string::npos);
 }
 

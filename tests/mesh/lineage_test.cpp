@@ -18,14 +18,15 @@ Mesh carrier(std::size_t n, Attribute a) {
 }
 
 /// All old vertices, then points on the given edges.
-Mesh with_edges(const Mesh& from, const std::vector<Lineage::Edge>& edges, Fates* fates = nullptr) {
+Mesh with_edges(const Mesh& from, const std::vector<Lineage::Edge>& edges,
+                AttributeChanges* changes = nullptr) {
     Descent d;
     d.vertices.identity = d.wedges.identity = d.faces_identity = true;
     d.vertices.edges = d.wedges.edges = edges;
     Mesh to;
     to.positions.resize(from.positions.size() + edges.size());
     auto found = inherit_attributes(to, from, d);
-    if (fates) *fates = std::move(found);
+    if (changes) *changes = std::move(found);
     return to;
 }
 
@@ -70,9 +71,10 @@ TEST_CASE("copies, then edges, then mixes", "[mesh]") {
     d.wedges = d.vertices;
     Mesh to;
     to.positions.resize(3);
-    const Fates fates = inherit_attributes(to, from, d);
+    const AttributeChanges changes = inherit_attributes(to, from, d);
     CHECK(std::get<std::vector<float>>(to.attributes[0].data) == std::vector<float>{6, 1.5, 3.75});
-    CHECK(fates == Fates{{"q", Domain::vertex, Fate::Kind::interpolated, "mixed at new elements"}});
+    CHECK(changes == AttributeChanges{{"q", Domain::vertex, AttributeChange::Kind::interpolated,
+                                       "mixed at new elements"}});
 }
 
 TEST_CASE("normals are renormalised, opposite ones take the first parent's", "[mesh]") {
@@ -101,12 +103,12 @@ TEST_CASE("the sign of a tangent is its first parent's", "[mesh]") {
 }
 
 TEST_CASE("identifiers are never mixed", "[mesh]") {
-    Fates fates;
+    AttributeChanges changes;
     const std::vector<std::int32_t> ids{7, 9};
     const Mesh to =
-        with_edges(carrier(2, {"id", Domain::vertex, Role::index, 1, false, ids}), {{1, 0, 0.5}}, &fates);
+        with_edges(carrier(2, {"id", Domain::vertex, Role::index, 1, false, ids}), {{1, 0, 0.5}}, &changes);
     CHECK(std::get<std::vector<std::int32_t>>(to.attributes[0].data) == std::vector<std::int32_t>{7, 9, 9});
-    CHECK(fates[0].kind == Fate::Kind::kept);
+    CHECK(changes[0].kind == AttributeChange::Kind::kept);
 }
 
 TEST_CASE("joints are united, the strongest kept, ties by index, weights renormalised", "[mesh]") {
@@ -143,7 +145,8 @@ TEST_CASE("face attributes are copied by their parents", "[mesh]") {
     d.faces = {1, 1, 0};
     Mesh to = from;
     to.corners.insert(to.corners.end(), {0, 1, 2});
-    CHECK(inherit_attributes(to, from, d) == Fates{{"group", Domain::face, Fate::Kind::kept, ""}});
+    CHECK(inherit_attributes(to, from, d) ==
+          AttributeChanges{{"group", Domain::face, AttributeChange::Kind::kept, ""}});
     CHECK(std::get<std::vector<std::int32_t>>(to.attributes[0].data) == std::vector<std::int32_t>{6, 6, 5});
 }
 

@@ -257,9 +257,9 @@ TEST_CASE("recompute_normals keeps the seams of normals", "[mesh]") {
     Mesh mesh = shapes::uv_cube();
     const Mesh before = mesh;
     for (auto& p : mesh.positions) p.x *= 2;
-    const auto fate = recompute_normals(mesh);
-    REQUIRE(fate);
-    CHECK(fate->kind == Fate::Kind::recomputed);
+    const auto change = recompute_normals(mesh);
+    REQUIRE(change);
+    CHECK(change->kind == AttributeChange::Kind::recomputed);
     CHECK(mesh.find("NORMAL", Domain::wedge)->data == before.find("NORMAL", Domain::wedge)->data);
     Mesh without = shapes::cube();
     CHECK_FALSE(recompute_normals(without));

@@ -42,7 +42,8 @@ RunRecord full_record() {
     cut.path = "stages[0]";
     cut.before = cut.after = brief;
     cut.after["faces"] = 12;
-    cut.ledger = {{"cube", {"NORMAL", Domain::wedge, Fate::Kind::dropped, "the format has none"}}};
+    cut.attribute_changes = {
+        {"cube", {"NORMAL", Domain::wedge, AttributeChange::Kind::dropped, "the format has none"}}};
     cut.warnings = {{Severity::warning, "W-CAP", "one loop stays open", file_mark("p.yaml"), "close it"}};
     cut.resolved = {{"depth", {{"given", "1%"}, {"is", 0.01}}}};
     cut.seconds = 0.25;

@@ -125,12 +125,12 @@ TEST_CASE("what a stage says goes into its record", "[stage]") {
     stage.record.name = "cut";
     const Scene scene = two_parts();
     stage.context.warn("W-CAP", "one loop stays open");
-    stage.context.ledger(scene.parts[0],
-                         {{"NORMAL", Domain::wedge, Fate::Kind::recomputed, "the cap is flat"}});
+    stage.context.attribute_changes(
+        scene.parts[0], {{"NORMAL", Domain::wedge, AttributeChange::Kind::recomputed, "the cap is flat"}});
     report::Check check;
     check.name = "closed";
     stage.context.check(check);
     CHECK(stage.record.warnings.at(0).id == "W-CAP");
-    CHECK(stage.record.ledger.at(0).part == "body");
+    CHECK(stage.record.attribute_changes.at(0).part == "body");
     CHECK(stage.run.record.checks.at(0).stage == "cut");
 }

@@ -24,9 +24,9 @@ TEST_CASE("relax: a bare number is the iterations", "[stages]") {
     CHECK(once.scene.parts[0].changed);
 }
 
-TEST_CASE("relax: the ledger has every attribute", "[stages]") {
+TEST_CASE("relax: attribute changes name every attribute", "[stages]") {
     const auto r = run_stage("relax", Value{}, scene_of(shapes::uv_cube()));
-    CHECK(r.record.ledger.size() == 2);
+    CHECK(r.record.attribute_changes.size() == 2);
 }
 
 TEST_CASE("relax: options out of range are refused with the range", "[stages]") {
@@ -52,12 +52,13 @@ TEST_CASE("crumple: triangulate leaves no bent quads", "[stages]") {
     CHECK(r.mesh().face_count() == 48);
 }
 
-TEST_CASE("crumple: the ledger tells of splitting and of moving", "[stages]") {
+TEST_CASE("crumple: attribute changes tell of splitting and of moving", "[stages]") {
     const auto r = run_stage("crumple", Value{}, scene_of(shapes::uv_cube()));
-    REQUIRE(r.record.ledger.size() == 2);
-    for (const auto& entry : r.record.ledger)
-        CHECK(entry.fate.kind ==
-              (entry.fate.attribute == "NORMAL" ? Fate::Kind::recomputed : Fate::Kind::interpolated));
+    REQUIRE(r.record.attribute_changes.size() == 2);
+    for (const auto& entry : r.record.attribute_changes)
+        CHECK(entry.change.kind == (entry.change.attribute == "NORMAL"
+                                        ? AttributeChange::Kind::recomputed
+                                        : AttributeChange::Kind::interpolated));
 }
 
 TEST_CASE("crumple: parts that meet stay together", "[stages]") {

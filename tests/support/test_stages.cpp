@@ -79,7 +79,7 @@ Scene run_cut(Scene scene, const CutOptions& o, Context& context) {
         if (o.ratio)
             keep = static_cast<std::size_t>(static_cast<double>(part.mesh.face_count()) * o.ratio->value);
         part.mesh.corners.resize(std::min(part.mesh.corners.size(), 3 * keep));
-        context.ledger(part, {{"NORMAL", Domain::wedge, Fate::Kind::kept, ""}});
+        context.attribute_changes(part, {{"NORMAL", Domain::wedge, AttributeChange::Kind::kept, ""}});
     });
     return scene;
 }

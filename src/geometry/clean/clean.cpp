@@ -63,11 +63,8 @@ bool one_round(Work& work, const CleanSettings& s) {
 }
 
 /// What became of the attributes: dropped faces and vertices change none that stay.
-Fates fates_of(const Mesh& mesh, const Fates& mixed) {
-    if (!mixed.empty()) return mixed;
-    Fates fates;
-    for (const auto& a : mesh.attributes) fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
-    return fates;
+AttributeChanges changes_of(const Mesh& mesh, const AttributeChanges& mixed) {
+    return mixed.empty() ? kept_changes(mesh.attributes) : mixed;
 }
 
 } // namespace
@@ -85,7 +82,7 @@ CleanResult clean(Mesh mesh, const CleanSettings& settings) {
     CleanResult result;
     for (bool changed = true; changed && result.rounds < most_rounds; ++result.rounds)
         changed = one_round(work, settings);
-    result.fates = fates_of(work.mesh, work.fates);
+    result.changes = changes_of(work.mesh, work.changes);
     result.mesh = std::move(work.mesh);
     result.counts = work.counts;
     result.not_done = std::move(work.not_done);

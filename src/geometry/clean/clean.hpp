@@ -82,7 +82,7 @@ struct CleanResult {
     Mesh mesh;
     CleanCounts counts;
     std::vector<NotDone> not_done; ///< of the last round
-    Fates fates;
+    AttributeChanges changes;
     int rounds = 0; ///< the last of them changed nothing, unless there were too many
 };
 

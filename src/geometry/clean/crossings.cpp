@@ -211,7 +211,7 @@ class Untangler {
 
     void accept(const std::vector<std::uint8_t>& region, Work trial) {
         work_.counts.intersecting_faces += region.size() - faces_without(region).size();
-        if (!trial.fates.empty()) work_.fates = std::move(trial.fates);
+        if (!trial.changes.empty()) work_.changes = std::move(trial.changes);
         work_.mesh = std::move(trial.mesh);
     }
 

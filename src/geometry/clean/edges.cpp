@@ -8,7 +8,7 @@ bool resolve_t_junctions(Work& work, double within) {
     auto insertions = find_t_junctions(work.mesh, within);
     if (insertions.empty()) return false;
     work.counts.t_junctions += insertions.size();
-    work.mesh = insert_on_edges(work.mesh, std::move(insertions), {}, &work.fates);
+    work.mesh = insert_on_edges(work.mesh, std::move(insertions), {}, &work.changes);
     return true;
 }
 

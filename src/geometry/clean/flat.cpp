@@ -76,7 +76,7 @@ void take_out_flat(Work& work) {
             goes[f + before] = round.goes[f];
             if (before < round.cut.size() && round.cut[before] == f) ++before;
         }
-        work.mesh = insert_on_edges(work.mesh, std::move(round.insertions), {}, &work.fates);
+        work.mesh = insert_on_edges(work.mesh, std::move(round.insertions), {}, &work.changes);
         work.mesh = keep_faces(work.mesh, faces_without(goes));
     }
 }

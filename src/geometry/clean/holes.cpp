@@ -54,7 +54,7 @@ class Filler {
     void accept() {
         work_.counts.filled_holes += filled_;
         work_.counts.hole_faces += patches_.sources.size();
-        work_.mesh = with_patches(mesh_, patches_, patches_.points.empty() ? nullptr : &work_.fates);
+        work_.mesh = with_patches(mesh_, patches_, patches_.points.empty() ? nullptr : &work_.changes);
     }
 
   private:

@@ -88,7 +88,7 @@ bool divide_crowded_edges(Work& work) {
         }
         ++work.counts.split_edges;
     }
-    work.mesh = insert_on_edges(mesh, std::move(insertions), added, &work.fates);
+    work.mesh = insert_on_edges(mesh, std::move(insertions), added, &work.changes);
     return true;
 }
 

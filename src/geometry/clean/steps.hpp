@@ -13,7 +13,7 @@ struct Work {
     Mesh mesh;
     CleanCounts counts;
     std::vector<NotDone> not_done;
-    Fates fates;            ///< of the step that mixed attributes last
+    AttributeChanges changes; ///< of the step that mixed attributes last
     bool untangled = false; ///< the mesh is known to have no crossings
 };
 

@@ -40,7 +40,7 @@ class Trial {
   public:
     Trial(const Work& work, const Solids& solids, const CleanSettings& settings)
         : settings_(settings), solids_(solids) {
-        work_.mesh = work.mesh, work_.counts = work.counts, work_.fates = work.fates;
+        work_.mesh = work.mesh, work_.counts = work.counts, work_.changes = work.changes;
         put_marks(work_.mesh, solids);
     }
 
@@ -72,7 +72,7 @@ class Trial {
     const Mesh& mesh() const { return work_.mesh; }
     Work finish() {
         work_.mesh.drop(mark_name, Domain::face);
-        std::erase_if(work_.fates, [](const Fate& f) { return f.attribute == mark_name; });
+        forget_change(work_.changes, mark_name);
         return std::move(work_);
     }
 
@@ -89,7 +89,7 @@ class Trial {
                 if (solids.cluster_of_face(f) == refused.cluster) fail(marks_of(work_.mesh)[f], refused.why);
         }
         if (!united.refused.empty()) return false;
-        work_.mesh = std::move(united.mesh), work_.fates = std::move(united.fates);
+        work_.mesh = std::move(united.mesh), work_.changes = std::move(united.changes);
         auto& marks = std::get<std::vector<std::uint32_t>>(work_.mesh.find(mark_name, Domain::face)->data);
         for (std::size_t f = 0; f < marks.size(); ++f)
             marks[f] = (marks[f] & ~fresh) | (f < united.uncut_faces ? 0 : fresh);

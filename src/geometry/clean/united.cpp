@@ -276,7 +276,7 @@ class Uniting {
         result_.cut_faces = static_cast<std::size_t>(std::count(cut_.begin(), cut_.end(), 1));
         const auto uncut = faces_without(goes);
         result_.uncut_faces = uncut.size();
-        result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, within_, result_.fates);
+        result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, within_, result_.changes);
     }
 
     Mesh mesh_; ///< vertices merged where faces are cut

@@ -7,7 +7,7 @@ namespace facetmill::clean_steps {
 
 struct United {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     std::size_t uncut_faces = 0;   ///< of the result; the pieces of cut faces come after them
     std::size_t cut_faces = 0;     ///< replaced by their pieces on the outside
     std::size_t covered_faces = 0; ///< uncut faces that went

@@ -56,7 +56,7 @@ class Assembly {
         std::iota(descent_.faces.begin(), descent_.faces.end(), Index{0});
     }
 
-    Mesh run(std::vector<Index> kept, const std::vector<OuterPiece>& pieces, Fates& fates) {
+    Mesh run(std::vector<Index> kept, const std::vector<OuterPiece>& pieces, AttributeChanges& changes) {
         std::vector<std::uint8_t> seen(mesh_.vertex_count(), 0);
         for (const OuterPiece& p : pieces)
             for (const Index node : p.nodes)
@@ -66,7 +66,7 @@ class Assembly {
         for (Index f = static_cast<Index>(mesh_.face_count()); f < result_.face_count(); ++f)
             kept.push_back(f);
         if (plain_) descent_.wedges = descent_.vertices;
-        fates = inherit_attributes(result_, mesh_, descent_);
+        changes = inherit_attributes(result_, mesh_, descent_);
         return keep_faces(result_, kept);
     }
 
@@ -180,8 +180,8 @@ class Assembly {
 
 Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
                  const Arrangement& arrangement, const TriangleFaces& triangles, double within,
-                 Fates& fates) {
-    return Assembly(mesh, arrangement, triangles, within).run(uncut, pieces, fates);
+                 AttributeChanges& changes) {
+    return Assembly(mesh, arrangement, triangles, within).run(uncut, pieces, changes);
 }
 
 } // namespace facetmill::clean_steps

@@ -23,6 +23,7 @@ struct TriangleFaces {
 /// to the place of a vertex, or within a distance of it (the lowest such), become it, and pieces that lose a
 /// corner by that are left out.
 Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
-                 const Arrangement& arrangement, const TriangleFaces& triangles, double within, Fates& fates);
+                 const Arrangement& arrangement, const TriangleFaces& triangles, double within,
+                 AttributeChanges& changes);
 
 } // namespace facetmill::clean_steps

@@ -52,7 +52,7 @@ class Assembler {
         fill_faces();
         add_cap_faces();
         ClippedSide result;
-        result.fates = inherit_attributes(out_, from_, descent_);
+        result.changes = inherit_attributes(out_, from_, descent_);
         if (!cap_.corners.empty()) {
             std::vector<Index> own;
             if (own_wedges_)

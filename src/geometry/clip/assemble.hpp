@@ -9,7 +9,7 @@ namespace facetmill {
 
 struct ClippedSide {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
 };
 
 /// side: 1 front, -1 back. Expects flat faces settled.

@@ -233,7 +233,7 @@ ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
     const std::size_t cut = all.cut_faces;
     all = std::move(front);
     all.cut_faces = cut;
-    std::erase_if(all.fates, [](const Fate& f) { return f.attribute == trace; });
+    forget_change(all.changes, trace);
     // Nothing was clipped away: all of it is inside.
     all.back = Rest(mesh, all.front).run();
     forget(all.front);

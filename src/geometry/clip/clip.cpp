@@ -90,7 +90,7 @@ class Clipper {
             paint.group = last_group_ + 1 + static_cast<Index>(number);
         }
         ClippedSide made = assemble(cut, side, pieces, cap, paint);
-        merge_fates(result_.fates, made.fates);
+        merge_changes(result_.changes, made.changes);
         return std::move(made.mesh);
     }
 
@@ -102,18 +102,6 @@ class Clipper {
 };
 
 } // namespace
-
-void merge_fates(Fates& all, const Fates& more) {
-    for (const Fate& fate : more) {
-        const auto same = std::find_if(all.begin(), all.end(), [&](const Fate& f) {
-            return f.attribute == fate.attribute && f.domain == fate.domain;
-        });
-        if (same == all.end())
-            all.push_back(fate);
-        else if (fate.kind != Fate::Kind::kept)
-            *same = fate;
-    }
-}
 
 ClipResult clip(Mesh mesh, const ClipSettings& settings) {
     for (const Plane& plane : settings.planes) check_plane(plane);

@@ -45,7 +45,7 @@ struct OpenContour {
 
 struct ClipResult {
     Mesh front, back; ///< what was kept; a side that was not asked for stays empty
-    Fates fates;
+    AttributeChanges changes;
     std::size_t cut_faces = 0;               ///< that a plane passed through
     std::size_t on_plane = 0;                ///< vertices that count as on a plane
     std::size_t snapped = 0, remembered = 0; ///< among them, by snap and by memory
@@ -79,8 +79,5 @@ struct ClipResult {
 /// (E-PLANE) for a plane that is none, and for Keep::both with several planes that are no convex body.
 /// Source: "Clipping facets by a plane" (notes, 1997).
 ClipResult clip(Mesh mesh, const ClipSettings& settings);
-
-/// Adds what became of attributes in one more cut: one that was ever mixed was mixed.
-void merge_fates(Fates& all, const Fates& more);
 
 } // namespace facetmill

@@ -130,12 +130,8 @@ class Cropper {
     void keep(const std::vector<Index>& faces) {
         result_.kept_faces = faces.size();
         result_.changed = faces.size() < mesh_.face_count();
-        keep_attributes();
+        result_.changes = kept_changes(mesh_.attributes);
         result_.mesh = select_faces(mesh_, faces);
-    }
-    void keep_attributes() {
-        for (const Attribute& a : mesh_.attributes)
-            result_.fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
     }
 
     // --- cut at the outline
@@ -164,11 +160,11 @@ class Cropper {
         for (Index f = 0; f < pieces.stays.size(); ++f)
             if (pieces.stays[f]) kept.push_back(f);
         result_.cut_faces = pieces.cut_faces;
-        result_.fates = std::move(pieces.fates);
-        if (result_.fates.empty()) keep_attributes();
+        result_.changes = std::move(pieces.changes);
+        if (result_.changes.empty()) result_.changes = kept_changes(mesh_.attributes);
         result_.mesh = join_traced(select_faces(traced, whole), select_faces(pieces.mesh, kept));
         untrace(result_.mesh);
-        std::erase_if(result_.fates, [](const Fate& f) { return f.attribute == trace_attribute; });
+        forget_change(result_.changes, trace_attribute);
     }
     /// Of a face that no segment enters: any corner off the outline tells.
     bool stays_whole(Index f) const {
@@ -198,7 +194,7 @@ class Cropper {
         result_.mesh = std::move(closed.mesh);
         result_.cap_faces = closed.wall_faces;
         result_.open = std::move(closed.open);
-        merge_fates(result_.fates, closed.fates);
+        merge_changes(result_.changes, closed.changes);
         std::map<Index, std::vector<Vec3>> made; // by segment
         for (const auto& [wall, point] : closed.made) made[wall].push_back(point);
         for (auto& [wall, points] : made) remember(wall, std::move(points));

@@ -39,7 +39,7 @@ struct CropSettings {
 
 struct CropResult {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     std::size_t cut_faces = 0;  ///< faces that the outline passed through (CropBy::cut)
     std::size_t kept_faces = 0; ///< whole
     std::size_t cap_faces = 0;  ///< of the walls

@@ -124,7 +124,7 @@ class Cutter {
         near.end();
         mesh = join_traced(std::move(others), mesh, name);
         untrace(mesh, name);
-        std::erase_if(result_.fates, [&](const Fate& f) { return f.attribute == name; });
+        forget_change(result_.changes, name);
         origin_.insert(origin_.begin(), origin.begin(), origin.end());
     }
     /// Parts the faces into those near the segments and the rest; returns the box of those that may be cut.
@@ -183,7 +183,7 @@ class Cutter {
         const std::size_t old_vertices = result_.mesh.vertex_count();
         ScoreResult scored = score(result_.mesh, settings, memory_);
         remember_corners(e, std::span(scored.mesh.positions).subspan(old_vertices));
-        merge_fates(result_.fates, scored.fates);
+        merge_changes(result_.changes, scored.changes);
         std::vector<Index> origin(scored.source.size());
         for (std::size_t f = 0; f < origin.size(); ++f) origin[f] = origin_[scored.source[f]];
         origin_ = std::move(origin);

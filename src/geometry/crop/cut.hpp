@@ -10,7 +10,7 @@ struct OutlineCut {
     Mesh mesh;                       ///< the faces in their pieces
     std::vector<std::uint8_t> stays; ///< [faces of mesh]
     std::size_t cut_faces = 0;       ///< of the old mesh
-    Fates fates;                     ///< empty: nothing was mixed
+    AttributeChanges changes;        ///< empty: nothing was mixed
 };
 
 /// Every face that a segment enters is cut along the segment's line, all across the face; its neighbours get

@@ -13,12 +13,12 @@ class Appender {
     Appender(const Mesh& from, const WallFaces& faces)
         : from_(from), faces_(faces), own_(caps_have_own_wedges(from)), added_(faces.first_added) {}
 
-    Mesh run(Fates& fates) {
+    Mesh run(AttributeChanges& changes) {
         start();
         for (const WallPanel& panel : faces_.panels) add(panel);
         descent_.faces.resize(out_.face_count()); // walls copy the first face's and are painted
         for (Index f = 0; f < from_.face_count(); ++f) descent_.faces[f] = f;
-        fates = inherit_attributes(out_, from_, descent_);
+        changes = inherit_attributes(out_, from_, descent_);
         for (std::size_t i = 0; i < ranges_.size(); ++i) paint(i);
         return std::move(out_);
     }
@@ -95,10 +95,10 @@ class Appender {
 
 } // namespace
 
-Fates append_walls(Mesh& mesh, const WallFaces& faces) {
-    Fates fates;
-    mesh = Appender(mesh, faces).run(fates);
-    return fates;
+AttributeChanges append_walls(Mesh& mesh, const WallFaces& faces) {
+    AttributeChanges changes;
+    mesh = Appender(mesh, faces).run(changes);
+    return changes;
 }
 
 } // namespace facetmill

@@ -14,6 +14,6 @@ struct WallFaces {
 };
 
 /// Appends the walls to the kept faces, panel by panel.
-Fates append_walls(Mesh& mesh, const WallFaces& faces);
+AttributeChanges append_walls(Mesh& mesh, const WallFaces& faces);
 
 } // namespace facetmill

@@ -107,9 +107,9 @@ class Closer {
         result_.made.emplace_back(wall, mix(mesh_.positions[at.a], mesh_.positions[at.b], at.t));
     }
     void insert_all(std::vector<Insertion> insertions, const std::vector<Lineage::Edge>& added) {
-        Fates fates;
-        mesh_ = insert_on_edges(mesh_, std::move(insertions), added, &fates);
-        merge_fates(result_.fates, fates);
+        AttributeChanges changes;
+        mesh_ = insert_on_edges(mesh_, std::move(insertions), added, &changes);
+        merge_changes(result_.changes, changes);
     }
 
     /// Of a mesh that was open: contours that do not close, and what is on a post that they leave unbalanced.
@@ -219,7 +219,7 @@ class Closer {
     void add_walls() {
         const std::size_t faces = mesh_.face_count();
         if (panels_.empty()) return;
-        merge_fates(result_.fates, append_walls(mesh_, {panels_, walls_, settings_, first_added_}));
+        merge_changes(result_.changes, append_walls(mesh_, {panels_, walls_, settings_, first_added_}));
         result_.wall_faces = mesh_.face_count() - faces;
     }
 

@@ -25,7 +25,7 @@ struct WallSettings {
 
 struct WalledCrop {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     std::size_t wall_faces = 0;
     std::vector<OpenContour> open; ///< plane: the segment
     /// Points that were made for the walls, and the segment of each.

@@ -179,7 +179,7 @@ CrumpleResult crumple_settled(Mesh mesh, const std::vector<Vec3>& before, const 
     result.largest_move = moves.largest;
     result.root_mean_square = moves.root_mean_square;
     result.moved = moves.count;
-    result.fates = settle_moved(mesh);
+    result.changes = settle_moved(mesh);
     result.mesh = std::move(mesh);
     return result;
 }

@@ -41,7 +41,7 @@ struct CrumpleMoves {
 
 struct CrumpleResult {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     double largest_move = 0;     ///< world units
     double root_mean_square = 0; ///< of the moves of all vertices, world units
     std::size_t moved = 0;

@@ -27,7 +27,7 @@ class Scorer {
         descent.vertices.edges = cut_.vertices;
         descent.wedges.edges = cut_.wedges;
         descent.faces = result_.source;
-        result_.fates = inherit_attributes(out, mesh_, descent);
+        result_.changes = inherit_attributes(out, mesh_, descent);
         return std::move(result_);
     }
 

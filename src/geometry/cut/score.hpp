@@ -24,7 +24,7 @@ struct ScoreSettings {
 
 struct ScoreResult {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     std::vector<Index> source; ///< [faces] the face of the old mesh that each is a piece of
     std::vector<std::int8_t>
         sides; ///< [faces] 1 in front, -1 behind, 0 on both (faces that were not to be cut)

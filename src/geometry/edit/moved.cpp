@@ -32,15 +32,6 @@ bool straighten(Attribute& tangent, const Attribute& normals) {
 
 } // namespace
 
-Fates joined(const Fates& first, Fates second) {
-    for (auto& fate : second)
-        for (const auto& earlier : first)
-            if (fate.kind == Fate::Kind::kept && earlier.attribute == fate.attribute &&
-                earlier.domain == fate.domain)
-                fate = earlier;
-    return second;
-}
-
 MoveSize move_size(const std::vector<Vec3>& before, const std::vector<Vec3>& after,
                    const Transform& to_world) {
     struct Sums {
@@ -74,20 +65,21 @@ bool straighten_tangents(Mesh& mesh) {
     return any;
 }
 
-Fates settle_moved(Mesh& mesh) {
+AttributeChanges settle_moved(Mesh& mesh) {
     const auto normals = recompute_normals(mesh);
     const Attribute* normal = normals ? mesh.find("NORMAL", Domain::wedge) : nullptr;
-    Fates fates;
+    AttributeChanges changes;
     for (auto& a : mesh.attributes) {
-        Fate fate{a.name, a.domain, Fate::Kind::kept, ""};
+        AttributeChange change{a.name, a.domain, AttributeChange::Kind::kept, ""};
         if (normals && a.name == normals->attribute && a.domain == normals->domain)
-            fate = *normals;
+            change = *normals;
         else if (normal && a.role == Role::tangent && a.domain == Domain::wedge && a.components == 4 &&
                  straighten(a, *normal))
-            fate = {a.name, a.domain, Fate::Kind::recomputed, "made perpendicular to the new normals"};
-        fates.push_back(std::move(fate));
+            change = {a.name, a.domain, AttributeChange::Kind::recomputed,
+                      "made perpendicular to the new normals"};
+        changes.push_back(std::move(change));
     }
-    return fates;
+    return changes;
 }
 
 } // namespace facetmill

@@ -9,12 +9,9 @@
 namespace facetmill {
 
 /// Call it after positions changed: wedge attribute NORMAL is recomputed, TANGENT (float32 or float64) is
-/// made perpendicular to it again, the others are as they were. Returns the fate of every attribute, in the
-/// mesh's order.
-Fates settle_moved(Mesh& mesh);
-
-/// What two steps in a row did to the attributes: what the second one kept has the fate of the first.
-Fates joined(const Fates& first, Fates second);
+/// made perpendicular to it again, the others are as they were. Returns what became of every attribute, in
+/// the mesh's order.
+AttributeChanges settle_moved(Mesh& mesh);
 
 /// Takes the part along NORMAL out of the wedge attribute TANGENT (float32 or float64); whether there was
 /// one.

@@ -200,7 +200,7 @@ class Inserter {
                 wedges_.push_back(static_cast<Index>(mesh.vertex_count() + i));
     }
 
-    Mesh run(Fates* fates) {
+    Mesh run(AttributeChanges* changes) {
         offsets_.push_back(0);
         std::size_t next = 0;
         for (Index f = 0; f < mesh_.face_count(); ++f) {
@@ -216,7 +216,7 @@ class Inserter {
             else
                 emit(f, ring_);
         }
-        return finish(fates);
+        return finish(changes);
     }
 
   private:
@@ -270,7 +270,7 @@ class Inserter {
         }
     }
 
-    Mesh finish(Fates* fates) {
+    Mesh finish(AttributeChanges* changes) {
         result_.corners = std::move(corners_), result_.face_offsets = std::move(offsets_);
         Descent descent;
         descent.faces = std::move(sources_);
@@ -279,8 +279,8 @@ class Inserter {
         descent.wedges = all_of();
         descent.wedges.edges = plain_ ? added_ : edges_;
         if (!plain_) result_.wedge_vertex = std::move(wedges_);
-        Fates found = inherit_attributes(result_, mesh_, descent);
-        if (fates) *fates = std::move(found);
+        AttributeChanges found = inherit_attributes(result_, mesh_, descent);
+        if (changes) *changes = std::move(found);
         normalise_offsets(result_);
         forget_plain_wedges(result_);
         return std::move(result_);
@@ -301,8 +301,8 @@ class Inserter {
 } // namespace
 
 Mesh insert_on_edges(const Mesh& mesh, std::vector<Insertion> insertions,
-                     const std::vector<Lineage::Edge>& added, Fates* fates) {
-    return Inserter(mesh, std::move(insertions), added).run(fates);
+                     const std::vector<Lineage::Edge>& added, AttributeChanges* changes) {
+    return Inserter(mesh, std::move(insertions), added).run(changes);
 }
 
 void Patches::add_face(std::span<const Index> wedges, Index source) {
@@ -311,7 +311,7 @@ void Patches::add_face(std::span<const Index> wedges, Index source) {
     sources.push_back(source);
 }
 
-Mesh with_patches(const Mesh& mesh, const Patches& patches, Fates* fates) {
+Mesh with_patches(const Mesh& mesh, const Patches& patches, AttributeChanges* changes) {
     Mesh result;
     result.positions = mesh.positions;
     result.positions.insert(result.positions.end(), patches.points.begin(), patches.points.end());
@@ -334,8 +334,8 @@ Mesh with_patches(const Mesh& mesh, const Patches& patches, Fates* fates) {
     descent.wedges.mix_weights = patches.mix_weights;
     descent.vertices = descent.wedges;
     for (auto& w : descent.vertices.mix_sources) w = mesh.vertex_of_wedge(w);
-    Fates found = inherit_attributes(result, mesh, descent);
-    if (fates) *fates = std::move(found);
+    AttributeChanges found = inherit_attributes(result, mesh, descent);
+    if (changes) *changes = std::move(found);
     return result;
 }
 

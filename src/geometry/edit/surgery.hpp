@@ -39,10 +39,10 @@ struct Insertion {
 };
 
 /// Puts the vertices on the edges: a triangle becomes triangles, a larger face gets corners. New vertices are
-/// interpolated between the ends given in added; so are wedges, once per pair of wedges and vertex. Fates
-/// tells what became of the attributes.
+/// interpolated between the ends given in added; so are wedges, once per pair of wedges and vertex.
+/// `changes` tells what became of the attributes.
 Mesh insert_on_edges(const Mesh& mesh, std::vector<Insertion> insertions,
-                     const std::vector<Lineage::Edge>& added, Fates* fates = nullptr);
+                     const std::vector<Lineage::Edge>& added, AttributeChanges* changes = nullptr);
 
 /// Faces to be added. A corner names a wedge of the mesh, or wedge count + i for new point i.
 struct Patches {
@@ -57,6 +57,6 @@ struct Patches {
     void add_face(std::span<const Index> wedges, Index source);
 };
 
-Mesh with_patches(const Mesh& mesh, const Patches& patches, Fates* fates = nullptr);
+Mesh with_patches(const Mesh& mesh, const Patches& patches, AttributeChanges* changes = nullptr);
 
 } // namespace facetmill

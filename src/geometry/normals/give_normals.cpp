@@ -162,21 +162,21 @@ void list_normals(Mesh& mesh, bool there) {
     }
 }
 
-Fates without_normals(Mesh& mesh, bool had) {
-    Fates fates;
-    if (had) fates.push_back({"NORMAL", Domain::wedge, Fate::Kind::dropped, "asked for"});
+AttributeChanges without_normals(Mesh& mesh, bool had) {
+    AttributeChanges changes;
+    if (had) changes.push_back({"NORMAL", Domain::wedge, AttributeChange::Kind::dropped, "asked for"});
     std::erase_if(mesh.attributes, [&](const Attribute& a) {
         if (a.domain != Domain::wedge || !needs_normals(a.name)) return false;
-        fates.push_back({a.name, a.domain, Fate::Kind::dropped, "without normals it means nothing"});
+        changes.push_back({a.name, a.domain, AttributeChange::Kind::dropped, "without normals it means nothing"});
         return true;
     });
     list_normals(mesh, false);
-    return fates;
+    return changes;
 }
 
 } // namespace
 
-Fates give_normals(Mesh& mesh, NormalKind kind, double feature_angle) {
+AttributeChanges give_normals(Mesh& mesh, NormalKind kind, double feature_angle) {
     if (kind == NormalKind::keep) return {};
     const bool had = mesh.find("NORMAL", Domain::wedge) != nullptr;
     forget_normals(mesh);
@@ -188,13 +188,13 @@ Fates give_normals(Mesh& mesh, NormalKind kind, double feature_angle) {
         set_facet_normals(mesh);
     } else
         set_smooth_normals(mesh, feature_angle);
-    Fates fates{{"NORMAL", Domain::wedge, Fate::Kind::recomputed,
+    AttributeChanges changes{{"NORMAL", Domain::wedge, AttributeChange::Kind::recomputed,
                  kind == NormalKind::flat ? "the normals of the faces"
                                           : "the mean of the surrounding faces, weighted by angles"}};
     if (straighten_tangents(mesh))
-        fates.push_back(
-            {"TANGENT", Domain::wedge, Fate::Kind::recomputed, "perpendicular to the new normals"});
-    return fates;
+        changes.push_back(
+            {"TANGENT", Domain::wedge, AttributeChange::Kind::recomputed, "perpendicular to the new normals"});
+    return changes;
 }
 
 } // namespace facetmill

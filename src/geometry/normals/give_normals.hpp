@@ -24,8 +24,8 @@ enum class NormalKind {
 ///
 /// Vertices that no face uses are dropped when wedges merge. Other attributes follow their wedges; tangents
 /// are made perpendicular again. Faces without area take part with no weight, and a corner that has only such
-/// gets (0, 0, 0). The same bytes for any number of threads. Returns the fate of NORMAL and, when it changed,
+/// gets (0, 0, 0). The same bytes for any number of threads. Returns the change of NORMAL and, when it changed,
 /// TANGENT.
-Fates give_normals(Mesh& mesh, NormalKind kind, double feature_angle);
+AttributeChanges give_normals(Mesh& mesh, NormalKind kind, double feature_angle);
 
 } // namespace facetmill

@@ -40,15 +40,15 @@ void turn_normals(Mesh& mesh, const std::vector<Vec3>& faces) {
 
 } // namespace
 
-Fates flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags) {
+AttributeChanges flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags) {
     const bool any = std::find(flags.begin(), flags.end(), std::uint8_t{1}) != flags.end();
-    Fates fates;
+    AttributeChanges changes;
     for (const auto& a : mesh.attributes) {
         const bool turns = any && (a.role == Role::normal || a.role == Role::tangent);
-        fates.push_back({a.name, a.domain, turns ? Fate::Kind::recomputed : Fate::Kind::kept,
+        changes.push_back({a.name, a.domain, turns ? AttributeChange::Kind::recomputed : AttributeChange::Kind::kept,
                          turns ? "reversed where it pointed against its faces" : ""});
     }
-    if (!any) return fates;
+    if (!any) return changes;
     parallel_for(mesh.face_count(), [&](std::size_t f) {
         if (!flags[f]) return;
         const auto corners = mesh.corners.begin();
@@ -57,7 +57,7 @@ Fates flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags) {
     });
     const Attribute* normals = mesh.find("NORMAL", Domain::wedge);
     if (normals && normals->components == 3) turn_normals(mesh, faces_at_wedges(mesh, flags));
-    return fates;
+    return changes;
 }
 
 } // namespace facetmill

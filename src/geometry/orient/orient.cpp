@@ -274,7 +274,7 @@ OrientResult orient(Mesh mesh, const OrientSettings& settings) {
         result.pieces = std::move(spread.pieces);
     }
     result.flipped = static_cast<std::size_t>(std::count(flips.begin(), flips.end(), 1));
-    result.fates = flip_faces(mesh, flips);
+    result.changes = flip_faces(mesh, flips);
     result.mesh = std::move(mesh);
     return result;
 }

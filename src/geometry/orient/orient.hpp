@@ -38,7 +38,7 @@ struct OrientResult {
     Mesh mesh;
     std::vector<OrientedPiece> pieces; ///< by first face
     std::size_t flipped = 0;
-    Fates fates;
+    AttributeChanges changes;
 };
 
 /// Turns faces round so that neighbours agree (spread over edges of two faces) and, for outward, the front of
@@ -51,6 +51,6 @@ struct OrientResult {
 OrientResult orient(Mesh mesh, const OrientSettings& settings);
 
 /// Turns the flagged faces round; see orient for what becomes of attributes.
-Fates flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags);
+AttributeChanges flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags);
 
 } // namespace facetmill

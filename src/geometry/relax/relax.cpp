@@ -88,22 +88,22 @@ void set_target(const Mesh& mesh, Attribute& a, const std::vector<Vec3>& target,
 }
 
 /// Relaxes the morph targets of positions as often as the surface was, and says what became of all targets.
-Fates relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& settings, const Run& base) {
-    Fates fates;
+AttributeChanges relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& settings, const Run& base) {
+    AttributeChanges changes;
     for (auto& a : mesh.attributes) {
         if (a.role != Role::morph_vector) continue;
-        Fate fate{a.name, a.domain, Fate::Kind::kept, "not relaxed"};
+        AttributeChange change{a.name, a.domain, AttributeChange::Kind::kept, "not relaxed"};
         const auto start = is_position_target(a) ? target_places(mesh, a) : std::vector<Vec3>{};
         if (is_position_target(a) && start.empty() && mesh.vertex_count() > 0)
-            fate.why = "not relaxed: the wedges of a vertex differ";
+            change.why = "not relaxed: the wedges of a vertex differ";
         if (!start.empty()) {
             const Run target = run(mesh, near, settings, start, base.iterations, 0);
             set_target(mesh, a, target.places, base.places);
-            fate = {a.name, a.domain, Fate::Kind::recomputed, "relaxed with the surface"};
+            change = {a.name, a.domain, AttributeChange::Kind::recomputed, "relaxed with the surface"};
         }
-        fates.push_back(fate);
+        changes.push_back(change);
     }
-    return fates;
+    return changes;
 }
 
 } // namespace
@@ -129,12 +129,12 @@ RelaxResult relax(Mesh mesh, const Settings& settings) {
     result.last_move = done.last_move;
     result.largest_move = moves.largest;
     result.moved = moves.count;
-    const Fates targets = relax_targets(mesh, near, settings, done);
+    const AttributeChanges targets = relax_targets(mesh, near, settings, done);
     mesh.positions = std::move(done.places);
-    result.fates = settle_moved(mesh);
-    for (auto& fate : result.fates)
+    result.changes = settle_moved(mesh);
+    for (auto& change : result.changes)
         for (const auto& target : targets)
-            if (target.attribute == fate.attribute && target.domain == fate.domain) fate = target;
+            if (target.attribute == change.attribute && target.domain == change.domain) change = target;
     result.mesh = std::move(mesh);
     return result;
 }

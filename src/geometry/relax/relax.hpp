@@ -41,7 +41,7 @@ struct RelaxSettings {
 
 struct RelaxResult {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     std::int64_t iterations = 0; ///< done
     bool settled = false;        ///< stopped by `until`
     double largest_move = 0;     ///< the farthest that a vertex came from its place, in world units
@@ -66,7 +66,7 @@ struct RelaxResult {
 /// another number of feature edges stays, and so does one where the line turns by more than the angle.
 /// Vertices without neighbours stay. Faces, wedges and topology are untouched; NORMAL is recomputed, TANGENT
 /// made perpendicular to it, morph targets of positions are relaxed with the surface (each as the surface it
-/// stands for) where the wedges of a vertex agree, all else is kept; the fates say so. The result does not
+/// stands for) where the wedges of a vertex agree, all else is kept; the changes say so. The result does not
 /// depend on the frame for similar transforms; angles and until are measured in the world. Throws usage
 /// (E-RANGE) when a setting is out of range, stage (E-SOLVE) when the linear system cannot be solved.
 /// O(iterations * corners), parallel; the same bytes for any number of threads.

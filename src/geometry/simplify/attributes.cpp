@@ -463,7 +463,7 @@ Finished finish(const Shape& s, const Mesh& from, const Log* log) {
         descent.wedges = wedge_lineage(s, from, *log, done.wedges, to.wedge_vertex);
     else
         descent.wedges = copies(done.wedges);
-    done.fates = inherit_attributes(to, from, descent);
+    done.changes = inherit_attributes(to, from, descent);
     return done;
 }
 

@@ -19,7 +19,7 @@ bool carries_attributes(const Mesh& mesh);
 
 struct Finished {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     std::vector<Index> wedges; ///< of the input that are left, in the mesh's order; empty without seams
 };
 /// The mesh that a shape stands for, with its attributes. log: how the shape came about; none when `from`

@@ -316,7 +316,7 @@ std::size_t limit_intersecting(const Shape& shape, const Log& log, const Mesh& f
                 const Index v = shape.source[shape.tri[3 * face + k]];
                 wanted[v] = to_zero ? 0 : largest[v] * share_left;
             }
-    // What went into a vertex has its limit; from the last step, so that the fate of a is known.
+    // What went into a vertex has its limit; from the last step, so that the change of a is known.
     for (auto step = log.steps.rbegin(); step != log.steps.rend(); ++step)
         wanted[step->b] = std::min(wanted[step->b], wanted[step->a]);
     for (std::size_t v = 0; v < limits.size(); ++v) limits[v] = std::min(limits[v], wanted[v]);

@@ -283,7 +283,7 @@ CoincidentBorders::CoincidentBorders(Mesh& mesh, const std::vector<Index>& targe
     }
 }
 
-void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges, Fates& fates) const {
+void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes) const {
     std::vector<Index> first(mesh.vertex_count(), none);
     std::vector<Index> wedge_of(mesh.vertex_count(), none); // one at each vertex
     std::map<std::pair<Index, Index>, Index> others;        // by vertex and side
@@ -312,8 +312,8 @@ void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges, F
         Attribute& a = *mesh.find(name, Domain::wedge);
         a.select(wedge_of);
         a.domain = Domain::vertex;
-        for (Fate& fate : fates)
-            if (fate.attribute == name && fate.domain == Domain::wedge) fate.domain = Domain::vertex;
+        for (AttributeChange& change : changes)
+            if (change.attribute == name && change.domain == Domain::wedge) change.domain = Domain::vertex;
     }
 }
 

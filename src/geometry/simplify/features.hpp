@@ -27,7 +27,7 @@ class CoincidentBorders {
     const std::vector<Index>& sides() const { return sides_; } ///< see State::side_of_wedge
     /// Separates the vertices of a simplified mesh as they were. wedges: those of the joined mesh that are
     /// left.
-    void separate(Mesh& mesh, const std::vector<Index>& wedges, Fates& fates) const;
+    void separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes) const;
     /// How many more vertices the state has once they are separated.
     std::size_t doubled(const State& s) const;
 

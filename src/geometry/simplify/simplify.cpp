@@ -94,12 +94,6 @@ struct Targets {
     }
 };
 
-Fates all_kept(const Mesh& mesh) {
-    Fates fates;
-    for (const auto& a : mesh.attributes) fates.push_back({a.name, a.domain, Fate::Kind::kept, ""});
-    return fates;
-}
-
 /// The locks of a mesh whose unused vertices go, if single ones are locked: numbers stay right then.
 SimplifyLocks by_used_vertices(SimplifyLocks lock, Mesh& mesh) {
     if (lock.vertices.empty()) return lock;
@@ -113,19 +107,19 @@ SimplifyLocks by_used_vertices(SimplifyLocks lock, Mesh& mesh) {
 }
 
 /// Gives a flat-shaded mesh its normals back, and says what became of normals.
-void settle_normals(Mesh& mesh, const NormalSeams& seams, Fates& fates) {
+void settle_normals(Mesh& mesh, const NormalSeams& seams, AttributeChanges& changes) {
     using Shading = NormalSeams::Shading;
     if (seams.shading == Shading::as_given) return;
     if (seams.shading == Shading::faceted) set_facet_normals(mesh);
-    for (Fate& fate : fates) {
-        if (fate.domain != Domain::wedge) continue;
-        if (fate.attribute == "NORMAL")
-            fate = {fate.attribute, fate.domain, Fate::Kind::recomputed,
+    for (AttributeChange& change : changes) {
+        if (change.domain != Domain::wedge) continue;
+        if (change.attribute == "NORMAL")
+            change = {change.attribute, change.domain, AttributeChange::Kind::recomputed,
                     seams.shading == Shading::faceted ? "flat shading: the normals of the new faces"
                                                       : "area-weighted where seams below the feature angle "
                                                         "were merged, interpolated elsewhere"};
-        else if (fate.attribute == "TANGENT")
-            fate = {fate.attribute, fate.domain, Fate::Kind::interpolated,
+        else if (change.attribute == "TANGENT")
+            change = {change.attribute, change.domain, AttributeChange::Kind::interpolated,
                     "one of each merged normal seam, mixed at new elements"};
     }
 }
@@ -174,7 +168,7 @@ class Subject {
     SimplifyResult unchanged() const {
         SimplifyResult r = start_;
         r.mesh = given_;
-        r.fates = all_kept(given_);
+        r.changes = kept_changes(given_.attributes);
         return r;
     }
 
@@ -187,12 +181,12 @@ class Subject {
         r.collapses = done.collapses;
         if (r.largest_error) r.largest_error = std::sqrt(done.largest) / shape.frame.scale;
         Finished finished = finish(shape, mesh(), log ? &*log : nullptr);
-        if (borders_) borders_->separate(finished.mesh, finished.wedges, finished.fates);
+        if (borders_) borders_->separate(finished.mesh, finished.wedges, finished.changes);
         r.mesh = std::move(finished.mesh);
-        r.fates = std::move(finished.fates);
+        r.changes = std::move(finished.changes);
         r.faces_after = r.mesh.face_count();
         r.vertices_after = r.mesh.vertex_count();
-        settle_normals(r.mesh, seams_, r.fates);
+        settle_normals(r.mesh, seams_, r.changes);
         return r;
     }
 

@@ -94,7 +94,7 @@ struct SimplifyResult {
         std::size_t error = 0;        ///< would move the surface too far
     };
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     Stop stop = Stop::nothing;
     Blocked blocked;
     NormalSeams::Shading shading = NormalSeams::Shading::as_given; ///< what was done about normal seams
@@ -201,7 +201,7 @@ bool fit_together(std::span<const Mesh* const> meshes, const SimplifySettings& s
 /// As simplify, or simplify_levels when settings has levels, of meshes for which fit_together holds: they are
 /// worked on as one, so that borders where they touch collapse on both sides alike. [levels][meshes]; without
 /// levels there is one. Targets are those of all together; a mesh has its own counts and the errors, reasons
-/// and fates of all.
+/// and changes of all.
 std::vector<std::vector<SimplifyResult>> simplify_together(std::span<const Mesh* const> meshes,
                                                            const SimplifySettings& settings);
 

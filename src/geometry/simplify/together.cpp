@@ -104,7 +104,7 @@ std::vector<SimplifyResult> split_up(SimplifyResult all, std::span<const Mesh* c
     if (all.stop != SimplifyResult::Stop::nothing && member)
         pieces = separated(all.mesh, std::get<std::vector<std::uint32_t>>(member->data), meshes.size());
     all.mesh = {};
-    std::erase_if(all.fates, [](const Fate& fate) { return fate.attribute == member_attribute; });
+    forget_change(all.changes, member_attribute);
     std::vector<SimplifyResult> results(meshes.size(), all);
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         SimplifyResult& r = results[i];

@@ -226,7 +226,7 @@ std::optional<Mesh> notched(const Mesh& mesh, const SplitSettings& settings, Spl
     if (settings.min_angle > 0 && std::find(marks.begin(), marks.end(), 1) == marks.end()) return {};
     so_far.shared += shared_cuts(mesh, edges.table, marks);
     const EdgePoints points(mesh, edges.table, 2, marks);
-    return apply_pattern(mesh, &points, NotchPattern{{edges.table, marks}}, so_far.fates);
+    return apply_pattern(mesh, &points, NotchPattern{{edges.table, marks}}, so_far.changes);
 }
 
 /// Pairs of quads that are cut between the same two edges: the new edges there coincide.
@@ -262,7 +262,7 @@ Mesh halved(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far
     });
     so_far.shared += shared_cuts(mesh, edges.table, marks) + twin_cuts(mesh, edges.table, first_edge);
     const EdgePoints points(mesh, edges.table, 2, marks);
-    return apply_pattern(mesh, &points, HalvePattern{{edges.table, marks}, first_edge}, so_far.fates);
+    return apply_pattern(mesh, &points, HalvePattern{{edges.table, marks}, first_edge}, so_far.changes);
 }
 
 } // namespace
@@ -303,7 +303,7 @@ Mesh cut_marked(const Mesh& mesh, const MeasuredEdges& edges, const EdgeMarks& m
     std::vector<double> at;
     if (cut == SplitSettings::Cut::widest_angle) at = feet(mesh, edges, marks, to_world);
     const EdgePoints points(mesh, edges.table, 2, marks, std::move(at));
-    return apply_pattern(mesh, &points, BisectPattern{{edges.table, marks}, longest}, so_far.fates);
+    return apply_pattern(mesh, &points, BisectPattern{{edges.table, marks}, longest}, so_far.changes);
 }
 
 std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {

@@ -20,7 +20,7 @@ using EdgeMarks = std::vector<std::uint8_t>;
 std::vector<std::uint8_t> longest_edges(const Mesh& mesh, const MeasuredEdges& edges);
 
 /// bisect, notch or halve of every face, or of the narrow ones (settings.min_angle). One pass; min_angle
-/// finds nothing: an empty optional. Fates and counts of spots go to so_far.
+/// finds nothing: an empty optional. AttributeChanges and counts of spots go to so_far.
 std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far);
 
 /// Cuts at the marked edges by bisect's rule; the marks must be closed under it.

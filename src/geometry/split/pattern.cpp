@@ -24,7 +24,7 @@ void place(std::vector<Vec3>& positions, const Mesh& from, const Lineage& vertic
 
 } // namespace
 
-Fates finish(Mesh& to, const Mesh& from, Descent& descent, const EdgePoints* points) {
+AttributeChanges finish(Mesh& to, const Mesh& from, Descent& descent, const EdgePoints* points) {
     Lineage &vertices = descent.vertices, &wedges = descent.wedges;
     vertices.identity = wedges.identity = true;
     // The mixes were written as wedges, because patterns speak of corners.

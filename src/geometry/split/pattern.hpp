@@ -83,7 +83,7 @@ std::vector<PatternCounts> count_blocks(const Mesh& mesh, const Pattern& pattern
 }
 
 /// Sets positions, wedge_vertex, attributes and primitives of the result from its lineages.
-Fates finish(Mesh& to, const Mesh& from, Descent& descent, const EdgePoints* points);
+AttributeChanges finish(Mesh& to, const Mesh& from, Descent& descent, const EdgePoints* points);
 
 } // namespace split_detail
 
@@ -94,7 +94,8 @@ Fates finish(Mesh& to, const Mesh& from, Descent& descent, const EdgePoints* poi
 ///   corners
 /// points may be null when the pattern uses none.
 template <class Pattern>
-Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pattern, Fates& fates) {
+Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pattern,
+                   AttributeChanges& changes) {
     const auto sums = split_detail::count_blocks(mesh, pattern);
     const PatternCounts& total = sums.back();
     Mesh out;
@@ -129,7 +130,7 @@ Mesh apply_pattern(const Mesh& mesh, const EdgePoints* points, const Pattern& pa
             }
         },
         split_detail::block);
-    fates = split_detail::finish(out, mesh, descent, points);
+    changes = split_detail::finish(out, mesh, descent, points);
     normalise_offsets(out);
     return out;
 }

@@ -137,28 +137,31 @@ void place(Mesh& finer, const SmoothRings& rings, VertexRule&& vertex, EdgeRule&
                  [&](std::size_t e) { finer.positions[n + e] = edge(static_cast<Index>(e)); });
 }
 
-Mesh loop_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings, Fates& fates) {
+Mesh loop_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings,
+               AttributeChanges& changes) {
     const EdgePoints points(mesh, table, 2);
-    Mesh finer = apply_pattern(mesh, &points, QuadsPattern{true}, fates);
+    Mesh finer = apply_pattern(mesh, &points, QuadsPattern{true}, changes);
     place(
         finer, rings, [&](Index v) { return on_curve(rings, v).value_or(loop_vertex(rings, v)); },
         [&](Index e) { return rings.is_sharp(e) ? middle(rings, e) : loop_edge(rings, e); });
     return finer;
 }
 
-Mesh butterfly_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings, Fates& fates) {
+Mesh butterfly_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings,
+                    AttributeChanges& changes) {
     const EdgePoints points(mesh, table, 2);
-    Mesh finer = apply_pattern(mesh, &points, QuadsPattern{true}, fates);
+    Mesh finer = apply_pattern(mesh, &points, QuadsPattern{true}, changes);
     place(
         finer, rings, [&](Index v) { return mesh.positions[v]; },
         [&](Index e) { return butterfly_edge(rings, e); });
     return finer;
 }
 
-Mesh catmull_clark_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings, Fates& fates) {
+Mesh catmull_clark_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings,
+                        AttributeChanges& changes) {
     const EdgePoints points(mesh, table, 2);
     const std::vector<Index> faces = corner_faces(mesh);
-    Mesh finer = apply_pattern(mesh, &points, QuadsPattern{}, fates);
+    Mesh finer = apply_pattern(mesh, &points, QuadsPattern{}, changes);
     place(
         finer, rings,
         [&](Index v) { return on_curve(rings, v).value_or(catmull_clark_vertex(rings, faces, v)); },
@@ -222,7 +225,8 @@ Vec3 sqrt3_vertex(const SmoothRings& rings, Index v, bool odd) {
     return p[v] * (1 - alpha) + star.sum * (alpha / star.n);
 }
 
-Mesh sqrt3_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings, bool odd, Fates& fates) {
+Mesh sqrt3_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rings, bool odd,
+                AttributeChanges& changes) {
     std::vector<std::uint8_t> cut(table.size()), boundary(mesh.face_count(), 3);
     std::vector<Index> before(mesh.face_count());
     Index centroids = 0;
@@ -235,7 +239,7 @@ Mesh sqrt3_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& rin
     }
     const EdgePoints points(mesh, table, 3, cut);
     Mesh finer = apply_pattern(mesh, &points,
-                               Sqrt3Pattern{rings, points, std::move(boundary), std::move(before)}, fates);
+                               Sqrt3Pattern{rings, points, std::move(boundary), std::move(before)}, changes);
     const std::size_t n = mesh.vertex_count();
     parallel_for(
         n, [&](std::size_t v) { finer.positions[v] = sqrt3_vertex(rings, static_cast<Index>(v), odd); });
@@ -281,19 +285,19 @@ void require_manifold(const Mesh& mesh, SplitMethod method) {
                    "clean repairs non-manifold edges and vertices; midpoint splits them as they are");
 }
 
-Mesh split_smooth(const Mesh& mesh, const SplitSettings& settings, int pass, Fates& fates) {
+Mesh split_smooth(const Mesh& mesh, const SplitSettings& settings, int pass, AttributeChanges& changes) {
     const EdgeTable table = build_edges(mesh);
     const SmoothRings rings(mesh, table, settings);
     Mesh finer;
     if (settings.method == SplitMethod::loop)
-        finer = loop_pass(mesh, table, rings, fates);
+        finer = loop_pass(mesh, table, rings, changes);
     else if (settings.method == SplitMethod::butterfly)
-        finer = butterfly_pass(mesh, table, rings, fates);
+        finer = butterfly_pass(mesh, table, rings, changes);
     else if (settings.method == SplitMethod::catmull_clark)
-        finer = catmull_clark_pass(mesh, table, rings, fates);
+        finer = catmull_clark_pass(mesh, table, rings, changes);
     else
-        finer = sqrt3_pass(mesh, table, rings, pass % 2 == 1, fates);
-    fates = joined(fates, settle_moved(finer));
+        finer = sqrt3_pass(mesh, table, rings, pass % 2 == 1, changes);
+    changes = changes_in_sequence(changes, settle_moved(finer));
     return finer;
 }
 

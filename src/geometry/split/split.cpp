@@ -52,13 +52,13 @@ bool halves_edges(SplitMethod m) {
 /// One pass; what it did to attributes and where it could not keep its promises goes to the result. Without
 /// faces when min_angle finds no narrow one.
 Mesh split_once(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {
-    Fates& fates = so_far.fates;
+    AttributeChanges& changes = so_far.changes;
     so_far.folded += folding_faces(mesh, settings.method);
     const auto with_points = [&](int pieces, const auto& pattern) {
         const EdgeTable table = build_edges(mesh);
         if (pieces > 1) so_far.shared += shared_cuts(mesh, table, {});
         const EdgePoints points(mesh, table, pieces);
-        return apply_pattern(mesh, &points, pattern, fates);
+        return apply_pattern(mesh, &points, pattern, changes);
     };
     switch (settings.method) {
     case SplitMethod::midpoint:
@@ -69,27 +69,28 @@ Mesh split_once(const Mesh& mesh, const SplitSettings& settings, SplitResult& so
     case SplitMethod::varignon: {
         const EdgeTable table = build_edges(mesh);
         const EdgePoints points(mesh, table, 2);
-        if (settings.method == SplitMethod::quads) return apply_pattern(mesh, &points, QuadsPattern{}, fates);
+        if (settings.method == SplitMethod::quads)
+            return apply_pattern(mesh, &points, QuadsPattern{}, changes);
         const auto shared = shared_corners(mesh, table);
-        return apply_pattern(mesh, &points, VarignonPattern{shared}, fates);
+        return apply_pattern(mesh, &points, VarignonPattern{shared}, changes);
     }
     case SplitMethod::centroid:
-        return apply_pattern(mesh, nullptr, CentroidPattern{}, fates);
+        return apply_pattern(mesh, nullptr, CentroidPattern{}, changes);
     case SplitMethod::fan:
-        return apply_pattern(mesh, nullptr, FanPattern{}, fates);
+        return apply_pattern(mesh, nullptr, FanPattern{}, changes);
     case SplitMethod::core:
-        return apply_pattern(mesh, nullptr, CorePattern{}, fates);
+        return apply_pattern(mesh, nullptr, CorePattern{}, changes);
     case SplitMethod::diagonal: {
         const QuadCuts cuts = mesh.all_triangles() ? QuadCuts{} : quad_cuts(mesh);
         so_far.shared += cuts.coinciding;
-        return apply_pattern(mesh, nullptr, DiagonalPattern{cuts.at_second}, fates);
+        return apply_pattern(mesh, nullptr, DiagonalPattern{cuts.at_second}, changes);
     }
     case SplitMethod::bisect:
     case SplitMethod::notch:
     case SplitMethod::halve:
         return split_marked(mesh, settings, so_far).value_or(Mesh{});
     default:
-        return split_smooth(mesh, settings, so_far.passes, fates);
+        return split_smooth(mesh, settings, so_far.passes, changes);
     }
 }
 

@@ -57,7 +57,7 @@ struct SplitResult {
         nothing, ///< no edge has a length
     };
     Mesh mesh;
-    Fates fates;           ///< what became of the attributes
+    AttributeChanges changes; ///< what became of the attributes
     std::size_t added = 0; ///< faces more than before
     int passes = 0;        ///< done
     Stop stop = Stop::passes;

@@ -41,7 +41,7 @@ Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
     return d;
 }
 
-void turn_wedges(Mesh& mesh, std::size_t first, Fates& fates) {
+void turn_wedges(Mesh& mesh, std::size_t first, AttributeChanges& changes) {
     for (auto& a : mesh.attributes) {
         if (a.domain != Domain::wedge || !(a.role == Role::normal || a.role == Role::tangent)) continue;
         for (std::size_t w = first; w < a.size(); ++w) {
@@ -50,9 +50,9 @@ void turn_wedges(Mesh& mesh, std::size_t first, Fates& fates) {
             else if (a.components == 4)
                 a.set_value(w, 3, -a.value(w, 3));
         }
-        for (auto& f : fates)
+        for (auto& f : changes)
             if (f.attribute == a.name && f.domain == a.domain)
-                f = {a.name, a.domain, Fate::Kind::recomputed, "reversed on the back"};
+                f = {a.name, a.domain, AttributeChange::Kind::recomputed, "reversed on the back"};
     }
 }
 

@@ -19,7 +19,7 @@ Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
                 const std::vector<Index>& back_copies);
 
 /// Turns the normals of the wedges from `first` on, and the handedness of their tangents.
-void turn_wedges(Mesh& mesh, std::size_t first, Fates& fates);
+void turn_wedges(Mesh& mesh, std::size_t first, AttributeChanges& changes);
 
 struct OpenEdge {
     Index corner, next, face;

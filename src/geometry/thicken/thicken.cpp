@@ -189,9 +189,9 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     });
     std::vector<std::pair<Index, Vec3>> wall_normals;
     r.wall_faces = add_walls(mesh, d, wall_normals);
-    r.fates = inherit_attributes(d.mesh, mesh, d.descent);
+    r.changes = inherit_attributes(d.mesh, mesh, d.descent);
     // Walls come after the back: their normals are set after those of the back are turned.
-    turn_wedges(d.mesh, mesh.wedge_count(), r.fates);
+    turn_wedges(d.mesh, mesh.wedge_count(), r.changes);
     if (Attribute* normals = d.mesh.find("NORMAL", Domain::wedge))
         for (const auto& [w, normal] : wall_normals)
             for (int c = 0; c < 3; ++c) normals->set_value(w, c, normal[static_cast<std::size_t>(c)]);
@@ -210,7 +210,7 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
     const LinkCounts links = count_links(mesh);
     if (links.crowded_edges == 0 && links.non_manifold_vertices == 0) return thicken_sheets(mesh, s);
-    clean_steps::Work apart{.mesh = mesh, .counts = {}, .not_done = {}, .fates = {}};
+    clean_steps::Work apart{.mesh = mesh, .counts = {}, .not_done = {}, .changes = {}};
     clean_steps::split_non_manifold(apart);
     return thicken_sheets(apart.mesh, s);
 }

@@ -22,7 +22,7 @@ struct ThickenSettings {
 
 struct ThickenResult {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     std::size_t wall_faces = 0;    ///< along open edges
     std::size_t limited = 0;       ///< vertices that miter_limit held back
     std::size_t still = 0;         ///< vertices without a normal (or of no face): they did not move
@@ -61,7 +61,7 @@ WiresResult wires(const Mesh& mesh, const WiresSettings& settings);
 
 struct TwoSidedResult {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
 };
 
 /// The faces once more, in reversed order, after the others, but for those that have a back at the same

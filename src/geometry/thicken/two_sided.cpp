@@ -42,11 +42,8 @@ std::vector<std::uint8_t> faces_with_back(const Mesh& mesh) {
 
 TwoSidedResult two_sided(const Mesh& mesh) {
     const auto done = faces_with_back(mesh);
-    if (mesh.face_count() > 0 && std::count(done.begin(), done.end(), 0) == 0) {
-        TwoSidedResult same{mesh, {}};
-        for (const auto& a : mesh.attributes) same.fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
-        return same;
-    }
+    if (mesh.face_count() > 0 && std::count(done.begin(), done.end(), 0) == 0)
+        return {mesh, kept_changes(mesh.attributes)};
     std::vector<std::uint8_t> open(mesh.vertex_count(), 0);
     for (const OpenEdge& e : open_edges(mesh)) open[mesh.vertex(e.corner)] = open[mesh.vertex(e.next)] = 1;
     std::vector<Index> back(mesh.vertex_count()), copies;
@@ -64,8 +61,8 @@ TwoSidedResult two_sided(const Mesh& mesh) {
         d.mesh.wedge_vertex = {};
         d.descent.wedges = d.descent.vertices;
     }
-    r.fates = inherit_attributes(d.mesh, mesh, d.descent);
-    if (!plain) turn_wedges(d.mesh, mesh.wedge_count(), r.fates);
+    r.changes = inherit_attributes(d.mesh, mesh, d.descent);
+    if (!plain) turn_wedges(d.mesh, mesh.wedge_count(), r.changes);
     std::vector<std::uint8_t> gone(mesh.face_count(), 0); // backs that are there already
     gone.insert(gone.end(), done.begin(), done.end());
     r.mesh = std::count(gone.begin(), gone.end(), 1) > 0 ? keep_faces(d.mesh, faces_without(gone))

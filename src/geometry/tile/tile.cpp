@@ -134,9 +134,10 @@ class Tiler {
     static TileResult joined(TileResult a, TileResult b, const ClipResult& halves) {
         for (Tile& t : b.tiles) a.tiles.push_back(std::move(t));
         for (const auto& entry : b.memory.entries) a.memory.add(entry.plane, entry.points);
-        Fates fates = halves.fates;
-        merge_fates(fates, a.fates), merge_fates(fates, b.fates);
-        a.fates = std::move(fates);
+        AttributeChanges changes = halves.changes;
+        merge_changes(changes, a.changes);
+        merge_changes(changes, b.changes);
+        a.changes = std::move(changes);
         a.cut_faces += halves.cut_faces + b.cut_faces;
         a.cap_faces += halves.cap_faces + b.cap_faces;
         a.open.insert(a.open.begin(), halves.open.begin(), halves.open.end());

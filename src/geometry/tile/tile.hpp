@@ -29,7 +29,7 @@ struct Tile {
 
 struct TileResult {
     std::vector<Tile> tiles; ///< that have faces, by z, then y, then x of their cells
-    Fates fates;
+    AttributeChanges changes;
     std::size_t cut_faces = 0, cap_faces = 0;
     std::vector<OpenContour> open;
     CutMemory memory;

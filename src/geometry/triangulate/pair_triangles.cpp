@@ -101,7 +101,7 @@ PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings) {
         descent.faces.push_back(f);
     }
     normalise_offsets(out);
-    result.fates = inherit_attributes(out, mesh, descent);
+    result.changes = inherit_attributes(out, mesh, descent);
     return result;
 }
 

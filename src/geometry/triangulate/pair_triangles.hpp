@@ -14,7 +14,7 @@ struct PairSettings {
 
 struct PairResult {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     std::size_t quads = 0;     ///< made
     std::size_t triangles = 0; ///< left
 };

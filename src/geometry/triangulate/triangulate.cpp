@@ -181,7 +181,7 @@ TriangulateResult triangulate(const Mesh& mesh) {
         1024);
     result.cut = counts.cut;
     result.fans = counts.fan;
-    result.fates = inherit_attributes(out, mesh, descent);
+    result.changes = inherit_attributes(out, mesh, descent);
     return result;
 }
 

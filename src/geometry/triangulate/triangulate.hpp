@@ -27,7 +27,7 @@ FaceKinds face_kinds(const Scene& scene, double planar = 1e-6);
 
 struct TriangulateResult {
     Mesh mesh;
-    Fates fates;
+    AttributeChanges changes;
     FaceKinds kinds;      ///< of the faces that came in
     std::size_t cut = 0;  ///< faces that became several
     std::size_t fans = 0; ///< among them, self-intersecting or without area: cut as fans

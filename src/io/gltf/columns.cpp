@@ -71,15 +71,15 @@ AttributeData converted(const Attribute& a) {
     return to;
 }
 
-void convert(Attribute& a, const std::string& semantic, Fates& fates) {
+void convert(Attribute& a, const std::string& semantic, AttributeChanges& changes) {
     const bool integers = !std::holds_alternative<std::vector<float>>(a.data) &&
                           !std::holds_alternative<std::vector<double>>(a.data) && !a.normalised;
     const bool whole =
         integers && (semantic[0] == '_' || semantic.rfind("JOINTS_", 0) == 0) && fits_uint16(a);
     const char* from = a.type();
     AttributeData data = whole ? converted<std::uint16_t>(a) : converted<float>(a);
-    fates.push_back(
-        {a.name, a.domain, Fate::Kind::kept,
+    changes.push_back(
+        {a.name, a.domain, AttributeChange::Kind::kept,
          fmt::format("written as {}, because glTF has no {} there", whole ? "uint16" : "float32", from)});
     a.data = std::move(data);
     a.normalised = false;
@@ -150,10 +150,10 @@ const char* type_name(int components) {
     }
 }
 
-std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings, Fates& fates) {
+std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings, AttributeChanges& changes) {
     std::vector<Column> columns;
     const auto drop = [&](const Attribute& a, std::string why) {
-        fates.push_back({a.name, a.domain, Fate::Kind::dropped, std::move(why)});
+        changes.push_back({a.name, a.domain, AttributeChange::Kind::dropped, std::move(why)});
     };
     const bool one_set = !mesh.find("WEIGHTS_1", Domain::wedge) && !mesh.find("WEIGHTS_1", Domain::vertex);
     for (const auto& a : mesh.attributes) {
@@ -179,7 +179,7 @@ std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings,
             continue;
         }
         Column column{semantic, target, a};
-        if (!allowed(semantic, target, a, settings.quantised)) convert(column.data, semantic, fates);
+        if (!allowed(semantic, target, a, settings.quantised)) convert(column.data, semantic, changes);
         keep_rules(column, one_set);
         columns.push_back(std::move(column));
     }

@@ -21,7 +21,7 @@ struct ColumnSettings {
 /// said: face attributes and elements of 5 to 8 numbers are dropped; 64-bit floats and 32-bit integers become
 /// float32 (or uint16 when they fit). Normals and tangents get unit length again, colours and weights the
 /// range from 0 to 1.
-std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings, Fates& fates);
+std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings, AttributeChanges& changes);
 
 /// "SCALAR", "VEC3", "MAT4"; null for numbers of components that glTF has no type for.
 const char* type_name(int components);

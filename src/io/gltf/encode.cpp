@@ -117,8 +117,8 @@ Json primitive_frame(const Mesh& mesh, Index p, const EncodeSettings& settings, 
             out["extensions"][name] = value;
             continue;
         }
-        written.fates.push_back(
-            {name, Domain::face, Fate::Kind::dropped, "an extension of a primitive that has changed"});
+        written.changes.push_back({name, Domain::face, AttributeChange::Kind::dropped,
+                                   "an extension of a primitive that has changed"});
         written.warnings.push_back(
             {Severity::warning,
              "W-EXTENSION",
@@ -269,7 +269,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
     const Mesh& mesh = given.all_triangles() ? given : cut;
     if (mesh.face_count() == 0) return out;
     check_range(mesh, settings.name);
-    const auto columns = columns_of(mesh, settings.columns, written.fates);
+    const auto columns = columns_of(mesh, settings.columns, written.changes);
     for (const auto& column : columns)
         out.targets = std::max(out.targets, static_cast<std::size_t>(column.target + 1));
     auto tables = tables_of(mesh, settings.manifold && !settings.draco.on);

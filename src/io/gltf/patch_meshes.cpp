@@ -63,8 +63,8 @@ void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
     if (!mesh.contains("extensions")) return;
     for (const auto& [name, value] : mesh["extensions"].items()) {
         if (name == "EXT_mesh_manifold") continue; // ours: written again on request
-        patch.written.fates.push_back(
-            {name, Domain::face, Fate::Kind::dropped, "an extension of a mesh that has changed"});
+        patch.written.changes.push_back(
+            {name, Domain::face, AttributeChange::Kind::dropped, "an extension of a mesh that has changed"});
         patch.warn(
             "W-EXTENSION",
             fmt::format("part '{}': the extension {} of its mesh is dropped, because the mesh has changed",

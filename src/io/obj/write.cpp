@@ -192,11 +192,12 @@ void tell_what_is_lost(const Mesh& mesh, Written& written) {
         const bool wedge = a.domain == Domain::wedge && (a.name == "NORMAL" || a.name == "TEXCOORD_0");
         const bool colour = a.domain == Domain::wedge && a.name == "COLOR_0";
         if (colour && a.components == 4)
-            written.fates.push_back({a.name, a.domain, Fate::Kind::recomputed, "OBJ colours have no alpha"});
+            written.changes.push_back(
+                {a.name, a.domain, AttributeChange::Kind::recomputed, "OBJ colours have no alpha"});
         if (!face && !wedge && !colour &&
-            std::find_if(written.fates.begin(), written.fates.end(), [&](const Fate& f) {
+            std::find_if(written.changes.begin(), written.changes.end(), [&](const AttributeChange& f) {
                 return f.attribute == a.name && f.domain == a.domain;
-            }) == written.fates.end())
+            }) == written.changes.end())
             dropped(written, a, "OBJ has no place for it");
     }
 }

@@ -108,13 +108,14 @@ Written write(const Scene& scene, const WriteSettings& settings) {
                     a.name == "NORMAL" ? "OFF has one normal at a vertex, and seams need several"
                                        : "OFF has no place for it");
     if (rows.split)
-        written.fates.push_back(
-            {"vertices", Domain::vertex, Fate::Kind::recomputed,
+        written.changes.push_back(
+            {"vertices", Domain::vertex, AttributeChange::Kind::recomputed,
              fmt::format("{} vertices became {}: OFF has one colour at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "OFF");
     if (!scene.materials.empty())
-        written.fates.push_back({"materials", Domain::face, Fate::Kind::dropped, "OFF has no materials"});
+        written.changes.push_back(
+            {"materials", Domain::face, AttributeChange::Kind::dropped, "OFF has no materials"});
     written.files.push_back({settings.title + ".off", std::move(bytes)});
     return written;
 }

@@ -298,13 +298,14 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     add_positions(l);
     add_attributes(l, first, written);
     if (l.split && world->wedge_count() > world->vertex_count())
-        written.fates.push_back(
-            {"vertices", Domain::vertex, Fate::Kind::recomputed,
+        written.changes.push_back(
+            {"vertices", Domain::vertex, AttributeChange::Kind::recomputed,
              fmt::format("{} vertices became {}: PLY has one set of attributes at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "PLY");
     if (!scene.materials.empty())
-        written.fates.push_back({"materials", Domain::face, Fate::Kind::dropped, "PLY has no materials"});
+        written.changes.push_back(
+            {"materials", Domain::face, AttributeChange::Kind::dropped, "PLY has no materials"});
     Bytes bytes;
     append(bytes, header_of(l));
     if (settings.ascii)

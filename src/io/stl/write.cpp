@@ -117,12 +117,13 @@ void tell_what_is_lost(const Scene& scene, const WriteSettings& settings, Writte
                 dropped(written, a, "STL holds positions only");
         }
         if (!part.mesh.all_triangles() && told.insert({"polygons", Domain::face}).second)
-            written.fates.push_back(
-                {"polygons", Domain::face, Fate::Kind::recomputed, "STL holds triangles: cut into them"});
+            written.changes.push_back({"polygons", Domain::face, AttributeChange::Kind::recomputed,
+                                       "STL holds triangles: cut into them"});
     }
     leave_documents(written, scene, "STL");
     if (!scene.materials.empty())
-        written.fates.push_back({"materials", Domain::face, Fate::Kind::dropped, "STL has no materials"});
+        written.changes.push_back(
+            {"materials", Domain::face, AttributeChange::Kind::dropped, "STL has no materials"});
 }
 
 } // namespace

@@ -21,7 +21,7 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
     context.for_each_part(scene, [&](Part& part) {
         CleanResult r = clean(std::move(part.mesh), clean_settings(o, scene, part, context));
         part.mesh = std::move(r.mesh);
-        context.ledger(part, r.fates);
+        context.attribute_changes(part, r.changes);
         warn(part, r.not_done, context);
         report.parts.push_back({part.name, r.counts, first_not_done(r.not_done, effective(part))});
     });

@@ -34,7 +34,7 @@ ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how
         settings.memory = part.cuts ? *part.cuts : CutMemory{};
         ClipResult r = clip(std::move(part.mesh), settings);
         warn(part, r, had_faces, context);
-        context.ledger(part, r.fates);
+        context.attribute_changes(part, r.changes);
         report.cut_faces += r.cut_faces;
         report.cap_faces += r.cap_faces;
         report.open_contours += r.open.size();

@@ -47,7 +47,7 @@ class CropRun {
             report_.faces_after += r.mesh.face_count();
             report_.cap_faces += r.cap_faces;
             report_.open_contours += r.open.size();
-            context_.ledger(part, r.fates);
+            context_.attribute_changes(part, r.changes);
             for (auto& entry : r.memory.entries) memory.add(entry.plane, std::move(entry.points));
         }
         if (!memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(memory));

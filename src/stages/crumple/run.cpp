@@ -84,7 +84,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
         Part& part = *works[i].part;
         CrumpleResult r = crumple_settled(std::move(part.mesh), works[i].before, works[i].to_world);
         part.mesh = o.triangulate ? triangulated(r.mesh) : std::move(r.mesh);
-        context.ledger(part, joined(works[i].pieces.fates, std::move(r.fates)));
+        context.attribute_changes(part, changes_in_sequence(works[i].pieces.changes, std::move(r.changes)));
         report.parts.push_back({std::move(r), part.name, works[i].pieces.added, sheets[i].moves.held});
     }
     return scene;

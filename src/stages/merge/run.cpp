@@ -34,14 +34,14 @@ void declare_report(DeclareFields<MergeReport>& d) {
 }
 
 /// Drops what means nothing without the skin. Returns what became of it.
-Fates drop_skin(Mesh& mesh) {
-    Fates fates;
+AttributeChanges drop_skin(Mesh& mesh) {
+    AttributeChanges changes;
     std::erase_if(mesh.attributes, [&](const Attribute& a) {
         if (a.role != Role::joints && a.role != Role::weights) return false;
-        fates.push_back({a.name, a.domain, Fate::Kind::dropped, "merged parts have no skin"});
+        changes.push_back({a.name, a.domain, AttributeChange::Kind::dropped, "merged parts have no skin"});
         return true;
     });
-    return fates;
+    return changes;
 }
 
 /// The number of the part that each face came from: what `separate: group` parts by.
@@ -71,11 +71,11 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
             continue;
         }
         if (!part.skinned) apply(part.mesh, part.transform);
-        context.ledger(part, drop_skin(part.mesh));
+        context.attribute_changes(part, drop_skin(part.mesh));
         mark_group(part.mesh, static_cast<std::uint32_t>(report.merged.size()));
         report.merged.push_back(part.name);
         for (const auto& a : part.mesh.attributes)
-            context.ledger(part, {{a.name, a.domain, Fate::Kind::kept,
+            context.attribute_changes(part, {{a.name, a.domain, AttributeChange::Kind::kept,
                                    "other parts get white, their own normals, or zero"}});
         if (joined) {
             append(joined->mesh, part.mesh);

@@ -92,7 +92,7 @@ Scene run(Scene scene, const OrientSettings& settings, Context& context, OrientR
     context.for_each_part(scene, [&](Part& part) {
         OrientResult r = orient(std::move(part.mesh), settings);
         part.mesh = std::move(r.mesh);
-        context.ledger(part, r.fates);
+        context.attribute_changes(part, r.changes);
         warn(part, r, context);
         report.parts.push_back(counted(part, r));
     });

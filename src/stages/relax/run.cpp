@@ -67,7 +67,7 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
         const SurfaceSize before = surface_size(part.mesh, settings.to_world);
         RelaxResult r = relax(std::move(part.mesh), settings);
         part.mesh = std::move(r.mesh);
-        context.ledger(part, r.fates);
+        context.attribute_changes(part, r.changes);
         const SurfaceSize after = surface_size(part.mesh, settings.to_world, before.volume.has_value());
         if (o.until && !r.settled && r.iterations > 0)
             context.warn("W-RELAX-STOPPED",

@@ -72,9 +72,7 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateRepor
         }
         require_few(parts.size() + labels.names.size(), o.max_parts);
         auto pieces = separated(part.mesh, labels.of_face, labels.names.size());
-        Fates fates;
-        for (const auto& a : part.mesh.attributes) fates.push_back({a.name, a.domain, Fate::Kind::kept, {}});
-        context.ledger(part, fates);
+        context.attribute_changes(part, kept_changes(part.mesh.attributes));
         report.separated.push_back({part.name, labels.names.size()});
         for (std::size_t i = 0; i < pieces.size(); ++i)
             parts.push_back(piece_of(part, std::move(pieces[i]), unique_name(labels.names[i], taken)));

@@ -171,7 +171,7 @@ class Simplifier {
 
     void take(Part& part, std::size_t number, SimplifyResult r) {
         part.mesh = std::move(r.mesh);
-        context_.ledger(part, r.fates);
+        context_.attribute_changes(part, r.changes);
         Json entry = report::simplify_json(r, greatest_stretch(effective(part)));
         entry["part"] = part.name;
         if (const Set set = set_of(number); set.size() > 1)

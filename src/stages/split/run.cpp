@@ -48,7 +48,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
         warn_of_spots(part, result, settings.method, context);
         report.parts.push_back(
             {part.name, result.added, result.passes, stopped_by(o, result.stop), before, after});
-        context.ledger(part, result.fates);
+        context.attribute_changes(part, result.changes);
     });
     return scene;
 }

@@ -16,7 +16,7 @@ ThickenedPart thicken_surface(Part& part, const ThickenOptions& o, double thickn
     ThickenResult r =
         thicken(part.mesh, {thickness, o.side, o.miter_limit, o.self_intersections, effective(part)});
     part.mesh = std::move(r.mesh);
-    context.ledger(part, r.fates);
+    context.attribute_changes(part, r.changes);
     const bool has_faces = part.mesh.face_count() > 0;
     if (has_faces) warn_of_walls(part, r, thickness, o.self_intersections, context);
     return ThickenedSurface{part.name, std::move(r), has_faces, o.self_intersections};
@@ -25,10 +25,10 @@ ThickenedPart thicken_surface(Part& part, const ThickenOptions& o, double thickn
 ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thickness, Context& context) {
     WiresResult r = wires(
         part.mesh, {thickness, static_cast<int>(o.sides), o.mode == Mode::boundary_edges, effective(part)});
-    Fates fates;
+    AttributeChanges changes;
     for (const auto& a : part.mesh.attributes)
-        fates.push_back({a.name, a.domain, Fate::Kind::dropped, "cylinders have no attributes"});
-    context.ledger(part, fates);
+        changes.push_back({a.name, a.domain, AttributeChange::Kind::dropped, "cylinders have no attributes"});
+    context.attribute_changes(part, changes);
     part.mesh = std::move(r.mesh);
     if (std::exchange(part.skinned, false)) {
         part.transform = {};

@@ -44,7 +44,7 @@ class TileRun {
         TileResult r = tile(std::move(part.mesh), settings_);
         part.mesh = {};
         warn_of_open("tile", part, r.open, context_);
-        context_.ledger(part, r.fates);
+        context_.attribute_changes(part, r.changes);
         report.cut_faces += r.cut_faces;
         report.cap_faces += r.cap_faces;
         report.open_contours += r.open.size();

@@ -69,9 +69,9 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context, Triangulat
             part.mesh = std::move(paired.mesh);
             entry.quads = paired.quads;
             entry.triangles = paired.triangles;
-            result.fates = std::move(paired.fates);
+            result.changes = std::move(paired.changes);
         }
-        context.ledger(part, result.fates);
+        context.attribute_changes(part, result.changes);
         report.parts.push_back(std::move(entry));
     });
     if (fans > 0)

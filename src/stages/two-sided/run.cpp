@@ -74,7 +74,7 @@ Scene run(Scene scene, const TwoSidedOptions& o, Context& context, TwoSidedRepor
     auto& parts = report.parts.emplace();
     context.for_each_part(scene, [&](Part& part) {
         TwoSidedResult r = two_sided(part.mesh);
-        context.ledger(part, r.fates);
+        context.attribute_changes(part, r.changes);
         parts.push_back({part.name, r.mesh.face_count() - part.mesh.face_count()});
         part.mesh = std::move(r.mesh);
     });

@@ -22,7 +22,7 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& part = out.parts[k];
         lent[k].mesh = part.mesh;
-        context.ledger(part,
+        context.attribute_changes(part,
                        give_normals(part.mesh, o.normals, o.feature_angle ? o.feature_angle->radians : pi));
         part.changed = true;
     }
@@ -65,7 +65,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     choose_bits(settings, o, *codec, out, report);
     const io::Written written = codec->write(out, settings);
     for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
-    if (!out.parts.empty()) context.ledger(out.parts.front(), written.fates);
+    if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
     stage_files(written, target, *codec, out, settings, context);
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);

@@ -112,8 +112,8 @@ TEST_CASE("seams and attributes survive a crop", "[geometry]") {
     const CropResult rest = cropped(shapes::uv_cube(), half, CropBy::cut, polygon::Keep::outside);
     CHECK(test::area(r.mesh) + test::area(rest.mesh) == Approx(6));
     bool interpolated = false;
-    for (const Fate& f : r.fates)
-        interpolated |= f.attribute == "TEXCOORD_0" && f.kind == Fate::Kind::interpolated;
+    for (const AttributeChange& f : r.changes)
+        interpolated |= f.attribute == "TEXCOORD_0" && f.kind == AttributeChange::Kind::interpolated;
     CHECK(interpolated);
 }
 
@@ -313,8 +313,8 @@ TEST_CASE("outlines of many segments", "[geometry]") {
             CHECK(broken_invariants(r->mesh).empty());
             CHECK(inspect(r->mesh).closed);
             CHECK(inspect(r->mesh).edge_manifold);
-            CHECK(std::none_of(r->fates.begin(), r->fates.end(),
-                               [](const Fate& f) { return f.attribute.starts_with('#'); }));
+            CHECK(std::none_of(r->changes.begin(), r->changes.end(),
+                               [](const AttributeChange& f) { return f.attribute.starts_with('#'); }));
         }
         CHECK(*inspect(in.mesh).volume + *inspect(out.mesh).volume == Approx(*inspect(*mesh).volume));
         CHECK(cracks(cropped(*mesh, wave).mesh, wave, *mesh) == 0);

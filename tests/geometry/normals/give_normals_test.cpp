@@ -37,9 +37,9 @@ Mesh centred_cube() {
 
 TEST_CASE("smooth normals do not depend on how flat areas are cut", "[geometry]") {
     Mesh m = centred_cube();
-    const Fates fates = give_normals(m, NormalKind::smooth, pi);
-    REQUIRE(fates.size() == 1);
-    CHECK(fates[0].kind == Fate::Kind::recomputed);
+    const AttributeChanges changes = give_normals(m, NormalKind::smooth, pi);
+    REQUIRE(changes.size() == 1);
+    CHECK(changes[0].kind == AttributeChange::Kind::recomputed);
     CHECK_FALSE(m.has_seams());
     CHECK(broken_invariants(m).empty());
     // Corners have 4 or 5 triangles in 3 planes, and by angle each plane counts the same.
@@ -60,7 +60,7 @@ TEST_CASE("feature edges stay sharp", "[geometry]") {
     give_normals(flat, NormalKind::flat, 0);
     CHECK(flat.wedge_count() == 24);
     CHECK(worst_against_faces(flat) < 1e-7);
-    CHECK(give_normals(flat, NormalKind::none, 0)[0].kind == Fate::Kind::dropped);
+    CHECK(give_normals(flat, NormalKind::none, 0)[0].kind == AttributeChange::Kind::dropped);
     CHECK(flat.find("NORMAL", Domain::wedge) == nullptr);
     CHECK(flat.corners == centred_cube().corners);
     CHECK(give_normals(flat, NormalKind::keep, 0).empty());

@@ -128,9 +128,9 @@ TEST_CASE("a flat-shaded sphere simplifies like any other", "[geometry]") {
     CHECK(r.shading == Shading::faceted);
     CHECK(test::sound(r.mesh, 2));
     CHECK(worst_facing(r.mesh) > 0.9999);
-    REQUIRE(r.fates.size() == 1);
-    CHECK(r.fates[0].kind == Fate::Kind::recomputed);
-    CHECK(r.fates[0].why == "flat shading: the normals of the new faces");
+    REQUIRE(r.changes.size() == 1);
+    CHECK(r.changes[0].kind == AttributeChange::Kind::recomputed);
+    CHECK(r.changes[0].why == "flat shading: the normals of the new faces");
     CHECK(simplify(flat_shaded(shapes::icosphere(3)), {.feature_angle = 0, .ratio = 0.1}).stop ==
           SimplifyResult::Stop::stuck);
 }

@@ -167,10 +167,11 @@ TEST_CASE("morph targets are relaxed as the surfaces they stand for", "[geometry
             const Vec3 d{a->value(v, 0), a->value(v, 1), a->value(v, 2)};
             CHECK(length(r.mesh.positions[v] + d - alone.positions[v]) < 1e-8);
         }
-        REQUIRE(r.fates.size() == 2);
-        CHECK(r.fates[0] ==
-              Fate{"TARGET_0_POSITION", Domain::wedge, Fate::Kind::recomputed, "relaxed with the surface"});
-        CHECK(r.fates[1] == Fate{"TARGET_0_NORMAL", Domain::wedge, Fate::Kind::kept, "not relaxed"});
+        REQUIRE(r.changes.size() == 2);
+        CHECK(r.changes[0] == AttributeChange{"TARGET_0_POSITION", Domain::wedge,
+                                              AttributeChange::Kind::recomputed, "relaxed with the surface"});
+        CHECK(r.changes[1] ==
+              AttributeChange{"TARGET_0_NORMAL", Domain::wedge, AttributeChange::Kind::kept, "not relaxed"});
     }
 }
 

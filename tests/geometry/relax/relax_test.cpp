@@ -96,9 +96,10 @@ TEST_CASE("relaxation takes degenerate, non-manifold and isolated input", "[geom
 
 TEST_CASE("relaxation recomputes normals and keeps the rest", "[geometry]") {
     const auto r = relax(shapes::uv_cube());
-    REQUIRE(r.fates.size() == 2);
-    for (const auto& fate : r.fates)
-        CHECK(fate.kind == (fate.attribute == "NORMAL" ? Fate::Kind::recomputed : Fate::Kind::kept));
+    REQUIRE(r.changes.size() == 2);
+    for (const auto& change : r.changes)
+        CHECK(change.kind == (change.attribute == "NORMAL" ? AttributeChange::Kind::recomputed
+                                                           : AttributeChange::Kind::kept));
     CHECK(broken_invariants(r.mesh).empty());
 }
 

@@ -230,8 +230,8 @@ TEST_CASE("seams stay seams, matched, and UVs follow the place", "[geometry]") {
         CHECK((u < 50 ? u : u - 100) == Approx(p.x).margin(1e-9));
     }
     for (const auto& [v, n] : wedges) CHECK((n == 2) == (std::abs(r.mesh.positions[v].x - 8) < 1e-3));
-    REQUIRE(r.fates.size() == 1);
-    CHECK(r.fates[0].kind == Fate::Kind::interpolated);
+    REQUIRE(r.changes.size() == 1);
+    CHECK(r.changes[0].kind == AttributeChange::Kind::interpolated);
 }
 
 TEST_CASE("borders of primitives stay where they are", "[geometry]") {

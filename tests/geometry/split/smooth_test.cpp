@@ -138,9 +138,9 @@ TEST_CASE("smooth methods interpolate wedges along seams and recompute normals",
         REQUIRE(uv);
         for (std::size_t w = 0; w < r.mesh.wedge_count(); ++w)
             for (int c = 0; c < 2; ++c) CHECK((uv->value(w, c) >= 0 && uv->value(w, c) <= 1));
-        for (const auto& fate : r.fates)
-            CHECK(fate.kind ==
-                  (fate.attribute == "NORMAL" ? Fate::Kind::recomputed : Fate::Kind::interpolated));
+        for (const auto& change : r.changes)
+            CHECK(change.kind == (change.attribute == "NORMAL" ? AttributeChange::Kind::recomputed
+                                                               : AttributeChange::Kind::interpolated));
     }
 }
 

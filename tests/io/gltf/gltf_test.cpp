@@ -149,9 +149,10 @@ TEST_CASE("attributes of types that glTF lacks are converted, face attributes dr
     mesh.attributes.push_back(
         {"cell", Domain::face, Role::generic, 1, false, std::vector<float>{1, 2, 3, 4}});
     const io::Written written = test::written(test::scene_of(mesh), "glb");
-    CHECK(written.fates == Fates{{"quality", Domain::vertex, Fate::Kind::kept,
-                                  "written as float32, because glTF has no float64 there"},
-                                 {"cell", Domain::face, Fate::Kind::dropped, "glTF has no face attributes"}});
+    CHECK(written.changes == AttributeChanges{{"quality", Domain::vertex, AttributeChange::Kind::kept,
+                                               "written as float32, because glTF has no float64 there"},
+                                              {"cell", Domain::face, AttributeChange::Kind::dropped,
+                                               "glTF has no face attributes"}});
     const Scene read = test::read_bytes(written.files[0].bytes, "glb");
     const Attribute* quality = read.parts[0].mesh.find("_quality", Domain::wedge);
     REQUIRE(quality);

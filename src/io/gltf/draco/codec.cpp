@@ -137,16 +137,18 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     set_draco_grid(mesh, input);
     for (const auto& a : mesh.attributes) {
         if (a.domain == Domain::face)
-            written.fates.push_back(
-                {a.name, a.domain, Fate::Kind::dropped, "Draco files have no face attributes"});
+            written.changes.push_back(
+                {a.name, a.domain, AttributeChange::Kind::dropped, "Draco files have no face attributes"});
         else if (a.components > 127)
-            written.fates.push_back({a.name, a.domain, Fate::Kind::dropped, "too many components"});
+            written.changes.push_back(
+                {a.name, a.domain, AttributeChange::Kind::dropped, "too many components"});
         else
             input.columns.push_back(to_column(mesh, a));
     }
     leave_documents(written, scene, "Draco");
     if (!scene.materials.empty())
-        written.fates.push_back({"materials", Domain::face, Fate::Kind::dropped, "Draco has no materials"});
+        written.changes.push_back(
+            {"materials", Domain::face, AttributeChange::Kind::dropped, "Draco has no materials"});
     if (mesh.face_count() == 0)
         throw Error(ErrorKind::stage, "E-EMPTY", "a Draco file needs at least one face");
     DracoOutput output = encode_draco(input, settings.draco);
