@@ -30,7 +30,10 @@ Attribute stand_in(const Attribute& like, const Mesh& mesh) {
             for (int c = 0; c < a.components; ++c) a.set_value(i, c, 1);
         });
     if (a.role == Role::tangent)
-        parallel_for(a.size(), [&](std::size_t i) { a.set_value(i, 0, 1), a.set_value(i, 3, 1); });
+        parallel_for(a.size(), [&](std::size_t i) {
+            a.set_value(i, 0, 1);
+            a.set_value(i, 3, 1);
+        });
     return a;
 }
 

@@ -9,8 +9,10 @@ namespace facetmill {
 /// attributes and primitives are left behind. O(n).
 inline Mesh bare(const Mesh& mesh) {
     Mesh out;
-    out.positions = mesh.positions, out.wedge_vertex = mesh.wedge_vertex;
-    out.corners = mesh.corners, out.face_offsets = mesh.face_offsets;
+    out.positions = mesh.positions;
+    out.wedge_vertex = mesh.wedge_vertex;
+    out.corners = mesh.corners;
+    out.face_offsets = mesh.face_offsets;
     return out;
 }
 

@@ -144,9 +144,11 @@ struct Skin {
             for (const auto& b : from.attributes)
                 if (b.role == Role::weights && b.domain == a.domain && b.components == a.components &&
                     b.name.ends_with(suffix)) {
-                    joints.push_back(&a), weights.push_back(&b);
-                    new_joints.push_back(to.find(a.name, a.domain)),
-                        new_weights.push_back(to.find(b.name, b.domain));
+                    joints.push_back(&a);
+                    weights.push_back(&b);
+                    new_joints.push_back(to.find(a.name, a.domain));
+
+                    new_weights.push_back(to.find(b.name, b.domain));
                     break;
                 }
         }

@@ -118,7 +118,10 @@ Plane pulled_back(const Plane& plane, const Transform& to_world) {
 int axis_of(const Plane& plane) {
     int axis = -1, count = 0;
     for (int i = 0; i < 3; ++i)
-        if (plane.normal[static_cast<std::size_t>(i)] != 0) axis = i, ++count;
+        if (plane.normal[static_cast<std::size_t>(i)] != 0) {
+            axis = i;
+            ++count;
+        }
     return count == 1 ? axis : -1;
 }
 

@@ -86,7 +86,8 @@ QuadCuts quad_cuts(const Mesh& mesh) {
             ++cuts.coinciding;
             continue;
         }
-        --mine->second, taken.emplace(other, 1);
+        --mine->second;
+        taken.emplace(other, 1);
         cuts.at_second[f] = !cuts.at_second[f];
     }
     return cuts;

@@ -45,7 +45,10 @@ Box Surface::bounds() const {
                 if (is_finite(positions[corners[c]])) box.add(positions[corners[c]]);
             return box;
         },
-        [](Box a, const Box& b) { return a.add(b), a; });
+        [](Box a, const Box& b) {
+            a.add(b);
+            return a;
+        });
 }
 
 Surface surface_of(const Mesh& mesh) {

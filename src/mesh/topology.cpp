@@ -173,7 +173,8 @@ Index DisjointSets::find(Index i) {
 
 void DisjointSets::join(Index a, Index b) {
     for (;;) {
-        a = find(a), b = find(b);
+        a = find(a);
+        b = find(b);
         if (a == b) return;
         if (a > b) std::swap(a, b);
         Index expected = b;

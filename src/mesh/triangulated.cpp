@@ -52,7 +52,10 @@ class EarClipper {
     explicit EarClipper(const std::vector<Point2>& points)
         : p_(points), next_(points.size()), previous_(points.size()) {
         const auto n = static_cast<Index>(points.size());
-        for (Index i = 0; i < n; ++i) next_[i] = (i + 1) % n, previous_[i] = (i + n - 1) % n;
+        for (Index i = 0; i < n; ++i) {
+            next_[i] = (i + 1) % n;
+            previous_[i] = (i + n - 1) % n;
+        }
         for (Index i = 0; i < n; ++i)
             if (turn_at(i) <= 0) reflex_.push_back(i);
     }
@@ -66,9 +69,11 @@ class EarClipper {
             if (is_ear(i) || since_ear > left) {
                 out(Triangle{previous_[i], i, next_[i]});
                 i = cut(i);
-                --left, since_ear = 0;
+                --left;
+                since_ear = 0;
             } else {
-                i = next_[i], ++since_ear;
+                i = next_[i];
+                ++since_ear;
             }
         }
         out(Triangle{previous_[i], i, next_[i]});
@@ -93,7 +98,8 @@ class EarClipper {
     /// ring.
     Index cut(Index i) {
         const Index a = previous_[i], b = next_[i];
-        next_[a] = b, previous_[b] = a;
+        next_[a] = b;
+        previous_[b] = a;
         std::erase_if(reflex_, [&](Index r) { return r == i || ((r == a || r == b) && turn_at(r) > 0); });
         return next_[b];
     }

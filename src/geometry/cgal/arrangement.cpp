@@ -39,7 +39,8 @@ bool passes_through(const Quick::Point_3& a, const Quick::Point_3& b, const Corn
     bool left = false, right = false;
     for (std::size_t i = 0; i < 3; ++i) {
         const int side = CGAL::orientation(a, b, t[i], t[(i + 1) % 3]);
-        left |= side > 0, right |= side < 0;
+        left |= side > 0;
+        right |= side < 0;
     }
     return !(left && right);
 }
@@ -161,8 +162,10 @@ std::size_t possible_crossings(const TriangleSoup& soup, const PlaneGroup& group
                 lines.emplace_back(soup.triangles[t][i], soup.triangles[t][(i + 1) % 3]);
     if (lines.size() < 64) return lines.size() * lines.size() / 2;
     std::vector<Box> boxes(lines.size());
-    for (std::size_t i = 0; i < lines.size(); ++i)
-        boxes[i].add(nodes.rounded(lines[i].first)), boxes[i].add(nodes.rounded(lines[i].second));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        boxes[i].add(nodes.rounded(lines[i].first));
+        boxes[i].add(nodes.rounded(lines[i].second));
+    }
     std::size_t count = 0;
     const BoxTree tree(boxes);
     for (std::size_t i = 0; i < boxes.size() && count <= limit; ++i)
@@ -195,7 +198,10 @@ struct Arrangement::Own {
         std::size_t possible = 0, worst = 0;
         for (const PlaneGroup& g : groups) {
             const std::size_t count = possible_crossings(soup, g, nodes, most_crossings);
-            if (count > worst) worst = count, overfull = g.triangles.front();
+            if (count > worst) {
+                worst = count;
+                overfull = g.triangles.front();
+            }
             possible += count;
         }
         if (possible > most_crossings) return;
@@ -206,7 +212,10 @@ struct Arrangement::Own {
     /// The triangle of most pairs.
     Index most_met() const {
         std::vector<Index> count(soup.triangles.size(), 0);
-        for (const auto& [s, t] : soup.pairs) ++count[s], ++count[t];
+        for (const auto& [s, t] : soup.pairs) {
+            ++count[s];
+            ++count[t];
+        }
         return static_cast<Index>(std::max_element(count.begin(), count.end()) - count.begin());
     }
 
@@ -286,7 +295,8 @@ int Arrangement::look_ahead(const std::array<Index, 3>& nodes, std::span<const I
     Box along;
     for (int i = 0; i < 3; ++i) {
         const auto [low, high] = CGAL::to_interval(ray.from[i]);
-        along.min[static_cast<std::size_t>(i)] = low, along.max[static_cast<std::size_t>(i)] = high;
+        along.min[static_cast<std::size_t>(i)] = low;
+        along.max[static_cast<std::size_t>(i)] = high;
     }
     (ray.forward ? along.max : along.min)[k] = ray.forward ? HUGE_VAL : -HUGE_VAL;
     const auto& soup = own_->soup;

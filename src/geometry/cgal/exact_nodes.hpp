@@ -34,7 +34,9 @@ class ExactNodes {
         for (const Index other : here)
             if (rounded(other) == place && at(other) == p) return other;
         const auto node = static_cast<Index>(size());
-        made_.push_back(p), rounded_.push_back(place), here.push_back(node);
+        made_.push_back(p);
+        rounded_.push_back(place);
+        here.push_back(node);
         return node;
     }
 
@@ -54,8 +56,10 @@ class ExactNodes {
 
     static std::uint64_t hash(const Vec3& p) {
         std::uint64_t h = 0;
-        for (std::size_t i = 0; i < 3; ++i)
-            h = (h ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15, h ^= h >> 29;
+        for (std::size_t i = 0; i < 3; ++i) {
+            h = (h ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15;
+            h ^= h >> 29;
+        }
         return h;
     }
 

@@ -37,7 +37,8 @@ class Frame {
                    std::abs(rough_normal[static_cast<std::size_t>(j)]);
         });
         drop_ = *std::find_if(axes.begin(), axes.end(), [&](int i) { return !CGAL::is_zero(normal_[i]); });
-        u_ = (drop_ + 1) % 3, v_ = (drop_ + 2) % 3;
+        u_ = (drop_ + 1) % 3;
+        v_ = (drop_ + 2) % 3;
         if (CGAL::is_negative(normal_[drop_])) std::swap(u_, v_);
     }
 
@@ -45,7 +46,8 @@ class Frame {
     Point3 lifted(const Point2& p) const {
         const ExactKernel::FT du = p.x() - origin_[u_], dv = p.y() - origin_[v_];
         std::array<ExactKernel::FT, 3> x;
-        x[static_cast<std::size_t>(u_)] = p.x(), x[static_cast<std::size_t>(v_)] = p.y();
+        x[static_cast<std::size_t>(u_)] = p.x();
+        x[static_cast<std::size_t>(v_)] = p.y();
         x[static_cast<std::size_t>(drop_)] =
             origin_[drop_] - (normal_[u_] * du + normal_[v_] * dv) / normal_[drop_];
         return {x[0], x[1], x[2]};
@@ -66,7 +68,10 @@ class Cutter {
         for (const Index t : group_.triangles)
             for (const Index p : soup_.triangles[t]) vertex_of(p);
         for (const Index p : group_.points) vertex_of(p);
-        for (const auto& [a, b] : group_.segments) vertex_of(a), vertex_of(b);
+        for (const auto& [a, b] : group_.segments) {
+            vertex_of(a);
+            vertex_of(b);
+        }
         for (const Index t : group_.triangles)
             for (std::size_t i = 0; i < 3; ++i)
                 constrain(soup_.triangles[t][i], soup_.triangles[t][(i + 1) % 3]);

@@ -37,7 +37,8 @@ int share(std::array<Index, 3>& a, std::array<Index, 3>& b) {
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = shared; j < 3; ++j)
             if (a[i] == b[j]) {
-                std::swap(a[i], a[shared]), std::swap(b[j], b[shared]);
+                std::swap(a[i], a[shared]);
+                std::swap(b[j], b[shared]);
                 ++shared;
                 break;
             }
@@ -123,10 +124,12 @@ class Search {
                 (touch ? found.touching : found.real).add(std::minmax(s.face, t.face), kept);
             },
             [&](Kinds a, const Kinds& b) {
-                a.real.add(b.real, kept), a.touching.add(b.touching, kept);
+                a.real.add(b.real, kept);
+                a.touching.add(b.touching, kept);
                 return a;
             });
-        in_order(all.real, polygons), in_order(all.touching, polygons);
+        in_order(all.real, polygons);
+        in_order(all.touching, polygons);
         if (polygons) { // what runs into another in one triangle may touch it in others
             const Pairs touch = std::move(all.touching.pairs);
             all.touching.pairs.clear();
@@ -152,7 +155,8 @@ class Search {
                 if (flag(f).load(relaxed) && flag(g).load(relaxed)) return;
                 if (facets_meet(facets_[i], facets_[j]) < 0) return;
                 if (std::binary_search(exempt.begin(), exempt.end(), std::pair{f, g})) return;
-                flag(f).store(1, relaxed), flag(g).store(1, relaxed);
+                flag(f).store(1, relaxed);
+                flag(g).store(1, relaxed);
             },
             [](Nothing, Nothing) { return Nothing{}; });
         return known;
@@ -164,7 +168,9 @@ class Search {
         parallel_for(boxes.size(), [&](std::size_t t) {
             const Vec3 &a = surface_.point(t, 0), &b = surface_.point(t, 1), &c = surface_.point(t, 2);
             if (!is_finite(a) || !is_finite(b) || !is_finite(c) || is_degenerate(a, b, c)) return;
-            boxes[t].add(a), boxes[t].add(b), boxes[t].add(c);
+            boxes[t].add(a);
+            boxes[t].add(b);
+            boxes[t].add(c);
         });
         return boxes;
     }

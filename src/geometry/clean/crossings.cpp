@@ -170,13 +170,18 @@ class Untangler {
         std::vector<std::uint8_t> goes(mesh_.vertex_count(), 0); // vertices that lose all their faces
         std::vector<Index> group_of_vertex(mesh_.vertex_count(), none);
         for (Index f = 0; f < region.size(); ++f)
-            for (Index c = mesh_.face_begin(f); region[f] && c < mesh_.face_end(f); ++c)
-                goes[mesh_.vertex(c)] = 1, group_of_vertex[mesh_.vertex(c)] = groups[f];
+            for (Index c = mesh_.face_begin(f); region[f] && c < mesh_.face_end(f); ++c) {
+                goes[mesh_.vertex(c)] = 1;
+                group_of_vertex[mesh_.vertex(c)] = groups[f];
+            }
         for (const Index f : kept)
             for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) goes[mesh_.vertex(c)] = 0;
         std::vector<Index> number(mesh_.vertex_count(), none), group;
         for (Index v = 0; v < goes.size(); ++v)
-            if (!goes[v]) number[v] = static_cast<Index>(group.size()), group.push_back(group_of_vertex[v]);
+            if (!goes[v]) {
+                number[v] = static_cast<Index>(group.size());
+                group.push_back(group_of_vertex[v]);
+            }
         EdgeList before;
         for (const auto& [low, high] : open_)
             if (!goes[low] && !goes[high]) before.emplace_back(number[low], number[high]);

@@ -34,7 +34,8 @@ std::size_t drop_repeated_corners(Mesh& mesh, std::vector<std::uint8_t>& gone) {
         }
         offsets.push_back(static_cast<Index>(corners.size()));
     }
-    mesh.corners = std::move(corners), mesh.face_offsets = std::move(offsets);
+    mesh.corners = std::move(corners);
+    mesh.face_offsets = std::move(offsets);
     normalise_offsets(mesh);
     return dropped;
 }
@@ -58,7 +59,10 @@ bool same_way(const Mesh& mesh, Index f, Index g) {
 std::vector<std::vector<Index>> groups_of_duplicates(const Mesh& mesh) {
     std::vector<std::uint8_t> listed(mesh.face_count(), 0);
     std::map<std::vector<Index>, std::vector<Index>> groups;
-    for (const Index f : duplicate_faces(mesh)) groups[sorted_vertices(mesh, f)].push_back(f), listed[f] = 1;
+    for (const Index f : duplicate_faces(mesh)) {
+        groups[sorted_vertices(mesh, f)].push_back(f);
+        listed[f] = 1;
+    }
     if (groups.empty()) return {};
     for (Index f = 0; f < mesh.face_count(); ++f) { // the first of each set
         if (listed[f]) continue;
@@ -198,7 +202,10 @@ bool remove_duplicates(Work& work) {
                      // way
         left[all[g].ways >= 0] = sheet || !cancels[first] ? (many[g] ? std::abs(all[g].ways) : 1) : 0;
         left[all[g].ways < 0] = sheet && beside ? 1 : 0;
-        for (const Index f : all[g].faces) gone[f] = left[same_way(mesh, first, f)]-- <= 0, count += gone[f];
+        for (const Index f : all[g].faces) {
+            gone[f] = left[same_way(mesh, first, f)]-- <= 0;
+            count += gone[f];
+        }
         if (sheet && beside)
             work.not_done.push_back({"duplicates",
                                      "both sides of a separate sheet beside closed components are kept, "
@@ -225,7 +232,9 @@ bool remove_components(Work& work, const ComponentSettings& s) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
         Piece& p = all[pieces.of_face[f]];
         const double area = area_of(mesh, f);
-        ++p.faces, p.area += area, whole += area;
+        ++p.faces;
+        p.area += area;
+        whole += area;
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) p.box.add(mesh.point(c));
     }
     for (Piece& p : all)

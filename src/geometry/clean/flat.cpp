@@ -55,7 +55,8 @@ Round plan(const Mesh& mesh) {
             const double t = length(mesh.point(*middle) - a) / length(b - a);
             round.insertions.push_back({c, t, mesh.vertex(*middle)});
             if (mesh.face_size(g) == 3) round.cut.push_back(g);
-            busy[f] = busy[g] = 1, round.goes[f] = 1;
+            busy[f] = busy[g] = 1;
+            round.goes[f] = 1;
             break;
         }
     }

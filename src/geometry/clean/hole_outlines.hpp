@@ -46,12 +46,14 @@ class Outlines {
                 const Outline loop{{path.wedges.begin() + from, path.wedges.end()},
                                    {path.faces.begin() + from, path.faces.end()}};
                 for (const Index w : loop.wedges) place.erase(mesh_.vertex_of_wedge(w));
-                path.wedges.resize(static_cast<std::size_t>(from)),
-                    path.faces.resize(static_cast<std::size_t>(from));
+                path.wedges.resize(static_cast<std::size_t>(from));
+
+                path.faces.resize(static_cast<std::size_t>(from));
                 body(loop);
             }
             place[v] = path.wedges.size();
-            path.wedges.push_back(walked.wedges[i]), path.faces.push_back(walked.faces[i]);
+            path.wedges.push_back(walked.wedges[i]);
+            path.faces.push_back(walked.faces[i]);
         }
         body(path);
     }

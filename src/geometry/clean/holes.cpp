@@ -42,12 +42,16 @@ class Filler {
 
     bool run(const std::set<std::size_t>& left) {
         left_ = &left;
-        Outlines(mesh_).each([&](const Outline& o) { fill(o), ++outline_; },
-                             [&](Index c) {
-                                 refuse("neighbouring faces are oriented inconsistently, or the edge has "
-                                        "more than two faces: use orient first",
-                                        mesh_.point(c));
-                             });
+        Outlines(mesh_).each(
+            [&](const Outline& o) {
+                fill(o);
+                ++outline_;
+            },
+            [&](Index c) {
+                refuse("neighbouring faces are oriented inconsistently, or the edge has "
+                       "more than two faces: use orient first",
+                       mesh_.point(c));
+            });
         return filled_ > 0;
     }
 
@@ -267,7 +271,10 @@ bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_
         Filler filler(work, settings, other_than);
         if (!filler.run(left)) return false;
         const auto more = may_cross ? std::set<std::size_t>{} : filler.crossing();
-        if (more.empty()) return filler.accept(), true;
+        if (more.empty()) {
+            filler.accept();
+            return true;
+        }
         left.insert(more.begin(), more.end());
         work.not_done.resize(told);
     }

@@ -20,7 +20,8 @@ bool winds_twice(const Vec3& u, const Vec3& v, std::vector<EdgeLeaf> leaves) {
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         winding += leaves[i].forward ? -1 : 1; // the inside is before a forward face
         if (i + 1 < leaves.size() && same_angle(u, v, leaves[i], leaves[i + 1])) continue;
-        least = std::min(least, winding), most = std::max(most, winding);
+        least = std::min(least, winding);
+        most = std::max(most, winding);
     }
     return winding == 0 && most - least > 1;
 }
@@ -29,7 +30,8 @@ bool winds_twice(const Vec3& u, const Vec3& v, std::vector<EdgeLeaf> leaves) {
 
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
     Mesh plain; // vertices at one place are one
-    plain.positions = mesh.positions, plain.face_offsets = mesh.face_offsets;
+    plain.positions = mesh.positions;
+    plain.face_offsets = mesh.face_offsets;
     const auto place = lowest_at_place(mesh);
     for (Index c = 0; c < mesh.corner_count(); ++c) plain.corners.push_back(place[mesh.vertex(c)]);
     const auto edges = build_edges(plain);

@@ -42,15 +42,20 @@ Components solid_pieces(const Mesh& mesh) {
     const auto is_cavity = [&](Index p) { return solids.closed[p] && solids.inward[p]; };
     std::vector<Index> solid_of(solids.pieces.count);
     bool any = false;
-    for (Index p = 0; p < solid_of.size(); ++p) solid_of[p] = p, any |= is_cavity(p);
+    for (Index p = 0; p < solid_of.size(); ++p) {
+        solid_of[p] = p;
+        any |= is_cavity(p);
+    }
     if (!any || solid_of.size() < 2) return std::move(solids.pieces);
     const auto around = pieces_around(mesh, solids);
     for (Index p = 0; p < solid_of.size(); ++p) {
         if (!is_cavity(p)) continue;
         std::size_t depth = 0; // the innermost lies in most others itself
         for (const Index q : around[p])
-            if (!is_cavity(q) && (solid_of[p] == p || around[q].size() > depth))
-                solid_of[p] = q, depth = around[q].size();
+            if (!is_cavity(q) && (solid_of[p] == p || around[q].size() > depth)) {
+                solid_of[p] = q;
+                depth = around[q].size();
+            }
     }
     std::vector<Index> number(solid_of.size(), none);
     Components joined{std::move(solids.pieces.of_face), 0};

@@ -94,7 +94,9 @@ Vec3 middle_of_face(const Mesh& mesh, Index f) {
 
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among) {
     Mesh plain;
-    plain.positions = mesh.positions, plain.corners = mesh.corners, plain.face_offsets = mesh.face_offsets;
+    plain.positions = mesh.positions;
+    plain.corners = mesh.corners;
+    plain.face_offsets = mesh.face_offsets;
     const auto place = lowest_at_place(mesh);
     for (Index w = 0; w < mesh.wedge_count(); ++w)
         plain.wedge_vertex.push_back(place[mesh.vertex_of_wedge(w)]);

@@ -44,7 +44,8 @@ class Search {
             if (k - i < 2) continue;
             const Index m = apex_[i * n_ + k];
             triangles.push_back({i, m, k});
-            stack.emplace_back(m, k), stack.emplace_back(i, m);
+            stack.emplace_back(m, k);
+            stack.emplace_back(i, m);
         }
         return triangles;
     }
@@ -61,9 +62,13 @@ class Search {
             if (flat(i, m, k, normal)) cost.bend = 3; // only when nothing else is left
             if (i == 0 && k + 1 == n_ && !across_.empty())
                 cost.bend = std::max(cost.bend, bend(across_[k], normal));
-            if (at == none || cost < best) best = cost, at = static_cast<Index>(m);
+            if (at == none || cost < best) {
+                best = cost;
+                at = static_cast<Index>(m);
+            }
         }
-        cost_[i * n_ + k] = best, apex_[i * n_ + k] = at;
+        cost_[i * n_ + k] = best;
+        apex_[i * n_ + k] = at;
     }
     /// Whether the corner lies on the line of the other two, exactly; asked only where rounding leaves a
     /// doubt.
@@ -89,7 +94,10 @@ std::vector<Index> without_ears(const std::vector<Vec3>& p, std::vector<Vec3>& a
                                 std::vector<std::array<Index, 3>>& ears) {
     const auto n = static_cast<Index>(p.size());
     std::vector<Index> before(n), after(n), version(n, 0);
-    for (Index i = 0; i < n; ++i) before[i] = (i + n - 1) % n, after[i] = (i + 1) % n;
+    for (Index i = 0; i < n; ++i) {
+        before[i] = (i + n - 1) % n;
+        after[i] = (i + 1) % n;
+    }
     using Ear = std::tuple<double, Index, Index>; // size, corner, version
     std::priority_queue<Ear, std::vector<Ear>, std::greater<>> queue;
     const auto push = [&](Index i) {
@@ -104,8 +112,12 @@ std::vector<Index> without_ears(const std::vector<Vec3>& p, std::vector<Vec3>& a
         const Index a = before[i], b = after[i];
         ears.push_back({a, i, b});
         if (!across.empty()) across[a] = twice_area(p[a], p[i], p[b]);
-        cut[i] = 1, after[a] = b, before[b] = a, --left;
-        push(a), push(b);
+        cut[i] = 1;
+        after[a] = b;
+        before[b] = a;
+        --left;
+        push(a);
+        push(b);
     }
     std::vector<Index> rest;
     for (Index i = 0; i < n; ++i)

@@ -115,7 +115,8 @@ Fans fans_apart(const Mesh& mesh) {
         const Index v = mesh.vertex(c), fan = fans.find(c);
         if (vertex_of_fan[fan] == none) {
             if (first_fan[v] == none) {
-                first_fan[v] = fan, vertex_of_fan[fan] = v;
+                first_fan[v] = fan;
+                vertex_of_fan[fan] = v;
             } else {
                 vertex_of_fan[fan] = static_cast<Index>(mesh.vertex_count() + result.copies.size());
                 result.copies.push_back(v);

@@ -40,7 +40,9 @@ class Trial {
   public:
     Trial(const Work& work, const Solids& solids, const CleanSettings& settings)
         : settings_(settings), solids_(solids) {
-        work_.mesh = work.mesh, work_.counts = work.counts, work_.changes = work.changes;
+        work_.mesh = work.mesh;
+        work_.counts = work.counts;
+        work_.changes = work.changes;
         put_marks(work_.mesh, solids);
     }
 
@@ -89,7 +91,8 @@ class Trial {
                 if (solids.cluster_of_face(f) == refused.cluster) fail(marks_of(work_.mesh)[f], refused.why);
         }
         if (!united.refused.empty()) return false;
-        work_.mesh = std::move(united.mesh), work_.changes = std::move(united.changes);
+        work_.mesh = std::move(united.mesh);
+        work_.changes = std::move(united.changes);
         auto& marks = std::get<std::vector<std::uint32_t>>(work_.mesh.find(mark_name, Domain::face)->data);
         for (std::size_t f = 0; f < marks.size(); ++f)
             marks[f] = (marks[f] & ~fresh) | (f < united.uncut_faces ? 0 : fresh);

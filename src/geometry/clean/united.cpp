@@ -115,7 +115,8 @@ class Uniting {
             for (std::size_t i = 0; i < 3; ++i)
                 for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c)
                     if (mesh_.vertex(c) == surface_.corners[3 * t + i]) corners[i] = c;
-            triangles_.face.push_back(f), triangles_.corners.push_back(corners);
+            triangles_.face.push_back(f);
+            triangles_.corners.push_back(corners);
         }
         for (std::size_t f = 0; f < mesh_.face_count(); ++f) first_[f + 1] += first_[f];
     }
@@ -173,7 +174,8 @@ class Uniting {
         const int flip = sum < 0 ? -1 : 1;
         if (sum < 0) std::swap(nodes[1], nodes[2]);
         Leaf leaf;
-        leaf.nodes = nodes, leaf.cluster = cluster_of(sources[0].triangle);
+        leaf.nodes = nodes;
+        leaf.cluster = cluster_of(sources[0].triangle);
         for (const auto& [t, sign] : sources) {
             const bool inward = solids_.inward[piece_of(t)];
             leaf.of_inward |= inward;
@@ -221,7 +223,10 @@ class Uniting {
             else
                 (solids_.inward[piece_of(t)] ? ahead.inward : ahead.outward) += turn;
         });
-        if (way < 0) ahead.outward -= leaf.turns.outward, ahead.inward -= leaf.turns.inward;
+        if (way < 0) {
+            ahead.outward -= leaf.turns.outward;
+            ahead.inward -= leaf.turns.inward;
+        }
         if (has_cavity_[leaf.cluster] && around > 0) ++ahead.outward;
         return ahead;
     }
@@ -264,11 +269,17 @@ class Uniting {
     void assemble(const Arrangement& arrangement) {
         std::vector<std::uint8_t> goes = cut_;
         for (Index f = 0; f < goes.size(); ++f)
-            if (filled_[solids_.pieces.of_face[f]]) goes[f] = 1, ++result_.covered_faces;
+            if (filled_[solids_.pieces.of_face[f]]) {
+                goes[f] = 1;
+                ++result_.covered_faces;
+            }
         std::vector<OuterPiece> pieces;
         for (Index i = 0; i < leaves_.size(); ++i) {
             const Leaf& leaf = leaves_[i];
-            if (leaf.face != none && !outside_[i]) goes[leaf.face] = 1, ++result_.covered_faces;
+            if (leaf.face != none && !outside_[i]) {
+                goes[leaf.face] = 1;
+                ++result_.covered_faces;
+            }
             if (leaf.face == none && outside_[i]) pieces.push_back({leaf.nodes, leaf.triangles[0]});
         }
         std::stable_sort(pieces.begin(), pieces.end(),

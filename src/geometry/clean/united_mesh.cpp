@@ -42,7 +42,8 @@ class Assembly {
     Assembly(const Mesh& mesh, const Arrangement& arrangement, const TriangleFaces& triangles, double within)
         : mesh_(mesh), arrangement_(arrangement), triangles_(triangles), within_(within),
           plain_(is_plain(mesh)) {
-        result_.positions = mesh.positions, result_.face_offsets = mesh.face_offsets;
+        result_.positions = mesh.positions;
+        result_.face_offsets = mesh.face_offsets;
         result_.corners = mesh.corners;
         if (!plain_) {
             result_.wedge_vertex = mesh.wedge_vertex;
@@ -129,8 +130,10 @@ class Assembly {
             if (mesh_.vertex(c) == node) return mesh_.corners[c];
         Mix m = mix_of(node, triangle);
         for (std::size_t i = 0; i < m.size; ++i) m.corners[i] = mesh_.corners[m.corners[i]];
-        if (m.size == 2 && m.corners[0] > m.corners[1])
-            std::swap(m.corners[0], m.corners[1]), std::swap(m.weights[0], m.weights[1]);
+        if (m.size == 2 && m.corners[0] > m.corners[1]) {
+            std::swap(m.corners[0], m.corners[1]);
+            std::swap(m.weights[0], m.weights[1]);
+        }
         const auto made = m.size == 2 ? std::tuple{vertex, m.corners[0], m.corners[1], none}
                                       : std::tuple{vertex, none, none, triangle};
         const auto [at, fresh] = made_.try_emplace(made, static_cast<Index>(result_.wedge_vertex.size()));

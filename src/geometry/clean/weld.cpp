@@ -118,7 +118,10 @@ bool weld_near(Work& work, double within) {
     const Mesh& mesh = work.mesh;
     const auto& p = mesh.positions;
     std::vector<Box> boxes(p.size()); // of the ends of open edges: others are sound
-    for (const OpenEdge& e : open_edges(mesh)) boxes[e.from].add(p[e.from]), boxes[e.to].add(p[e.to]);
+    for (const OpenEdge& e : open_edges(mesh)) {
+        boxes[e.from].add(p[e.from]);
+        boxes[e.to].add(p[e.to]);
+    }
     const BoxTree tree(boxes);
     const SharedFaces faces(mesh);
     std::vector<Index> target(p.size());
@@ -130,7 +133,8 @@ bool weld_near(Work& work, double within) {
             const double d = squared(p[w] - p[v]);
             if (w >= v || target[w] != w || d > nearest || (d == nearest && w > target[v])) return;
             if (!(d > 0) || faces.share(v, w)) return; // equal places are weld_equal's
-            nearest = d, target[v] = w;
+            nearest = d;
+            target[v] = w;
         });
     }
     // Two that share no face with a third may share one with each other: then the later stays.

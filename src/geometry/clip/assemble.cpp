@@ -83,7 +83,10 @@ class Assembler {
         vertex_used.resize(from_.vertex_count());
         const auto use = [&](std::span<const Index> polygon) {
             for (const Index w : polygon)
-                if (w < wedge_used.size()) wedge_used[w] = 1, vertex_used[from_.vertex_of_wedge(w)] = 1;
+                if (w < wedge_used.size()) {
+                    wedge_used[w] = 1;
+                    vertex_used[from_.vertex_of_wedge(w)] = 1;
+                }
         };
         for (const auto* list : {&cut_.touching, &cut_.flat})
             for (const Index f : *list)
@@ -202,13 +205,22 @@ class Assembler {
         const auto count = [&](std::size_t begin, std::size_t end) {
             Count c;
             for_kept(
-                begin, end, [&](Index f) { ++c.faces, c.corners += from_.face_size(f); },
-                [&](std::size_t i) { ++c.faces, c.corners += pieces_.of(i).size(); });
+                begin, end,
+                [&](Index f) {
+                    ++c.faces;
+                    c.corners += from_.face_size(f);
+                },
+                [&](std::size_t i) {
+                    ++c.faces;
+                    c.corners += pieces_.of(i).size();
+                });
             counts[begin / block + 1] = c;
         };
         parallel_chunks(from_.face_count(), count, block);
-        for (std::size_t b = 1; b < counts.size(); ++b)
-            counts[b].faces += counts[b - 1].faces, counts[b].corners += counts[b - 1].corners;
+        for (std::size_t b = 1; b < counts.size(); ++b) {
+            counts[b].faces += counts[b - 1].faces;
+            counts[b].corners += counts[b - 1].corners;
+        }
         cap_face_ = counts.back().faces;
         const std::size_t faces = cap_face_ + cap_.corners.size() / 3;
         out_.corners.resize(counts.back().corners);

@@ -215,7 +215,9 @@ FlatSide flat_side(const Mesh& mesh, const ClipSettings& settings) {
 ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
     ClipResult all;
     ClipSettings inner = settings;
-    inner.keep = Keep::front, inner.convex = false, inner.triangulate = false;
+    inner.keep = Keep::front;
+    inner.convex = false;
+    inner.triangulate = false;
     const double snap = settings.snap ? float32_ulp(mesh.bounds()) : 0;
     const FlatSide flat = flat_side(mesh, settings);
     std::vector<std::uint8_t> inside(mesh.face_count(), 1);
@@ -228,7 +230,9 @@ ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
         mesh = std::move(scored.mesh);
         all.cut_faces += scored.cut_faces;
     }
-    number(mesh, Domain::vertex, 0), number(mesh, Domain::wedge, 0), number(mesh, Domain::face, 1);
+    number(mesh, Domain::vertex, 0);
+    number(mesh, Domain::wedge, 0);
+    number(mesh, Domain::face, 1);
     ClipResult front = clip(mesh, inner);
     const std::size_t cut = all.cut_faces;
     all = std::move(front);

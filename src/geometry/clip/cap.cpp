@@ -34,8 +34,12 @@ class Capper {
         const Vec3& n = cut_.plane.normal;
         const double x = std::fabs(n.x), y = std::fabs(n.y), z = std::fabs(n.z);
         dropped_ = z >= x && z >= y ? 2 : y >= x ? 1 : 0;
-        first_ = (dropped_ + 1) % 3, second_ = (dropped_ + 2) % 3;
-        for (const auto& e : section_.edges) local_.push_back(e.low), local_.push_back(e.high);
+        first_ = (dropped_ + 1) % 3;
+        second_ = (dropped_ + 2) % 3;
+        for (const auto& e : section_.edges) {
+            local_.push_back(e.low);
+            local_.push_back(e.high);
+        }
         std::sort(local_.begin(), local_.end());
         local_.erase(std::unique(local_.begin(), local_.end()), local_.end());
         for (const Index v : local_) {
@@ -62,7 +66,8 @@ class Capper {
     static void add_sources(Lineage& mixes, Index id, std::size_t old,
                             const std::vector<Lineage::Edge>& fresh, double weight) {
         if (id < old) {
-            mixes.mix_sources.push_back(id), mixes.mix_weights.push_back(weight);
+            mixes.mix_sources.push_back(id);
+            mixes.mix_weights.push_back(weight);
             return;
         }
         const auto& e = fresh[id - old];
@@ -76,7 +81,8 @@ class Capper {
         for (const auto& a : filling_.added) {
             const auto& e = section_.edges[a.edge];
             Vec3 p = mix(cut_.point(e.low), cut_.point(e.high), a.t);
-            p[first_] = a.at.x, p[second_] = a.at.y;
+            p[first_] = a.at.x;
+            p[second_] = a.at.y;
             cap_.extra.points.push_back(p);
             add_sources(mixes, e.low, cut_.mesh->vertex_count(), cut_.vertices, 1 - a.t);
             add_sources(mixes, e.high, cut_.mesh->vertex_count(), cut_.vertices, a.t);
@@ -167,7 +173,10 @@ class Capper {
             const auto [at, fresh] = lowest.try_emplace(v, w);
             if (!fresh) at->second = std::min(at->second, w);
         };
-        for (const auto& e : section_.edges) offer(e.low, e.low_wedge), offer(e.high, e.high_wedge);
+        for (const auto& e : section_.edges) {
+            offer(e.low, e.low_wedge);
+            offer(e.high, e.high_wedge);
+        }
         for (std::size_t i = 0; i < cap_.extra.wedge_vertex.size(); ++i)
             offer(cap_.extra.wedge_vertex[i], static_cast<Index>(cut_.first_extra_wedge() + i));
         for (std::size_t i = 0; i < cap_.vertices.size(); ++i) cap_.wedges[i] = lowest.at(cap_.vertices[i]);

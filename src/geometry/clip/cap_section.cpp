@@ -53,7 +53,10 @@ struct SectionGraph {
     std::vector<long long> balance;
 
     explicit SectionGraph(const CutSection& section) {
-        for (const auto& e : section.edges) vertices.push_back(e.low), vertices.push_back(e.high);
+        for (const auto& e : section.edges) {
+            vertices.push_back(e.low);
+            vertices.push_back(e.high);
+        }
         std::sort(vertices.begin(), vertices.end());
         vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
         root.resize(vertices.size());
@@ -61,7 +64,8 @@ struct SectionGraph {
         balance.resize(vertices.size());
         for (const auto& e : section.edges) {
             const Index a = local(e.low), b = local(e.high);
-            balance[a] += e.count, balance[b] -= e.count;
+            balance[a] += e.count;
+            balance[b] -= e.count;
             const Index ra = find(a), rb = find(b);
             root[std::max(ra, rb)] = std::min(ra, rb);
         }

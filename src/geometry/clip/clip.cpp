@@ -23,9 +23,10 @@ class Clipper {
     ClipResult run(Mesh mesh) {
         result_.memory = settings_.memory;
         if (settings_.snap) snap_ = float32_ulp(mesh.bounds());
-        if (settings_.cap && settings_.cap_numbers)
-            last_cut_ = largest_number(mesh, cut_id_attribute),
+        if (settings_.cap && settings_.cap_numbers) {
+            last_cut_ = largest_number(mesh, cut_id_attribute);
             last_group_ = largest_number(mesh, group_attribute);
+        }
         for (std::size_t i = 0; i < settings_.planes.size(); ++i) cut(mesh, i);
         if (settings_.keep != Keep::both)
             (settings_.keep == Keep::front ? result_.front : result_.back) = std::move(mesh);
@@ -38,7 +39,8 @@ class Clipper {
         PlaneCut cut = cut_by_plane(mesh, settings_.planes[number], {snap_, &result_.memory});
         result_.cut_faces += cut.cut_faces.size();
         result_.on_plane += cut.on_count;
-        result_.snapped += cut.snapped_count, result_.remembered += cut.remembered_count;
+        result_.snapped += cut.snapped_count;
+        result_.remembered += cut.remembered_count;
         if (!cut.meets()) return keep_or_drop(mesh, cut);
         result_.changed = true;
         settle(cut);

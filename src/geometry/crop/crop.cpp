@@ -58,7 +58,10 @@ class Cropper {
             scale += row[0] * row[0] + row[1] * row[1] + row[2] * row[2];
         view_.snap = float32_ulp(mesh_.bounds()) * std::sqrt(scale / 3);
         for (const auto& e : footprint_.tree().edges())
-            if (length(e.b - e.a) <= 4 * view_.snap) return view_.snap = 0, void(); // finer than floats are
+            if (length(e.b - e.a) <= 4 * view_.snap) {
+                view_.snap = 0; // finer than floats are
+                return;
+            }
         const double rounding = std::ldexp(view_.snap, -27); // 4 units of the last place
         std::map<Index, std::vector<Vec3>> found;            // by segment
         for (Index v = 0; v < mesh_.vertex_count(); ++v) {
@@ -105,7 +108,8 @@ class Cropper {
         for (const Index w : mesh_.face_wedges(f)) {
             const Place place = places_[mesh_.vertex_of_wedge(w)];
             const bool on = place > Place::inside;
-            any |= !on && view_.kept(place), all &= on || view_.kept(place);
+            any |= !on && view_.kept(place);
+            all &= on || view_.kept(place);
         }
         if (settings_.by == CropBy::whole && (!all || meets_[f] == OutlineMeeting::crossing)) return false;
         if (settings_.by == CropBy::touching && (any || meets_[f] == OutlineMeeting::crossing)) return true;
@@ -179,7 +183,8 @@ class Cropper {
 
     void close() {
         WallSettings walls;
-        walls.axis = settings_.axis, walls.to_world = settings_.to_world;
+        walls.axis = settings_.axis;
+        walls.to_world = settings_.to_world;
         walls.primitive = settings_.cap_primitive;
         walls.closed = is_closed(mesh_);
         for (const Vec3& p : mesh_.positions) {

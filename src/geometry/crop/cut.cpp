@@ -174,7 +174,8 @@ class Cutter {
             if (!std::binary_search(faces.begin(), faces.end(), origin_[f])) continue;
             view_.gather(result_.mesh, f, face);
             if (meeting(face, e.a, e.b) != OutlineMeeting::crossing) continue;
-            wanted[f] = was_cut_[origin_[f]] = 1, any = true;
+            wanted[f] = was_cut_[origin_[f]] = 1;
+            any = true;
         }
         if (!any) return;
         ScoreSettings settings;

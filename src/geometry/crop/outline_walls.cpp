@@ -10,8 +10,12 @@ namespace {
 
 polygon::RingTree::Bounds around(const Vec2& p, const Vec2& q, double margin) {
     polygon::RingTree::Bounds box;
-    box.add(p), box.add(q);
-    box.x0 -= margin, box.y0 -= margin, box.x1 += margin, box.y1 += margin;
+    box.add(p);
+    box.add(q);
+    box.x0 -= margin;
+    box.y0 -= margin;
+    box.x1 += margin;
+    box.y1 += margin;
     return box;
 }
 
@@ -20,8 +24,10 @@ polygon::RingTree::Bounds around(const Vec2& p, const Vec2& q, double margin) {
 Plane upright_plane(std::size_t axis, const Vec2& a, const Vec2& b) {
     const std::size_t u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
     Plane plane{{}, {}, 0};
-    plane.normal[u] = -(b.y - a.y), plane.normal[v] = b.x - a.x;
-    plane.through[u] = a.x, plane.through[v] = a.y;
+    plane.normal[u] = -(b.y - a.y);
+    plane.normal[v] = b.x - a.x;
+    plane.through[u] = a.x;
+    plane.through[v] = a.y;
     return plane;
 }
 
@@ -94,7 +100,10 @@ Index Walls::nearest(const Vec2& p, const Vec2& q) const {
         footprint_.tree().query(around(middle, middle, margin), [&](Index wall) {
             double far = distance(wall, p, q);
             if (far <= 3 * rounding_) far = 0; // walls that hardly differ are one: the first
-            if (far < least) least = far, best = wall;
+            if (far < least) {
+                least = far;
+                best = wall;
+            }
             return true;
         });
         // The middle of what is not in the box is farther than the margin.

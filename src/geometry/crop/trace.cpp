@@ -29,7 +29,8 @@ std::vector<Index> inverted(const std::vector<std::uint32_t>& numbers) {
 } // namespace
 
 void trace(Mesh& mesh, std::string_view attribute) {
-    number(mesh, Domain::vertex, attribute), number(mesh, Domain::wedge, attribute);
+    number(mesh, Domain::vertex, attribute);
+    number(mesh, Domain::wedge, attribute);
 }
 
 void untrace(Mesh& mesh, std::string_view attribute) {

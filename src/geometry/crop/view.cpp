@@ -46,7 +46,10 @@ Place CropView::middle(const Mesh& mesh, Index f) const {
         for (const auto& abc : t.triangles) {
             if (*std::max_element(abc.begin(), abc.end()) >= face.size()) continue; // rounded crossings
             const double area = cross(face[abc[1]] - face[abc[0]], face[abc[2]] - face[abc[0]]);
-            if (area > most) most = area, sum = face[abc[0]] + face[abc[1]] + face[abc[2]];
+            if (area > most) {
+                most = area;
+                sum = face[abc[0]] + face[abc[1]] + face[abc[2]];
+            }
         }
         if (most >= 0) return settle(inside_(sum * (1.0 / 3)), mesh, f);
     }
@@ -79,7 +82,10 @@ bool CropView::is_on_outline(const Mesh& mesh, Index f, const Vec2& mean,
     if (!(snap > 0)) return false;
     const auto on = [&](const Vec2& p, double distance) {
         bool found = false;
-        footprint_.near(p, distance, [&](Index) { return found = true, false; });
+        footprint_.near(p, distance, [&](Index) {
+            found = true;
+            return false;
+        });
         return found;
     };
     if (!on(mean, snap)) return false;
@@ -105,7 +111,10 @@ Place CropView::settle(Place place, const Mesh& mesh, Index f) const {
         const Vec2 d = e.b - e.a;
         const double t = std::clamp(dot(at - e.a, d) / dot(d, d), 0.0, 1.0), far = length(e.a + d * t - at);
         const double along = std::fabs(dot(d, out)) / (length(d) * length(out));
-        if (far + along < nearest) nearest = far + along, inside = cross(d, out) < 0;
+        if (far + along < nearest) {
+            nearest = far + along;
+            inside = cross(d, out) < 0;
+        }
     }
     return inside ? Place::inside : Place::outside;
 }

@@ -43,7 +43,8 @@ class Appender {
 
     void add(const WallPanel& panel) {
         const std::size_t first = out_.face_count();
-        wedge_at_.clear(), own_wedges_.emplace_back();
+        wedge_at_.clear();
+        own_wedges_.emplace_back();
         for (const auto& t : panel.filling().triangles) {
             const std::array<Index, 3> corners{wedge(panel, t[0]), wedge(panel, t[1]), wedge(panel, t[2])};
             add_face(out_, corners);

@@ -36,7 +36,10 @@ std::vector<Index> PostView::ascending(Index post) const {
 }
 
 WallPanel::WallPanel(Index wall, std::span<const BoundaryEdge> edges) : wall_(wall), edges_(edges) {
-    for (const BoundaryEdge& e : edges) balance_[e.low] += e.count, balance_[e.high] -= e.count;
+    for (const BoundaryEdge& e : edges) {
+        balance_[e.low] += e.count;
+        balance_[e.high] -= e.count;
+    }
     std::erase_if(balance_, [](const auto& entry) { return entry.second == 0; });
 }
 
@@ -52,10 +55,13 @@ void WallPanel::stand_at_posts(PostView& view) const {
 }
 
 bool WallPanel::complete(const PostView& view) {
-    upright_.clear(), runs_.clear(), missed_.clear();
+    upright_.clear();
+    runs_.clear();
+    missed_.clear();
     for (Index i = 0; i < edges_.size(); ++i) {
         Run& run = runs_[{edges_[i].low, edges_[i].high}];
-        run.count += edges_[i].count, run.own = i;
+        run.count += edges_[i].count;
+        run.own = i;
     }
     balanced_ = true;
     std::set<Index> posts;
@@ -78,7 +84,8 @@ void WallPanel::add_upright(const PostView& view, Index post) {
             const std::pair key{std::min(before, v), std::max(before, v)};
             upright_[key] += up ? carried : -carried;
             Run& run = runs_[key];
-            run.count += up ? carried : -carried, run.post = post;
+            run.count += up ? carried : -carried;
+            run.post = post;
         }
         const auto at = balance_.find(v);
         if (at != balance_.end() && view.post_of.at(v) == post) carried -= at->second;
@@ -90,9 +97,14 @@ void WallPanel::add_upright(const PostView& view, Index post) {
 /// Points and edges in an order that depends on their places alone, so that the other side of a crop gets the
 /// same triangles.
 void WallPanel::make_contours(const PostView& view) {
-    contours_ = {}, points_.clear(), run_of_.clear();
+    contours_ = {};
+    points_.clear();
+    run_of_.clear();
     std::erase_if(runs_, [](const auto& run) { return run.second.count == 0; });
-    for (const auto& [ends, run] : runs_) points_.push_back(ends.first), points_.push_back(ends.second);
+    for (const auto& [ends, run] : runs_) {
+        points_.push_back(ends.first);
+        points_.push_back(ends.second);
+    }
     std::map<Index, Vec2> at;
     for (const Index v : points_) at[v] = {view.along(wall_, v), view.heights[v]};
     std::sort(points_.begin(), points_.end(), [&](Index a, Index b) {

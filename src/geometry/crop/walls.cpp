@@ -50,10 +50,12 @@ class Closer {
     }
 
     void look() {
-        view_.seen.resize(mesh_.vertex_count()), view_.heights.resize(mesh_.vertex_count());
+        view_.seen.resize(mesh_.vertex_count());
+        view_.heights.resize(mesh_.vertex_count());
         parallel_for(mesh_.vertex_count(), [&](std::size_t v) {
             const Vec3 p = settings_.to_world.point(mesh_.positions[v]);
-            view_.seen[v] = seen_along(settings_.axis, p), view_.heights[v] = p[settings_.axis];
+            view_.seen[v] = seen_along(settings_.axis, p);
+            view_.heights[v] = p[settings_.axis];
         });
     }
 
@@ -137,7 +139,8 @@ class Closer {
         std::map<std::pair<Index, Index>, std::pair<int, std::set<Index>>> post; // by wall and post
         for (const BoundaryEdge& e : edges_) {
             if (open.contains(contours.find(e.low))) continue;
-            balance[e.low] += e.count, balance[e.high] -= e.count;
+            balance[e.low] += e.count;
+            balance[e.high] -= e.count;
         }
         for (const auto& [v, count] : balance)
             if (count != 0) open.insert(contours.find(v));
@@ -146,7 +149,8 @@ class Closer {
                 if (open.contains(contours.find(v))) continue;
                 const auto& stand = walls_.nearest_stand(panel.wall(), view_.seen[v]);
                 auto& [sum, roots] = post[{panel.wall(), stand.post}];
-                sum += count, roots.insert(contours.find(v));
+                sum += count;
+                roots.insert(contours.find(v));
             }
         }
         for (const auto& [key, at] : post)

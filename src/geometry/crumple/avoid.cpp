@@ -90,7 +90,10 @@ class TestSheet {
         };
         bool any = false;
         for (Index f = 0; f < faces.size(); ++f)
-            if (faces[f]) mark_face(f), any = true;
+            if (faces[f]) {
+                mark_face(f);
+                any = true;
+            }
         if (!any) return false;
         if (around) {
             const std::vector<std::uint8_t> inner = mine;
@@ -163,7 +166,10 @@ class TestSheet {
 bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& levels) {
     bool any = false;
     for (std::size_t p = 0; p < marked.size(); ++p)
-        if (marked[p] && levels[p] < last_level) ++levels[p], any = true;
+        if (marked[p] && levels[p] < last_level) {
+            ++levels[p];
+            any = true;
+        }
     return any;
 }
 
@@ -171,7 +177,10 @@ bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& l
 void look(const std::vector<TestSheet>& tests, AvoidResult& result) {
     for (std::size_t s = 0; s < tests.size(); ++s) {
         const auto pairs = tests[s].new_pairs();
-        if (result.found == 0 && !pairs.empty()) result.first = pairs.front(), result.first_sheet = s;
+        if (result.found == 0 && !pairs.empty()) {
+            result.first = pairs.front();
+            result.first_sheet = s;
+        }
         result.found += pairs.size();
     }
 }

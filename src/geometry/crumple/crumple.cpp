@@ -63,7 +63,8 @@ std::vector<std::uint8_t> boundary_places(const Mesh& mesh, const std::vector<st
     for (std::size_t i = 0; i < order.size(); ++i)
         first[order[i]] = i > 0 && keys[order[i]] == keys[order[i - 1]] ? first[order[i - 1]] : order[i];
     Mesh welded;
-    welded.positions = mesh.positions, welded.face_offsets = mesh.face_offsets;
+    welded.positions = mesh.positions;
+    welded.face_offsets = mesh.face_offsets;
     welded.corners.resize(mesh.corner_count());
     parallel_for(mesh.corner_count(),
                  [&](std::size_t c) { welded.corners[c] = first[mesh.vertex(static_cast<Index>(c))]; });
@@ -148,7 +149,8 @@ CrumpleMoves crumple_moves(const Mesh& mesh, const Settings& settings) {
     const Transform back = placed ? inverse_linear(settings.to_world) : Transform{};
     const std::size_t n = mesh.vertex_count();
     CrumpleMoves result;
-    result.keys.resize(n), result.moves.resize(n);
+    result.keys.resize(n);
+    result.moves.resize(n);
     std::vector<Vec3> world(n);
     parallel_for(n, [&](std::size_t v) {
         world[v] = placed ? settings.to_world.point(mesh.positions[v]) : mesh.positions[v];
@@ -169,7 +171,10 @@ CrumpleMoves crumple_moves(const Mesh& mesh, const Settings& settings) {
     result.shares.resize(n, 1);
     const std::vector<std::uint8_t> held = boundary_places(mesh, result.keys);
     for (std::size_t v = 0; v < n; ++v)
-        if (held[v]) result.shares[v] = 0, ++result.held;
+        if (held[v]) {
+            result.shares[v] = 0;
+            ++result.held;
+        }
     return result;
 }
 

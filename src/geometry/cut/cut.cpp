@@ -38,10 +38,20 @@ void classify_vertices(PlaneCut& cut, const OnPlane& on) {
     const double snap = std::isfinite(reach) ? reach : 0;
     const auto classify = [&](const Vec3& p, Tally& t) -> std::int8_t {
         const double s = side(cut.plane, p);
-        if (s == 0) return ++t.on, 0;
-        if (std::fabs(s) <= snap && is_float32(p)) return ++t.on, ++t.snapped, 0;
-        if (known && known->has(p, known->plane == cut.plane ? s : side(known->plane, p)))
-            return ++t.on, ++t.remembered, 0;
+        if (s == 0) {
+            ++t.on;
+            return 0;
+        }
+        if (std::fabs(s) <= snap && is_float32(p)) {
+            ++t.on;
+            ++t.snapped;
+            return 0;
+        }
+        if (known && known->has(p, known->plane == cut.plane ? s : side(known->plane, p))) {
+            ++t.on;
+            ++t.remembered;
+            return 0;
+        }
         return s > 0 ? (++t.above, 1) : (++t.below, -1);
     };
     cut.signs.resize(positions.size());
@@ -53,8 +63,11 @@ void classify_vertices(PlaneCut& cut, const OnPlane& on) {
             return t;
         },
         [](const Tally& a, const Tally& b) { return a + b; });
-    cut.above_count = tally.above, cut.below_count = tally.below, cut.on_count = tally.on;
-    cut.snapped_count = tally.snapped, cut.remembered_count = tally.remembered;
+    cut.above_count = tally.above;
+    cut.below_count = tally.below;
+    cut.on_count = tally.on;
+    cut.snapped_count = tally.snapped;
+    cut.remembered_count = tally.remembered;
 }
 
 constexpr std::uint8_t class_of_sign[3] = {face_class::below, face_class::touches, face_class::above};

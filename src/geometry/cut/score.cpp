@@ -99,7 +99,8 @@ ScoreResult score(const Mesh& mesh, const ScoreSettings& settings, CutMemory& me
     ScoreResult result = Scorer(cut, settings).run();
     result.cut_faces = cut.cut_faces.size();
     result.on_plane = cut.on_count;
-    result.snapped = cut.snapped_count, result.remembered = cut.remembered_count;
+    result.snapped = cut.snapped_count;
+    result.remembered = cut.remembered_count;
     remember(memory, cut);
     return result;
 }

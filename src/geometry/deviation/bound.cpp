@@ -156,7 +156,9 @@ class Bound {
                 looked_up += o.looked_up;
                 if (o.farthest.distance > d_.maximum) {
                     d_.maximum = o.farthest.distance;
-                    d_.from = o.farthest.from, d_.to = o.farthest.to, d_.face = o.farthest.face;
+                    d_.from = o.farthest.from;
+                    d_.to = o.farthest.to;
+                    d_.face = o.farthest.face;
                 }
             }
         }

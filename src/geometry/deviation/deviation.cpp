@@ -76,14 +76,18 @@ void measure_points(DirectedDeviation& d, const std::vector<Vec3>& points, const
     for (std::size_t i = 0; i < found.size(); ++i)
         if (found[i].distance > d.maximum) {
             d.maximum = found[i].distance;
-            d.from = points[i], d.to = found[i].point, d.face = face_of(i);
+            d.from = points[i];
+            d.to = found[i].point;
+            d.face = face_of(i);
         }
     const Sums sums = parallel_reduce(
         found.size(), Sums{},
         [&](std::size_t begin, std::size_t end) {
             Sums s;
-            for (std::size_t i = begin; i < end; ++i)
-                s.distances += found[i].distance, s.squares += found[i].distance * found[i].distance;
+            for (std::size_t i = begin; i < end; ++i) {
+                s.distances += found[i].distance;
+                s.squares += found[i].distance * found[i].distance;
+            }
             return s;
         },
         [](const Sums& a, const Sums& b) {
@@ -122,7 +126,10 @@ std::vector<SurfaceSample> sample_area(const Surface& surface, std::size_t count
                                                                      : found - areas.begin());
         // Roberts' additive sequence in the plane fills large triangles more evenly than chance.
         double u = fraction(start_u + n * 0.7548776662466927), v = fraction(start_v + n * 0.5698402909980532);
-        if (u + v > 1) u = 1 - u, v = 1 - v;
+        if (u + v > 1) {
+            u = 1 - u;
+            v = 1 - v;
+        }
         const Vec3& a = surface.point(t, 0);
         samples[k] = {a + (surface.point(t, 1) - a) * u + (surface.point(t, 2) - a) * v,
                       static_cast<Index>(t)};
@@ -160,7 +167,9 @@ DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const De
         const Farthest vertex = farthest_of(to, vertices, d.maximum);
         if (vertex.distance > d.maximum) {
             d.maximum = vertex.distance;
-            d.from = vertex.from, d.to = vertex.to, d.face = none;
+            d.from = vertex.from;
+            d.to = vertex.to;
+            d.face = none;
         }
     }
     if (settings.certify) bound_deviation(d, from, to, settings);
@@ -178,7 +187,8 @@ Surface scaled(Surface surface, const PowerScale& scale) {
 void unscale(DirectedDeviation& d, const PowerScale& scale) {
     for (double* x : {&d.maximum, &d.rms, &d.mean}) *x = unscaled(*x, scale.powers[0]);
     if (d.bound) d.bound = unscaled(*d.bound, scale.powers[0]);
-    d.from = scale.inverse()(d.from), d.to = scale.inverse()(d.to);
+    d.from = scale.inverse()(d.from);
+    d.to = scale.inverse()(d.to);
 }
 
 } // namespace
@@ -188,7 +198,8 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     both.add(second.bounds());
     if (const PowerScale scale = even_scale(both); !scale.none()) {
         DeviationResult far = deviation(scaled(first, scale), scaled(second, scale), settings);
-        unscale(far.forward, scale), unscale(far.backward, scale);
+        unscale(far.forward, scale);
+        unscale(far.backward, scale);
         far.diagonal = unscaled(far.diagonal, scale.powers[0]);
         return far;
     }

@@ -23,10 +23,14 @@ void straighten(std::vector<Number>& tangents, const Attribute& normals) {
 }
 
 bool straighten(Attribute& tangent, const Attribute& normals) {
-    if (auto* floats = std::get_if<std::vector<float>>(&tangent.data))
-        return straighten(*floats, normals), true;
-    if (auto* doubles = std::get_if<std::vector<double>>(&tangent.data))
-        return straighten(*doubles, normals), true;
+    if (auto* floats = std::get_if<std::vector<float>>(&tangent.data)) {
+        straighten(*floats, normals);
+        return true;
+    }
+    if (auto* doubles = std::get_if<std::vector<double>>(&tangent.data)) {
+        straighten(*doubles, normals);
+        return true;
+    }
     return false;
 }
 
@@ -45,7 +49,9 @@ MoveSize move_size(const std::vector<Vec3>& before, const std::vector<Vec3>& aft
             for (std::size_t v = begin; v < end; ++v) {
                 if (after[v] == before[v]) continue;
                 const Vec3 d = to_world.vector(after[v] - before[v]);
-                s.largest = std::max(s.largest, dot(d, d)), s.all += dot(d, d), ++s.count;
+                s.largest = std::max(s.largest, dot(d, d));
+                s.all += dot(d, d);
+                ++s.count;
             }
             return s;
         },

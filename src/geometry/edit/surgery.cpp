@@ -36,7 +36,10 @@ struct Numbering {
     std::vector<Index> old, renumbered;
     explicit Numbering(const std::vector<std::uint8_t>& stays) : renumbered(stays.size(), gone) {
         for (Index i = 0; i < stays.size(); ++i)
-            if (stays[i]) renumbered[i] = static_cast<Index>(old.size()), old.push_back(i);
+            if (stays[i]) {
+                renumbered[i] = static_cast<Index>(old.size());
+                old.push_back(i);
+            }
     }
 };
 
@@ -59,11 +62,15 @@ std::vector<Index> faces_without(const std::vector<std::uint8_t>& flags) {
 Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces) {
     enum : std::uint8_t { unused = 0, kept = 1, lost = 2 };
     std::vector<std::uint8_t> wedges(mesh.wedge_count(), unused), vertices(mesh.vertex_count(), unused);
-    for (Index c = 0; c < mesh.corner_count(); ++c)
-        wedges[mesh.corners[c]] = lost, vertices[mesh.vertex(c)] = lost;
+    for (Index c = 0; c < mesh.corner_count(); ++c) {
+        wedges[mesh.corners[c]] = lost;
+        vertices[mesh.vertex(c)] = lost;
+    }
     for (const Index f : faces)
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
-            wedges[mesh.corners[c]] = kept, vertices[mesh.vertex(c)] = kept;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+            wedges[mesh.corners[c]] = kept;
+            vertices[mesh.vertex(c)] = kept;
+        }
     for (auto& w : wedges) w = w != lost;
     for (auto& v : vertices) v = v != lost;
     const Numbering of_wedges(wedges), of_vertices(vertices);
@@ -79,7 +86,8 @@ Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces) {
         if (!mesh.all_triangles()) result.face_offsets.push_back(static_cast<Index>(result.corners.size()));
     }
     descent.faces = faces;
-    descent.vertices.copies = of_vertices.old, descent.wedges.copies = of_wedges.old;
+    descent.vertices.copies = of_vertices.old;
+    descent.wedges.copies = of_wedges.old;
     inherit_attributes(result, mesh, descent);
     normalise_offsets(result);
     forget_plain_wedges(result);
@@ -171,7 +179,10 @@ Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
             if (result.wedge_vertex[w] == v) continue;
             const auto [at, fresh] =
                 parted.try_emplace({w, v}, static_cast<Index>(result.wedge_vertex.size()));
-            if (fresh) result.wedge_vertex.push_back(v), descent.wedges.copies.push_back(w);
+            if (fresh) {
+                result.wedge_vertex.push_back(v);
+                descent.wedges.copies.push_back(w);
+            }
             result.corners[c] = at->second;
         }
         for (Index w = 0; w < mesh.wedge_count(); ++w)
@@ -230,9 +241,15 @@ class Inserter {
         const Index to = i.corner + 1 == mesh_.face_end(f) ? mesh_.face_begin(f) : i.corner + 1;
         Index a = mesh_.corners[i.corner], b = mesh_.corners[to];
         double t = i.t;
-        if (a > b) std::swap(a, b), t = 1 - t;
+        if (a > b) {
+            std::swap(a, b);
+            t = 1 - t;
+        }
         const auto [at, fresh] = made_.try_emplace({a, b, i.vertex}, static_cast<Index>(wedges_.size()));
-        if (fresh) wedges_.push_back(i.vertex), edges_.push_back({a, b, t});
+        if (fresh) {
+            wedges_.push_back(i.vertex);
+            edges_.push_back({a, b, t});
+        }
         return at->second;
     }
 
@@ -271,7 +288,8 @@ class Inserter {
     }
 
     Mesh finish(AttributeChanges* changes) {
-        result_.corners = std::move(corners_), result_.face_offsets = std::move(offsets_);
+        result_.corners = std::move(corners_);
+        result_.face_offsets = std::move(offsets_);
         Descent descent;
         descent.faces = std::move(sources_);
         descent.vertices = all_of();

@@ -274,7 +274,10 @@ SphereBands sphere_bands(std::int64_t faces) {
                      skew = std::max(ratio, 1 / ratio);
         const auto rank = std::tuple(miss, count, skew);
         if (best.segments > 0 && !(rank < std::tuple(best_miss, best_count, best_skew))) return;
-        best = {around, across}, best_miss = miss, best_count = count, best_skew = skew;
+        best = {around, across};
+        best_miss = miss;
+        best_count = count;
+        best_skew = skew;
     };
     // Wider than 4 across it cannot be, and across - 1 is half / around or the next.
     for (std::int64_t around = 3; around <= 12 || around * around <= 16 * half; ++around)

@@ -22,7 +22,8 @@ struct LatticeQuads {
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
         c[axis] += positive;
         auto across = c, along = c;
-        ++across[u], ++along[v];
+        ++across[u];
+        ++along[v];
         auto far = across;
         ++far[v];
         if (!positive) std::swap(across, along);
@@ -79,7 +80,8 @@ Mesh lattice_cube(std::int64_t cells) {
                 for (std::uint64_t i = 0; i < n; ++i) {
                     std::array<std::uint64_t, 3> cell{};
                     cell[axis] = positive ? n - 1 : 0;
-                    cell[(axis + 1) % 3] = i, cell[(axis + 2) % 3] = j;
+                    cell[(axis + 1) % 3] = i;
+                    cell[(axis + 2) % 3] = j;
                     quads.add(cell, axis, positive);
                 }
     return quads.mesh();

@@ -94,7 +94,10 @@ class LinkReader {
         n.uncancelled_edges += balance != 0;
         n.disagreeing_edges += std::abs(balance) > 1;
         n.crowded_edges += uses > 2;
-        if (uses == 1) ++n.boundary_edges, found_.boundary.push_back(key);
+        if (uses == 1) {
+            ++n.boundary_edges;
+            found_.boundary.push_back(key);
+        }
     }
 
     /// The wings passed when walking from a slot across the wing to the next, until the fan ends or comes
@@ -130,7 +133,10 @@ class LinkReader {
         for (std::size_t i = 1; i < sides_.size(); ++i) {
             if (sides_[i].to != sides_[i - 1].to) continue;
             const Index a = root(sides_[i].slot / 2), b = root(sides_[i - 1].slot / 2);
-            if (a != b) fan_[std::max(a, b)] = std::min(a, b), --fans;
+            if (a != b) {
+                fan_[std::max(a, b)] = std::min(a, b);
+                --fans;
+            }
         }
         if (fans > 1) ++found_.counts.non_manifold_vertices;
         std::sort(ends_.begin(), ends_.end(), [&](const Side& a, const Side& b) {
@@ -220,7 +226,8 @@ LinkCounts count_links(const Mesh& mesh) {
         for (Index c = begin; c < end; ++c) {
             const Index after = mesh.vertex(c + 1 == end ? begin : c + 1);
             emit(v, Wing{v, before, after});
-            before = v, v = after;
+            before = v;
+            v = after;
         }
     });
     Found all = parallel_reduce(

@@ -26,8 +26,12 @@ struct View {
 
     View(const std::array<Vec3, 3>& s, const std::array<Vec3, 3>& t, std::size_t axis) {
         const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-        for (std::size_t i = 0; i < 3; ++i)
-            a[i][0] = s[i][u], a[i][1] = s[i][v], b[i][0] = t[i][u], b[i][1] = t[i][v];
+        for (std::size_t i = 0; i < 3; ++i) {
+            a[i][0] = s[i][u];
+            a[i][1] = s[i][v];
+            b[i][0] = t[i][u];
+            b[i][1] = t[i][v];
+        }
     }
 };
 

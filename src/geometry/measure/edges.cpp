@@ -130,14 +130,19 @@ CurvatureResult curvature_of(const Mesh& given) {
         const auto [low, high] = t.edges.edges[e];
         const std::size_t faces = t.edges.corners_of(static_cast<Index>(e)).size();
         // 1: a boundary; 2: no manifold, or a face without a normal.
-        if (faces == 1) open[low] |= 1, open[high] |= 1;
+        if (faces == 1) {
+            open[low] |= 1;
+            open[high] |= 1;
+        }
         if (faces == 1) continue;
         if (!(t.turn[e] == t.turn[e])) {
-            open[low] |= 2, open[high] |= 2;
+            open[low] |= 2;
+            open[high] |= 2;
             continue;
         }
         const double bend = length_of(mesh, t.edges.edges[e]) * t.turn[e];
-        bends[low] += bend, bends[high] += bend;
+        bends[low] += bend;
+        bends[high] += bend;
     }
     CurvatureResult r;
     r.gaussian.assign(mesh.vertex_count(), none_there);
@@ -188,7 +193,8 @@ FaceResult measure_faces(const Mesh& mesh) {
     const PowerScale scale = even_scale(mesh.bounds());
     if (scale.none()) return faces_of(mesh);
     FaceResult r = faces_of(scale(mesh));
-    unscale(r.area, 2 * scale.powers[0]), unscale(r.areas, 2 * scale.powers[0]);
+    unscale(r.area, 2 * scale.powers[0]);
+    unscale(r.areas, 2 * scale.powers[0]);
     r.kinds.deviation = unscaled(r.kinds.deviation, scale.powers[0]);
     return r;
 }
@@ -197,8 +203,10 @@ CurvatureResult measure_curvature(const Mesh& mesh) {
     const PowerScale scale = even_scale(mesh.bounds());
     if (scale.none()) return curvature_of(mesh);
     CurvatureResult r = curvature_of(scale(mesh));
-    unscale(r.gaussian, -2 * scale.powers[0]), unscale(r.mean, -scale.powers[0]);
-    unscale(r.of_gaussian, -2 * scale.powers[0]), unscale(r.of_mean, -scale.powers[0]);
+    unscale(r.gaussian, -2 * scale.powers[0]);
+    unscale(r.mean, -scale.powers[0]);
+    unscale(r.of_gaussian, -2 * scale.powers[0]);
+    unscale(r.of_mean, -scale.powers[0]);
     return r;
 }
 

@@ -18,16 +18,28 @@ struct Sums {
     Symmetric spread;            ///< 120 times
 
     void add(const Sums& b) {
-        area += b.area, volume += b.volume, shell += b.shell, solid += b.solid;
+        area += b.area;
+        volume += b.volume;
+        shell += b.shell;
+        solid += b.solid;
         auto& s = spread;
         const auto& t = b.spread;
-        s.xx += t.xx, s.xy += t.xy, s.xz += t.xz, s.yy += t.yy, s.yz += t.yz, s.zz += t.zz;
+        s.xx += t.xx;
+        s.xy += t.xy;
+        s.xz += t.xz;
+        s.yy += t.yy;
+        s.yz += t.yz;
+        s.zz += t.zz;
     }
 };
 
 void add_square(Symmetric& s, const Vec3& v, double weight) {
-    s.xx += weight * v.x * v.x, s.xy += weight * v.x * v.y, s.xz += weight * v.x * v.z;
-    s.yy += weight * v.y * v.y, s.yz += weight * v.y * v.z, s.zz += weight * v.z * v.z;
+    s.xx += weight * v.x * v.x;
+    s.xy += weight * v.x * v.y;
+    s.xz += weight * v.x * v.z;
+    s.yy += weight * v.y * v.y;
+    s.yz += weight * v.y * v.z;
+    s.zz += weight * v.z * v.z;
 }
 
 /// The tetrahedron from the origin over a triangle.
@@ -63,7 +75,10 @@ Sums sums_of(const Mesh& mesh, const Vec3& from) {
                 add_face(sums, mesh, static_cast<Index>(f), from, corners);
             return sums;
         },
-        [](Sums a, const Sums& b) { return a.add(b), a; });
+        [](Sums a, const Sums& b) {
+            a.add(b);
+            return a;
+        });
 }
 
 Symmetric operator*(const Symmetric& s, double x) {
@@ -78,16 +93,19 @@ void rotate(double (&m)[3][3], double (&axes)[3][3], int p, int q) {
     const double c = 1 / std::sqrt(t * t + 1), s = t * c;
     for (int k = 0; k < 3; ++k) {
         const double kp = m[k][p], kq = m[k][q];
-        m[k][p] = c * kp - s * kq, m[k][q] = s * kp + c * kq;
+        m[k][p] = c * kp - s * kq;
+        m[k][q] = s * kp + c * kq;
     }
     for (int k = 0; k < 3; ++k) {
         const double pk = m[p][k], qk = m[q][k];
-        m[p][k] = c * pk - s * qk, m[q][k] = s * pk + c * qk;
+        m[p][k] = c * pk - s * qk;
+        m[q][k] = s * pk + c * qk;
     }
     m[p][q] = m[q][p] = 0;
     for (int k = 0; k < 3; ++k) {
         const double kp = axes[k][p], kq = axes[k][q];
-        axes[k][p] = c * kp - s * kq, axes[k][q] = s * kp + c * kq;
+        axes[k][p] = c * kp - s * kq;
+        axes[k][q] = s * kp + c * kq;
     }
 }
 
@@ -142,7 +160,11 @@ Eigen3 eigen(const Symmetric& matrix) {
                       {matrix.xz, matrix.yz, matrix.zz}};
     double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int sweep = 0; sweep < 16; ++sweep) // converges quadratically: seven are enough
-        rotate(m, axes, 0, 1), rotate(m, axes, 0, 2), rotate(m, axes, 1, 2);
+    {
+        rotate(m, axes, 0, 1);
+        rotate(m, axes, 0, 2);
+        rotate(m, axes, 1, 2);
+    }
     std::array<int, 3> order{0, 1, 2};
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return m[a][a] < m[b][b]; });
     Eigen3 e;
@@ -176,8 +198,12 @@ SolidMass joined(const SolidMass& a, const SolidMass& b) {
     const Vec3 apart = b.centroid - a.centroid;
     sum.centroid = a.centroid + apart * (b.volume / sum.volume);
     auto& s = sum.spread;
-    s.xx += b.spread.xx, s.xy += b.spread.xy, s.xz += b.spread.xz;
-    s.yy += b.spread.yy, s.yz += b.spread.yz, s.zz += b.spread.zz;
+    s.xx += b.spread.xx;
+    s.xy += b.spread.xy;
+    s.xz += b.spread.xz;
+    s.yy += b.spread.yy;
+    s.yz += b.spread.yz;
+    s.zz += b.spread.zz;
     add_square(s, apart, a.volume * (b.volume / sum.volume));
     return sum;
 }

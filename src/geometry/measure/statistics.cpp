@@ -30,7 +30,8 @@ Statistics statistics(std::vector<double> numbers) {
     if (numbers.empty()) return s;
     const auto count = static_cast<double>(s.count);
     const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
-    s.minimum = *low, s.maximum = *high;
+    s.minimum = *low;
+    s.maximum = *high;
     s.sum = sum_of(numbers, [](double x) { return x; });
     s.mean = s.sum / count;
     const double mean = s.mean;

@@ -99,7 +99,8 @@ void set_wedges(Mesh& mesh, const std::vector<Index>& wedge_of_corner, const std
     parallel_for(mesh.vertex_count(), [&](std::size_t v) {
         for (const Index c : corners_at.of(static_cast<Index>(v))) {
             const Index w = first[v] + wedge_of_corner[c];
-            source[w] = mesh.corners[c], vertex_of[w] = static_cast<Index>(v);
+            source[w] = mesh.corners[c];
+            vertex_of[w] = static_cast<Index>(v);
         }
     });
     parallel_for(mesh.vertex_count(), [&](std::size_t v) {

@@ -69,7 +69,10 @@ bool flat_shaded(const Mesh& mesh, const Attribute& normals, const std::vector<V
     const EdgeTable edges = build_edges(mesh);
     const auto differ = [&](Index a, Index b) { return !(normal_of(normals, a) == normal_of(normals, b)); };
     const auto join = [](Evidence a, const Evidence& b) {
-        a.bent += b.bent, a.seams += b.seams, a.corners += b.corners, a.facing += b.facing;
+        a.bent += b.bent;
+        a.seams += b.seams;
+        a.corners += b.corners;
+        a.facing += b.facing;
         return a;
     };
     const auto at_edges = [&](std::size_t begin, std::size_t end) {
@@ -187,8 +190,10 @@ class Fan {
                 });
             if (same == firsts_.end())
                 firsts_.push_back(i);
-            else
-                into[wedges_[i].id] = wedges_[*same].id, ++gone;
+            else {
+                into[wedges_[i].id] = wedges_[*same].id;
+                ++gone;
+            }
         }
         return gone;
     }
@@ -296,9 +301,10 @@ void set_facet_normals(Mesh& mesh) {
             while (i < facets.size() && !(facets[i].wedge == mesh.corners[c] &&
                                           (cosine_between(facets[i].area, area) > same_facet)))
                 ++i;
-            if (i == facets.size())
-                facets.push_back({mesh.corners[c], area}), vertex_of.push_back(v);
-            else
+            if (i == facets.size()) {
+                facets.push_back({mesh.corners[c], area});
+                vertex_of.push_back(v);
+            } else
                 facets[i].area += area;
             corners[c] = static_cast<Index>(i);
         }

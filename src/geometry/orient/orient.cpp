@@ -54,14 +54,18 @@ class Spreader {
             else
                 others.erase(back);
         }
-        if (others.size() == 2) across_[others[0]] = others[1], across_[others[1]] = others[0];
+        if (others.size() == 2) {
+            across_[others[0]] = others[1];
+            across_[others[1]] = others[0];
+        }
         for (const Index c : edges_.corners_of(e))
             if (std::find(others.begin(), others.end(), c) == others.end()) across_[c] = none;
     }
 
     void spread_from(Index first) {
         OrientedPiece piece;
-        piece.first_face = first, piece.closed = true;
+        piece.first_face = first;
+        piece.closed = true;
         std::vector<Index> queue{first};
         out_.piece_of[first] = static_cast<Index>(out_.pieces.size());
         for (std::size_t at = 0; at < queue.size(); ++at) visit(queue[at], piece, queue);
@@ -89,7 +93,8 @@ class Spreader {
             const Index g = faces_[other];
             const bool turns = (mesh_.vertex(other) == mesh_.vertex(c)) != (out_.flips[f] != 0);
             if (out_.piece_of[g] == none) {
-                out_.piece_of[g] = out_.piece_of[f], out_.flips[g] = turns;
+                out_.piece_of[g] = out_.piece_of[f];
+                out_.flips[g] = turns;
                 queue.push_back(g);
             } else if ((out_.flips[g] != 0) != turns && piece.orientable) {
                 piece.orientable = false;

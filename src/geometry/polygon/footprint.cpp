@@ -88,7 +88,10 @@ polygon::Place Footprint::locate(const Vec2& p) const {
     Place on = Place::outside;
     tree_.query({-HUGE_VAL, p.y, p.x, p.y}, [&](Index i) {
         const auto& e = tree_.edges()[i];
-        if (e.a == p) return on = Place::on_vertex, false;
+        if (e.a == p) {
+            on = Place::on_vertex;
+            return false;
+        }
         const bool a_below = e.a.y <= p.y, b_below = e.b.y <= p.y;
         if (a_below == b_below) {
             if (e.a.y == p.y && e.b.y == p.y && (e.a.x <= p.x) != (e.b.x <= p.x)) on = Place::on_edge;
@@ -111,7 +114,8 @@ double Footprint::area() const {
 OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b) {
     bool left = false, right = false, on = false;
     RingTree::Bounds box, stretch;
-    stretch.add(a), stretch.add(b);
+    stretch.add(a);
+    stretch.add(b);
     for (const Vec2& p : face) {
         box.add(p);
         const int s = turn(a, b, p);

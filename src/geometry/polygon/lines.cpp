@@ -79,15 +79,18 @@ std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep 
     std::sort(at.begin(), at.end());
     std::vector<Interval> kept;
     const auto keep_part = [&](double from, double to) {
-        from = std::max(from, 0.0), to = std::min(to, 1.0);
+        from = std::max(from, 0.0);
+        to = std::min(to, 1.0);
         if (from < to) kept.push_back({from, to});
     };
     if (keep == Keep::inside) {
         for (std::size_t i = 0; i + 1 < at.size(); i += 2) keep_part(at[i], at[i + 1]);
     } else {
         double from = 0;
-        for (std::size_t i = 0; i + 1 < at.size(); i += 2)
-            keep_part(from, at[i]), from = std::max(from, at[i + 1]);
+        for (std::size_t i = 0; i + 1 < at.size(); i += 2) {
+            keep_part(from, at[i]);
+            from = std::max(from, at[i + 1]);
+        }
         keep_part(from, 1);
     }
     return kept;

@@ -15,8 +15,10 @@ RingTree::RingTree(Rings rings) {
     while (leaves_ * leaf_size < edges_.size()) leaves_ *= 2;
     nodes_.resize(2 * leaves_);
     for (std::size_t e = 0; e < edges_.size(); ++e) nodes_[leaves_ + e / leaf_size].add(bounds(edges_[e]));
-    for (std::size_t i = leaves_ - 1; i > 0; --i)
-        nodes_[i].add(nodes_[2 * i]), nodes_[i].add(nodes_[2 * i + 1]);
+    for (std::size_t i = leaves_ - 1; i > 0; --i) {
+        nodes_[i].add(nodes_[2 * i]);
+        nodes_[i].add(nodes_[2 * i + 1]);
+    }
 }
 
 namespace {

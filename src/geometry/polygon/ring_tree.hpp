@@ -15,11 +15,16 @@ class RingTree {
     struct Bounds {
         double x0 = HUGE_VAL, y0 = HUGE_VAL, x1 = -HUGE_VAL, y1 = -HUGE_VAL;
         void add(const Vec2& p) {
-            x0 = p.x < x0 ? p.x : x0, x1 = p.x > x1 ? p.x : x1;
-            y0 = p.y < y0 ? p.y : y0, y1 = p.y > y1 ? p.y : y1;
+            x0 = p.x < x0 ? p.x : x0;
+            x1 = p.x > x1 ? p.x : x1;
+            y0 = p.y < y0 ? p.y : y0;
+            y1 = p.y > y1 ? p.y : y1;
         }
         void add(const Bounds& o) {
-            if (o.x0 <= o.x1) add(Vec2{o.x0, o.y0}), add(Vec2{o.x1, o.y1});
+            if (o.x0 <= o.x1) {
+                add(Vec2{o.x0, o.y0});
+                add(Vec2{o.x1, o.y1});
+            }
         }
         bool meets(const Bounds& o) const { return x0 <= o.x1 && o.x0 <= x1 && y0 <= o.y1 && o.y0 <= y1; }
     };
@@ -29,7 +34,8 @@ class RingTree {
     const std::vector<Edge>& edges() const { return edges_; }
     static Bounds bounds(const Edge& e) {
         Bounds b;
-        b.add(e.a), b.add(e.b);
+        b.add(e.a);
+        b.add(e.b);
         return b;
     }
     /// Calls visit(edge number) for every edge whose box meets the box, ascending, until it returns false.

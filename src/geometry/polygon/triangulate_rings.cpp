@@ -62,8 +62,10 @@ Triangulation triangulate_rings(Rings rings) {
 
 WindingRange winding_range(Rings rings) {
     WindingRange range;
-    for (const int w : triangulate_rings(rings).winding)
-        range.least = std::min(range.least, w), range.most = std::max(range.most, w);
+    for (const int w : triangulate_rings(rings).winding) {
+        range.least = std::min(range.least, w);
+        range.most = std::max(range.most, w);
+    }
     return range;
 }
 

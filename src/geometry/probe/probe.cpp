@@ -43,7 +43,9 @@ class Walk {
             last_.winding = winding(tree_, p);
         else if (!(step < sure * std::max(distance, last_.distance)))
             last_.winding = winding_beside(tree_, last_.point, last_.winding, p);
-        last_.known = true, last_.point = p, last_.distance = distance;
+        last_.known = true;
+        last_.point = p;
+        last_.distance = distance;
         return last_.winding;
     }
 

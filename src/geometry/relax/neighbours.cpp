@@ -50,7 +50,10 @@ struct Surroundings {
     std::vector<Index> boundary;       ///< other ends of the boundary edges, ascending
 
     void look(const Mesh& mesh, std::span<const Corner> corners, bool whole_faces) {
-        next.clear(), previous.clear(), all.clear(), boundary.clear();
+        next.clear();
+        previous.clear();
+        all.clear();
+        boundary.clear();
         bool polygons = false;
         for (const Corner& c : corners) {
             if (c.next != c.vertex) next.push_back(c.next);
@@ -68,7 +71,8 @@ struct Surroundings {
   private:
     /// The union of next and previous; a neighbour that is in them once in all ends a boundary edge.
     void walk() {
-        sort_few(next), sort_few(previous);
+        sort_few(next);
+        sort_few(previous);
         std::size_t i = 0, j = 0;
         while (i < next.size() || j < previous.size()) {
             const Index v =

@@ -72,7 +72,8 @@ std::vector<Vec3> target_places(const Mesh& mesh, const Attribute& a) {
             a.domain == Domain::vertex ? static_cast<Index>(i) : mesh.vertex_of_wedge(static_cast<Index>(i));
         const Vec3 place = mesh.positions[v] + at(i);
         if (seen[v] && !(places[v] == place)) return {};
-        places[v] = place, seen[v] = 1;
+        places[v] = place;
+        seen[v] = 1;
     }
     return places;
 }

@@ -28,7 +28,10 @@ VertexLists sharp_ends(const Mesh& mesh, double angle, const Transform& to_world
     VertexLists lists;
     lists.offsets.assign(mesh.vertex_count() + 1, 0);
     for (std::size_t e = 0; e < sharp.size(); ++e)
-        if (sharp[e]) ++lists.offsets[table.edges[e].low], ++lists.offsets[table.edges[e].high];
+        if (sharp[e]) {
+            ++lists.offsets[table.edges[e].low];
+            ++lists.offsets[table.edges[e].high];
+        }
     lists.items.resize(exclusive_scan(lists.offsets));
     std::vector<Index> at(lists.offsets.begin(), lists.offsets.end());
     for (std::size_t e = 0; e < sharp.size(); ++e) {

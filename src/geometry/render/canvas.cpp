@@ -71,7 +71,8 @@ void draw_dot(const Vec3& p, double side, const Colour& colour, Canvas& canvas) 
 Picture developed(const Canvas& canvas, const std::optional<Colour>& ground) {
     constexpr int n = Canvas::samples;
     Picture picture;
-    picture.width = canvas.width / n, picture.height = canvas.height / n;
+    picture.width = canvas.width / n;
+    picture.height = canvas.height / n;
     picture.rgba.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) *
                         4);
     parallel_for(picture.rgba.size() / 4, [&](std::size_t pixel) {

@@ -22,7 +22,8 @@ struct Canvas {
         const std::size_t at =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
         if (!(static_cast<float>(z) > depth[at])) return;
-        depth[at] = static_cast<float>(z), colours[at] = colour;
+        depth[at] = static_cast<float>(z);
+        colours[at] = colour;
     }
 };
 

@@ -77,7 +77,10 @@ Box seen_box(const Scene& scene, const PictureSettings& settings, View view) {
                         box.add(p);
                 return box;
             },
-            [](Box a, const Box& b) { return a.add(b), a; }));
+            [](Box a, const Box& b) {
+                a.add(b);
+                return a;
+            }));
     }
     return seen;
 }
@@ -89,7 +92,8 @@ View view_of(const Scene& scene, const PictureSettings& settings, const Canvas& 
     const Vec3 size = seen.extent(), middle = seen.centre();
     const double tallest = std::max(size.x / canvas.width, size.y / canvas.height);
     view.scale = tallest > 0 ? 0.92 / tallest : 1;
-    view.x = canvas.width / 2.0 - middle.x * view.scale, view.y = canvas.height / 2.0 - middle.y * view.scale;
+    view.x = canvas.width / 2.0 - middle.x * view.scale;
+    view.y = canvas.height / 2.0 - middle.y * view.scale;
     view.z = -middle.z * view.scale;
     return view;
 }
@@ -101,7 +105,8 @@ std::vector<std::vector<Index>> in_bands(const Mesh& mesh, const std::vector<Vec
         double top = HUGE_VAL, bottom = -HUGE_VAL;
         for (Index c = 3 * f; c < 3 * f + 3; ++c) {
             const double y = points[mesh.vertex(c)].y;
-            top = std::min(top, y), bottom = std::max(bottom, y);
+            top = std::min(top, y);
+            bottom = std::max(bottom, y);
         }
         if (!(top < height && bottom >= 0)) continue; // NaN too
         const auto last = static_cast<std::size_t>(std::min<double>(bottom, height - 1) / band_rows);
@@ -244,7 +249,9 @@ Picture picture_of(const Scene& scene, const PictureSettings& settings) {
     }
     Picture picture = developed(canvas, settings.ground);
     picture.scale = view.scale / Canvas::samples;
-    picture.faces = faces, picture.range = range, picture.has_attribute = found;
+    picture.faces = faces;
+    picture.range = range;
+    picture.has_attribute = found;
     return picture;
 }
 

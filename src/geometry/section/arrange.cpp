@@ -109,8 +109,10 @@ void arrange(Section& s) {
         std::size_t depth = 0;
         for (const Index o : around[r]) {
             outside += s.contours[contour_of[o]].orientation;
-            if (c.parent == none || around[o].size() > depth)
-                c.parent = contour_of[o], depth = around[o].size();
+            if (c.parent == none || around[o].size() > depth) {
+                c.parent = contour_of[o];
+                depth = around[o].size();
+            }
         }
         const int inside = outside + c.orientation;
         c.role = outside == 0 ? ContourRole::outline : inside == 0 ? ContourRole::hole : ContourRole::inner;

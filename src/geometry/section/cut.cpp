@@ -27,7 +27,8 @@ class Cutter {
         Index low = none, high = 0;
         for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
             const Index l = levels_[mesh_.vertex(c)];
-            low = std::min(low, l), high = std::max(high, l);
+            low = std::min(low, l);
+            high = std::max(high, l);
         }
         for (Index k = low; k < high; ++k) cut(f, k, out);
     }

@@ -45,7 +45,8 @@ class Chainer {
         point_.resize(ends.size());
         std::vector<Index> starts, stops, rest;
         for (std::size_t i = 0; i < ends.size();) {
-            starts.clear(), stops.clear();
+            starts.clear();
+            stops.clear();
             const Vec2 p = place(key_of(ends[i].end));
             const auto key = ends[i].key;
             for (; i < ends.size() && ends[i].key == key; ++i) {
@@ -60,11 +61,15 @@ class Chainer {
     /// same.
     void join(const std::vector<Index>& starts, const std::vector<Index>& stops, std::vector<Index>& rest) {
         const std::size_t both = std::min(starts.size(), stops.size());
-        for (std::size_t i = 0; i < both; ++i) partner_[starts[i]] = stops[i], partner_[stops[i]] = starts[i];
+        for (std::size_t i = 0; i < both; ++i) {
+            partner_[starts[i]] = stops[i];
+            partner_[stops[i]] = starts[i];
+        }
         rest.assign(starts.begin() + static_cast<std::ptrdiff_t>(both), starts.end());
         rest.insert(rest.end(), stops.begin() + static_cast<std::ptrdiff_t>(both), stops.end());
         for (std::size_t i = 0; i + 1 < rest.size(); i += 2) {
-            partner_[rest[i]] = rest[i + 1], partner_[rest[i + 1]] = rest[i];
+            partner_[rest[i]] = rest[i + 1];
+            partner_[rest[i + 1]] = rest[i];
             out_.oriented = false;
         }
     }
@@ -114,7 +119,8 @@ Index straighten(std::vector<Vec2>& points, Contour& c, Index to, double roundin
         if (to > begin + 2 && straight(points[to - 1], points[begin], points[begin + 1]))
             points[begin] = points[--to];
     }
-    c.begin = begin, c.end = to;
+    c.begin = begin;
+    c.end = to;
     return to;
 }
 

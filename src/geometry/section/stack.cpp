@@ -19,7 +19,10 @@ Extent extent_along(const Plane& plane, const Mesh& mesh, const Transform& to_wo
             }
             return e;
         },
-        [](Extent a, const Extent& b) { return a.add(b), a; });
+        [](Extent a, const Extent& b) {
+            a.add(b);
+            return a;
+        });
 }
 
 Stack stack_of(const Extent& extent, std::optional<double> spacing, std::optional<std::int64_t> count) {

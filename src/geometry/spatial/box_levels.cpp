@@ -7,7 +7,10 @@
 namespace facetmill {
 
 void BoxLevels::Node::clear(std::size_t slot) {
-    for (std::size_t axis = 0; axis < 3; ++axis) min[axis][slot] = HUGE_VALF, max[axis][slot] = -HUGE_VALF;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        min[axis][slot] = HUGE_VALF;
+        max[axis][slot] = -HUGE_VALF;
+    }
 }
 
 void BoxLevels::Node::set(std::size_t slot, const Vec3& low, const Vec3& high) {

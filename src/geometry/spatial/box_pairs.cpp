@@ -13,7 +13,10 @@ BoxPairs::BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> amo
             for (std::size_t i = begin; i < end; ++i) b.add(boxes[i]);
             return b;
         },
-        [](Box a, const Box& b) { return a.add(b), a; });
+        [](Box a, const Box& b) {
+            a.add(b);
+            return a;
+        });
     if (all.empty()) return;
     levels_.set_frame(all);
     items_ = order_along_curve(boxes.size(), all, [&](std::size_t i) {

@@ -33,7 +33,10 @@ Vec3 closest_to_origin(const Vec3& a, const Vec3& b, const Vec3& c) {
     Vec3 best = a;
     double least = HUGE_VAL;
     const auto consider = [&](const Vec3& q) {
-        if (const double square = dot(q, q); square < least) least = square, best = q;
+        if (const double square = dot(q, q); square < least) {
+            least = square;
+            best = q;
+        }
     };
     if (wa >= 0 && wb >= 0 && wc >= 0 && sum > 0) {
         consider(a * (wa / sum) + b * (wb / sum) + c * (wc / sum));
@@ -171,7 +174,10 @@ class Search {
         const Vec3 q = offset_to(tree_, triangle, p_);
         const double square = dot(q, q);
         if (square > square_ || (square == square_ && tree_.faces[triangle] >= face_)) return;
-        square_ = square, offset_ = q, triangle_ = triangle, face_ = tree_.faces[triangle];
+        square_ = square;
+        offset_ = q;
+        triangle_ = triangle;
+        face_ = tree_.faces[triangle];
     }
 
     template <class Query>
@@ -207,7 +213,10 @@ class Search {
                 continue;
             }
             for (int i = count - 1; i >= 0; --i)
-                if (near[i].bound <= limit) test(near[i].node), limit = limit_for<Query>();
+                if (near[i].bound <= limit) {
+                    test(near[i].node);
+                    limit = limit_for<Query>();
+                }
             if (square_ <= enough_square) return;
         }
     }

@@ -55,7 +55,9 @@ FaceTree::FaceTree(const Surface& surface, Use use) {
     build(triangles.size(), [&](Node& node, std::size_t slot, std::size_t i) {
         const auto& [a, b, c] = triangles[i];
         Box box;
-        box.add(a), box.add(b), box.add(c);
+        box.add(a);
+        box.add(b);
+        box.add(c);
         node.set(slot, local(box.min), local(box.max));
     });
     if (use == Use::all) flatten();

@@ -69,12 +69,23 @@ struct Moments {
 
     void add(const Vec3& p) {
         sum += p;
-        xx += p.x * p.x, xy += p.x * p.y, xz += p.x * p.z, yy += p.y * p.y, yz += p.y * p.z, zz += p.z * p.z;
+        xx += p.x * p.x;
+        xy += p.x * p.y;
+        xz += p.x * p.z;
+        yy += p.y * p.y;
+        yz += p.y * p.z;
+        zz += p.z * p.z;
         count += 1;
     }
     void add(const Moments& m) {
-        normal += m.normal, sum += m.sum;
-        xx += m.xx, xy += m.xy, xz += m.xz, yy += m.yy, yz += m.yz, zz += m.zz;
+        normal += m.normal;
+        sum += m.sum;
+        xx += m.xx;
+        xy += m.xy;
+        xz += m.xz;
+        yy += m.yy;
+        yz += m.yz;
+        zz += m.zz;
         count += m.count;
     }
     /// The covariance times v, and so on.
@@ -132,7 +143,9 @@ Moments flatten_leaf(const FaceTree& tree, std::size_t n, Plates& plates) {
                    c = tree.local(tree.triangles[t].c);
         set(plates, slot, a, b, c);
         m.normal += cross(b - a, c - a);
-        m.add(a), m.add(b), m.add(c);
+        m.add(a);
+        m.add(b);
+        m.add(c);
     }
     return m;
 }

@@ -17,7 +17,8 @@ class AxisQuery {
         : axis_(axis), forward_(forward) {
         for (std::size_t i = 0; i < 3; ++i) {
             const double x = std::clamp(tree.local(p[i], i), -4.0, 4.0); // the surface is within 1
-            low_[i] = rounded_down(x), high_[i] = rounded_up(x);
+            low_[i] = rounded_down(x);
+            high_[i] = rounded_up(x);
         }
     }
 
@@ -105,7 +106,8 @@ class PointQuery {
     PointQuery(const FaceTree& tree, const Vec3& p) {
         for (std::size_t i = 0; i < 3; ++i) {
             const double x = std::clamp(tree.local(p[i], i), -4.0, 4.0);
-            low_[i] = rounded_down(x), high_[i] = rounded_up(x);
+            low_[i] = rounded_down(x);
+            high_[i] = rounded_up(x);
         }
     }
     bool may_meet(const FaceTree::Node& node, std::size_t slot) const {

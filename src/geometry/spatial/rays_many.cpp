@@ -29,7 +29,10 @@ class Turns {
                     continue;
                 }
                 found(lane.of, lane.search->hits());
-                if (!start(lane)) active[i] = active.back(), active.pop_back();
+                if (!start(lane)) {
+                    active[i] = active.back();
+                    active.pop_back();
+                }
             }
     }
 

@@ -72,7 +72,9 @@ class LineTest {
         if (from_side * way > 0) return {}; // the line has left the plane before it begins
         if (!line_.ray && orientation_3d(a, b, c, line_.to) * way < 0) return {};
         Hit hit;
-        hit.way = way, hit.triangle = triangle, hit.face = tree.faces[triangle];
+        hit.way = way;
+        hit.triangle = triangle;
+        hit.face = tree.faces[triangle];
         const Vec3 n = cross(b - a, c - a), d = line_.to - line_.from;
         const double along = dot(n, d), t = along != 0 ? dot(n, a - line_.from) / along : 0;
         hit.t = from_side == 0 ? 0 : std::max(t, 0.0);
@@ -103,7 +105,8 @@ class LineQuery {
                 continue;
             }
             const double t0 = (-1.5 - from[axis]) / d[axis], t1 = (1.5 - from[axis]) / d[axis];
-            begin = std::max(begin, std::min(t0, t1)), end = std::min(end, std::max(t0, t1));
+            begin = std::max(begin, std::min(t0, t1));
+            end = std::min(end, std::max(t0, t1));
         }
         misses_ = !(begin <= end);
         if (misses_) return;
@@ -119,7 +122,8 @@ class LineQuery {
             if (std::abs(step) < 1e-12) step = step < 0 ? -1e-12 : 1e-12; // less than the margin, all the way
             inverse_[axis] = Float4{} + static_cast<float>(1 / step);
             const Float4 at = Float4{} + static_cast<float>(start[axis]);
-            low_[axis] = at + margin, high_[axis] = at - margin;
+            low_[axis] = at + margin;
+            high_[axis] = at - margin;
             forward_[axis] = step > 0;
         }
     }

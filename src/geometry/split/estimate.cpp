@@ -81,8 +81,10 @@ SplitCensus::SplitCensus(const Mesh& mesh) {
             ++triangles;
         else if (n == 4)
             ++quads;
-        else
-            ++larger, larger_corners += n;
+        else {
+            ++larger;
+            larger_corners += n;
+        }
     }
 }
 

@@ -17,7 +17,10 @@ struct SplitCensus {
 
   private:
     void set(double t, double q, double l, double c) {
-        triangles = t, quads = q, larger = l, larger_corners = c;
+        triangles = t;
+        quads = q;
+        larger = l;
+        larger_corners = c;
     }
 };
 

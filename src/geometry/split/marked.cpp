@@ -288,8 +288,11 @@ std::vector<std::uint8_t> longest_edges(const Mesh& mesh, const MeasuredEdges& e
             const Index e = edges.table.corner_edge[3 * f + k];
             if (e == none) continue;
             const double squared = edges.squared[e];
-            if (squared > best || (squared == best && e < best_edge))
-                best = squared, best_edge = e, found = k;
+            if (squared > best || (squared == best && e < best_edge)) {
+                best = squared;
+                best_edge = e;
+                found = k;
+            }
         }
         longest[f] = found;
     });

@@ -16,7 +16,11 @@ struct PatternCounts {
     std::uint64_t faces = 0, corners = 0, mixes = 0, sources = 0;
 
     PatternCounts& operator+=(const PatternCounts& b) {
-        return faces += b.faces, corners += b.corners, mixes += b.mixes, sources += b.sources, *this;
+        faces += b.faces;
+        corners += b.corners;
+        mixes += b.mixes;
+        sources += b.sources;
+        return *this;
     }
 };
 
@@ -57,7 +61,9 @@ struct PatternOut {
         if (offsets) *offsets++ = first_corner;
     }
     void source(Index wedge, double weight) {
-        *mix_sources++ = wedge, *mix_weights++ = weight, ++first_source;
+        *mix_sources++ = wedge;
+        *mix_weights++ = weight;
+        ++first_source;
     }
     void end_mix() { *mix_offsets++ = first_source; }
 };

@@ -23,7 +23,8 @@ SmoothRings::SmoothRings(const Mesh& m, const EdgeTable& e, const SplitSettings&
             sharp_[i] = 1;
             return;
         }
-        twin_[at[0]] = at[1], twin_[at[1]] = at[0];
+        twin_[at[0]] = at[1];
+        twin_[at[1]] = at[0];
         if (settings.feature_angle) sharp_[i] = bends_more(dot(normal(at[0]), normal(at[1])), limit);
     });
 }

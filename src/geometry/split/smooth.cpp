@@ -34,7 +34,10 @@ struct Star {
     Vec3 sum{};
 
     Star(const SmoothRings& rings, Index vertex) : v(vertex) {
-        for (const Index c : rings.corners.of(v)) sum += rings.mesh.positions[rings.to(c)], ++n;
+        for (const Index c : rings.corners.of(v)) {
+            sum += rings.mesh.positions[rings.to(c)];
+            ++n;
+        }
     }
 };
 
@@ -102,7 +105,8 @@ Vec3 butterfly_irregular(const SmoothRings& rings, Index c) {
         double w = (0.25 + cosine(2 * pi * j / n) + 0.5 * cosine(4 * pi * j / n)) / n;
         if (n == 3) w = j == 0 ? 5.0 / 12 : -1.0 / 12;
         if (n == 4) w = j == 0 ? 3.0 / 8 : j == 2 ? -1.0 / 8 : 0;
-        sum += p[rings.to(at)] * w, weights += w;
+        sum += p[rings.to(at)] * w;
+        weights += w;
     }
     return sum + p[a] * (1 - weights);
 }
@@ -118,7 +122,10 @@ Vec3 butterfly_edge(const SmoothRings& rings, Index e) {
     Vec3 sum;
     int masks = 0;
     for (const Index c : at) // each of the two runs from another end
-        if (irregular(rings.from(c))) sum += butterfly_irregular(rings, c), ++masks;
+        if (irregular(rings.from(c))) {
+            sum += butterfly_irregular(rings, c);
+            ++masks;
+        }
     if (masks > 0) return sum / masks;
     const Index b0 = rings.from(rings.previous(at[0])), b1 = rings.from(rings.previous(at[1]));
     const auto wings = [&](Index c) {

@@ -176,7 +176,8 @@ SplitResult split(const Mesh& mesh, const SplitSettings& settings) {
 
 SplitResult grid_split(const Mesh& mesh, int n) {
     SplitSettings settings;
-    settings.method = SplitMethod::grid, settings.grid = n;
+    settings.method = SplitMethod::grid;
+    settings.grid = n;
     return split(mesh, settings);
 }
 

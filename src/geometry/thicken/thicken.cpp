@@ -86,8 +86,14 @@ Directions directions(const Mesh& mesh, double limit, const Transform& to_world)
         }
         Vec3 way = system.solve(mean);
         const double far = length(way);
-        if (!(far <= limit)) way = far < HUGE_VAL ? way * (limit / far) : mean, kind[v] = 1;
-        if (!(dot(way, mean) > 0)) way = mean, kind[v] = 1;
+        if (!(far <= limit)) {
+            way = far < HUGE_VAL ? way * (limit / far) : mean;
+            kind[v] = 1;
+        }
+        if (!(dot(way, mean) > 0)) {
+            way = mean;
+            kind[v] = 1;
+        }
         d.of_vertex[v] = back.vector(way);
     });
     d.limited = static_cast<std::size_t>(std::count(kind.begin(), kind.end(), 1));
@@ -117,10 +123,12 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
         if (mesh.all_triangles()) {
             add_face(d.mesh, std::array{ring[0], ring[1], ring[2]});
             add_face(d.mesh, std::array{ring[0], ring[2], ring[3]});
-            d.descent.faces.insert(d.descent.faces.end(), {e.face, e.face}), added += 2;
+            d.descent.faces.insert(d.descent.faces.end(), {e.face, e.face});
+            added += 2;
         } else {
             add_face(d.mesh, ring);
-            d.descent.faces.push_back(e.face), ++added;
+            d.descent.faces.push_back(e.face);
+            ++added;
         }
     }
     return added;
@@ -129,7 +137,8 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
 /// Distances from the front's vertices and the middles of its faces to the back, in world.
 void measure(const Mesh& solid, const Mesh& surface, const Transform& to_world, ThickenResult& r) {
     Mesh back;
-    back.positions = solid.positions, back.wedge_vertex = solid.wedge_vertex;
+    back.positions = solid.positions;
+    back.wedge_vertex = solid.wedge_vertex;
     for (Vec3& p : back.positions) p = to_world.point(p);
     back.corners.assign(solid.corners.begin() + static_cast<std::ptrdiff_t>(surface.corner_count()),
                         solid.corners.begin() + static_cast<std::ptrdiff_t>(2 * surface.corner_count()));
@@ -146,8 +155,15 @@ void measure(const Mesh& solid, const Mesh& surface, const Transform& to_world, 
     double sum = 0, least = HUGE_VAL;
     std::size_t count = 0;
     for (const auto& c : closest_points(tree, points))
-        if (c.distance < HUGE_VAL) sum += c.distance, least = std::min(least, c.distance), ++count;
-    if (count > 0) r.mean = sum / static_cast<double>(count), r.thinnest = least;
+        if (c.distance < HUGE_VAL) {
+            sum += c.distance;
+            least = std::min(least, c.distance);
+            ++count;
+        }
+    if (count > 0) {
+        r.mean = sum / static_cast<double>(count);
+        r.thinnest = least;
+    }
 }
 
 /// The diagonal of the box around all vertices, in world.
@@ -177,7 +193,10 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     ThickenResult r;
     const auto n = static_cast<Index>(mesh.vertex_count());
     std::vector<Index> back(n), copies(n);
-    for (Index v = 0; v < n; ++v) back[v] = n + v, copies[v] = v;
+    for (Index v = 0; v < n; ++v) {
+        back[v] = n + v;
+        copies[v] = v;
+    }
     Doubled d = doubled(mesh, back, copies);
     const Directions ways = directions(mesh, s.miter_limit, s.to_world);
     const double out = s.side == ThickenSide::outward   ? s.thickness
@@ -196,7 +215,8 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
         for (const auto& [w, normal] : wall_normals)
             for (int c = 0; c < 3; ++c) normals->set_value(w, c, normal[static_cast<std::size_t>(c)]);
     if (!mesh.has_seams() && wall_normals.empty()) d.mesh.wedge_vertex = {};
-    r.limited = ways.limited, r.still = ways.still;
+    r.limited = ways.limited;
+    r.still = ways.still;
     if (mesh.face_count() > 0) measure(d.mesh, mesh, s.to_world, r);
     r.unbalanced = unbalanced_edges(d.mesh);
     if (s.self_intersections && s.thickness <= size_of(mesh, s.to_world))

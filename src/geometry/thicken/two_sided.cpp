@@ -25,7 +25,9 @@ std::vector<std::uint8_t> faces_with_back(const Mesh& mesh) {
     const auto place = clean_steps::lowest_at_place(mesh);
     std::vector<std::uint8_t> flags(mesh.face_count(), 0);
     Mesh plain; // to see fast that there are none, as mostly
-    plain.positions = mesh.positions, plain.corners = mesh.corners, plain.face_offsets = mesh.face_offsets;
+    plain.positions = mesh.positions;
+    plain.corners = mesh.corners;
+    plain.face_offsets = mesh.face_offsets;
     for (Index w = 0; w < mesh.wedge_count(); ++w)
         plain.wedge_vertex.push_back(place[mesh.vertex_of_wedge(w)]);
     if (duplicate_faces(plain).empty()) return flags;
@@ -33,7 +35,10 @@ std::vector<std::uint8_t> faces_with_back(const Mesh& mesh) {
     for (Index f = 0; f < mesh.face_count(); ++f) ++left[ring_of(mesh, place, f, false)];
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const auto back = left.find(ring_of(mesh, place, f, true));
-        if (back != left.end() && back->second > 0) --back->second, flags[f] = 1;
+        if (back != left.end() && back->second > 0) {
+            --back->second;
+            flags[f] = 1;
+        }
     }
     return flags;
 }

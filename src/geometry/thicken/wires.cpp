@@ -58,10 +58,12 @@ WiresResult wires(const Mesh& mesh, const WiresSettings& s) {
             r.mesh.positions[first + i] = back.point(a + aside);
             r.mesh.positions[first + n + i] = back.point(b + aside);
             const Index j = (i + 1) % n;
-            *offsets++ = offset, offset += 4;
+            *offsets++ = offset;
+            offset += 4;
             for (const Index k : {i, j, n + j, n + i}) *corner++ = first + k;
         }
-        *offsets++ = offset, offset += n;
+        *offsets++ = offset;
+        offset += n;
         for (Index i = n; i-- > 0;) *corner++ = first + i;
         *offsets++ = offset;
         for (Index i = 0; i < n; ++i) *corner++ = first + n + i;

@@ -72,11 +72,13 @@ class Tiler {
     Range cells_of(const Mesh& mesh, const TileAxis& a) const {
         double least = HUGE_VAL, most = -HUGE_VAL;
         const auto add = [&](const Vec3& p) {
-            least = std::min(least, p[a.axis]), most = std::max(most, p[a.axis]);
+            least = std::min(least, p[a.axis]);
+            most = std::max(most, p[a.axis]);
         };
-        if (settings_.to_world.identity())
-            add(mesh.bounds().min), add(mesh.bounds().max);
-        else
+        if (settings_.to_world.identity()) {
+            add(mesh.bounds().min);
+            add(mesh.bounds().max);
+        } else
             for (const Vec3& p : mesh.positions) add(settings_.to_world.point(p));
         Range r{std::floor((least - a.origin) / a.size), std::ceil((most - a.origin) / a.size) - 1};
         if (!(std::fabs(r.low) < 1e9 && std::fabs(r.high) < 1e9) && r.high - r.low < 1e9)

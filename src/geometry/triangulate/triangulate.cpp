@@ -46,10 +46,16 @@ class FaceCutter {
     How cut(Index f) {
         const Index n = mesh_.face_size(f);
         triangles.clear();
-        if (n == 3) return triangles.push_back({0, 1, 2}), How::whole;
+        if (n == 3) {
+            triangles.push_back({0, 1, 2});
+            return How::whole;
+        }
         gather(mesh_, f, corners_);
         flat_ = polygon::flattened(corners_);
-        if (n == 4 && polygon::is_convex(flat_)) return quad(f), How::cut;
+        if (n == 4 && polygon::is_convex(flat_)) {
+            quad(f);
+            return How::cut;
+        }
         if (delaunay()) return How::cut;
         triangles.clear();
         for (Index i = 1; i + 1 < n; ++i) triangles.push_back({0, i, i + 1});
@@ -93,7 +99,10 @@ class FaceCutter {
 FaceKinds joined(FaceKinds a, const FaceKinds& b) {
     for (std::size_t k = 0; k < a.of_kind.size(); ++k) a.of_kind[k] += b.of_kind[k];
     a.non_planar += b.non_planar;
-    if (b.deviation > a.deviation || a.worst == none) a.deviation = b.deviation, a.worst = b.worst;
+    if (b.deviation > a.deviation || a.worst == none) {
+        a.deviation = b.deviation;
+        a.worst = b.worst;
+    }
     return a;
 }
 
@@ -122,8 +131,10 @@ FaceKinds face_kinds(const Mesh& mesh, double planar) {
                 ++kinds.of_kind[static_cast<std::size_t>(kind)];
                 const double deviation = polygon::plane_deviation(corners);
                 kinds.non_planar += deviation > planar * perimeter(corners);
-                if (kinds.worst == none || deviation > kinds.deviation)
-                    kinds.deviation = deviation, kinds.worst = f;
+                if (kinds.worst == none || deviation > kinds.deviation) {
+                    kinds.deviation = deviation;
+                    kinds.worst = f;
+                }
             }
             return kinds;
         },
