@@ -1,7 +1,7 @@
 #include "diff/sides.hpp"
 
 #include "geometry/inspect/inspect.hpp"
-#include "mesh/surface_normal.hpp"
+#include "mesh/face.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
 

@@ -1,5 +1,5 @@
 #include "base/parallel.hpp"
-#include "mesh/area_vector.hpp"
+#include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
 namespace facetmill {

@@ -1,7 +1,7 @@
 #pragma once
 // Adjacency, derived where it is needed and never kept in the mesh. All of it lives on vertices, not wedges.
 
-#include "mesh/mesh.hpp"
+#include "mesh/face.hpp"
 
 namespace facetmill {
 
@@ -25,11 +25,6 @@ struct EdgeTable {
 
 /// Builds the edge table; parallel radix sort, O(corners). The same for any number of threads.
 EdgeTable build_edges(const Mesh& mesh);
-
-/// The next corner around the face of corner c (face f).
-inline Index next_corner(const Mesh& mesh, Index f, Index c) {
-    return c + 1 == mesh.face_end(f) ? mesh.face_begin(f) : c + 1;
-}
 
 /// The face of each corner.
 std::vector<Index> corner_faces(const Mesh& mesh);

@@ -2,6 +2,7 @@
 
 #include "geometry/clean/solids.hpp"
 #include "geometry/clean/steps.hpp"
+#include "mesh/face.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ bool untangle(Work& work, const CleanSettings& s) {
         work.not_done.push_back({"self_intersections",
                                  fmt::format("{} pairs of faces intersect, and at most {} are processed",
                                              found.count, most_pairs),
-                                 middle_of_face(work.mesh, found.pairs[0].first)});
+                                 corner_mean(work.mesh, found.pairs[0].first)});
         return false;
     }
     bool changed = unites && unite_solids(work, found, overlaps, s);

@@ -1,7 +1,7 @@
 // The step of clean that replaces faces that intersect others, place by place.
 #include "geometry/clean/steps.hpp"
-#include "mesh/surface_normal.hpp"
 #include "geometry/edit/surgery.hpp"
+#include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -124,8 +124,7 @@ class Untangler {
         for (const auto& [f, g] : found_.pairs) {
             Knot& knot = knots_[knot_of.at(groups[f])];
             if (knot.pairs++ > 0) continue;
-            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c)
-                knot.at += mesh_.point(c) / mesh_.face_size(f);
+            knot.at = corner_mean(mesh_, f);
         }
     }
 

@@ -23,7 +23,7 @@ std::size_t drop_repeated_corners(Mesh& mesh, std::vector<std::uint8_t>& gone) {
         const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
         const std::size_t first = corners.size();
         for (Index c = begin; c < end; ++c)
-            if (mesh.vertex(c) != mesh.vertex(c == begin ? end - 1 : c - 1))
+            if (mesh.vertex(c) != mesh.vertex(previous_corner(c, begin, end)))
                 corners.push_back(mesh.corners[c]);
         if (corners.size() - first < 3) { // without area: it goes as a whole, and stays whole until then
             corners.resize(first);
@@ -235,7 +235,7 @@ bool remove_components(Work& work, const ComponentSettings& s) {
         ++p.faces;
         p.area += area;
         whole += area;
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) p.box.add(mesh.point(c));
+        add_corners(p.box, mesh, f);
     }
     for (Piece& p : all)
         p.goes = p.faces < s.min_faces || p.box.diagonal() < s.min_size || p.area < s.min_area * whole;

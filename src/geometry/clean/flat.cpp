@@ -16,7 +16,7 @@ std::optional<Index> middle_corner(const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f);
     std::array<Index, 3> c{begin, begin + 1, begin + 2};
     Box box;
-    for (const Index i : c) box.add(mesh.point(i));
+    add_corners(box, mesh, f);
     const Vec3 extent = box.extent();
     const std::size_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     std::sort(c.begin(), c.end(),

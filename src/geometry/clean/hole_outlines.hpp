@@ -47,7 +47,6 @@ class Outlines {
                                    {path.faces.begin() + from, path.faces.end()}};
                 for (const Index w : loop.wedges) place.erase(mesh_.vertex_of_wedge(w));
                 path.wedges.resize(static_cast<std::size_t>(from));
-
                 path.faces.resize(static_cast<std::size_t>(from));
                 body(loop);
             }

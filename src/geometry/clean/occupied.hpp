@@ -2,6 +2,7 @@
 // What a patch over a hole must not double.
 
 #include "geometry/clean/steps.hpp"
+#include "mesh/face.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,7 @@ class Occupied {
         for (Index f = 0; f < mesh.face_count(); ++f) {
             const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
             for (Index c = begin; c < end; ++c)
-                edges_.push_back(edge(mesh.vertex(c), mesh.vertex(c + 1 == end ? begin : c + 1)));
+                edges_.push_back(edge(mesh.vertex(c), mesh.vertex(next_corner(c, begin, end))));
             if (end - begin == 3)
                 triangles_.push_back(
                     triangle({mesh.vertex(begin), mesh.vertex(begin + 1), mesh.vertex(begin + 2)}));

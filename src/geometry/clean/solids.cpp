@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/inspect/evidence.hpp"
+#include "mesh/face.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ std::vector<Fitness> fitness_of(const Mesh& mesh, const Components& pieces) {
         if (f == Fitness::fit) f = Fitness::disagreeing;
     }
     for (Index f = 0; f < mesh.face_count(); ++f)
-        if (is_degenerate(mesh, f) || !is_finite(middle_of_face(mesh, f)))
+        if (is_degenerate(mesh, f) || !is_finite(corner_mean(mesh, f)))
             fitness[pieces.of_face[f]] = Fitness::flat;
     return fitness;
 }
@@ -80,17 +81,11 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& pieces,
         all.push_back({"self_intersections",
                        fmt::format("{} pairs of faces intersect on a component that {}", place.pairs,
                                    reason(fitness[piece])),
-                       middle_of_face(mesh, place.face)});
+                       corner_mean(mesh, place.face)});
     return all;
 }
 
 } // namespace
-
-Vec3 middle_of_face(const Mesh& mesh, Index f) {
-    Vec3 sum;
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c) / mesh.face_size(f);
-    return sum;
-}
 
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among) {
     Mesh plain;
@@ -123,7 +118,7 @@ Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {
     for (const auto& [f, g] : found.pairs)
         if (both_fit(f, g) &&
             numbers.try_emplace(sets.find(s.pieces.of_face[f]), static_cast<Index>(s.at.size())).second)
-            s.at.push_back(middle_of_face(mesh, f));
+            s.at.push_back(corner_mean(mesh, f));
     for (Index p = 0; p < s.pieces.count; ++p) {
         const auto at = s.closed[p] ? numbers.find(sets.find(p)) : numbers.end();
         s.cluster.push_back(at == numbers.end() ? none : at->second);

@@ -23,7 +23,4 @@ struct Solids {
 /// found: all pairs of faces that intersect.
 Solids find_solids(const Mesh& mesh, const SelfIntersections& found);
 
-/// The mean of a face's corners.
-Vec3 middle_of_face(const Mesh& mesh, Index f);
-
 } // namespace facetmill::clean_steps

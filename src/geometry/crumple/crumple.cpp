@@ -6,7 +6,7 @@
 #include "base/random.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/relax/neighbours.hpp"
-#include "mesh/surface_normal.hpp"
+#include "mesh/face.hpp"
 
 #include <algorithm>
 #include <limits>

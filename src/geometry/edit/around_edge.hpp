@@ -2,7 +2,7 @@
 // Faces at an edge, compared by exact predicates.
 
 #include "base/predicates.hpp"
-#include "mesh/surface_normal.hpp"
+#include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "geometry/edit/surgery.hpp"
 
 #include "base/parallel.hpp"
+#include "mesh/face.hpp"
 
 #include <algorithm>
 #include <map>
@@ -238,7 +239,7 @@ class Inserter {
 
     Index wedge_for(const Insertion& i, Index f) {
         if (plain_) return i.vertex;
-        const Index to = i.corner + 1 == mesh_.face_end(f) ? mesh_.face_begin(f) : i.corner + 1;
+        const Index to = next_corner(mesh_, f, i.corner);
         Index a = mesh_.corners[i.corner], b = mesh_.corners[to];
         double t = i.t;
         if (a > b) {

@@ -224,7 +224,7 @@ LinkCounts count_links(const Mesh& mesh) {
         if (begin == end) return;
         Index before = mesh.vertex(end - 1), v = mesh.vertex(begin);
         for (Index c = begin; c < end; ++c) {
-            const Index after = mesh.vertex(c + 1 == end ? begin : c + 1);
+            const Index after = mesh.vertex(next_corner(c, begin, end));
             emit(v, Wing{v, before, after});
             before = v;
             v = after;

@@ -5,7 +5,7 @@
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/surface.hpp"
-#include "mesh/surface_normal.hpp"
+#include "mesh/face.hpp"
 
 #include <algorithm>
 
@@ -20,7 +20,7 @@ double angle(const Vec3& at, const Vec3& b, const Vec3& c) {
 }
 
 double corner_angle(const Mesh& mesh, Index f, Index c) {
-    return angle(mesh.point(c), mesh.point(c == mesh.face_begin(f) ? mesh.face_end(f) - 1 : c - 1),
+    return angle(mesh.point(c), mesh.point(previous_corner(mesh, f, c)),
                  mesh.point(next_corner(mesh, f, c)));
 }
 
@@ -47,8 +47,7 @@ double worst_aspect_ratio(const Mesh& mesh, Index f) {
 double nonplanarity(const Mesh& mesh, Index f) {
     if (mesh.face_size(f) == 3) return 0;
     const Vec3 normal = normalised(area_vector(mesh, f));
-    Vec3 middle;
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) middle += mesh.point(c) / mesh.face_size(f);
+    const Vec3 middle = corner_mean(mesh, f);
     double farthest = 0;
     for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
         farthest = std::max(farthest, std::abs(dot(mesh.point(c) - middle, normal)));
@@ -125,9 +124,7 @@ std::vector<double> wall_thicknesses(const Mesh& mesh) {
             const auto face = static_cast<Index>(f);
             const Vec3 d = -normalised(area_vector(mesh, face));
             if (!(dot(d, d) > 0) || !(all < HUGE_VAL)) return;
-            Vec3 p;
-            for (Index c = mesh.face_begin(face); c < mesh.face_end(face); ++c) p += mesh.point(c);
-            p = p / mesh.face_size(face);
+            const Vec3 p = corner_mean(mesh, face);
             // Pieces of the ray, each as long as all before: boxes stay small as long as the wall is thin.
             for (double from = 0, to = all / 1024; from <= all && ways[f] > from; from = to, to *= 2) {
                 Box piece;

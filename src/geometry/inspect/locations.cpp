@@ -45,11 +45,6 @@ std::uint64_t key_of_pair(const Mesh& mesh, Index f, Index g) {
     return hashed(4, key_of_face(mesh, f) + key_of_face(mesh, g));
 }
 
-/// The corner before c in its face.
-Index previous_corner(const Mesh& mesh, Index f, Index c) {
-    return c == mesh.face_begin(f) ? mesh.face_end(f) - 1 : c - 1;
-}
-
 /// Directions of the faces along an edge: how many run from low to high and how many back.
 std::array<int, 2> directions(const Mesh& mesh, const EdgeTable& edges, Index e) {
     std::array<int, 2> ways{};
@@ -156,9 +151,7 @@ bool is_degenerate(const Mesh& mesh, Index f) {
 }
 
 Location location_of(const Mesh& mesh, Index f) {
-    Vec3 sum;
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
-    return {.face = f, .at = sum / mesh.face_size(f), .key = key_of_face(mesh, f)};
+    return {.face = f, .at = corner_mean(mesh, f), .key = key_of_face(mesh, f)};
 }
 
 std::vector<std::uint64_t> keys_of_components(const Mesh& mesh, const std::vector<Index>& of_face,

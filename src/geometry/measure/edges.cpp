@@ -107,8 +107,8 @@ FaceResult faces_of(const Mesh& mesh) {
         r.areas[i] = safe_length(areas[i]);
         const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
         for (Index c = begin; c < end; ++c)
-            angles[c] = angle_at(mesh.point(c == begin ? end - 1 : c - 1), mesh.point(c),
-                                 mesh.point(c + 1 == end ? begin : c + 1), areas[i]);
+            angles[c] = angle_at(mesh.point(previous_corner(c, begin, end)), mesh.point(c),
+                                 mesh.point(next_corner(c, begin, end)), areas[i]);
         if (end - begin == 3)
             aspects[i] =
                 aspect_of(mesh.point(begin), mesh.point(begin + 1), mesh.point(begin + 2), r.areas[i]);

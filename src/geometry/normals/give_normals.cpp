@@ -1,11 +1,11 @@
 #include "geometry/normals/give_normals.hpp"
 
-#include "base/portable_math.hpp"
 #include "base/parallel.hpp"
+#include "base/portable_math.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/normals/normal_seams.hpp"
 #include "geometry/normals/one_ring.hpp"
-#include "mesh/surface_normal.hpp"
+#include "mesh/face.hpp"
 
 #include <numeric>
 #include <tuple>
@@ -16,8 +16,8 @@ namespace {
 
 double angle_at(const Mesh& mesh, Index f, Index c) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
-    const Vec3 to = normalised(mesh.point(c + 1 == end ? begin : c + 1) - mesh.point(c));
-    const Vec3 from = normalised(mesh.point(c == begin ? end - 1 : c - 1) - mesh.point(c));
+    const Vec3 to = normalised(mesh.point(next_corner(c, begin, end)) - mesh.point(c));
+    const Vec3 from = normalised(mesh.point(previous_corner(c, begin, end)) - mesh.point(c));
     return arc_tangent(length(cross(to, from)), dot(to, from));
 }
 
@@ -75,7 +75,8 @@ class SmoothFan {
                                             corners.begin());
         };
         spokes_.pairs(mesh_, face_of_, corners, [&](Index c, Index d, bool agree) {
-            if (!agree || bends_more(dot(normals_[face_of_[c]], normals_[face_of_[d]]), least_cosine_))
+            if (!agree ||
+                exceeds_feature_angle(dot(normals_[face_of_[c]], normals_[face_of_[d]]), least_cosine_))
                 return;
             const std::size_t a = root(place(c)), b = root(place(d));
             roots_[std::max(a, b)] = std::min(a, b);

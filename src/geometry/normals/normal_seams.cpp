@@ -1,10 +1,10 @@
 #include "geometry/normals/normal_seams.hpp"
 
-#include "base/portable_math.hpp"
 #include "base/parallel.hpp"
+#include "base/portable_math.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/normals/one_ring.hpp"
-#include "mesh/area_vector.hpp"
+#include "mesh/face.hpp"
 #include "mesh/lineage.hpp"
 #include "mesh/topology.hpp"
 

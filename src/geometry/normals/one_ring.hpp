@@ -19,8 +19,8 @@ class OneRing {
         spokes_.clear();
         for (const Index c : corners) {
             const Index f = face_of[c], begin = mesh.face_begin(f), end = mesh.face_end(f);
-            spokes_.push_back({mesh.vertex(c + 1 == end ? begin : c + 1), c, true});
-            spokes_.push_back({mesh.vertex(c == begin ? end - 1 : c - 1), c, false});
+            spokes_.push_back({mesh.vertex(next_corner(c, begin, end)), c, true});
+            spokes_.push_back({mesh.vertex(previous_corner(c, begin, end)), c, false});
         }
         std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
             return a.other != b.other ? a.other < b.other : a.corner < b.corner;

@@ -1,6 +1,6 @@
 #include "base/parallel.hpp"
 #include "geometry/orient/orient.hpp"
-#include "mesh/surface_normal.hpp"
+#include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>

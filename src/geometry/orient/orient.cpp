@@ -1,11 +1,11 @@
 #include "geometry/orient/orient.hpp"
 
 #include "base/parallel.hpp"
-#include "mesh/power_scale.hpp"
-#include "geometry/spatial/rays.hpp"
 #include "geometry/intersect/self_intersections.hpp"
-#include "mesh/surface_normal.hpp"
+#include "geometry/spatial/rays.hpp"
 #include "mesh/bare.hpp"
+#include "mesh/face.hpp"
+#include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -137,12 +137,6 @@ class Outside {
     }
 
   private:
-    Vec3 middle(Index f) const {
-        Vec3 sum;
-        for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) sum += mesh_.point(c);
-        return sum / mesh_.face_size(f);
-    }
-
     /// Whether some face of the piece has a front at all: three corners apart.
     bool has_sides(std::size_t p) const {
         return std::any_of(faces_[p].begin(), faces_[p].end(), [&](Index f) {
@@ -157,8 +151,7 @@ class Outside {
         const double plain = volume(p, [](const Vec3& v) { return v; });
         if (std::abs(plain) > 1e-200 && std::isfinite(plain)) return plain;
         Box box;
-        for (const Index f : faces_[p])
-            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) box.add(mesh_.point(c));
+        for (const Index f : faces_[p]) add_corners(box, mesh_, f);
         return volume(p, axis_scale(box));
     }
 
@@ -235,7 +228,7 @@ class Outside {
         for (std::size_t s = 0; s < samples; ++s) {
             const Index f = faces[s * faces.size() / samples];
             const Vec3 area = area_vector_at(mesh_, f, [&](Index c) { return scale_(mesh_.point(c)); }),
-                       from = middle(f);
+                       from = corner_mean(mesh_, f);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const double weight = std::abs(area[axis]);
                 if (!(weight > 0)) continue;

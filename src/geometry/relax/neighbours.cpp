@@ -1,10 +1,11 @@
 #include "geometry/relax/neighbours.hpp"
 
 #include "base/error.hpp"
-#include "base/portable_math.hpp"
 #include "base/parallel.hpp"
+#include "base/portable_math.hpp"
 #include "geometry/relax/sharp_edges.hpp"
 #include "mesh/buckets.hpp"
+#include "mesh/face.hpp"
 
 #include <algorithm>
 
@@ -101,8 +102,8 @@ void around_vertices(const Mesh& mesh, bool whole_faces, Buckets<Corner>& bucket
         const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
         for (Index c = begin; c < end; ++c) {
             const Index v = mesh.vertex(c);
-            emit(v, Corner{v, mesh.vertex(c + 1 == end ? begin : c + 1),
-                           mesh.vertex(c == begin ? end - 1 : c - 1), f});
+            emit(v, Corner{v, mesh.vertex(next_corner(c, begin, end)),
+                           mesh.vertex(previous_corner(c, begin, end)), f});
         }
     });
     struct Room {

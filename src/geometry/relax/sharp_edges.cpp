@@ -1,8 +1,8 @@
 #include "geometry/relax/sharp_edges.hpp"
 
-#include "base/portable_math.hpp"
 #include "base/parallel.hpp"
-#include "mesh/surface_normal.hpp"
+#include "base/portable_math.hpp"
+#include "mesh/face.hpp"
 
 #include <algorithm>
 
@@ -23,7 +23,7 @@ VertexLists sharp_ends(const Mesh& mesh, double angle, const Transform& to_world
                    b = normalised(area_vector(mesh, faces[at[1]], to_world));
         const bool agree = mesh.vertex(at[0]) != mesh.vertex(at[1]);
         if (a == Vec3{} || b == Vec3{}) return;
-        sharp[e] = bends_more(agree ? dot(a, b) : -dot(a, b), limit);
+        sharp[e] = exceeds_feature_angle(agree ? dot(a, b) : -dot(a, b), limit);
     });
     VertexLists lists;
     lists.offsets.assign(mesh.vertex_count() + 1, 0);

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "mesh/face.hpp"
 
 #include <bit>
 #include <fmt/format.h>
@@ -38,7 +39,7 @@ class Cutter {
         crossings_.clear();
         const Index begin = mesh_.face_begin(f), end = mesh_.face_end(f);
         for (Index c = begin; c < end; ++c) {
-            const Index a = mesh_.vertex(c), b = mesh_.vertex(c + 1 == end ? begin : c + 1);
+            const Index a = mesh_.vertex(c), b = mesh_.vertex(next_corner(c, begin, end));
             const bool a_above = levels_[a] > k, b_above = levels_[b] > k;
             if (a_above != b_above) crossings_.push_back({{std::min(a, b), std::max(a, b)}, b_above, 0});
         }

@@ -55,9 +55,7 @@ double longest_after_first(const Mesh& mesh, const SplitSettings& s, double long
             double most = 0;
             for (auto f = static_cast<Index>(begin); f < end; ++f) {
                 if (mesh.face_size(f) <= 4) continue;
-                Vec3 centre;
-                for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) centre += mesh.point(c);
-                centre = centre / mesh.face_size(f);
+                const Vec3 centre = corner_mean(mesh, f);
                 for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
                     const Vec3 middle = (mesh.point(c) + mesh.point(next_corner(mesh, f, c))) / 2;
                     most = std::max(most, length(s.to_world.vector(middle - centre)));

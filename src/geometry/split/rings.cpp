@@ -2,7 +2,7 @@
 
 #include "base/portable_math.hpp"
 #include "base/parallel.hpp"
-#include "mesh/surface_normal.hpp"
+#include "mesh/face.hpp"
 
 namespace facetmill {
 
@@ -25,7 +25,7 @@ SmoothRings::SmoothRings(const Mesh& m, const EdgeTable& e, const SplitSettings&
         }
         twin_[at[0]] = at[1];
         twin_[at[1]] = at[0];
-        if (settings.feature_angle) sharp_[i] = bends_more(dot(normal(at[0]), normal(at[1])), limit);
+        if (settings.feature_angle) sharp_[i] = exceeds_feature_angle(dot(normal(at[0]), normal(at[1])), limit);
     });
 }
 

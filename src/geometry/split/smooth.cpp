@@ -2,10 +2,11 @@
 
 #include "base/error.hpp"
 #include "base/portable_math.hpp"
-#include "geometry/inspect/evidence.hpp"
 #include "geometry/edit/moved.hpp"
+#include "geometry/inspect/evidence.hpp"
 #include "geometry/split/patterns.hpp"
 #include "geometry/split/rings.hpp"
+#include "mesh/face.hpp"
 
 #include <fmt/format.h>
 
@@ -56,25 +57,19 @@ Vec3 loop_edge(const SmoothRings& rings, Index e) {
            (p[rings.from(rings.previous(at[0]))] + p[rings.from(rings.previous(at[1]))]) * 0.125;
 }
 
-Vec3 centroid_of(const Mesh& mesh, Index f) {
-    Vec3 sum;
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += mesh.point(c);
-    return sum / static_cast<double>(mesh.face_size(f));
-}
-
 /// (Q + R + (n - 2) P) / n, Q the mean of the faces' centroids and R of the neighbours.
 Vec3 catmull_clark_vertex(const SmoothRings& rings, const std::vector<Index>& faces, Index v) {
     const Star star(rings, v);
     if (star.n == 0) return rings.mesh.positions[v];
     Vec3 centroids;
-    for (const Index c : rings.corners.of(v)) centroids += centroid_of(rings.mesh, faces[c]);
+    for (const Index c : rings.corners.of(v)) centroids += corner_mean(rings.mesh, faces[c]);
     return (centroids + star.sum) / (star.n * star.n) + rings.mesh.positions[v] * ((star.n - 2) / star.n);
 }
 
 Vec3 catmull_clark_edge(const SmoothRings& rings, const std::vector<Index>& faces, Index e) {
     const auto at = rings.edges.corners_of(e);
     return middle(rings, e) * 0.5 +
-           (centroid_of(rings.mesh, faces[at[0]]) + centroid_of(rings.mesh, faces[at[1]])) * 0.25;
+           (corner_mean(rings.mesh, faces[at[0]]) + corner_mean(rings.mesh, faces[at[1]])) * 0.25;
 }
 
 /// The point beyond a of the curve of sharp edges that runs from b to a, mirrored when the curve ends there.

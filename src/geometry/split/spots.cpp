@@ -1,7 +1,7 @@
 #include "geometry/split/spots.hpp"
 
 #include "base/parallel.hpp"
-#include "mesh/surface_normal.hpp"
+#include "mesh/face.hpp"
 #include "mesh/quad_diagonal.hpp"
 
 #include <algorithm>
@@ -27,12 +27,13 @@ void visit_shared(const Mesh& mesh, const EdgeTable& edges, const std::vector<In
     for (const Index end : {edges.edges[e].low, edges.edges[e].high}) {
         room.clear();
         for (const Index c : around) {
-            const Index f = face(c), begin = mesh.face_begin(f), last = mesh.face_end(f) - 1;
-            const Index next = c == last ? begin : c + 1, previous = c == begin ? last : c - 1;
-            if (mesh.vertex(c) == end)
-                room.push_back({mesh.vertex(previous), c});
-            else
-                room.push_back({mesh.vertex(next == last ? begin : next + 1), next});
+            const Index f = face(c);
+            if (mesh.vertex(c) == end) {
+                room.push_back({mesh.vertex(previous_corner(mesh, f, c)), c});
+            } else {
+                const Index next = next_corner(mesh, f, c);
+                room.push_back({mesh.vertex(next_corner(mesh, f, next)), next});
+            }
         }
         if (room.size() == 2 && room[0].beyond != room[1].beyond) continue;
         std::sort(room.begin(), room.end());
@@ -84,9 +85,7 @@ bool has_reflex_corner(const Mesh& mesh, Index f, const Vec3& normal) {
 bool hides_from_centre(const Mesh& mesh, Index f, const Vec3& normal) {
     const Index begin = mesh.face_begin(f), n = mesh.face_size(f);
     if (n == 4 && quad_diagonals(mesh, f).concave()) return false;
-    Vec3 centre;
-    for (Index k = 0; k < n; ++k) centre += mesh.point(begin + k);
-    centre = centre / n;
+    const Vec3 centre = corner_mean(mesh, f);
     for (Index k = 0; k < n; ++k)
         if (looks_back(mesh.point(begin + k), mesh.point(begin + (k + 1) % n), centre, normal)) return true;
     return false;
@@ -116,9 +115,9 @@ std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vec
     };
     const auto is_cut = [&](const Turn& t) {
         if (marks.empty()) return true;
-        const Index f = faces.empty() ? t.corner / 3 : faces[t.corner], begin = mesh.face_begin(f);
-        const Index previous = t.corner == begin ? mesh.face_end(f) - 1 : t.corner - 1;
-        return marks[edges.corner_edge[t.corner]] || marks[edges.corner_edge[previous]];
+        const Index f = faces.empty() ? t.corner / 3 : faces[t.corner];
+        return marks[edges.corner_edge[t.corner]] ||
+               marks[edges.corner_edge[previous_corner(mesh, f, t.corner)]];
     };
     return parallel_reduce(
         edges.size(), std::size_t{0},

@@ -1,13 +1,13 @@
 #include "geometry/thicken/thicken.hpp"
 
-#include "base/portable_math.hpp"
 #include "base/parallel.hpp"
+#include "base/portable_math.hpp"
 #include "geometry/clean/steps.hpp"
-#include "geometry/spatial/closest_point.hpp"
-#include "geometry/thicken/doubled.hpp"
 #include "geometry/inspect/connectivity.hpp"
 #include "geometry/intersect/self_intersections.hpp"
-#include "mesh/surface_normal.hpp"
+#include "geometry/spatial/closest_point.hpp"
+#include "geometry/thicken/doubled.hpp"
+#include "mesh/face.hpp"
 #include "mesh/inverse.hpp"
 #include "mesh/topology.hpp"
 
@@ -50,8 +50,7 @@ struct System {
 
 /// The angle of face f at corner c, in world.
 double angle_at(const Mesh& mesh, Index f, Index c, const Transform& to_world) {
-    const Index before = c == mesh.face_begin(f) ? mesh.face_end(f) - 1 : c - 1;
-    const Vec3 u = to_world.vector(mesh.point(before) - mesh.point(c)),
+    const Vec3 u = to_world.vector(mesh.point(previous_corner(mesh, f, c)) - mesh.point(c)),
                v = to_world.vector(mesh.point(next_corner(mesh, f, c)) - mesh.point(c));
     return arc_tangent(length(cross(u, v)), dot(u, v));
 }

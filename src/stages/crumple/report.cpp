@@ -1,5 +1,6 @@
 #include "stages/crumple/report.hpp"
 
+#include "mesh/face.hpp"
 #include "mesh/placement.hpp"
 
 #include <fmt/format.h>
@@ -10,10 +11,7 @@ namespace {
 
 /// Where the face of the split mesh was, in world space: the mean of its corners.
 Vec3 place_of(const CrumpledPart& work, Index face) {
-    const Mesh& mesh = work.part->mesh;
-    Vec3 sum;
-    for (Index c = mesh.face_begin(face); c < mesh.face_end(face); ++c) sum += work.before[mesh.vertex(c)];
-    return work.to_world.point(sum / mesh.face_size(face));
+    return work.to_world.point(corner_mean(work.part->mesh, face, work.before));
 }
 
 Box world_box(const Part& part) {

@@ -1,7 +1,7 @@
 #include "stages/probe/questions.hpp"
 
-#include "mesh/surface_normal.hpp"
 #include "mesh/bare.hpp"
+#include "mesh/face.hpp"
 
 #include <fmt/format.h>
 

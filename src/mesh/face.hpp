@@ -1,0 +1,59 @@
+#pragma once
+// What follows from the corners of one face: its neighbours in the ring of corners, area vector, mean, box.
+
+#include "mesh/mesh.hpp"
+
+namespace facetmill {
+
+/// The corners after and before c in a face of the corners [begin, end).
+inline Index next_corner(Index c, Index begin, Index end) { return c + 1 == end ? begin : c + 1; }
+inline Index previous_corner(Index c, Index begin, Index end) { return c == begin ? end - 1 : c - 1; }
+
+/// The corners after and before c in face f, which has it.
+inline Index next_corner(const Mesh& mesh, Index f, Index c) {
+    return next_corner(c, mesh.face_begin(f), mesh.face_end(f));
+}
+inline Index previous_corner(const Mesh& mesh, Index f, Index c) {
+    return previous_corner(c, mesh.face_begin(f), mesh.face_end(f));
+}
+
+/// Twice the area of face f along its normal (Newell's sum, taken from the first corner), its corners being
+/// where place(corner) says.
+template <class Place>
+Vec3 area_vector_at(const Mesh& mesh, Index f, Place&& place) {
+    Vec3 sum;
+    const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+    const Vec3 first = place(begin);
+    for (Index c = begin + 1; c + 1 < end; ++c) sum += cross(place(c) - first, place(c + 1) - first);
+    return sum;
+}
+
+inline Vec3 area_vector(const Mesh& mesh, Index f) {
+    return area_vector_at(mesh, f, [&](Index c) { return mesh.point(c); });
+}
+
+/// In world space (of a mirroring transform, it looks the other way).
+inline Vec3 area_vector(const Mesh& mesh, Index f, const Transform& to_world) {
+    const Vec3& first = mesh.point(mesh.face_begin(f));
+    return area_vector_at(mesh, f, [&](Index c) { return to_world.vector(mesh.point(c) - first); });
+}
+
+/// Whether the angle between two normals, whose dot product is given, is more than the feature angle of that
+/// cosine. What is more by rounding alone (1e-12 of the cosine) is not: a right angle is not more than 90
+/// degrees.
+inline bool exceeds_feature_angle(double dot_product, double cosine) { return dot_product < cosine - 1e-12; }
+
+/// The mean of the corners of face f, their places being points[vertex].
+inline Vec3 corner_mean(const Mesh& mesh, Index f, const std::vector<Vec3>& points) {
+    Vec3 sum;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += points[mesh.vertex(c)];
+    return sum / mesh.face_size(f);
+}
+inline Vec3 corner_mean(const Mesh& mesh, Index f) { return corner_mean(mesh, f, mesh.positions); }
+
+/// Widens the box by the corners of face f.
+inline void add_corners(Box& box, const Mesh& mesh, Index f) {
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) box.add(mesh.point(c));
+}
+
+} // namespace facetmill
