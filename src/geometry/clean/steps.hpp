@@ -50,7 +50,7 @@ using EdgeList = std::vector<std::pair<Index, Index>>;
 bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross);
 bool remove_components(Work& work, const ComponentSettings& settings);
 /// Closed pieces that lie inside other closed pieces and touch none go.
-bool remove_inner_shells(Work& work);
+bool remove_inner_components(Work& work);
 bool remove_isolated(Work& work);
 /// The pairs of faces that intersect, for the two steps below; vertices at one place count as one, so that
 /// faces which only an edge or vertex parts (split_non_manifold) are none. At most most_pairs are listed.
