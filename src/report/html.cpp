@@ -177,7 +177,7 @@ std::string to_html(const RunRecord& record) {
     out += table("Parameters", heads({"name", "value"}), property_rows(record.params));
     out +=
         table("Properties at the end", heads({"property", "value"}), property_rows(record.final_properties));
-    out += table("What became of attributes", heads({"stage", "part", "attribute", "domain", "fate", "why"}),
+    out += table("Attribute changes", heads({"stage", "part", "attribute", "domain", "change", "why"}),
                  attribute_change_rows(record));
     out += run_section(record);
     return out + fmt::format("<p class=\"soft\">facetmill {}</p>\n</body>\n</html>\n", FACETMILL_VERSION);

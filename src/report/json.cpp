@@ -32,12 +32,12 @@ Json files_json(const std::vector<FileRecord>& files, bool read_back) {
 }
 
 Json stage_json(const StageRecord& stage) {
-    Json ledger = Json::array();
+    Json changes = Json::array();
     for (const auto& [part, change] : stage.attribute_changes)
-        ledger.push_back({{"part", part},
+        changes.push_back({{"part", part},
                           {"attribute", change.attribute},
                           {"domain", to_string(change.domain)},
-                          {"fate", to_string(change.kind)},
+                          {"change", to_string(change.kind)},
                           {"why", text_or_null(change.why)}});
     return {{"name", stage.name},
             {"stage", stage.stage},
@@ -46,7 +46,7 @@ Json stage_json(const StageRecord& stage) {
             {"before", stage.before},
             {"after", stage.after},
             {"resolved", stage.resolved},
-            {"ledger", std::move(ledger)},
+            {"attribute_changes", std::move(changes)},
             {"warnings", diagnostics_json(stage.warnings)},
             {"result", stage.result}};
 }

@@ -100,10 +100,10 @@ Json scene_schema() {
 }
 
 Json stage_schema() {
-    const Json ledger = closed_object({{"part", typed("string")},
+    const Json changes = closed_object({{"part", typed("string")},
                                        {"attribute", typed("string")},
                                        {"domain", choice({"vertex", "wedge", "face"})},
-                                       {"fate", choice({"kept", "interpolated", "recomputed", "dropped"})},
+                                       {"change", choice({"kept", "interpolated", "recomputed", "dropped"})},
                                        {"why", nullable("string")}});
     return closed_object({{"name", typed("string", "Unique in the run")},
                           {"stage", typed("string")},
@@ -112,7 +112,7 @@ Json stage_schema() {
                           {"before", reference("brief")},
                           {"after", reference("brief")},
                           {"resolved", typed("object", "Lengths that depended on the scene")},
-                          {"ledger", list_of(ledger, "What became of every attribute")},
+                          {"attribute_changes", list_of(changes, "What each attribute went through")},
                           {"warnings", list_of(reference("diagnostic"), "What the stage warned of")},
                           {"result", typed("object", "What the stage itself reports")}});
 }

@@ -316,7 +316,7 @@ std::vector<Location> touching_pairs(const Mesh& mesh, const LocationQuery& quer
 std::vector<Index> inward_faces(const Mesh& mesh) {
     const OrientResult r = orient(bare(mesh), {});
     std::vector<Index> faces;
-    for (const auto& component : r.pieces)
+    for (const auto& component : r.components)
         if (!component.orientable || component.flipped > 0) faces.push_back(component.first_face);
     return faces;
 }

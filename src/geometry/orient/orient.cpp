@@ -19,12 +19,12 @@ namespace {
 
 /// Pieces and, within each, which faces have to turn for neighbours to agree.
 struct Spread {
-    std::vector<OrientedPiece> pieces;
-    std::vector<Index> piece_of;
+    std::vector<OrientedComponent> components;
+    std::vector<Index> component_of;
     std::vector<std::uint8_t> flips;
 };
 
-/// Breadth first over edges of two faces, from the lowest face of each piece.
+/// Breadth first over edges of two faces, from the lowest face of each component.
 class Spreader {
   public:
     explicit Spreader(const Mesh& mesh) : mesh_(mesh), edges_(build_edges(mesh)), faces_(corner_faces(mesh)) {
@@ -33,10 +33,10 @@ class Spreader {
     }
 
     Spread run() {
-        out_.piece_of.assign(mesh_.face_count(), none);
+        out_.component_of.assign(mesh_.face_count(), none);
         out_.flips.assign(mesh_.face_count(), 0);
         for (Index f = 0; f < mesh_.face_count(); ++f)
-            if (out_.piece_of[f] == none) spread_from(f);
+            if (out_.component_of[f] == none) spread_from(f);
         return std::move(out_);
     }
 
@@ -63,22 +63,22 @@ class Spreader {
     }
 
     void spread_from(Index first) {
-        OrientedPiece piece;
-        piece.first_face = first;
-        piece.closed = true;
+        OrientedComponent component;
+        component.first_face = first;
+        component.closed = true;
         std::vector<Index> queue{first};
-        out_.piece_of[first] = static_cast<Index>(out_.pieces.size());
-        for (std::size_t at = 0; at < queue.size(); ++at) visit(queue[at], piece, queue);
-        piece.faces = queue.size();
+        out_.component_of[first] = static_cast<Index>(out_.components.size());
+        for (std::size_t at = 0; at < queue.size(); ++at) visit(queue[at], component, queue);
+        component.faces = queue.size();
         const auto turned = static_cast<std::size_t>(
             std::count_if(queue.begin(), queue.end(), [&](Index f) { return out_.flips[f] != 0; }));
-        // The front is what most faces had as front; a piece without one stays as it was.
+        // The front is what most faces had as front; a component without one stays as it was.
         const bool other = 2 * turned > queue.size();
-        for (const Index f : queue) out_.flips[f] = piece.orientable && (out_.flips[f] != 0) != other;
-        out_.pieces.push_back(piece);
+        for (const Index f : queue) out_.flips[f] = component.orientable && (out_.flips[f] != 0) != other;
+        out_.components.push_back(component);
     }
 
-    void visit(Index f, OrientedPiece& piece, std::vector<Index>& queue) {
+    void visit(Index f, OrientedComponent& component, std::vector<Index>& queue) {
         for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
             const Index e = edges_.corner_edge[c];
             if (e == none) continue;
@@ -86,19 +86,19 @@ class Spreader {
             Index other = corners[0] == c ? corners.back() : corners[0];
             if (corners.size() != 2) {
                 const auto found = across_.find(c);
-                piece.closed &= found != across_.end();
+                component.closed &= found != across_.end();
                 if (found == across_.end() || found->second == none) continue;
                 other = found->second;
             }
             const Index g = faces_[other];
             const bool turns = (mesh_.vertex(other) == mesh_.vertex(c)) != (out_.flips[f] != 0);
-            if (out_.piece_of[g] == none) {
-                out_.piece_of[g] = out_.piece_of[f];
+            if (out_.component_of[g] == none) {
+                out_.component_of[g] = out_.component_of[f];
                 out_.flips[g] = turns;
                 queue.push_back(g);
-            } else if ((out_.flips[g] != 0) != turns && piece.orientable) {
-                piece.orientable = false;
-                piece.conflict = mix(mesh_.point(c), mesh_.point(next_corner(mesh_, f, c)), 0.5);
+            } else if ((out_.flips[g] != 0) != turns && component.orientable) {
+                component.orientable = false;
+                component.conflict = mix(mesh_.point(c), mesh_.point(next_corner(mesh_, f, c)), 0.5);
             }
         }
     }
@@ -110,26 +110,26 @@ class Spreader {
     Spread out_;
 };
 
-/// Which pieces of a consistent mesh have to turn for their front to be outside.
+/// Which components of a consistent mesh have to turn for their front to be outside.
 class Outside {
   public:
     Outside(const Mesh& mesh, Spread& spread, Nested nested)
         : mesh_(mesh), spread_(spread), nested_(nested), rays_(surface_of(mesh), FaceTree::Use::rays),
-          faces_(spread.pieces.size()), scale_(even_scale(mesh.bounds())) {
-        for (Index f = 0; f < mesh.face_count(); ++f) faces_[spread.piece_of[f]].push_back(f);
+          faces_(spread.components.size()), scale_(even_scale(mesh.bounds())) {
+        for (Index f = 0; f < mesh.face_count(); ++f) faces_[spread.component_of[f]].push_back(f);
     }
 
     std::vector<std::uint8_t> run() {
         find_depths();
-        std::vector<std::uint8_t> turns(spread_.pieces.size(), 0);
+        std::vector<std::uint8_t> turns(spread_.components.size(), 0);
         parallel_for(
             turns.size(),
             [&](std::size_t p) {
-                OrientedPiece& piece = spread_.pieces[p];
-                if (!piece.orientable) return;
-                const bool cavity = nested_ == Nested::cavities && piece.depth % 2 == 1;
-                const double out = piece.closed ? volume(p) : votes(p);
-                piece.undecided = !(out > 0 || out < 0) && has_sides(p);
+                OrientedComponent& component = spread_.components[p];
+                if (!component.orientable) return;
+                const bool cavity = nested_ == Nested::cavities && component.depth % 2 == 1;
+                const double out = component.closed ? volume(p) : votes(p);
+                component.undecided = !(out > 0 || out < 0) && has_sides(p);
                 turns[p] = cavity ? out > 0 : out < 0;
             },
             1);
@@ -137,7 +137,7 @@ class Outside {
     }
 
   private:
-    /// Whether some face of the piece has a front at all: three corners apart.
+    /// Whether some face of the component has a front at all: three corners apart.
     bool has_sides(std::size_t p) const {
         return std::any_of(faces_[p].begin(), faces_[p].end(), [&](Index f) {
             std::set<Index> vertices;
@@ -146,7 +146,7 @@ class Outside {
         });
     }
 
-    /// Six times the volume of a closed piece; only its sign counts.
+    /// Six times the volume of a closed component; only its sign counts.
     double volume(std::size_t p) const {
         const double plain = volume(p, [](const Vec3& v) { return v; });
         if (std::abs(plain) > 1e-200 && std::isfinite(plain)) return plain;
@@ -173,53 +173,53 @@ class Outside {
             [](double a, double b) { return a + b; });
     }
 
-    /// In how many other closed pieces each closed piece lies. One that touches or crosses another is not
+    /// In how many other closed components each closed component lies. One that touches or crosses another is not
     /// nested in it: overlapping solids are no cavities of each other.
     void find_depths() {
-        std::vector<std::vector<Index>> around(spread_.pieces.size());
+        std::vector<std::vector<Index>> around(spread_.components.size());
         parallel_for(
             around.size(),
             [&](std::size_t p) {
-                if (spread_.pieces[p].orientable && spread_.pieces[p].closed) around[p] = pieces_around(p);
+                if (spread_.components[p].orientable && spread_.components[p].closed) around[p] = components_around(p);
             },
             1);
         if (std::all_of(around.begin(), around.end(), [](const auto& a) { return a.empty(); })) return;
-        const auto meeting = meeting_pieces(around);
+        const auto meeting = intersecting_components(around);
         for (Index p = 0; p < around.size(); ++p)
             for (const Index q : around[p])
-                spread_.pieces[p].depth += !meeting.contains({std::min(p, q), std::max(p, q)});
+                spread_.components[p].depth += !meeting.contains({std::min(p, q), std::max(p, q)});
     }
 
-    /// The other closed pieces that have a point of this one inside, ascending.
-    std::vector<Index> pieces_around(std::size_t p) const {
-        std::map<Index, int> turns; // of each piece around the point
+    /// The other closed components that have a point of this one inside, ascending.
+    std::vector<Index> components_around(std::size_t p) const {
+        std::map<Index, int> turns; // of each component around the point
         visit_along_axis(rays_, mesh_.point(mesh_.face_begin(faces_[p][0])), 0, true, [&](Index g, int way) {
-            const Index q = spread_.piece_of[g];
-            if (q != p && spread_.pieces[q].closed && spread_.pieces[q].orientable) turns[q] += way;
+            const Index q = spread_.component_of[g];
+            if (q != p && spread_.components[q].closed && spread_.components[q].orientable) turns[q] += way;
         });
-        std::vector<Index> pieces;
+        std::vector<Index> components;
         for (const auto& [q, n] : turns)
-            if (n != 0) pieces.push_back(q);
-        return pieces;
+            if (n != 0) components.push_back(q);
+        return components;
     }
 
-    /// The pairs of pieces, of those that may be nested, whose faces meet.
-    std::set<std::pair<Index, Index>> meeting_pieces(const std::vector<std::vector<Index>>& around) const {
+    /// The pairs of components, of those that may be nested, whose faces meet.
+    std::set<std::pair<Index, Index>> intersecting_components(const std::vector<std::vector<Index>>& around) const {
         constexpr std::size_t most_pairs = std::size_t{1} << 24;
         SelfIntersectionSettings settings{.limit = most_pairs};
         settings.among.resize(mesh_.face_count());
         for (Index f = 0; f < mesh_.face_count(); ++f)
-            settings.among[f] = !around[spread_.piece_of[f]].empty();
+            settings.among[f] = !around[spread_.component_of[f]].empty();
         std::set<std::pair<Index, Index>> meeting;
         for (const auto& [f, g] : find_self_intersections(mesh_, settings).pairs) {
-            const Index p = spread_.piece_of[f], q = spread_.piece_of[g];
+            const Index p = spread_.component_of[f], q = spread_.component_of[g];
             if (p != q) meeting.emplace(std::min(p, q), std::max(p, q));
         }
         return meeting;
     }
 
-    /// Rays along the axes from faces spread over the piece: how much of their front sees the outside, less
-    /// how much of their back does. Only the piece itself is in the way.
+    /// Rays along the axes from faces spread over the component: how much of their front sees the outside, less
+    /// how much of their back does. Only the component itself is in the way.
     double votes(std::size_t p) const {
         constexpr std::size_t most = 256;
         const auto& faces = faces_[p];
@@ -235,7 +235,7 @@ class Outside {
                 const auto free = [&](bool forward) {
                     bool escapes = true;
                     visit_along_axis(rays_, from, axis, forward, [&](Index g, int) {
-                        escapes = escapes && (g == f || spread_.piece_of[g] != p);
+                        escapes = escapes && (g == f || spread_.component_of[g] != p);
                     });
                     return escapes;
                 };
@@ -266,10 +266,10 @@ OrientResult orient(Mesh mesh, const OrientSettings& settings) {
             Mesh agreed = bare(mesh); // what outside is asked of
             flip_faces(agreed, flips);
             const auto turns = Outside(agreed, spread, settings.nested).run();
-            for (Index f = 0; f < flips.size(); ++f) flips[f] = flips[f] != turns[spread.piece_of[f]];
+            for (Index f = 0; f < flips.size(); ++f) flips[f] = flips[f] != turns[spread.component_of[f]];
         }
-        for (Index f = 0; f < flips.size(); ++f) spread.pieces[spread.piece_of[f]].flipped += flips[f];
-        result.pieces = std::move(spread.pieces);
+        for (Index f = 0; f < flips.size(); ++f) spread.components[spread.component_of[f]].flipped += flips[f];
+        result.components = std::move(spread.components);
     }
     result.flipped = static_cast<std::size_t>(std::count(flips.begin(), flips.end(), 1));
     result.changes = flip_faces(mesh, flips);

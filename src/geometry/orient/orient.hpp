@@ -10,12 +10,12 @@ namespace facetmill {
 
 enum class OrientMethod {
     outward,    ///< neighbours agree, and the front is the outside
-    consistent, ///< neighbours agree; the front is what most faces of a piece had as front
+    consistent, ///< neighbours agree; the front is what most faces of a component had as front
     flip,       ///< every face is turned round
 };
 enum class Nested {
-    cavities, ///< a closed piece inside another, which it does not meet, is its cavity: it faces the hollow
-    solids,   ///< every closed piece is a solid of its own
+    cavities, ///< a closed component inside another, which it does not meet, is its cavity: it faces the hollow
+    solids,   ///< every closed component is a solid of its own
 };
 
 struct OrientSettings {
@@ -23,29 +23,29 @@ struct OrientSettings {
     Nested nested = Nested::cavities;
 };
 
-/// A piece of the surface: faces connected over edges of two faces.
-struct OrientedPiece {
+/// A component of the surface: faces connected over edges of two faces.
+struct OrientedComponent {
     Index first_face = none;
     std::size_t faces = 0, flipped = 0;
     bool closed = false;    ///< every edge has two faces
     bool orientable = true; ///< else it is left as it was
     bool undecided = false; ///< open, and both sides look alike: only made consistent
-    std::size_t depth = 0;  ///< how many closed pieces it lies in, when it is closed itself
+    std::size_t depth = 0;  ///< how many closed components it lies in, when it is closed itself
     Vec3 conflict;          ///< not orientable: where neighbours cannot agree
 };
 
 struct OrientResult {
     Mesh mesh;
-    std::vector<OrientedPiece> pieces; ///< by first face
+    std::vector<OrientedComponent> components; ///< by first face
     std::size_t flipped = 0;
     AttributeChanges changes;
 };
 
 /// Turns faces round so that neighbours agree (spread over edges of two faces) and, for outward, the front of
-/// each piece is its outside. For closed pieces that is decided by the sign of the volume and by how many
-/// other closed pieces contain them without touching them (exact rays along an axis); for open ones by a vote
+/// each component is its outside. For closed components that is decided by the sign of the volume and by how many
+/// other closed components contain them without touching them (exact rays along an axis); for open ones by a vote
 /// of rays from their faces along the axes: the side from which more of them escape is outside. Edges of more
-/// than two faces part pieces. A piece that cannot be oriented (a Moebius strip) is left as it was. Corners
+/// than two faces part components. A component that cannot be oriented (a Moebius strip) is left as it was. Corners
 /// are reversed from the second on; wedge normals that then point against their faces are turned with them,
 /// and their tangents' handedness. O(n log n).
 OrientResult orient(Mesh mesh, const OrientSettings& settings);

@@ -28,7 +28,7 @@ void declare(Declare<OrientSettings>& d) {
 
 struct OrientedPart {
     std::string part;
-    std::size_t flipped_faces = 0, pieces = 0, closed = 0, nested = 0, non_orientable = 0, undecided = 0;
+    std::size_t flipped_faces = 0, components = 0, closed = 0, nested = 0, non_orientable = 0, undecided = 0;
 };
 
 struct OrientReport {
@@ -38,11 +38,11 @@ struct OrientReport {
 void declare_part(DeclareFields<OrientedPart>& d) {
     d.field("part", &OrientedPart::part, "Its name.");
     d.field("flipped_faces", &OrientedPart::flipped_faces, "Faces that were turned round.");
-    d.field("pieces", &OrientedPart::pieces, "Pieces that are connected through edges of two faces.");
-    d.field("closed_pieces", &OrientedPart::closed, "Those of them that are closed.");
-    d.field("nested_pieces", &OrientedPart::nested, "Those that lie inside another.");
-    d.field("non_orientable_pieces", &OrientedPart::non_orientable, "Those that stayed as they were.");
-    d.field("undecided_pieces", &OrientedPart::undecided, "Those without a side that is the outside.");
+    d.field("components", &OrientedPart::components, "Pieces that are connected through edges of two faces.");
+    d.field("closed_components", &OrientedPart::closed, "Those of them that are closed.");
+    d.field("nested_components", &OrientedPart::nested, "Those that lie inside another.");
+    d.field("non_orientable_components", &OrientedPart::non_orientable, "Those that stayed as they were.");
+    d.field("undecided_components", &OrientedPart::undecided, "Those without a side that is the outside.");
 }
 
 void declare_report(DeclareFields<OrientReport>& d) {
@@ -51,12 +51,12 @@ void declare_report(DeclareFields<OrientReport>& d) {
 
 OrientedPart counted(const Part& part, const OrientResult& r) {
     const auto count = [&](auto&& is) {
-        return static_cast<std::size_t>(std::count_if(r.pieces.begin(), r.pieces.end(), is));
+        return static_cast<std::size_t>(std::count_if(r.components.begin(), r.components.end(), is));
     };
-    using Piece = OrientedPiece;
+    using Piece = OrientedComponent;
     return {part.name,
             r.flipped,
-            r.pieces.size(),
+            r.components.size(),
             count([](const Piece& p) { return p.closed; }),
             count([](const Piece& p) { return p.depth > 0; }),
             count([](const Piece& p) { return !p.orientable; }),
@@ -66,8 +66,8 @@ OrientedPart counted(const Part& part, const OrientResult& r) {
 /// Pieces that could not be oriented, or whose outside could not be told.
 void warn(const Part& part, const OrientResult& r, Context& context) {
     std::size_t crossed = 0, undecided = 0;
-    const OrientedPiece* first = nullptr;
-    for (const auto& p : r.pieces) {
+    const OrientedComponent* first = nullptr;
+    for (const auto& p : r.components) {
         if (!p.orientable && crossed++ == 0) first = &p;
         undecided += p.undecided;
     }
@@ -76,7 +76,7 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
         context.warn("W-ORIENT",
                      fmt::format("orient: {} of part '{}' is not orientable, like a Moebius strip, and stays "
                                  "as it was; neighbours cannot be consistent at ({:.6g}, {:.6g}, {:.6g})",
-                                 crossed == 1 ? "a piece" : fmt::format("{} pieces", crossed), part.name,
+                                 crossed == 1 ? "a component" : fmt::format("{} components", crossed), part.name,
                                  at.x, at.y, at.z),
                      "cut it there, or use two-sided");
     }
@@ -84,7 +84,7 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
         context.warn(
             "W-ORIENT-OPEN",
             fmt::format("orient: {} of part '{}' without a side that is the outside: only made consistent",
-                        undecided == 1 ? "a piece" : fmt::format("{} pieces", undecided), part.name),
+                        undecided == 1 ? "a component" : fmt::format("{} components", undecided), part.name),
             "method: flip reverses them");
 }
 

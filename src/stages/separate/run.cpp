@@ -11,7 +11,7 @@ namespace {
 
 struct SeparatedPart {
     std::string part;
-    std::size_t pieces = 0;
+    std::size_t parts = 0;
 };
 
 struct SeparateReport {
@@ -24,7 +24,7 @@ void declare_report(DeclareFields<SeparateReport>& d) {
     d.list("separated", &SeparateReport::separated, "Each part that came apart.",
            [](DeclareFields<SeparatedPart>& p) {
                p.field("part", &SeparatedPart::part, "The name that it had.");
-               p.field("pieces", &SeparatedPart::pieces, "How many parts it became.");
+               p.field("parts", &SeparatedPart::parts, "The number of parts made of it.");
            });
 }
 

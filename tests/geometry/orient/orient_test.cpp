@@ -82,11 +82,11 @@ TEST_CASE("orient makes nested shells solids and cavities in turn", "[geometry]"
     append(mesh, scaled(shapes::cube(), 1, {5, 0, 0}));
     const Mesh turned = shaken(mesh, 5);
     const auto r = oriented(turned);
-    REQUIRE(r.pieces.size() == 4);
+    REQUIRE(r.components.size() == 4);
     const double sphere = test::volume(shapes::icosphere(1));
     CHECK(test::volume(r.mesh) == Approx(sphere - sphere / 8 + 0.001 + 1));
     std::vector<std::size_t> depths;
-    for (const auto& p : r.pieces) depths.push_back(p.depth);
+    for (const auto& p : r.components) depths.push_back(p.depth);
     CHECK(depths == std::vector<std::size_t>{0, 1, 2, 0});
     const auto solids = oriented(turned, {OrientMethod::outward, Nested::solids});
     CHECK(test::volume(solids.mesh) == Approx(sphere + sphere / 8 + 0.001 + 1));
@@ -103,12 +103,12 @@ TEST_CASE("orient looks past faces with repeated corners", "[geometry]") {
         add_face(mesh, spike);
     const auto r = oriented(shaken(mesh, 7));
     CHECK(test::volume(r.mesh) == Approx(sphere - sphere / 8));
-    for (const auto& p : r.pieces) CHECK_FALSE(p.undecided);
-    CHECK(r.pieces.at(1).closed);
-    CHECK(r.pieces.at(1).depth == 1);
+    for (const auto& p : r.components) CHECK_FALSE(p.undecided);
+    CHECK(r.components.at(1).closed);
+    CHECK(r.components.at(1).depth == 1);
 }
 
-TEST_CASE("orient takes no piece that passes through another for its cavity", "[geometry]") {
+TEST_CASE("orient takes no component that passes through another for its cavity", "[geometry]") {
     const Mesh ball = shapes::icosphere(2);
     const double volume = test::volume(ball);
     for (const double apart : {0.1, 0.6, 1.2}) {
@@ -116,11 +116,11 @@ TEST_CASE("orient takes no piece that passes through another for its cavity", "[
         append(mesh, scaled(ball, 1, {-apart, 0.05, -apart}));
         append(mesh, scaled(ball, 0.02)); // a cavity of both
         const auto r = oriented(shaken(mesh, 3));
-        REQUIRE(r.pieces.size() == 3);
-        CHECK(r.pieces[0].depth == 0);
-        CHECK(r.pieces[1].depth == 0);
+        REQUIRE(r.components.size() == 3);
+        CHECK(r.components[0].depth == 0);
+        CHECK(r.components[1].depth == 0);
         const double small = volume * 8e-6;
-        const bool in_both = r.pieces[2].depth == 2;
+        const bool in_both = r.components[2].depth == 2;
         CHECK(test::volume(r.mesh) == Approx(2 * volume + (in_both ? small : -small)));
         CHECK(test::same_mesh(oriented(r.mesh).mesh, r.mesh));
     }
@@ -135,11 +135,11 @@ TEST_CASE("orient lets rays vote on the outside of an open surface", "[geometry]
     bowl.corners = corners;
     for (const auto& mesh : {bowl, shaken(bowl, 9)}) {
         const auto r = oriented(mesh);
-        CHECK_FALSE(r.pieces.at(0).undecided);
+        CHECK_FALSE(r.components.at(0).undecided);
         CHECK(test::volume(r.mesh) > 0);
     }
     const auto flat = oriented(shapes::grid(4, 4));
-    CHECK(flat.pieces.at(0).undecided);
+    CHECK(flat.components.at(0).undecided);
     CHECK(flat.flipped == 0);
 }
 
@@ -147,10 +147,10 @@ TEST_CASE("orient names a Moebius strip and leaves it", "[geometry]") {
     Mesh mesh = shapes::moebius(9);
     append(mesh, shaken(shapes::quad_cube(), 3));
     const auto r = oriented(mesh);
-    REQUIRE(r.pieces.size() == 2);
-    CHECK_FALSE(r.pieces[0].orientable);
-    CHECK(r.pieces[0].flipped == 0);
-    CHECK(r.pieces[1].orientable);
+    REQUIRE(r.components.size() == 2);
+    CHECK_FALSE(r.components[0].orientable);
+    CHECK(r.components[0].flipped == 0);
+    CHECK(r.components[1].orientable);
     CHECK(std::equal(r.mesh.corners.begin(), r.mesh.corners.begin() + 36, mesh.corners.begin()));
 }
 
