@@ -46,7 +46,7 @@ double bound_of(const FaceTree& tree, const Piece& piece, double enough) {
     return bound;
 }
 
-struct Farthest {
+struct FarthestCorner {
     Vec3 from, to;
     double distance = -1;
     Index face = none;
@@ -61,13 +61,13 @@ struct Outcome {
     std::array<Piece, 4> left; ///< parts that may still hold a farther point
     std::size_t left_count = 0;
     double settled = 0; ///< what the rest is bounded by
-    Farthest farthest;
+    FarthestCorner farthest;
     std::size_t looked_up = 0;
 };
 
-class Bound {
+class Certifier {
   public:
-    Bound(DirectedDeviation& d, const Surface& from, const FaceTree& to, const DeviationSettings& settings)
+    Certifier(DirectedDeviation& d, const Surface& from, const FaceTree& to, const DeviationSettings& settings)
         : d_(d), from_(from), tree_(to), settings_(settings), slack_(from.bounds().diagonal() * 1e-6) {}
 
     void run() {
@@ -208,7 +208,7 @@ class Bound {
 
 void bound_deviation(DirectedDeviation& d, const Surface& from, const FaceTree& to,
                      const DeviationSettings& settings) {
-    Bound(d, from, to, settings).run();
+    Certifier(d, from, to, settings).run();
 }
 
 } // namespace facetmill

@@ -11,8 +11,7 @@ namespace facetmill {
 namespace {
 
 using polygon::RingTree;
-
-int turn(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y); }
+using polygon::turn;
 
 [[noreturn]] void refuse(std::string message, std::string hint = {}) {
     throw Error(ErrorKind::usage, "E-FOOTPRINT", std::move(message), std::move(hint));

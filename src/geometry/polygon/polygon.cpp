@@ -28,8 +28,6 @@ struct Integrals {
     }
 };
 
-int turn(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y); }
-
 const Vec2& following(Ring ring, std::size_t i) { return ring[i + 1 == ring.size() ? 0 : i + 1]; }
 
 /// For numbers whose products doubles cannot hold.

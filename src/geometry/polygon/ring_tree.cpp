@@ -25,8 +25,6 @@ namespace {
 
 using Edge = RingTree::Edge;
 
-int turn(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y); }
-
 bool in_box(const Vec2& p, const Edge& e) {
     const auto b = RingTree::bounds(e);
     return b.x0 <= p.x && p.x <= b.x1 && b.y0 <= p.y && p.y <= b.y1;

@@ -2,9 +2,15 @@
 // A tree of boxes over the edges of rings, in their order: neighbours along a ring are neighbours in the
 // tree, so it is built in one pass and still finds what is near quickly.
 
+#include "base/predicates.hpp"
 #include "geometry/polygon/polygon.hpp"
 
 namespace facetmill::polygon {
+
+/// The side of the line a b on which c lies, exactly: 1 on its left, -1 on its right, 0 on it.
+inline int turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+    return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y);
+}
 
 class RingTree {
   public:

@@ -9,7 +9,6 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::size_t max_entries = 10;
 constexpr std::size_t max_locations = std::size_t{1} << 22;
 
 const Property& property_of(const Assertion& assertion) { return *property_named(assertion.property); }
@@ -64,7 +63,7 @@ Json evidence_against(const Scene& scene, const Assertion& assertion) {
     const Property& property = property_of(assertion);
     Json evidence = Json::array();
     for (const Evidence& e :
-         evidence_against(scene, EvidenceQuery{property, failing(assertion), assertion.within, max_entries}))
+         evidence_against(scene, EvidenceQuery{property, failing(assertion), assertion.within, max_evidence}))
         evidence.push_back(entry_of(property, e));
     return evidence;
 }
@@ -75,7 +74,7 @@ Json evidence_among(const Scene& scene, const Assertion& assertion, const std::v
     for (const Part& part : scene.parts) {
         const PartKeys known(part);
         for (const Location& location : locations_against(part, assertion))
-            if (evidence.size() < max_entries &&
+            if (evidence.size() < max_evidence &&
                 std::binary_search(keys.begin(), keys.end(), known.of(location)))
                 evidence.push_back(entry_of(property, evidence_of(part, location)));
     }

@@ -7,6 +7,9 @@
 
 namespace facetmill {
 
+/// Entries of evidence that a check carries at most.
+constexpr std::size_t max_evidence = 10;
+
 /// The first locations in the world, ten at most: [{part, at, face}], of pairs of faces that meet also {with},
 /// of attributes also {attribute}. Against closedness and about the boundary, one entry for each of its chains:
 /// [{part, at, face, loop, edges, length}], the loops numbered from 0 by their lowest vertex, at the middle of

@@ -4,6 +4,7 @@
 #include "base/random.hpp"
 #include "stage/assertions.hpp"
 #include "stages/validate/document_contents.hpp"
+#include "stages/validate/evidence_json.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,8 +12,6 @@
 namespace facetmill {
 
 namespace {
-
-constexpr std::size_t max_entries = 10; ///< of evidence
 
 /// Something that counts towards a limit.
 struct Share {
@@ -35,7 +34,7 @@ LimitCheck check_number(const char* name, const Bound& bound, std::vector<Share>
     if (check.passed) return limit;
     std::stable_sort(shares.begin(), shares.end(),
                      [](const Share& a, const Share& b) { return a.amount > b.amount; });
-    shares.resize(std::min(shares.size(), max_entries));
+    shares.resize(std::min(shares.size(), max_evidence));
     check.evidence = Json::array();
     for (Share& s : shares) check.evidence.push_back(std::move(s.entry));
     return limit;
@@ -65,7 +64,7 @@ LimitCheck check_words(const char* name, const std::vector<std::string>& pattern
         if (std::any_of(patterns.begin(), patterns.end(),
                         [&](const auto& p) { return glob_matches(p, w.text); }))
             continue;
-        if (evidence.size() < max_entries) evidence.push_back(w.entry);
+        if (evidence.size() < max_evidence) evidence.push_back(w.entry);
         if (std::find(bad.begin(), bad.end(), w.text) == bad.end()) bad.push_back(w.text);
         std::uint64_t key = 8;
         for (const char letter : w.entry.dump(-1, ' ', false, Json::error_handler_t::replace))
@@ -74,7 +73,7 @@ LimitCheck check_words(const char* name, const std::vector<std::string>& pattern
     }
     std::sort(limit.keys.begin(), limit.keys.end());
     check.passed = bad.empty();
-    const std::size_t more = bad.size() > max_entries ? bad.size() - max_entries : 0;
+    const std::size_t more = bad.size() > max_evidence ? bad.size() - max_evidence : 0;
     bad.resize(bad.size() - more);
     check.found = bad;
     if (check.passed) check.found_words = "nothing else";
