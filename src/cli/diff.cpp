@@ -131,7 +131,7 @@ Command diff_command() {
                 .not_negative();
             arguments.add("--certify", &settings.deviation.certify,
                           "Also computes a guaranteed bound of the distance, and compares --max with it.");
-            arguments.add("--all", &options->all, "Also show what is the same.");
+            arguments.add("--all", &options->all, "Also shows what is equal.");
             arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
             arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
                 .between(1, 4096);

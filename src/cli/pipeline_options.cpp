@@ -17,8 +17,9 @@ namespace facetmill::cli {
 namespace fs = std::filesystem;
 
 void add_message_options(Arguments& arguments, Console& console) {
-    arguments.add("-q,--quiet", &console.quiet, "Only warnings and errors.").under("Messages");
-    arguments.add("-v,--verbose", &console.verbose, "Also every stage as it starts, and what was resolved.")
+    arguments.add("-q,--quiet", &console.quiet, "Prints only warnings and errors.").under("Messages");
+    arguments
+        .add("-v,--verbose", &console.verbose, "Also prints every stage as it starts, and what was resolved.")
         .under("Messages");
     arguments
         .add(

@@ -39,12 +39,12 @@ std::string help_text() {
                   "  facetmill info scan.ply\n"
                   "  facetmill diff scan.ply web.glb --max 0.5%\n"
                   "  facetmill stages simplify\n\n"
-                  "facetmill COMMAND --help tells more; so do the manual pages facetmill(1), "
+                  "See also facetmill COMMAND --help and the manual pages facetmill(1), "
                   "facetmill-pipeline(5),\n"
                   "facetmill-stages(7) and facetmill-messages(7).\n\n"
                   "Exit codes: 0 done, 1 a check did not hold, 2 the command line or the pipeline is wrong, "
                   "3 an input is\n"
-                  "missing, 4 an output cannot be written, 5 a stage could not do its work, 6 an input is "
+                  "missing, 4 an output cannot be written, 5 a stage cannot process its input, 6 an input is "
                   "malformed, 7 a\n"
                   "limit or memory, 70 a bug in facetmill, 128+n ended by signal n.\n";
 }

@@ -80,7 +80,7 @@ void compare_geometry(const Comparing& with) {
     const auto& settings = with.settings;
     compare_frames(with);
     const Turned turned = turned_round(with.a, with.b);
-    with.add("geometry", "turned round", false, turned.round, !turned.round, turned.note);
+    with.add("geometry", "reversed", false, turned.round, !turned.round, turned.note);
     const Shape a(with.a), b(with.b);
     with.result.geometry_a = a.kind(), with.result.geometry_b = b.kind();
     const auto d = with.result.deviation = deviation(a.main(), b.main(), settings.deviation);

@@ -83,7 +83,7 @@ Turned turned_round(const Scene& a, const Scene& b) {
     for (std::size_t i = 0; i < first.size(); ++i)
         if (turned(first[i], second[i]) && count++ == 0) where = &first[i];
     if (count == 0) return {};
-    return {true, fmt::format("{} of {} pieces, the first at face {} of '{}'", count, first.size(),
+    return {true, fmt::format("{} of {} components, the first at face {} of '{}'", count, first.size(),
                               where->face, where->part)};
 }
 

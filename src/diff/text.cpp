@@ -46,8 +46,8 @@ std::string measured_text(const Comparison& comparison) {
 
 std::string verdict(const Comparison& comparison) {
     if (comparison.differs()) return "differ";
-    if (!comparison.complete()) return "agree in what was compared";
-    return comparison.ignored.empty() ? "agree" : "agree in what was asked";
+    if (!comparison.complete()) return "agree in everything that was compared";
+    return comparison.ignored.empty() ? "agree" : "agree in everything that was requested";
 }
 
 } // namespace
@@ -154,7 +154,7 @@ Json comparison_schema() {
          {"same", typed("boolean", "Nothing that decides differs: the exit code is 0")},
          {"complete", typed("boolean", "Nothing was left out, and all that decides could be compared")},
          {"left_out",
-          {{"type", "array"}, {"items", left_out}, {"description", "What was not read of a file"}}},
+          {{"type", "array"}, {"items", left_out}, {"description", "Contents of a file that were not read"}}},
          {"geometry_of", geometry_of},
          {"sections", std::move(sections)},
          {"deviation",

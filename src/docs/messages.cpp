@@ -34,7 +34,7 @@ std::string message_page(const MessageId& message) {
 
 std::string messages_markdown() {
     std::string text = "# The messages of facetmill\n\nEach error and warning has a stable id. "
-                       "`facetmill explain ID` prints what is written here.\n";
+                       "`facetmill explain ID` prints its entry on this page.\n";
     for (const auto& m : message_ids())
         text += fmt::format("\n## {}\n\n{}\n\n{} {}.\n", m.id, m.meaning, m.hint, severity_text(m));
     return text;
@@ -48,7 +48,7 @@ std::string messages_man() {
             "too.\n";
     for (const bool warnings : {false, true}) {
         text += warnings ? ".SH WARNINGS\nEach makes the run fail when\n.B \\-\\-strict=ID\nnames it.\n"
-                         : ".SH ERRORS\nThe exit code tells of which kind an error is.\n";
+                         : ".SH ERRORS\nThe exit code gives the kind of an error.\n";
         for (const auto& m : message_ids())
             if (m.is_warning() == warnings)
                 text += fmt::format(".TP\n.B {}\n{}\n{}\n{}.\n", roff(m.id), roff(m.meaning), roff(m.hint),

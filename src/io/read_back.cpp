@@ -270,7 +270,7 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, co
     const auto refuse = [&](std::string message) {
         throw Error(ErrorKind::output, "E-READBACK",
                     fmt::format("'{}' does not hold what was written: {}", file.name(), message),
-                    "this is a fault of facetmill or of the disk; older outputs are untouched");
+                    "this is a bug in facetmill or a fault of the disk; existing outputs are unchanged");
     };
     ReadLog log;
     try {

@@ -115,7 +115,7 @@ class Walk {
             headers.errors.push_back(
                 Error(ErrorKind::usage, "E-UNIT",
                       fmt::format("the scene has no unit, so it cannot be written in {}", wanted->text),
-                      "say what the numbers of the file mean (load: {unit: mm})", wanted->mark));
+                      "give the unit of the file (load: {unit: mm})", wanted->mark));
         std::vector<std::pair<std::string, const Value*>> found;
         find_physical(step.stage->options, step.given, found);
         for (const auto& [option, value] : found) no_unit(option, value->text, value->mark);
@@ -139,8 +139,7 @@ class Walk {
     void no_unit(const std::string& option, const std::string& text, const Mark& where) {
         headers.errors.push_back(Error(
             ErrorKind::usage, "E-UNIT", fmt::format("'{}' is {}, but the scene has no unit", option, text),
-            "say what the numbers of the file mean (load: {unit: mm}), or give a bare number or a percentage",
-            where));
+            "give the unit of the file (load: {unit: mm}), or use a bare number or a percentage", where));
     }
 
     const Places& places_;

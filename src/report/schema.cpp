@@ -52,8 +52,7 @@ Json file(bool read_back) {
     Json properties = {{"path", typed("string")},
                        {"bytes", {{"type", "integer"}, {"minimum", 0}}},
                        {"sha256", {{"type", "string"}, {"pattern", "^([0-9a-f]{64})?$"}}}};
-    if (read_back)
-        properties["read_back"] = {{"description", "What was found when the written file was decoded again"}};
+    if (read_back) properties["read_back"] = {{"description", "The result of reading the written file back"}};
     return closed_object(std::move(properties));
 }
 
@@ -123,27 +122,27 @@ Json definitions() {
                                 {"faces", typed("integer")},
                                 {"bounds", bounds()}});
     brief["type"] = Json::array({"object", "null"});
-    return {
-        {"diagnostic", closed_object({{"id", typed("string")},
-                                      {"message", typed("string")},
-                                      {"where", nullable("string")},
-                                      {"hint", nullable("string")}})},
-        {"brief", std::move(brief)},
-        {"stage", stage_schema()},
-        {"check", closed_object({{"name", typed("string", "The property")},
-                                 {"stage", typed("string")},
-                                 {"passed", typed("boolean")},
-                                 {"severity", choice({"error", "warning", "note"})},
-                                 {"expected", typed("string")},
-                                 {"found", found()},
-                                 {"hint", nullable("string", "When it failed: the stage that mends it")},
-                                 {"part", nullable("string", "The part it is about; null: the scene")},
-                                 {"where", nullable("string", "Its place in the pipeline")},
-                                 {"waived", typed("boolean", "It failed, and that is known")},
-                                 {"locations", nullable("integer", "How many speak against it")},
-                                 {"new_locations", nullable("integer", "How many the baseline lacks")},
-                                 {"evidence", nullable("array", "The first locations, or what counts most")}})},
-        {"scene", scene_schema()}};
+    return {{"diagnostic", closed_object({{"id", typed("string")},
+                                          {"message", typed("string")},
+                                          {"where", nullable("string")},
+                                          {"hint", nullable("string")}})},
+            {"brief", std::move(brief)},
+            {"stage", stage_schema()},
+            {"check",
+             closed_object({{"name", typed("string", "The property")},
+                            {"stage", typed("string")},
+                            {"passed", typed("boolean")},
+                            {"severity", choice({"error", "warning", "note"})},
+                            {"expected", typed("string")},
+                            {"found", found()},
+                            {"hint", nullable("string", "When it failed: the stage that mends it")},
+                            {"part", nullable("string", "The part it is about; null: the scene")},
+                            {"where", nullable("string", "Its position in the pipeline")},
+                            {"waived", typed("boolean", "It failed, and that is known")},
+                            {"locations", nullable("integer", "How many speak against it")},
+                            {"new_locations", nullable("integer", "How many the baseline lacks")},
+                            {"evidence", nullable("array", "The first locations, or what counts most")}})},
+            {"scene", scene_schema()}};
 }
 
 Json run_schema() {

@@ -105,7 +105,7 @@ std::vector<std::string> probe_summary(const Json& result) {
     }
     std::string line = joined(counts);
     if (result.contains("distance")) line = joined({line, range_text("distance", result["distance"])}, "; ");
-    std::vector<std::string> lines{line.empty() ? "nothing was asked" : line};
+    std::vector<std::string> lines{line.empty() ? "nothing was queried" : line};
     const Json& answers = result["answers"];
     for (std::size_t i = 0; i < std::min(few, answers.size()); ++i) lines.push_back(answer_text(answers[i]));
     const auto count = result["count"].get<std::size_t>();
@@ -137,7 +137,7 @@ std::vector<std::string> section_summary(const Json& result, const std::string& 
                                     number(part["principal_axes"]["largest"]), in, in.empty() ? "" : "4"));
     }
     if (result.contains("spacing")) {
-        std::string line = fmt::format("areas times distance {}", number(result["area_times_spacing"]));
+        std::string line = fmt::format("areas times spacing {}", number(result["area_times_spacing"]));
         if (!result["volume"].is_null()) line += fmt::format(", volume {}", number(result["volume"]));
         lines.push_back(line);
     }

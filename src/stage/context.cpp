@@ -82,8 +82,7 @@ double Context::resolve(const Length& length, const Scene& scene, std::string_vi
         if (!(unit > 0))
             throw Error(ErrorKind::usage, "E-UNIT",
                         fmt::format("'{}' is {}, but the scene has no unit", option, length.text),
-                        "say what the numbers of the file mean (load: {unit: mm}), or give a bare number or "
-                        "a percentage");
+                        "give the unit of the file (load: {unit: mm}), or use a bare number or a percentage");
         is = length.amount / unit;
     } else if (length.kind == Length::Kind::percent) {
         const double whole = length.of == Length::Of::load           ? run_.load_diagonal

@@ -44,7 +44,8 @@ TEST_CASE("the same surface cut otherwise differs in counts alone", "[report]") 
     settings.ignored = {"counts"};
     CHECK_FALSE(report::compare(quads, triangles, settings).differs());
     CHECK(report::to_text(report::compare(quads, triangles, settings), "a", "b", false)
-              .starts_with("a and b agree in what was asked\n  counts: 3 different (ignored)\n"));
+              .starts_with(
+                  "a and b agree in everything that was requested\n  counts: 3 different (ignored)\n"));
 }
 
 TEST_CASE("surfaces may be apart by the limit", "[report]") {
@@ -87,7 +88,7 @@ TEST_CASE("a surface turned inside out differs, closed or open", "[report]") {
         Scene a = scene_of(mesh), b = a;
         for (std::size_t c = 0; c < b.parts[0].mesh.corners.size(); c += 3)
             std::swap(b.parts[0].mesh.corners[c], b.parts[0].mesh.corners[c + 1]);
-        CHECK(different(report::compare(a, b)) == "geometry: turned round");
+        CHECK(different(report::compare(a, b)) == "geometry: reversed");
     }
 }
 
@@ -108,9 +109,9 @@ TEST_CASE("one piece or part turned inside out is enough to differ", "[report]")
     for (const auto& [other, note] : {std::pair(b, "1 of 3 pieces, the first at face 80 of 'part'"),
                                       std::pair(c, "1 of 3 pieces, the first at face 0 of 'part'")}) {
         const auto found = report::compare(a, other);
-        CHECK(different(found) == "geometry: turned round");
+        CHECK(different(found) == "geometry: reversed");
         for (const auto& d : found.lines)
-            if (d.name == "turned round") CHECK(d.note == note);
+            if (d.name == "reversed") CHECK(d.note == note);
     }
 }
 
@@ -225,7 +226,7 @@ TEST_CASE("what could not be compared is said, and is not the same", "[report]")
     CHECK_FALSE(d.complete());
     CHECK_FALSE(line(d, "TEXCOORD_0 (wedge)")->compared);
     const std::string text = report::to_text(d, "a", "b", false);
-    CHECK(text.starts_with("a and b agree in what was compared\n"));
+    CHECK(text.starts_with("a and b agree in everything that was compared\n"));
     CHECK(text.find("not compared: values of 24 and 7 elements") != std::string::npos);
     CHECK(report::to_json(d, "a", "b")["complete"] == false);
     d.ignored = {"attributes"};

@@ -115,7 +115,7 @@ class Process(Case):
         self.write("lines.obj", points + "l 1 2 3\n")
         self.write("others.obj", points + "l 1 3\n")
         done = self.mill("diff", "lines.obj", "others.obj")
-        self.assertTrue(done.stdout.startswith("lines.obj and others.obj agree in what was compared\n"
+        self.assertTrue(done.stdout.startswith("lines.obj and others.obj agree in everything that was compared\n"
                                                "  not compared: lines.obj: "), done.stdout)
         found = json.loads(self.mill("diff", "--json", "lines.obj", "others.obj").stdout)
         self.assertEqual((found["same"], found["complete"]), (True, False))

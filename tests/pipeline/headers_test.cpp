@@ -88,12 +88,9 @@ TEST_CASE("a physical length on a scene without a unit is found before anything 
     const char* later = "  - crumple: {amplitude: 2mm}\n  - branch:\n      a: [{crumple: 0.1in}]\n";
     const auto errors = ground.errors(std::string("  - load: good.off\n") + later);
     REQUIRE(errors.size() == 2);
-    CHECK(errors[0] ==
-          "2: p.yaml:4:26: error[E-UNIT]: 'amplitude' is 2mm, but the scene has no unit\n"
-          "    - crumple: {amplitude: 2mm}\n"
-          "                           ^~~\n"
-          "  hint: say what the numbers of the file mean (load: {unit: mm}), or give a bare number "
-          "or a percentage");
+    CHECK(errors[0] == "2: p.yaml:4:26: error[E-UNIT]: 'amplitude' is 2mm, but the scene has no unit\n    - "
+                       "crumple: {amplitude: 2mm}\n                           ^~~\n  hint: give the unit of "
+                       "the file (load: {unit: mm}), or use a bare number or a percentage");
     CHECK(ground.errors(std::string("  - load: {path: good.off, unit: mm}\n") + later).empty());
     CHECK(ground.errors(std::string("  - load: body.gltf\n") + later).empty());
 }

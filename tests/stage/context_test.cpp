@@ -103,9 +103,8 @@ TEST_CASE("a physical length needs a scene with a unit", "[stage]") {
     } catch (const Error& e) {
         CHECK(e.kind() == ErrorKind::usage);
         CHECK(render(e.diagnostics().at(0)) ==
-              "facetmill: error[E-UNIT]: 'amplitude' is 2mm, but the scene has no unit\n"
-              "  hint: say what the numbers of the file mean (load: {unit: mm}), or give a bare number or a "
-              "percentage");
+              "facetmill: error[E-UNIT]: 'amplitude' is 2mm, but the scene has no unit\n  hint: give the "
+              "unit of the file (load: {unit: mm}), or use a bare number or a percentage");
     }
 }
 

@@ -44,7 +44,7 @@ TEST_CASE("a section has moments as a whole, its holes taken off", "[stages]") {
         run_stage("section", "z=0.5", scene_of(tube)).record.result["sections"][0]["parts"][0]["centroid"] ==
         nullptr);
     CHECK(run_stage("section", "{count: 4}", scene_of(shapes::cube())).record.said ==
-          std::vector<std::string>{"4 sections: area 4, 4 contours", "areas times distance 1, volume 1"});
+          std::vector<std::string>{"4 sections: area 4, 4 contours", "areas times spacing 1, volume 1"});
     CHECK(run_stage("section", "z=9", scene_of(shapes::cube())).record.said ==
           std::vector<std::string>{"1 section: area 0, 1 empty"});
 }
@@ -126,6 +126,6 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
           "limit [E-SECTION] the stack would have 1048577 planes, and at most 100000 are cut | choose a "
           "larger spacing");
     CHECK(refusal("{plane: z=2mm}") ==
-          "usage [E-UNIT] 'plane' is 2mm, but the scene has no unit | say what the numbers of the file "
-          "mean (load: {unit: mm}), or give a bare number or a percentage");
+          "usage [E-UNIT] 'plane' is 2mm, but the scene has no unit | give the unit of the file (load: "
+          "{unit: mm}), or use a bare number or a percentage");
 }

@@ -18,7 +18,7 @@ void declare_place(DeclareFields<DirectedDeviation>& d) {
 
 void declare_way(DeclareFields<DirectedDeviation>& d) {
     d.field("samples", &DirectedDeviation::samples, "Points measured over the area.");
-    d.field("vertices", &DirectedDeviation::vertices, "Vertices measured besides, for the maximum.");
+    d.field("vertices", &DirectedDeviation::vertices, "Vertices measured in addition, for the maximum.");
     d.field("maximum", &DirectedDeviation::maximum, "The largest distance.")
         .unit("scene units")
         .null_when(infinite);
@@ -26,13 +26,13 @@ void declare_way(DeclareFields<DirectedDeviation>& d) {
         .unit("scene units")
         .null_when(infinite);
     d.field("mean", &DirectedDeviation::mean, "The mean distance.").unit("scene units").null_when(infinite);
-    d.field("bound", &DirectedDeviation::bound, "No point is farther than this.")
+    d.field("bound", &DirectedDeviation::bound, "A guaranteed upper bound: no point is farther than this.")
         .unit("scene units")
         .null_when(uncertified);
     const auto at = [](const DirectedDeviation& way) {
         return std::isfinite(way.maximum) && way.vertices > 0 ? std::optional(way) : std::nullopt;
     };
-    d.object("at", at, "Where the maximum is.", declare_place).null_when("nothing was measured");
+    d.object("at", at, "The position of the maximum.", declare_place).null_when("nothing was measured");
 }
 
 /// The four measures in percent of the diagonal.
@@ -62,18 +62,20 @@ void declare_deviation_fields(DeclareFields<DeviationResult>& d) {
     d.field("mean", &DeviationResult::mean, "The larger mean distance of both ways.")
         .unit("scene units")
         .null_when(infinite);
-    d.field("bound", &DeviationResult::bound, "No point of either surface is farther than this.")
+    d.field("bound", &DeviationResult::bound,
+            "A guaranteed upper bound: no point of either surface is farther than this.")
         .unit("scene units")
         .null_when(uncertified);
-    d.field("diagonal", &DeviationResult::diagonal, "Of the box of the surface that is compared with.")
+    d.field("diagonal", &DeviationResult::diagonal,
+            "The diagonal of the bounding box of the reference surface.")
         .unit("scene units")
         .null_when("it is beyond the range of numbers");
     const auto self = [](const DeviationResult& r) -> const DeviationResult& { return r; };
     d.object("percent", self, "The same in percent of the diagonal.", declare_percent);
     d.field("seed", &DeviationResult::seed, "The seed of the sample positions.");
-    d.object("forward", &DeviationResult::forward, "From the first surface, what entered, to the second.",
+    d.object("forward", &DeviationResult::forward, "From the first surface (the input) to the second.",
              declare_way);
-    d.object("backward", &DeviationResult::backward, "From the second surface, what left, to the first.",
+    d.object("backward", &DeviationResult::backward, "From the second surface (the result) to the first.",
              declare_way);
 }
 

@@ -8,7 +8,7 @@ namespace facetmill {
 
 std::function<void(DeclareFields<Statistics>&)> statistics_fields(std::string unit, double factor) {
     return [=](DeclareFields<Statistics>& d) {
-        d.field("count", &Statistics::count, "Of how many numbers.");
+        d.field("count", &Statistics::count, "The number of values.");
         const auto declare = [&](const char* name, double Statistics::*member, const char* help) {
             const auto get = [=](const Statistics& s) {
                 return s.count > 0 ? std::optional(s.*member * factor) : std::nullopt;
@@ -16,9 +16,10 @@ std::function<void(DeclareFields<Statistics>&)> statistics_fields(std::string un
             d.field(name, get, help).unit(unit).only_when("count is above 0");
         };
         declare("minimum", &Statistics::minimum, "The least.");
-        declare("maximum", &Statistics::maximum, "The greatest.");
+        declare("maximum", &Statistics::maximum, "The maximum.");
         declare("mean", &Statistics::mean, "The mean.");
-        declare("median", &Statistics::median, "The middle one, of an even count the upper of both.");
+        declare("median", &Statistics::median,
+                "The median; for an even count, the upper of the two middle values.");
         declare("deviation", &Statistics::deviation, "The standard deviation.");
     };
 }

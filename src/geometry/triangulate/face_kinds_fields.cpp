@@ -10,8 +10,9 @@ void declare_face_kinds(DeclareFields<FaceKinds>& d) {
             "Faces of this kind.");
     }
     d.field("non_planar", &FaceKinds::non_planar,
-            "Faces farther from their plane than float32 coordinates would put them.");
-    d.field("deviation", &FaceKinds::deviation, "The farthest that a corner is from its face's plane.")
+            "Faces that are farther from their plane than the rounding of float32 explains.");
+    d.field("deviation", &FaceKinds::deviation,
+            "The largest distance of a corner from the plane of its face.")
         .unit("scene units");
 }
 

@@ -133,21 +133,21 @@ void declare_contour(DeclareFields<SectionContour>& d) {
               {to_string(ContourRole::hole), ContourRole::hole, "something outside, nothing inside"},
               {to_string(ContourRole::inner), ContourRole::inner, "something on both sides"},
               {to_string(ContourRole::open), ContourRole::open, "not closed: the mesh has a boundary there"}},
-             "What it is to the others of its section.");
+             "Its role in the section: outline or hole.");
     const auto parent = [](const SectionContour& c) {
         return c.contour->parent == none ? std::optional<Index>() : c.contour->parent;
     };
-    d.field("parent", parent, "The number of the contour right around it.").only_when("there is one");
+    d.field("parent", parent, "The number of the innermost contour around it.").only_when("there is one");
     d.field(
         "points", [](const SectionContour& c) { return c.contour->end - c.contour->begin; },
         "The number of its points.");
     d.field(
          "length", [](const SectionContour& c) { return c.contour->length; },
-         "Around it, or along it when open.")
+         "The length of its boundary, or its own length when it is open.")
         .unit("scene units");
     d.choice("orientation", of_closed([](const Contour& c) { return c.orientation > 0 ? 1 : -1; }),
              {{"anticlockwise", 1, "seen against the normal"}, {"clockwise", -1, "seen against the normal"}},
-             "The way that it runs.")
+             "Its orientation.")
         .only_when(closed);
     std::vector<NamedChoice<polygon::Kind>> kinds;
     for (int k = 0; k < polygon::kinds; ++k) {
@@ -188,14 +188,15 @@ std::optional<SectionMoments> moments_of(const Section& section) {
 } // namespace
 
 void declare_frame_fields(DeclareFields<SectionFrame>& d) {
-    d.field("origin", &SectionFrame::origin, "Where u and v are 0, in the world.");
+    d.field("origin", &SectionFrame::origin, "The origin (u = v = 0), in world space.");
     d.field("u", &SectionFrame::u, "The direction of the first coordinate.");
     d.field("v", &SectionFrame::v, "The direction of the second coordinate.");
-    d.field("normal", &SectionFrame::normal, "The direction that both are square to.");
+    d.field("normal", &SectionFrame::normal, "The direction perpendicular to both.");
 }
 
 void declare_section_fields(DeclareFields<Section>& d) {
-    d.field("area", &Section::area, "The area of the section, holes taken off.").unit("square scene units");
+    d.field("area", &Section::area, "The area of the section, with holes subtracted.")
+        .unit("square scene units");
     d.object("centroid", moments_of, "The centroid of the section.", declare_centroid)
         .null_when("a contour is open, or overlaps itself or another");
     declare_moments(d, moments_of);

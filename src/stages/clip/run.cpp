@@ -40,10 +40,9 @@ void declare(Declare<ClipOptions>& d) {
 }
 
 void declare_plane_field(DeclareFields<Plane>& d) {
-    d.field("normal", &Plane::normal, "The way that its front looks.");
+    d.field("normal", &Plane::normal, "The direction of its front.");
     d.field("through", &Plane::through, "A point on it.");
-    d.field("offset", &Plane::offset, "How far it stands from that point along the normal.")
-        .unit("scene units");
+    d.field("offset", &Plane::offset, "Its distance from that point along the normal.").unit("scene units");
 }
 
 void declare_report(DeclareFields<ClipReport>& d) {
@@ -51,10 +50,11 @@ void declare_report(DeclareFields<ClipReport>& d) {
         .only_when("they stand in the world (space: world)");
     d.field("cut_faces", &ClipReport::cut_faces, "Faces that were cut.");
     d.field("cap_faces", &ClipReport::cap_faces, "Faces of caps.");
-    d.field("open_contours", &ClipReport::open_contours, "Contours that were not capped, as they are open.");
+    d.field("open_contours", &ClipReport::open_contours,
+            "Contours that were not capped because they are open.");
     d.field("on_plane", &ClipReport::on_plane, "Vertices that lie on a plane.");
-    d.field("snapped", &ClipReport::snapped, "Those of them that do so within the rounding of float32.");
-    d.field("remembered", &ClipReport::remembered, "Those of them that a clip before put there.");
+    d.field("snapped", &ClipReport::snapped, "Those that do so within the rounding of float32.");
+    d.field("remembered", &ClipReport::remembered, "Those that an earlier clip placed there.");
 }
 
 Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& report) {

@@ -66,16 +66,16 @@ std::size_t axis_of(const CropOptions& o, const Scene& scene) {
 
 void declare_report(DeclareFields<CropReport>& d) {
     d.field("rings", &CropReport::rings, "Rings of the footprint.");
-    d.field("footprint_area", &CropReport::footprint_area, "What is inside of it.")
-        .unit("square scene units");
-    d.field("axis", &CropReport::axis, "The axis that it was seen along: x, y or z.");
+    d.field("footprint_area", &CropReport::footprint_area, "The inside.").unit("square scene units");
+    d.field("axis", &CropReport::axis, "The axis of view: x, y or z.");
     d.field("cut_faces", &CropReport::cut_faces, "Faces that were cut.");
     d.field("cap_faces", &CropReport::cap_faces, "Faces of walls on the outline.");
-    d.field("open_contours", &CropReport::open_contours, "Contours that were not capped, as they are open.");
+    d.field("open_contours", &CropReport::open_contours,
+            "Contours that were not capped because they are open.");
     d.field("snapped", &CropReport::snapped,
             "Vertices that count as on the outline within the rounding of float32.");
-    d.field("faces_before", &CropReport::faces_before, "Faces that came in.");
-    d.field("faces_after", &CropReport::faces_after, "Faces that are left, of both sides with keep: both.");
+    d.field("faces_before", &CropReport::faces_before, "Faces of the input.");
+    d.field("faces_after", &CropReport::faces_after, "Faces that remain, on both sides with keep: both.");
 }
 
 Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& report) {

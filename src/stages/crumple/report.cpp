@@ -33,22 +33,23 @@ void declare_shares(DeclareFields<AvoidResult>& d) {
 void declare_avoided(DeclareFields<AvoidResult>& d) {
     d.field(
         "kept_apart", [](const AvoidResult&) { return "faces of the same part"; }, "What was kept apart.");
-    d.field("before", &AvoidResult::exempt, "Pairs of faces that met before.");
+    d.field("before", &AvoidResult::exempt, "Pairs of faces that intersected before.");
     d.field("found", &AvoidResult::found,
-            "New pairs that the full moves would make, and faces that would lose their area.");
-    d.field("rounds", &AvoidResult::rounds, "How many times shares were lowered.");
+            "New intersecting pairs that the full displacements would cause, and faces that would lose their "
+            "area.");
+    d.field("rounds", &AvoidResult::rounds, "The number of rounds in which shares were lowered.");
     const auto self = [](const AvoidResult& r) -> const AvoidResult& { return r; };
-    d.object("vertices_by_share", self, "Vertices by the share of their move that they took.",
+    d.object("vertices_by_share", self, "The number of vertices for each share of the displacement.",
              declare_shares);
 }
 
 void declare_part(DeclareFields<CrumpleReportPart>& d) {
     d.field("part", &CrumpleReportPart::part, "Its name.");
-    d.field("added_faces", &CrumpleReportPart::added_faces, "How many faces it has more than before.");
-    d.field("moved_vertices", &CrumpleReportPart::moved, "Vertices that are elsewhere than before.");
+    d.field("added_faces", &CrumpleReportPart::added_faces, "The number of faces added.");
+    d.field("moved_vertices", &CrumpleReportPart::moved, "Vertices that moved.");
     d.field("held_vertices", &CrumpleReportPart::held_vertices,
-            "Vertices that had to stay: on the boundary, out of the mask.");
-    d.field("largest_move", &CrumpleReportPart::largest_move, "The farthest that a vertex moved.")
+            "Vertices that were held: on the boundary or outside the mask.");
+    d.field("largest_move", &CrumpleReportPart::largest_move, "The largest move of a vertex.")
         .unit("scene units");
     d.field("root_mean_square_move", &CrumpleReportPart::root_mean_square, "Of all vertices.")
         .unit("scene units");
@@ -57,8 +58,8 @@ void declare_part(DeclareFields<CrumpleReportPart>& d) {
 } // namespace
 
 void declare_crumple_report(DeclareFields<CrumpleReport>& d) {
-    d.object("self_intersections", &CrumpleReport::self_intersections, "What keeping faces apart came to.",
-             declare_avoided)
+    d.object("self_intersections", &CrumpleReport::self_intersections,
+             "The result of avoiding intersections.", declare_avoided)
         .only_when("self_intersections is avoid or forbid");
     d.list("parts", &CrumpleReport::parts, "Each part that was crumpled.", declare_part);
 }

@@ -80,7 +80,7 @@ struct GenerateReport {
 };
 
 void declare_report(DeclareFields<GenerateReport>& d) {
-    d.field("shape", &GenerateReport::shape, "What was made.");
+    d.field("shape", &GenerateReport::shape, "The shape.");
     d.field("vertices", &GenerateReport::vertices, "Its vertices.");
     d.field("faces", &GenerateReport::faces, "Its faces.");
     d.field("part", &GenerateReport::part, "The name of the part.");

@@ -15,7 +15,8 @@ namespace facetmill {
 namespace {
 
 constexpr double degrees = 180 / pi;
-constexpr const char* unknown = "it is not known: nothing is there, or it is beyond the range of numbers";
+constexpr const char* unknown =
+    "it is not known, because there is nothing or it is beyond the range of numbers";
 
 std::optional<Vec3> known_point(bool known, const Vec3& p) {
     return known && is_finite(p) ? std::optional(p) : std::nullopt;
@@ -81,15 +82,17 @@ void declare_faces(DeclareFields<FaceResult>& d) {
         names.push_back(polygon::to_string(static_cast<polygon::Kind>(k)));
     d.object("area", &FaceResult::area, "Their areas.", statistics_fields("square scene units"));
     d.object("angle", &FaceResult::angle, "Their inner angles.", statistics_fields("degrees", degrees));
-    d.object("aspect", &FaceResult::aspect,
-             "Of triangles: longest edge over the height on it, 1 when equilateral.", statistics_fields());
-    d.counts("kinds", kinds_of, names, "How many there are of each kind, of those that there are.");
+    d.object(
+        "aspect", &FaceResult::aspect,
+        "Of triangles: the longest edge over the height on it, normalised to 1 for an equilateral triangle.",
+        statistics_fields());
+    d.counts("kinds", kinds_of, names, "The number of each kind that occurs.");
     d.field(
         "non_planar", [](const FaceResult& f) { return f.kinds.non_planar; },
-        "Faces farther from their plane than float32 coordinates would put them.");
+        "Faces that are farther from their plane than the rounding of float32 explains.");
     d.field(
          "farthest_from_plane", [](const FaceResult& f) { return f.kinds.deviation; },
-         "The farthest that a corner is from its face's plane.")
+         "The largest distance of a corner from the plane of its face.")
         .unit("scene units");
 }
 
@@ -98,12 +101,13 @@ void declare_edges(DeclareFields<EdgeResult>& d) {
     d.object("turn", &EdgeResult::turn,
              "The angles between the normals of their two faces, negative where concave.",
              statistics_fields("degrees", degrees));
-    d.field("convex", &EdgeResult::convex, "Edges that turn outward.");
-    d.field("concave", &EdgeResult::concave, "Edges that turn inward.");
-    d.field("flat", &EdgeResult::flat, "Edges between faces of one plane.");
-    d.field("feature", &EdgeResult::feature, "Edges that turn by more than feature_angle, either way.");
-    d.field("boundary", &EdgeResult::boundary, "Edges of one face.");
-    d.field("non_manifold", &EdgeResult::non_manifold, "Edges of three faces and more.");
+    d.field("convex", &EdgeResult::convex, "Convex edges.");
+    d.field("concave", &EdgeResult::concave, "Concave edges.");
+    d.field("flat", &EdgeResult::flat, "Edges between coplanar faces.");
+    d.field("feature", &EdgeResult::feature,
+            "Edges whose dihedral angle is larger than feature_angle, convex or concave.");
+    d.field("boundary", &EdgeResult::boundary, "Edges with one face.");
+    d.field("non_manifold", &EdgeResult::non_manifold, "Edges with three or more faces.");
 }
 
 void declare_curvature(DeclareFields<CurvatureResult>& d) {
@@ -113,7 +117,7 @@ void declare_curvature(DeclareFields<CurvatureResult>& d) {
              statistics_fields("per scene unit"));
     d.field(
         "total_in_turns", [](const CurvatureResult& c) { return c.total / (2 * pi); },
-        "What the angles of all vertices lack of a full turn: Euler's number of a manifold.");
+        "The sum of the angle defects of all vertices, in full turns: the Euler number of a manifold.");
 }
 
 constexpr const char* open = "the surface is open";
@@ -130,7 +134,7 @@ void declare_part(DeclareFields<MeasuredPart>& d) {
 
 void declare_total(DeclareFields<MeasureReport::Total>& d) {
     d.object("shell", &MeasureReport::Total::shell, "The surfaces.", declare_shell);
-    d.object("solid", &MeasureReport::Total::solid, "The insides.", declare_solid)
+    d.object("solid", &MeasureReport::Total::solid, "The solids.", declare_solid)
         .null_when("a part is open, or there is none");
 }
 

@@ -28,7 +28,7 @@ struct MergeReport {
 
 void declare_report(DeclareFields<MergeReport>& d) {
     d.field("part", &MergeReport::part, "The name of the joined part.").only_when("a part was selected");
-    d.field("welded_vertices", &MergeReport::welded_vertices, "Vertices that became one with others.")
+    d.field("welded_vertices", &MergeReport::welded_vertices, "Vertices that were merged with others.")
         .only_when("a part was selected");
     d.field("merged", &MergeReport::merged, "The names of the parts that were joined, in order.");
 }

@@ -37,12 +37,12 @@ struct OrientReport {
 
 void declare_part(DeclareFields<OrientedPart>& d) {
     d.field("part", &OrientedPart::part, "Its name.");
-    d.field("flipped_faces", &OrientedPart::flipped_faces, "Faces that were turned round.");
-    d.field("components", &OrientedPart::components, "Pieces that are connected through edges of two faces.");
-    d.field("closed_components", &OrientedPart::closed, "Those of them that are closed.");
+    d.field("flipped_faces", &OrientedPart::flipped_faces, "Faces that were reversed.");
+    d.field("components", &OrientedPart::components, "Components connected through edges with two faces.");
+    d.field("closed_components", &OrientedPart::closed, "Those that are closed.");
     d.field("nested_components", &OrientedPart::nested, "Those that lie inside another.");
-    d.field("non_orientable_components", &OrientedPart::non_orientable, "Those that stayed as they were.");
-    d.field("undecided_components", &OrientedPart::undecided, "Those without a side that is the outside.");
+    d.field("non_orientable_components", &OrientedPart::non_orientable, "Those that were left as they were.");
+    d.field("undecided_components", &OrientedPart::undecided, "Those without a clear outside.");
 }
 
 void declare_report(DeclareFields<OrientReport>& d) {

@@ -56,36 +56,37 @@ ProbedLine answer_of(const LineAnswers& answers, std::size_t i, const FaceNames&
 
 // --- fields
 
-constexpr const char* points = "points are asked about";
+constexpr const char* points = "points are queried";
 constexpr const char* lines = "segments or rays are asked about";
 constexpr const char* one_face = "they are held against one face";
 constexpr const char* no_face = "the surface has no face";
 
 void declare_hit(DeclareFields<ProbedHit>& d) {
-    d.field("t", &ProbedHit::t, "From 0 to 1 along a segment; of a ray the distance.");
+    d.field("t", &ProbedHit::t, "From 0 to 1 along a segment; the distance along a ray.");
     d.field("at", &ProbedHit::at, "Where.");
-    d.field("enters", &ProbedHit::enters, "Whether the line goes in there.");
+    d.field("enters", &ProbedHit::enters, "Whether the line enters the solid there.");
     d.field("part", &ProbedHit::part, "The part hit.");
     d.field("face", &ProbedHit::face, "The number of the face in that part.");
 }
 
 void declare_in_plane(DeclareFields<ProbedLine::InPlane>& d) {
-    d.field("t", &ProbedLine::InPlane::t, "From 0 to 1 along a segment; of a ray the distance.");
+    d.field("t", &ProbedLine::InPlane::t, "From 0 to 1 along a segment; the distance along a ray.");
     d.field("at", &ProbedLine::InPlane::at, "Where.");
 }
 
 void declare_point_answer(DeclareFields<ProbeAnswer>& d) {
-    d.field("point", where_it_is(&ProbedPoint::point), "The point asked about.").only_when(points);
+    d.field("point", where_it_is(&ProbedPoint::point), "The point queried.").only_when(points);
     d.choice("side", where_it_is(&ProbedPoint::side),
              {{"inside", Side::inside, "the winding number is not 0"},
               {"outside", Side::outside, "it is 0"},
               {"on", Side::on, "the point is on the surface"},
               {"unknown", Side::unknown, "the surface is open"}},
-             "Where it is.")
+             "Its position.")
         .only_when(points);
-    d.field("winding", where_it_is(&ProbedPoint::winding), "How often the surface goes around it; 0 on it.")
+    d.field("winding", where_it_is(&ProbedPoint::winding),
+            "The winding number of the surface around it; 0 on the surface.")
         .only_when(points);
-    d.field("distance", where_it_is(&ProbedPoint::distance), "To the surface.")
+    d.field("distance", where_it_is(&ProbedPoint::distance), "The distance to the surface.")
         .unit("scene units")
         .only_when(points)
         .null_when(no_face);
@@ -102,7 +103,7 @@ void declare_point_answer(DeclareFields<ProbeAnswer>& d) {
 
 void declare_answer(DeclareFields<ProbeAnswer>& d) {
     declare_point_answer(d);
-    d.field("from", where_it_is(&ProbedLine::from), "Where the line begins.").only_when(lines);
+    d.field("from", where_it_is(&ProbedLine::from), "The start of the line.").only_when(lines);
     const auto direction = [](const ProbeAnswer& a) {
         const auto* line = std::get_if<ProbedLine>(&a);
         return line ? line->direction : std::nullopt;
@@ -111,20 +112,20 @@ void declare_answer(DeclareFields<ProbeAnswer>& d) {
         const auto* line = std::get_if<ProbedLine>(&a);
         return line ? line->to : std::nullopt;
     };
-    d.field("direction", direction, "Where a ray goes.").only_when("rays are asked about");
-    d.field("to", to, "Where a segment ends.").only_when("segments are asked about");
-    d.list("hits", where_it_is(&ProbedLine::hits), "The faces that it meets, in order.", declare_hit)
+    d.field("direction", direction, "The direction of a ray.").only_when("rays are queried");
+    d.field("to", to, "The end of a segment.").only_when("segments are asked about");
+    d.list("hits", where_it_is(&ProbedLine::hits), "The faces that it hits, in order.", declare_hit)
         .only_when(lines);
     const auto meeting = [](const ProbeAnswer& a) {
         const auto* line = std::get_if<ProbedLine>(&a);
         return line ? line->meeting : std::nullopt;
     };
-    d.field("meeting", meeting, "How it meets the face.").only_when(one_face);
+    d.field("meeting", meeting, "How it intersects the face.").only_when(one_face);
     const auto plane = [](const ProbeAnswer& a) {
         const auto* line = std::get_if<ProbedLine>(&a);
         return line ? line->plane : std::nullopt;
     };
-    d.object("plane", plane, "Where it meets the face's plane.", declare_in_plane)
+    d.object("plane", plane, "Where it intersects the plane of the face.", declare_in_plane)
         .only_when("they are held against one face, and neither parallel to its plane nor in it");
 }
 
@@ -168,7 +169,7 @@ std::vector<std::string> lines_of(const ProbeReport& report) {
     }
     std::string line = join_texts(counts);
     if (report.distance) line = join_texts({line, range_text("distance", *report.distance)}, "; ");
-    std::vector<std::string> all{line.empty() ? "nothing was asked" : line};
+    std::vector<std::string> all{line.empty() ? "nothing was queried" : line};
     for (std::size_t i = 0; i < std::min(few, report.answers.size()); ++i)
         all.push_back(std::visit([](const auto& a) { return line_of(a); }, report.answers[i]));
     if (report.count > few) all.push_back(fmt::format("and {} more", grouped(report.count - few)));
@@ -178,26 +179,27 @@ std::vector<std::string> lines_of(const ProbeReport& report) {
 } // namespace
 
 void declare_probe_report(DeclareFields<ProbeReport>& d) {
-    d.field("count", &ProbeReport::count, "How many points or lines were asked about.");
+    d.field("count", &ProbeReport::count, "The number of points or lines queried.");
     for (const Side side : {Side::inside, Side::outside, Side::on, Side::unknown}) {
         const auto count = [side](const ProbeReport& r) {
             return r.sides ? std::optional((*r.sides)[static_cast<std::size_t>(side)]) : std::nullopt;
         };
         d.field(to_string(side), count, "Points there.").only_when(points);
     }
-    d.field("hit", &ProbeReport::hit, "Lines that meet a face.").only_when(lines);
-    d.field("missed", &ProbeReport::missed, "Lines that meet none.").only_when(lines);
+    d.field("hit", &ProbeReport::hit, "Lines that hit a face.").only_when(lines);
+    d.field("missed", &ProbeReport::missed, "Lines that hit no face.").only_when(lines);
     d.field("hits", &ProbeReport::hits, "Hits of all lines.").only_when(lines);
     std::vector<std::string> meetings;
     for (const Meeting m : {Meeting::hit, Meeting::parallel, Meeting::in_plane, Meeting::outside_segment,
                             Meeting::outside_facet})
         meetings.emplace_back(to_string(m));
-    d.counts("meetings", &ProbeReport::meetings, meetings, "How many lines meet the face how.")
+    d.counts("meetings", &ProbeReport::meetings, meetings,
+             "The number of lines for each relation to the face.")
         .only_when(one_face);
     d.object("distance", &ProbeReport::distance, "Of all points to the surface.",
              statistics_fields("scene units"))
         .only_when(points);
-    d.list("answers", &ProbeReport::answers, "The first answers, as many as max_answers says.",
+    d.list("answers", &ProbeReport::answers, "The first answers, at most max_answers of them.",
            declare_answer);
     d.tell(lines_of);
 }

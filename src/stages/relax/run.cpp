@@ -31,18 +31,19 @@ void declare_size(DeclareFields<SurfaceSize>& d) {
 
 void declare_part(DeclareFields<RelaxedPart>& d) {
     d.field("part", &RelaxedPart::part, "Its name.");
-    d.field("iterations", &RelaxedPart::iterations, "How many times all vertices moved.");
-    d.field("moved_vertices", &RelaxedPart::moved, "Vertices that are elsewhere than before.");
+    d.field("iterations", &RelaxedPart::iterations, "The number of iterations.");
+    d.field("moved_vertices", &RelaxedPart::moved, "Vertices that moved.");
     d.field("held_vertices", &RelaxedPart::held,
-            "Vertices that had to stay: on the boundary, at corners of features, out of the mask.");
-    d.field("largest_move", &RelaxedPart::largest_move, "The farthest that a vertex came from its place.")
+            "Vertices that were held: on the boundary, at corners of feature lines, outside the mask.");
+    d.field("largest_move", &RelaxedPart::largest_move,
+            "The largest distance of a vertex from its original position.")
         .unit("scene units");
     d.object("before", &RelaxedPart::before, "The size of the surface that entered.", declare_size);
     d.object("after", &RelaxedPart::after, "The size of the surface that left.", declare_size);
     const auto last = [](const RelaxedPart& p) {
         return p.until ? std::optional(p.last_move) : std::nullopt;
     };
-    d.field("last_move", last, "The farthest move in the last iteration.")
+    d.field("last_move", last, "The largest move in the last iteration.")
         .unit("scene units")
         .only_when("until is given");
     const auto settled = [](const RelaxedPart& p) {

@@ -36,14 +36,14 @@ struct RenderReport {
 };
 
 void declare_report(DeclareFields<RenderReport>& d) {
-    d.field("path", &RenderReport::path, "The file, as it was given.");
-    d.field("width", &RenderReport::width, "Of the picture.").unit("pixels");
-    d.field("height", &RenderReport::height, "Of the picture.").unit("pixels");
+    d.field("path", &RenderReport::path, "The path of the file, as given.");
+    d.field("width", &RenderReport::width, "Of the image.").unit("pixels");
+    d.field("height", &RenderReport::height, "Of the image.").unit("pixels");
     d.field("faces", &RenderReport::faces, "Faces of the parts that were drawn.");
-    d.field("pixels_per_unit", &RenderReport::scale, "Pixels to a unit of the scene.");
+    d.field("pixels_per_unit", &RenderReport::scale, "Pixels per scene unit.");
     d.field("range", &RenderReport::painted,
-            "The least and the greatest value of the attribute: blue and yellow.")
-        .only_when("an attribute of different numbers was painted");
+            "The smallest (blue) and largest (yellow) value of the attribute.")
+        .only_when("an attribute with different values was drawn");
     d.tell([](const RenderReport& r) {
         std::string line =
             fmt::format("{}: {} x {} pixels, {:.6g} a unit", r.path, r.width, r.height, r.scale);

@@ -132,7 +132,7 @@ std::vector<std::string> lines_of(const SectionReport& r) {
                                     readable(m.axes.largest), in, in.empty() ? "" : "4"));
     }
     if (r.spacing) {
-        std::string line = fmt::format("areas times distance {}", readable(r.area_times_spacing));
+        std::string line = fmt::format("areas times spacing {}", readable(r.area_times_spacing));
         if (*r.volume) line += fmt::format(", volume {}", readable(**r.volume));
         lines.push_back(line);
     }
@@ -143,19 +143,19 @@ std::vector<std::string> lines_of(const SectionReport& r) {
 
 void declare_section_report(DeclareFields<SectionReport>& d) {
     d.field(
-        "planes", [](const SectionReport& r) { return r.sections.size(); }, "How many planes there are.");
-    d.field("empty", &SectionReport::empty, "Planes that meet nothing.");
+        "planes", [](const SectionReport& r) { return r.sections.size(); }, "The number of planes.");
+    d.field("empty", &SectionReport::empty, "Planes that intersect nothing.");
     d.field("contours", &SectionReport::contours, "Contours of all planes.");
-    d.field("holes", &SectionReport::holes, "Those of them that are holes.");
+    d.field("holes", &SectionReport::holes, "Those that are holes.");
     d.field("open", &SectionReport::open, "Those that are not closed.");
     d.field("touched", &SectionReport::touched,
-            "Contours that shrank to a point or line: the plane only touches.");
+            "Contours reduced to a point or a line, where the plane only touches the mesh.");
     const auto self = [](const SectionReport& r) -> const SectionReport& { return r; };
     d.object("kinds", self, "Closed contours by kind.", declare_kinds);
-    d.field("area", &SectionReport::area, "Of all planes, holes taken off.").unit("square scene units");
+    d.field("area", &SectionReport::area, "Of all planes, with holes subtracted.").unit("square scene units");
     d.object("frame", first_frame, "Of the first plane.", io::declare_frame_fields)
         .only_when("there is a plane");
-    d.list("sections", &SectionReport::sections, "What each plane cuts.", declare_sheet);
+    d.list("sections", &SectionReport::sections, "The section of each plane.", declare_sheet);
     d.field("spacing", &SectionReport::spacing, "The distance between the planes.")
         .unit("scene units")
         .only_when(stack);
@@ -166,7 +166,7 @@ void declare_section_report(DeclareFields<SectionReport>& d) {
         .unit("cubic scene units")
         .only_when(stack)
         .null_when("a part is not closed");
-    d.field("ratio", &SectionReport::ratio, "Of that estimate to the volume.")
+    d.field("ratio", &SectionReport::ratio, "The ratio of that estimate to the volume.")
         .only_when("there are several planes, and a volume");
     d.tell(lines_of);
 }

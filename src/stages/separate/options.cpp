@@ -67,7 +67,7 @@ void declare_separate(Declare<SeparateOptions>& d) {
                    "components connected through edges, with each cavity in the solid around it"},
                   {"material", By::material, "faces of one material"},
                   {"group", By::group, "faces with the same number in a face attribute"}},
-                 "What becomes a part of its own.")
+                 "What becomes a separate part.")
         .primary();
     d.option("attribute", &SeparateOptions::attribute,
              "The face attribute that numbers the groups (with group).");

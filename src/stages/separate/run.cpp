@@ -20,8 +20,8 @@ struct SeparateReport {
 };
 
 void declare_report(DeclareFields<SeparateReport>& d) {
-    d.field("parts", &SeparateReport::parts, "How many parts the scene has now.");
-    d.list("separated", &SeparateReport::separated, "Each part that came apart.",
+    d.field("parts", &SeparateReport::parts, "The number of parts of the scene now.");
+    d.list("separated", &SeparateReport::separated, "Each part that was separated.",
            [](DeclareFields<SeparatedPart>& p) {
                p.field("part", &SeparatedPart::part, "The name that it had.");
                p.field("parts", &SeparatedPart::parts, "The number of parts made of it.");

@@ -21,15 +21,15 @@ auto change_of(Get get, const char* unit) {
 
 void declare_part(DeclareFields<SplitPart>& d) {
     d.field("part", &SplitPart::part, "Its name.");
-    d.field("added_faces", &SplitPart::added_faces, "How many faces it has more than before.");
-    d.field("passes", &SplitPart::passes, "How many times it was split.");
+    d.field("added_faces", &SplitPart::added_faces, "The number of faces added.");
+    d.field("passes", &SplitPart::passes, "The number of passes.");
     d.choice("stopped_by", &SplitPart::stopped_by,
-             {{"passes", "passes", "as many as were asked for"},
+             {{"passes", "passes", "as many as requested"},
               {"max_edge", "max_edge", "no edge is longer"},
               {"min_angle", "min_angle", "no triangle has a smaller angle"},
               {"faces", "faces", "the next cut would have made more"},
               {"nothing", "nothing", "no edge has a length"}},
-             "What ended the work.");
+             "What stopped the work.");
     const auto self = [](const SplitPart& p) -> const SplitPart& { return p; };
     const auto longest = [](const FacetShape& s) { return s.longest_edge; };
     const auto smallest = [](const FacetShape& s) { return s.smallest_angle * (180 / pi); };
@@ -40,8 +40,7 @@ void declare_part(DeclareFields<SplitPart>& d) {
 } // namespace
 
 void declare_split_report(DeclareFields<SplitReport>& d) {
-    d.field("added_faces", &SplitReport::added_faces,
-            "How many faces there are more than before, in all parts.");
+    d.field("added_faces", &SplitReport::added_faces, "The number of faces added in all parts.");
     d.list("parts", &SplitReport::parts, "Each part that was split.", declare_part);
 }
 

@@ -29,34 +29,33 @@ void declare_wall(DeclareFields<ThickenResult>& d) {
 }
 
 void declare_part(DeclareFields<ThickenedPart>& d) {
-    constexpr const char* surface = "a surface became thick";
+    constexpr const char* surface = "a surface got a thickness";
     d.field(
         "part", [](const ThickenedPart& p) { return std::visit([](const auto& x) { return x.part; }, p); },
         "Its name.");
-    d.field("wall_faces", of_surface(&ThickenResult::wall_faces), "Faces along open edges.")
+    d.field("wall_faces", of_surface(&ThickenResult::wall_faces), "Faces of walls along boundary edges.")
         .only_when(surface);
-    d.field("limited_vertices", of_surface(&ThickenResult::limited),
-            "Vertices that were held back at corners.")
+    d.field("limited_vertices", of_surface(&ThickenResult::limited), "Vertices limited by miter_limit.")
         .only_when(surface);
     d.field("unmoved_vertices", of_surface(&ThickenResult::still),
             "Vertices without a normal, which did not move.")
         .only_when(surface);
     d.field("unbalanced_edges", of_surface(&ThickenResult::unbalanced),
-            "Edges at which the solid is not closed, as the surface was not oriented there.")
+            "Edges at which the solid is not closed because the surface is not oriented there.")
         .only_when(surface);
     d.object("wall_thickness", wall_of, "From the front to the back.", declare_wall).only_when(surface);
     const auto pairs = [](const ThickenedPart& p) {
         const auto* s = std::get_if<ThickenedSurface>(&p);
         return s && s->looked && s->has_faces ? std::optional(s->result.self_intersections) : std::nullopt;
     };
-    d.field("self_intersections", pairs, "Pairs of faces that run into each other.")
+    d.field("self_intersections", pairs, "Pairs of faces that intersect.")
         .only_when("self_intersections is on and the part has faces")
         .null_when("the part is smaller than its thickness, so they were not looked for");
     constexpr const char* edges = "edges became cylinders";
     d.field("cylinders", where_it_is(&ThickenedEdges::cylinders), "Edges that became cylinders.")
         .only_when(edges);
     d.field("without_length", where_it_is(&ThickenedEdges::without_length),
-            "Edges without length, which went.")
+            "Edges of length 0, which were left out.")
         .only_when(edges);
 }
 
@@ -75,7 +74,7 @@ std::string line_of(const ThickenedSurface& surface) {
 } // namespace
 
 void declare_thicken_report(DeclareFields<ThickenReport>& d) {
-    d.list("parts", &ThickenReport::parts, "Each part that became thick.", declare_part);
+    d.list("parts", &ThickenReport::parts, "Each part that got a thickness.", declare_part);
     d.tell([](const ThickenReport& report) {
         std::vector<std::string> lines;
         for (const auto& part : report.parts) {

@@ -73,7 +73,7 @@ void declare_tile(DeclareFields<ReportedTile>& d) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         d.field(
              std::string("tile_") + "xyz"[axis], [axis](const ReportedTile& t) { return t.cell[axis]; },
-             "Its number along that axis.")
+             "Its index along that axis.")
             .only_when("that axis is cut");
     d.field("faces", &ReportedTile::faces, "Its faces.");
 }
@@ -82,7 +82,8 @@ void declare_report(DeclareFields<TileReport>& d) {
     d.list("tiles", &TileReport::tiles, "Each tile that has faces.", declare_tile);
     d.field("cut_faces", &TileReport::cut_faces, "Faces that were cut.");
     d.field("cap_faces", &TileReport::cap_faces, "Faces of caps.");
-    d.field("open_contours", &TileReport::open_contours, "Contours that were not capped, as they are open.");
+    d.field("open_contours", &TileReport::open_contours,
+            "Contours that were not capped because they are open.");
 }
 
 Scene run(Scene scene, const TileOptions& o, Context& context, TileReport& report) {

@@ -44,13 +44,13 @@ struct TriangulateReport {
 
 void declare_part(DeclareFields<TriangulatedPart>& d) {
     d.field("part", &TriangulatedPart::part, "Its name.");
-    d.object("faces", &TriangulatedPart::kinds, "The faces that came in.", declare_face_kinds);
+    d.object("faces", &TriangulatedPart::kinds, "The faces of the input.", declare_face_kinds);
     d.field("cut", &TriangulatedPart::cut, "Faces that were cut into triangles.");
-    d.field("fans", &TriangulatedPart::fans, "Those of them that were cut as fans, which may overlap.");
+    d.field("fans", &TriangulatedPart::fans, "Those that were cut as fans, which may overlap.");
     d.field("quads", &TriangulatedPart::quads, "Pairs of triangles that became quads.")
-        .only_when("quads are asked for");
-    d.field("triangles", &TriangulatedPart::triangles, "Triangles that are left.")
-        .only_when("quads are asked for");
+        .only_when("quads are requested");
+    d.field("triangles", &TriangulatedPart::triangles, "Triangles that remain.")
+        .only_when("quads are requested");
 }
 
 void declare_report(DeclareFields<TriangulateReport>& d) {

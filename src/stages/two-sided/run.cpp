@@ -36,7 +36,7 @@ void declare_report(DeclareFields<TwoSidedReport>& d) {
     d.field("marked_materials", &TwoSidedReport::marked_materials,
             "Materials that were not double-sided before.")
         .only_when("by: material");
-    d.list("parts", &TwoSidedReport::parts, "Each part whose faces were doubled.",
+    d.list("parts", &TwoSidedReport::parts, "Each part whose faces were duplicated.",
            [](DeclareFields<DoubledPart>& p) {
                p.field("part", &DoubledPart::part, "Its name.");
                p.field("new_faces", &DoubledPart::new_faces, "Faces in reversed order that were added.");

@@ -29,14 +29,14 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
 }
 
 void declare_report(DeclareFields<WriteReport>& d) {
-    d.field("factor", &WriteReport::factor, "What lengths were multiplied by for the file's unit.")
+    d.field("factor", &WriteReport::factor, "The factor applied to lengths for the unit of the file.")
         .only_when("it is not 1");
     d.field("up", &WriteReport::up, "The axis that points up in the file.")
         .only_when("the scene was turned for it");
     d.object("draco", &WriteReport::draco, "How positions were rounded.",
              [](DeclareFields<WriteReport::Bits>& b) {
                  b.field("position_bits", &WriteReport::Bits::position_bits, "Bits of each coordinate.");
-                 b.field("why", &WriteReport::Bits::why, "Why so many.");
+                 b.field("why", &WriteReport::Bits::why, "The reason for this number.");
              })
         .only_when("the file is compressed by Draco");
 }
