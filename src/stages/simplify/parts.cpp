@@ -1,7 +1,6 @@
 #include "stages/simplify/parts.hpp"
 
 #include "geometry/deviation/deviation.hpp"
-#include "geometry/deviation/deviation_fields.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/stretch.hpp"
 #include "stages/simplify/report.hpp"
@@ -34,8 +33,8 @@ void warn(const Part& part, const SimplifyResult& r, Context& context) {
     if (r.stop == Stop::stuck)
         context.warn("W-SIMPLIFY-STOPPED",
                      fmt::format("part '{}' stopped at {} triangles, above the target: {}", part.name,
-                                 r.faces_after, report::held_by(r)),
-                     report::way_out(r));
+                                 r.faces_after, held_by(r)),
+                     hint_for(r));
     if (r.faces_before > 0 && r.faces_after == 0)
         context.warn("W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
                      "ask for more faces, or keep the topology (topology: keep, and no cluster)");
@@ -49,8 +48,8 @@ struct Before {
 
 class Simplifier {
   public:
-    Simplifier(Scene scene, const SimplifyOptions& o, Context& context)
-        : scene_(std::move(scene)), o_(o), context_(context) {
+    Simplifier(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report)
+        : scene_(std::move(scene)), o_(o), context_(context), report_(report) {
         for (const auto& part : scene_.parts) {
             if (!context.selects(part, scene_)) continue;
             faces_ += triangle_count(part.mesh);
@@ -72,8 +71,6 @@ class Simplifier {
             settle(part, number, levels);
         });
         for (Part& level : levels) scene_.parts.push_back(std::move(level));
-        context_.result()["parts"] = std::move(parts_);
-        context_.say(report::simplify_summary(context_.result()));
         return std::move(scene_);
     }
 
@@ -172,36 +169,36 @@ class Simplifier {
     void take(Part& part, std::size_t number, SimplifyResult r) {
         part.mesh = std::move(r.mesh);
         context_.attribute_changes(part, r.changes);
-        Json entry = report::simplify_json(r, greatest_stretch(effective(part)));
-        entry["part"] = part.name;
-        if (const Set set = set_of(number); set.size() > 1)
-            for (const std::size_t p : set)
-                if (p != number) entry["together_with"].push_back(scene_.parts[p].name);
-        if (changes_topology())
-            entry["topology"] = report::topology_change_json(before_[number].topology, inspect(part.mesh));
-        if (o_.measure || o_.certify)
-            entry["deviation"] =
-                deviation_json(deviation(before_[number].surface, surface_of(part), {.certify = o_.certify}));
-        parts_.push_back(std::move(entry));
         warn(part, r, context_);
+        SimplifiedPart entry{std::move(r), greatest_stretch(effective(part)), part.name, {}, {}, {}};
+        if (const Set set = set_of(number); set.size() > 1)
+            for (const std::size_t p : set) {
+                if (p == number) continue;
+                if (!entry.together_with) entry.together_with.emplace();
+                entry.together_with->push_back(scene_.parts[p].name);
+            }
+        if (changes_topology()) entry.topology = {before_[number].topology, inspect(part.mesh)};
+        if (o_.measure || o_.certify)
+            entry.deviation = deviation(before_[number].surface, surface_of(part), {.certify = o_.certify});
+        report_.parts.push_back(std::move(entry));
     }
 
     Scene scene_;
     const SimplifyOptions& o_;
     Context& context_;
+    SimplifyReport& report_;
     std::size_t faces_ = 0, vertices_ = 0; ///< of all parts selected
     std::optional<double> max_error_, hausdorff_;
     Contacts contacts_;
     std::vector<Set> sets_;                            ///< of parts that are simplified as one
     std::vector<std::vector<SimplifyResult>> results_; ///< [parts][levels] those found and not yet taken
     std::vector<Before> before_;                       ///< [parts]
-    Json parts_ = Json::array();
 };
 
 } // namespace
 
-Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context) {
-    return Simplifier(std::move(scene), o, context).run();
+Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {
+    return Simplifier(std::move(scene), o, context, report).run();
 }
 
 } // namespace facetmill

@@ -1,101 +1,19 @@
 #include "stages/simplify/report.hpp"
 
 #include "base/readable_numbers.hpp"
+#include "geometry/deviation/deviation_fields.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill::report {
-
-namespace {
-
-using Stop = SimplifyResult::Stop;
-
-const char* to_string(Stop stop) {
-    switch (stop) {
-    case Stop::nothing:
-        return "nothing to do";
-    case Stop::ratio:
-        return "ratio";
-    case Stop::faces:
-        return "faces";
-    case Stop::vertices:
-        return "vertices";
-    case Stop::max_error:
-        return "max_error";
-    default:
-        return "stuck";
-    }
-}
-
-const char* to_string(NormalSeams::Shading shading) {
-    switch (shading) {
-    case NormalSeams::Shading::smoothed:
-        return "seams merged";
-    case NormalSeams::Shading::faceted:
-        return "flat shading kept";
-    default:
-        return "as given";
-    }
-}
-
-Json scaled(const std::optional<double>& length, double scale) {
-    return length ? Json(*length * scale) : Json();
-}
-
-Json topology_json(const Properties& p) {
-    return {{"components", p.components},
-            {"euler", p.euler},
-            {"genus", p.genus ? Json(*p.genus) : Json()},
-            {"boundary_loops", p.boundary_loops},
-            {"closed", p.closed},
-            {"edge_manifold", p.edge_manifold},
-            {"vertex_manifold", p.vertex_manifold}};
-}
-
-} // namespace
-
-Json simplify_json(const SimplifyResult& r, double scale) {
-    Json entry = {
-        {"normals", to_string(r.shading)},
-        {"merged_wedges", r.merged_wedges},
-        {"triangles_before", r.faces_before},
-        {"triangles_after", r.faces_after},
-        {"vertices_before", r.vertices_before},
-        {"vertices_after", r.vertices_after},
-        {"ratio", r.faces_before > 0 ? Json(double(r.faces_after) / double(r.faces_before)) : Json()},
-        {"stopped_by", to_string(r.stop)},
-        {"largest_error", scaled(r.largest_error, scale)},
-        {"collapses", r.collapses},
-        {"blocked_edges",
-         {{"borders", r.blocked.borders},
-          {"seams", r.blocked.seams},
-          {"non_manifold", r.blocked.non_manifold},
-          {"topology", r.blocked.topology},
-          {"flips", r.blocked.flips},
-          {"error", r.blocked.error}}}};
-    if (r.cell) entry["cell"] = scaled(r.cell, scale);
-    if (r.measured) {
-        entry["rolled_back"] = r.rolled_back;
-        entry["measurements"] = r.measurements;
-    }
-    if (r.intersections_after)
-        entry["self_intersections"] = {{"before", *r.intersections_before},
-                                       {"after", *r.intersections_after},
-                                       {"held_vertices", r.held}};
-    return entry;
-}
-
-Json topology_change_json(const Properties& before, const Properties& after) {
-    return {{"before", topology_json(before)}, {"after", topology_json(after)}};
-}
+namespace facetmill {
 
 namespace {
 
 struct Reason {
     std::size_t edges;
     const char* what;
-    const char* way_out;
+    const char* hint;
 };
 
 std::vector<Reason> reasons(const SimplifyResult::Blocked& b) {
@@ -112,19 +30,147 @@ std::vector<Reason> reasons(const SimplifyResult::Blocked& b) {
 std::string held_by(const SimplifyResult& r) {
     if (r.cell) return "with larger cells no face would remain";
     std::string text;
-    for (const auto& [edges, what, way_out] : reasons(r.blocked))
+    for (const auto& [edges, what, hint] : reasons(r.blocked))
         if (edges > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(edges), what);
     return text.empty() ? "no collapse was left within the constraints" : "of the edges left, " + text;
 }
 
-std::string way_out(const SimplifyResult& r) {
+std::string hint_for(const SimplifyResult& r) {
     const auto all = reasons(r.blocked);
     const auto most = std::max_element(all.begin(), all.end(),
                                        [](const Reason& a, const Reason& b) { return a.edges < b.edges; });
-    return r.cell || most->edges == 0 ? "ask for more faces" : most->way_out;
+    return r.cell || most->edges == 0 ? "ask for more faces" : most->hint;
 }
 
 namespace {
+
+using Stop = SimplifyResult::Stop;
+using Shading = NormalSeams::Shading;
+
+/// A member of the part's result.
+template <class T>
+auto of_result(T SimplifyResult::*member) {
+    return [member](const SimplifiedPart& p) -> const T& { return p.result.*member; };
+}
+/// ... a length, in scene units.
+auto of_length(std::optional<double> SimplifyResult::*member) {
+    return [member](const SimplifiedPart& p) {
+        const auto& length = p.result.*member;
+        return length ? std::optional(*length * p.scale) : std::nullopt;
+    };
+}
+
+void declare_blocked(DeclareFields<SimplifyResult::Blocked>& d) {
+    using Blocked = SimplifyResult::Blocked;
+    d.field("borders", &Blocked::borders, "At boundaries and locks.");
+    d.field("seams", &Blocked::seams, "At seams, and at borders of materials and groups.");
+    d.field("non_manifold", &Blocked::non_manifold, "At vertices that are not manifold.");
+    d.field("topology", &Blocked::topology,
+            "Their collapse would change the genus, close a hole, or make a component vanish.");
+    d.field("flips", &Blocked::flips, "Their collapse would flip or flatten a face.");
+    d.field("error", &Blocked::error, "Their collapse would move the surface too far.");
+}
+
+void declare_intersections(DeclareFields<SimplifyResult>& d) {
+    const auto count = [](std::optional<std::size_t> SimplifyResult::*member) {
+        return [member](const SimplifyResult& r) { return (r.*member).value_or(0); };
+    };
+    d.field("before", count(&SimplifyResult::intersections_before), "Pairs of faces that met before.");
+    d.field("after", count(&SimplifyResult::intersections_after), "Pairs of faces that meet now.");
+    d.field("held_vertices", &SimplifyResult::held, "Vertices that were allowed less error, to avoid them.");
+}
+
+void declare_topology(DeclareFields<Properties>& d) {
+    const auto help = [](const char* name) { return std::string(property_named(name)->help); };
+    d.field("components", &Properties::components, help("components"));
+    d.field("euler", &Properties::euler, help("euler"));
+    d.field("genus", &Properties::genus, help("genus")).null_when("it does not apply");
+    d.field("boundary_loops", &Properties::boundary_loops, help("boundary_loops"));
+    d.field("closed", &Properties::closed, help("closed"));
+    d.field("edge_manifold", &Properties::edge_manifold, help("edge_manifold"));
+    d.field("vertex_manifold", &Properties::vertex_manifold, help("vertex_manifold"));
+}
+
+void declare_topologies(DeclareFields<SimplifiedPart::Topology>& d) {
+    d.object("before", &SimplifiedPart::Topology::before, "Of the part that entered.", declare_topology);
+    d.object("after", &SimplifiedPart::Topology::after, "Of the part that left.", declare_topology);
+}
+
+void declare_counts(DeclareFields<SimplifiedPart>& d) {
+    d.field("triangles_before", of_result(&SimplifyResult::faces_before), "Triangles that entered.");
+    d.field("triangles_after", of_result(&SimplifyResult::faces_after), "Triangles that left.");
+    d.field("vertices_before", of_result(&SimplifyResult::vertices_before),
+            "Vertices of faces that entered.");
+    d.field("vertices_after", of_result(&SimplifyResult::vertices_after), "Vertices that left.");
+    const auto ratio = [](const SimplifiedPart& p) {
+        const double before = double(p.result.faces_before), after = double(p.result.faces_after);
+        return before > 0 ? std::optional(after / before) : std::nullopt;
+    };
+    d.field("ratio", ratio, "Of the triangles, after to before.").null_when("there were no triangles");
+    d.choice("stopped_by", of_result(&SimplifyResult::stop),
+             {{"nothing to do", Stop::nothing, "the part was at or below every target"},
+              {"ratio", Stop::ratio, "met"},
+              {"faces", Stop::faces, "met"},
+              {"vertices", Stop::vertices, "met"},
+              {"max_error", Stop::max_error, "any more would deviate too far"},
+              {"stuck", Stop::stuck, "no collapse was left that keeps the guarantees"}},
+             "What ended the work.");
+}
+
+/// Counts of the work, and what it left.
+void declare_work(DeclareFields<SimplifiedPart>& d) {
+    d.field("largest_error", of_length(&SimplifyResult::largest_error),
+            "The largest error of a collapse, as the method measures it.")
+        .unit("scene units")
+        .null_when("the method has none");
+    d.field("collapses", of_result(&SimplifyResult::collapses), "Collapses that led to the result.");
+    d.object("blocked_edges", of_result(&SimplifyResult::blocked), "What holds the edges that are left.",
+             declare_blocked);
+    d.field("cell", of_length(&SimplifyResult::cell), "The edge of the cells.")
+        .unit("scene units")
+        .only_when("the method is cluster");
+    const auto measured = [](std::size_t SimplifyResult::*member) {
+        return [member](const SimplifiedPart& p) {
+            return p.result.measured ? std::optional(p.result.*member) : std::nullopt;
+        };
+    };
+    d.field("rolled_back", measured(&SimplifyResult::rolled_back), "Collapses that were taken back.")
+        .only_when("max_error is given");
+    d.field("measurements", measured(&SimplifyResult::measurements),
+            "How many times the deviation was measured.")
+        .only_when("max_error is given");
+    const auto counted = [](const SimplifiedPart& p) {
+        std::optional<SimplifyResult> counts;
+        if (!p.result.intersections_after) return counts;
+        counts.emplace();
+        counts->intersections_before = p.result.intersections_before;
+        counts->intersections_after = p.result.intersections_after;
+        counts->held = p.result.held;
+        return counts;
+    };
+    d.object("self_intersections", counted, "Pairs of faces that run into each other.", declare_intersections)
+        .only_when("they are counted or avoided");
+}
+
+void declare_part(DeclareFields<SimplifiedPart>& d) {
+    d.choice("normals", of_result(&SimplifyResult::shading),
+             {{"seams merged", Shading::smoothed, "seams of normals only, where faces meet at little angle"},
+              {"flat shading kept", Shading::faceted, "faces get normals of their own"},
+              {"as given", Shading::as_given, "nothing was done"}},
+             "What was done about seams of normals.");
+    d.field("merged_wedges", of_result(&SimplifyResult::merged_wedges), "Wedges that this made one.");
+    declare_counts(d);
+    declare_work(d);
+    d.field("part", &SimplifiedPart::part, "Its name.");
+    d.field("together_with", &SimplifiedPart::together_with, "The parts that it was simplified with as one.")
+        .only_when("there are such");
+    d.object("topology", &SimplifiedPart::topology, "What topology was and is.", declare_topologies)
+        .only_when("the method may change it");
+    d.object("deviation", &SimplifiedPart::deviation, "From the part that entered.", declare_deviation_fields)
+        .only_when("measure or certify is on");
+}
+
+// --- lines for the terminal
 
 constexpr std::size_t few = 5; // parts that are told one by one
 
@@ -134,52 +180,69 @@ std::string counts_text(std::uint64_t before, std::uint64_t after) {
     return text;
 }
 
-std::string deviation_text(const Json& d) {
-    std::string text = fmt::format("deviation {:.3g} %", d["percent"]["maximum"].get<double>());
-    text += fmt::format(" (rms {:.3g} %", d["percent"]["rms"].get<double>());
-    if (d["percent"]["bound"].is_number())
-        text += fmt::format(", certified {:.3g} %", d["percent"]["bound"].get<double>());
+std::string deviation_text(const DeviationResult& d) {
+    std::string text =
+        fmt::format("deviation {:.3g} % (rms {:.3g} %", d.percent(d.maximum()), d.percent(d.rms()));
+    if (const auto bound = d.bound(); bound && std::isfinite(d.percent(*bound)))
+        text += fmt::format(", certified {:.3g} %", d.percent(*bound));
     return text + ") of the diagonal";
 }
 
-std::string stop_text(const std::string& stop) {
-    if (stop == to_string(Stop::nothing)) return ", nothing to do";
-    return stop == to_string(Stop::stuck) ? ", stopped above the target" : ", stopped by " + stop;
+std::string stop_text(Stop stop) {
+    switch (stop) {
+    case Stop::nothing:
+        return ", nothing to do";
+    case Stop::ratio:
+        return ", stopped by ratio";
+    case Stop::faces:
+        return ", stopped by faces";
+    case Stop::vertices:
+        return ", stopped by vertices";
+    case Stop::max_error:
+        return ", stopped by max_error";
+    default:
+        return ", stopped above the target";
+    }
 }
 
-bool is_measured(const Json& part) {
-    if (!part.contains("deviation")) return false;
-    const Json& percent = part["deviation"]["percent"];
-    return percent["maximum"].is_number() && percent["rms"].is_number();
+bool is_measured(const SimplifiedPart& part) {
+    const auto& d = part.deviation;
+    return d && std::isfinite(d->percent(d->maximum())) && std::isfinite(d->percent(d->rms()));
+}
+
+std::string line_of(const SimplifiedPart& part) {
+    const SimplifyResult& r = part.result;
+    const std::string line =
+        part.part + ": " + counts_text(r.faces_before, r.faces_after) + stop_text(r.stop);
+    return is_measured(part) ? line + "; " + deviation_text(*part.deviation) : line;
+}
+
+std::vector<std::string> lines_of(const SimplifyReport& report) {
+    std::vector<std::string> lines;
+    if (report.parts.size() <= few) {
+        for (const auto& part : report.parts) lines.push_back(line_of(part));
+        return lines;
+    }
+    std::uint64_t before = 0, after = 0;
+    const SimplifiedPart* worst = nullptr;
+    const auto percent = [](const SimplifiedPart& p) { return p.deviation->percent(p.deviation->maximum()); };
+    for (const auto& part : report.parts) {
+        before += part.result.faces_before;
+        after += part.result.faces_after;
+        if (is_measured(part) && (!worst || percent(part) > percent(*worst))) worst = &part;
+    }
+    lines.push_back(fmt::format("{} parts: {}", report.parts.size(), counts_text(before, after)));
+    if (worst)
+        lines.back() += fmt::format("; largest {} (part {})", deviation_text(*worst->deviation), worst->part);
+    return lines;
 }
 
 } // namespace
 
-std::vector<std::string> simplify_summary(const Json& result) {
-    const Json& parts = result["parts"];
-    std::vector<std::string> lines;
-    std::uint64_t before = 0, after = 0;
-    const Json* worst = nullptr;
-    for (const Json& part : parts) {
-        before += part["triangles_before"].get<std::uint64_t>();
-        after += part["triangles_after"].get<std::uint64_t>();
-        if (is_measured(part) && (!worst || part["deviation"]["percent"]["maximum"].get<double>() >
-                                                (*worst)["deviation"]["percent"]["maximum"].get<double>()))
-            worst = &part;
-        if (parts.size() > few) continue;
-        std::string line = part["part"].get<std::string>() + ": " +
-                           counts_text(part["triangles_before"].get<std::uint64_t>(),
-                                       part["triangles_after"].get<std::uint64_t>());
-        line += stop_text(part["stopped_by"].get<std::string>());
-        if (is_measured(part)) line += "; " + deviation_text(part["deviation"]);
-        lines.push_back(std::move(line));
-    }
-    if (parts.size() <= few) return lines;
-    lines.push_back(fmt::format("{} parts: {}", parts.size(), counts_text(before, after)));
-    if (worst)
-        lines.back() += fmt::format("; largest {} (part {})", deviation_text((*worst)["deviation"]),
-                                    (*worst)["part"].get<std::string>());
-    return lines;
+void declare_simplify_report(DeclareFields<SimplifyReport>& d) {
+    d.list("parts", &SimplifyReport::parts, "Each part that was simplified, and each level of one.",
+           declare_part);
+    d.tell(lines_of);
 }
 
-} // namespace facetmill::report
+} // namespace facetmill

@@ -14,7 +14,7 @@ const RegisterStage registered = make_stage<SimplifyOptions>(
                   "simplify: {ratio: 10%, method: shortest-edge}",
                   "simplify: {ratio: 2%, method: cluster, measure: false}",
                   "simplify: {ratio: 20%, weights: {uv: 2, colour: 0}, topology: allow}"}},
-    declare_simplify, simplify_parts, {.verify = verify_simplify});
+    declare_simplify, declare_simplify_report, simplify_parts, {.verify = verify_simplify});
 
 } // namespace
 

@@ -31,7 +31,7 @@ class Judge {
         if (s_.baseline && !s_.update_baseline) known_ = KnownFailures::read(*s_.baseline);
     }
 
-    void run(Scene& scene) {
+    ValidateReport run(Scene& scene) {
         std::vector<std::size_t> selected;
         for (std::size_t i = 0; i < scene.parts.size(); ++i)
             if (context_.selects(scene.parts[i], scene)) selected.push_back(i);
@@ -53,6 +53,7 @@ class Judge {
         if (s_.per == Per::component)
             for (const std::size_t i : selected) judge_components(scene, i);
         finish(scene);
+        return report_;
     }
 
   private:
@@ -173,27 +174,18 @@ class Judge {
 
     void tell_of_baseline() {
         const auto gone = known_.gone(failed_);
-        context_.result()["waived"] = waived_;
-        context_.result()["waived_locations"] = waived_locations_;
-        context_.result()["fixed"] = gone.failures;
-        context_.result()["fixed_locations"] = gone.locations;
+        report_ = {waived_, waived_locations_, gone.failures, gone.locations, any_};
         if (known_.size() > 0 && any_ && !any_known_)
             context_.warn(
                 "W-BASELINE",
                 fmt::format("none of the failures in '{}' occurs here, but others do", s_.baseline->string()),
                 "is it the baseline of another mesh, or of other parts?");
-        if (gone.failures + gone.locations == 0) return;
-        std::string text = fmt::format("{} known failures waived", waived_);
-        if (gone.failures > 0) text += fmt::format(", {} fixed", gone.failures);
-        if (waived_locations_ + gone.locations > 0)
-            text += fmt::format("; {} known locations waived", waived_locations_);
-        if (gone.locations > 0) text += fmt::format(", {} fixed", gone.locations);
-        context_.say(text + (any_ ? "" : ": update_baseline tightens the gate")); // it would waive new ones
     }
 
     JudgeSettings s_;
     Context& context_;
     KnownFailures known_, failed_;
+    ValidateReport report_;
     std::size_t waived_ = 0, waived_locations_ = 0;
     bool any_ = false;                              ///< failed and not waived
     bool any_known_ = false;                        ///< failed, and did before
@@ -202,8 +194,8 @@ class Judge {
 
 } // namespace
 
-void judge(Scene& scene, JudgeSettings settings, Context& context) {
-    Judge(std::move(settings), context).run(scene);
+ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context) {
+    return Judge(std::move(settings), context).run(scene);
 }
 
 } // namespace facetmill

@@ -26,10 +26,17 @@ struct JudgeSettings {
     std::optional<std::filesystem::path> mark = {};     ///< a copy with the faces that fail in red, if any do
 };
 
+/// What a baseline came to; none without one.
+struct ValidateReport {
+    std::optional<std::size_t> waived, waived_locations; ///< known failures, and locations of failures
+    std::optional<std::size_t> fixed, fixed_locations;   ///< known ones that are no longer there
+    bool fails = false;                                  ///< something failed that was not known
+};
+
 /// Adds one check to the context for every assertion and thing that it is about, failed ones with evidence:
 /// the first locations, with the faces as the part numbers them, and how many there are. Those of the baseline
 /// are waived as long as they get no worse. The scene is as before afterwards. Throws usage (E-UNIT) for
 /// lengths, missing and malformed for the baseline, output for the copy.
-void judge(Scene& scene, JudgeSettings settings, Context& context);
+ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context);
 
 } // namespace facetmill

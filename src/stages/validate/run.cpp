@@ -5,6 +5,8 @@
 #include "stages/validate/profiles.hpp"
 #include "stages/validate/scene_limits.hpp"
 
+#include <fmt/format.h>
+
 namespace facetmill {
 
 namespace {
@@ -43,7 +45,32 @@ void declare(Declare<ValidateOptions>& d) {
              "red and in the face attribute `failed`. It is written even when the run fails.");
 }
 
-Scene run(Scene scene, const ValidateOptions& o, Context& context) {
+/// What a baseline no longer needs to waive.
+std::vector<std::string> lines_of(const ValidateReport& r) {
+    const std::size_t fixed = r.fixed.value_or(0), fixed_locations = r.fixed_locations.value_or(0),
+                      waived_locations = r.waived_locations.value_or(0);
+    if (fixed + fixed_locations == 0) return {};
+    std::string text = fmt::format("{} known failures waived", r.waived.value_or(0));
+    if (fixed > 0) text += fmt::format(", {} fixed", fixed);
+    if (waived_locations + fixed_locations > 0)
+        text += fmt::format("; {} known locations waived", waived_locations);
+    if (fixed_locations > 0) text += fmt::format(", {} fixed", fixed_locations);
+    if (!r.fails) text += ": update_baseline tightens the gate"; // with new failures it would waive them
+    return {text};
+}
+
+void declare_report(DeclareFields<ValidateReport>& d) {
+    constexpr const char* given = "a baseline is given";
+    d.field("waived", &ValidateReport::waived, "Failures that are known, and waived.").only_when(given);
+    d.field("waived_locations", &ValidateReport::waived_locations, "Locations that are known, and waived.")
+        .only_when(given);
+    d.field("fixed", &ValidateReport::fixed, "Known failures that are no longer there.").only_when(given);
+    d.field("fixed_locations", &ValidateReport::fixed_locations, "Known locations that are no longer there.")
+        .only_when(given);
+    d.tell(lines_of);
+}
+
+Scene run(Scene scene, const ValidateOptions& o, Context& context, ValidateReport& report) {
     JudgeSettings s{profiled(o.assertions, o.profile, o.limits, context.where()), o.limits, o.severity,
                     o.per};
     if (o.baseline)
@@ -51,7 +78,7 @@ Scene run(Scene scene, const ValidateOptions& o, Context& context) {
                                        : context.places().input(o.baseline->text);
     if (o.mark) s.mark = context.places().output(o.mark->text);
     s.update_baseline = o.update_baseline;
-    judge(scene, std::move(s), context);
+    report = judge(scene, std::move(s), context);
     return scene;
 }
 
@@ -76,7 +103,7 @@ const RegisterStage registered{make_stage<ValidateOptions>(
                   "validate: {for: web, faces: {max: 5000}, baseline: known.json}",
                   "validate: {min_angle: {min: 5deg}, severity: warn, mark: failed.glb}"},
      .checks = true},
-    declare, run, StageHooks<ValidateOptions>{.files = files, .verify = verify})};
+    declare, declare_report, run, StageHooks<ValidateOptions>{.files = files, .verify = verify})};
 
 } // namespace
 
