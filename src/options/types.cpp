@@ -1,6 +1,7 @@
 #include "options/types.hpp"
 
 #include "base/numbers.hpp"
+#include "base/portable_math.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -18,7 +19,6 @@ constexpr std::array<std::pair<std::string_view, double>, 8> length_units{{{"um"
                                                                            {"ft", 0.3048},
                                                                            {"inch", 0.0254}}};
 
-constexpr double pi = 3.141592653589793238462643383279502884;
 
 } // namespace
 

@@ -1,20 +1,13 @@
 // The parts of cut faces on a side, and the sides of faces in the plane.
 #include "geometry/cut/cut.hpp"
 
+#include "mesh/face.hpp"
+
 #include <algorithm>
 
 namespace facetmill {
 
 namespace {
-
-/// Twice the area of a face as a vector (Newell).
-Vec3 area_vector(const Mesh& mesh, Index f) {
-    Vec3 sum;
-    const Vec3 origin = mesh.point(mesh.face_begin(f));
-    for (Index c = mesh.face_begin(f) + 1; c + 1 < mesh.face_end(f); ++c)
-        sum += cross(mesh.point(c) - origin, mesh.point(c + 1) - origin);
-    return sum;
-}
 
 /// Cuts one face. Its corners and crossings become a ring of nodes; what lies on a side is chains of that
 /// ring.
