@@ -27,7 +27,7 @@ void declare_part(DeclareFields<SplitPart>& d) {
              {{"passes", "passes", "as many as requested"},
               {"max_edge", "max_edge", "no edge is longer"},
               {"min_angle", "min_angle", "no triangle has a smaller angle"},
-              {"faces", "faces", "the next cut would have made more"},
+              {"max_faces", "max_faces", "the next cut would have made more"},
               {"nothing", "nothing", "no edge has a length"}},
              "What stopped the work.");
     const auto self = [](const SplitPart& p) -> const SplitPart& { return p; };
