@@ -138,7 +138,7 @@ TEST_CASE("orient finds the outside at every size", "[geometry]") {
     for (const int k : powers) {
         const auto r = orient(scaled(cube, k), {});
         CHECK(r.flipped == cube.face_count());
-        CHECK_FALSE(r.pieces.at(0).undecided);
+        CHECK_FALSE(r.components.at(0).undecided);
         CHECK(*inspect(scaled(r.mesh, -k)).volume == 1);
         if (k < -1000) continue; // the cone's corners are no whole numbers
         CHECK((orient(scaled(cup, k), {}).flipped > 0) == cup_turns);

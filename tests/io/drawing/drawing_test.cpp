@@ -59,7 +59,8 @@ TEST_CASE("a JSON drawing has points, measures and frames", "[io]") {
 TEST_CASE("second moments in the world are those of the points there", "[io]") {
     const Plane plane{{1, 2, 3}, {0.4, 0.5, 0.6}, 0};
     const Section s = section(shapes::cube(), {plane, {0}, {}}).at(0);
-    const Json c = contours_json(s, false)[0];
+    const Drawing drawing{"cut", Unit::unknown, {{0, frame_of(plane), {{"cube", s, {}}}}}};
+    const Json c = Json::parse(to_json(drawing))["sections"][0]["parts"][0]["contours"][0];
     // A polygon's: the sum over a fan of triangles of A / 12 (s s^T + the sum of p p^T over the corners), s
     // being their sum.
     double xz = 0, yy = 0;
