@@ -1,7 +1,7 @@
 #include "diff/lines.hpp"
 
-#include "mesh/unreferenced.hpp"
 #include "diff/sides.hpp"
+#include "mesh/surface.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Pictures as PNG files, and as text inside a page.
 
-#include "geometry/render/picture.hpp"
+#include "geometry/render/render.hpp"
 #include "io/bytes.hpp"
 
 namespace facetmill::io {

@@ -1,5 +1,5 @@
 #include "base/parallel.hpp"
-#include "mesh/bare.hpp"
+#include "mesh/placement.hpp"
 
 #include <algorithm>
 

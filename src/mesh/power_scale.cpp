@@ -1,7 +1,7 @@
 #include "mesh/power_scale.hpp"
 
 #include "base/parallel.hpp"
-#include "mesh/bare.hpp"
+#include "mesh/placement.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 #pragma once
-// A surface as bare triangles in one space: what distances, rays and samples are taken of.
+// A surface as bare triangles in one space: what distances, rays and samples are taken of. Point clouds, and
+// vertices that no face uses, count as triangles of one point where they are asked for.
 
 #include "mesh/scene.hpp"
 
@@ -34,5 +35,16 @@ Surface surface_of(const Part& part);
 /// numbered.
 Surface surface_of(std::span<const Part* const> parts);
 Surface surface_of(const Scene& scene);
+
+/// The vertices that no face uses, of all parts in world space, each as a triangle of one point: distances to
+/// them, and from them, are taken as those of a surface are. They have no face. In the order of parts and
+/// vertices. Throws limit (E-LIMIT) when they cannot be numbered.
+Surface unreferenced_points_of(const Scene& scene);
+
+/// What distances of a scene are of: its surface, or, where it has no faces, its points. Throws as above.
+Surface surface_or_points_of(const Scene& scene);
+
+/// Both as one. Throws as above.
+Surface joined(Surface a, const Surface& b);
 
 } // namespace facetmill

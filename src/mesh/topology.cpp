@@ -122,6 +122,37 @@ EdgeTable build_edges(const Mesh& mesh) {
     return table;
 }
 
+std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh) {
+    const auto edges = build_edges(mesh);
+    const auto faces = corner_faces(mesh);
+    std::vector<BoundaryEdge> boundary;
+    for (Index e = 0; e < edges.size(); ++e) {
+        const auto corners = edges.corners_of(e);
+        if (corners.size() != 1) continue;
+        const Index c = corners[0], f = faces[c];
+        boundary.push_back({c, f, mesh.vertex(c), mesh.vertex(next_corner(mesh, f, c))});
+    }
+    return boundary;
+}
+
+std::vector<Index> lowest_at_place(const Mesh& mesh) {
+    const auto& p = mesh.positions;
+    Mesh points; // welding keeps first occurrences in order, so its numbers lead back to the lowest vertices
+    points.positions = p;
+    points.corners.resize(p.size());
+    for (Index v = 0; v < p.size(); ++v) points.corners[v] = v;
+    std::vector<Index> lowest(p.size());
+    for (Index v = 0; v < p.size(); ++v) lowest[v] = v;
+    if (weld_exact(points) == 0) return lowest;
+    std::vector<Index> first(points.vertex_count(), none);
+    for (Index v = 0; v < p.size(); ++v) {
+        Index& f = first[points.corners[v]];
+        if (f == none) f = v;
+        lowest[v] = f;
+    }
+    return lowest;
+}
+
 VertexLists corners_at_vertices(const Mesh& mesh) {
     struct Item {
         Index vertex, corner;

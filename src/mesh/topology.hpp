@@ -29,6 +29,17 @@ EdgeTable build_edges(const Mesh& mesh);
 /// The face of each corner.
 std::vector<Index> corner_faces(const Mesh& mesh);
 
+/// An edge of exactly one face.
+struct BoundaryEdge {
+    Index corner, face; ///< the corner that runs along it, and its face
+    Index from, to;     ///< its vertices, as the face runs
+};
+/// In the order of the edge table: by (low vertex, high vertex).
+std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh);
+
+/// For each vertex the lowest one at exactly the same position (-0 is 0).
+std::vector<Index> lowest_at_place(const Mesh& mesh);
+
 /// Lists per vertex in compressed form: items[offsets[v] .. offsets[v+1]].
 struct VertexLists {
     std::vector<Index> offsets; ///< [vertices + 1]

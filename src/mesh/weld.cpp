@@ -1,7 +1,7 @@
 // Vertices and wedges that go: the unused, and those at the same place.
 #include "base/parallel.hpp"
 #include "base/random.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/lineage.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -147,11 +147,6 @@ std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
         },
         1);
     return first;
-}
-
-bool has_attributes(const Mesh& mesh, Domain domain) {
-    return std::any_of(mesh.attributes.begin(), mesh.attributes.end(),
-                       [&](const auto& a) { return a.domain == domain; });
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 #include "io/png.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
-#include "mesh/unreferenced.hpp"
+#include "mesh/surface.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
 #include "report/render.hpp"

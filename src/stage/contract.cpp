@@ -2,7 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
-#include "mesh/unreferenced.hpp"
+#include "mesh/surface.hpp"
 
 #include <fmt/format.h>
 

@@ -2,11 +2,73 @@
 // Triangles of one plane cut along segments and along each other. Only for the files in this folder.
 
 #include "geometry/cgal/arrangement.hpp"
-#include "geometry/cgal/exact_nodes.hpp"
+#include "mesh/mesh.hpp"
 
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <bit>
+#include <cstdint>
 #include <map>
+#include <unordered_map>
+#include <vector>
 
 namespace facetmill {
+
+using ExactKernel = CGAL::Exact_predicates_exact_constructions_kernel;
+
+/// Given points, then points that were made.
+class ExactNodes {
+  public:
+    using Point = ExactKernel::Point_3;
+
+    explicit ExactNodes(const std::vector<Vec3>& points) : points_(points) {}
+
+    /// From now on a made point at the place of this one is this one.
+    void know(Index point) {
+        auto& here = at_place_[hash(points_[point])];
+        for (const Index other : here)
+            if (other == point) return;
+        here.push_back(point);
+    }
+    Index find_or_add(const Point& p) {
+        const Vec3 place{nearest(p.x()), nearest(p.y()), nearest(p.z())};
+        auto& here = at_place_[hash(place)];
+        for (const Index other : here)
+            if (rounded(other) == place && at(other) == p) return other;
+        const auto node = static_cast<Index>(size());
+        made_.push_back(p);
+        rounded_.push_back(place);
+        here.push_back(node);
+        return node;
+    }
+
+    std::size_t size() const { return points_.size() + made_.size(); }
+    Point at(Index node) const {
+        if (node >= points_.size()) return made_[node - points_.size()];
+        const Vec3& p = points_[node];
+        return {p.x, p.y, p.z};
+    }
+    const Vec3& rounded(Index node) const {
+        return node < points_.size() ? points_[node] : rounded_[node - points_.size()];
+    }
+
+  private:
+    /// Of a lazy number alone, its double depends on what was asked before.
+    static double nearest(const ExactKernel::FT& x) { return CGAL::to_double(CGAL::exact(x)); }
+
+    static std::uint64_t hash(const Vec3& p) {
+        std::uint64_t h = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            h = (h ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9e3779b97f4a7c15;
+            h ^= h >> 29;
+        }
+        return h;
+    }
+
+    const std::vector<Vec3>& points_;
+    std::vector<Point> made_;
+    std::vector<Vec3> rounded_; ///< of made_
+    std::unordered_map<std::uint64_t, std::vector<Index>> at_place_;
+};
 
 /// What is to be cut: triangles in one plane, with area, that overlap or are one.
 struct PlaneGroup {

@@ -2,10 +2,32 @@
 
 #include "geometry/clean/solids.hpp"
 #include "geometry/clean/steps.hpp"
+#include "geometry/edit/t_junctions.hpp"
 #include "mesh/face.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+
+namespace facetmill::clean_steps {
+
+bool resolve_t_junctions(Work& work, double within) {
+    auto insertions = find_t_junctions(work.mesh, within);
+    if (insertions.empty()) return false;
+    work.counts.t_junctions += insertions.size();
+    work.mesh = insert_on_edges(work.mesh, std::move(insertions), {}, &work.changes);
+    return true;
+}
+
+bool take_apart_non_manifold(Work& work) {
+    NonManifoldSplit split = split_non_manifold(std::move(work.mesh));
+    work.mesh = std::move(split.mesh);
+    work.counts.split_vertices += split.split_vertices;
+    work.counts.split_edges += split.split_edges;
+    if (split.split_edges > 0) work.changes = std::move(split.changes);
+    return split.changed();
+}
+
+} // namespace facetmill::clean_steps
 
 namespace facetmill {
 
@@ -54,7 +76,7 @@ bool one_round(Work& work, const CleanSettings& s) {
         did(fill_holes(work, *s.holes, nullptr, may_cross));
         work.not_done.resize(told); // those that stay are told below
     }
-    if (s.non_manifold) did(split_non_manifold(work));
+    if (s.non_manifold) did(take_apart_non_manifold(work));
     changed |= untangle(work, s);
     if (s.holes) did(fill_holes(work, *s.holes, nullptr, may_cross));
     if (s.components) did(remove_components(work, *s.components));

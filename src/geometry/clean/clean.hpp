@@ -2,7 +2,7 @@
 // Repairs of broken meshes, step by step. What was sound is left alone.
 
 #include "mesh/lineage.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/topology.hpp"
 
 #include <optional>
 #include <string>
@@ -93,5 +93,11 @@ struct CleanResult {
 /// for how each decides. Attributes are copied, and interpolated at new vertices. Never throws for a valid
 /// mesh.
 CleanResult clean(Mesh mesh, const CleanSettings& settings);
+
+/// The components of a mesh (faces that hang together over edges), a cavity with the solid around it: a
+/// closed one that looks inward (its volume is negative) belongs to the innermost closed outward piece that
+/// it lies in, if there is one. Inside is decided exactly, by a ray from one of its vertices. Numbered by
+/// first face. Components that are open, or whose faces disagree, stand for themselves. O(n log n).
+Components solid_components(const Mesh& mesh);
 
 } // namespace facetmill

@@ -16,15 +16,13 @@ namespace {
 constexpr int most_rings = 4;
 
 /// The edges of one face as (low, high), ascending.
-EdgeList open_edges(const Mesh& mesh) {
-    const auto edges = build_edges(mesh);
-    EdgeList open;
-    for (Index e = 0; e < edges.size(); ++e)
-        if (edges.corners_of(e).size() == 1) open.emplace_back(edges.edges[e].low, edges.edges[e].high);
-    return open;
+EdgeList boundary_of(const Mesh& mesh) {
+    EdgeList list;
+    for (const BoundaryEdge& e : boundary_edges(mesh)) list.push_back(std::minmax({e.from, e.to}));
+    return list;
 }
 
-/// V - E + F of the faces of each group, borders included.
+/// V - E + F of the faces of each group, boundaries included.
 std::map<Index, int> euler_of_groups(const Mesh& mesh, const std::vector<Index>& groups) {
     std::map<Index, int> euler;
     std::set<std::pair<Index, Index>> vertices; // (group, vertex)
@@ -54,7 +52,7 @@ class Untangler {
   public:
     Untangler(Work& work, SelfIntersections found)
         : work_(work), mesh_(work.mesh), found_(std::move(found)), place_(lowest_at_place(work.mesh)),
-          open_(open_edges(work.mesh)), pieces_(face_components(work.mesh, false)), areas_(pieces_.count) {
+          open_(boundary_of(work.mesh)), pieces_(face_components(work.mesh, false)), areas_(pieces_.count) {
         for (Index f = 0; f < mesh_.face_count(); ++f) areas_[pieces_.of_face[f]] += area(f);
         find_knots();
     }
@@ -202,7 +200,7 @@ class Untangler {
     static std::set<Index> failures(const Mesh& mesh, const EdgeList& before,
                                     const std::vector<Index>& groups, const std::vector<Index>& patches) {
         std::set<Index> failed;
-        for (const auto& edge : open_edges(mesh))
+        for (const auto& edge : boundary_of(mesh))
             if (!std::binary_search(before.begin(), before.end(), edge)) failed.insert(groups[edge.first]);
         std::vector<std::uint8_t> among(patches.size());
         for (std::size_t f = 0; f < among.size(); ++f) among[f] = patches[f] != none;

@@ -3,8 +3,9 @@
 // return value whether it changed anything.
 
 #include "geometry/clean/clean.hpp"
-#include "geometry/intersect/self_intersections.hpp"
+#include "geometry/edit/split_non_manifold.hpp"
 #include "geometry/edit/surgery.hpp"
+#include "geometry/intersect/self_intersections.hpp"
 
 namespace facetmill::clean_steps {
 
@@ -38,11 +39,8 @@ bool remove_duplicates(Work& work);
 /// A vertex on (near: within the length of) an open edge of another face, with an open edge of its own along
 /// that one, is put on it.
 bool resolve_t_junctions(Work& work, double within);
-/// At an edge of more than two faces those stay together that have the inside of the surface between them, by
-/// the exact order around the edge; each fan of faces around a vertex gets a vertex of its own. Where both
-/// ends of such an edge are held together by other faces, the second pair gets a point in the middle of the
-/// edge.
-bool split_non_manifold(Work& work);
+/// See split_non_manifold.
+bool take_apart_non_manifold(Work& work);
 /// Edges as (low vertex, high vertex), ascending.
 using EdgeList = std::vector<std::pair<Index, Index>>;
 /// Fills the loops of open edges as the settings say; holes that touch at a vertex each for itself. Loops
@@ -53,7 +51,8 @@ bool remove_components(Work& work, const ComponentSettings& settings);
 bool remove_inner_components(Work& work);
 bool remove_isolated(Work& work);
 /// The pairs of faces that intersect, for the two steps below; vertices at one place count as one, so that
-/// faces which only an edge or vertex parts (split_non_manifold) are none. At most most_pairs are listed.
+/// faces which are separated only by an edge or vertex that was split (split_non_manifold) are none. At most
+/// most_pairs are listed.
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {});
 inline constexpr std::size_t most_pairs = std::size_t{1} << 22;
 /// Pairs of faces, lower one first, ascending, that link all faces at edges around which the surface winds
@@ -72,15 +71,5 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
 /// that was not there, change the topology, or take half of a piece along. Faces that touch only where
 /// vertices of theirs are at one place do not count.
 bool resolve_self_intersections(Work& work, SelfIntersections found);
-
-/// For each vertex the lowest one at the same place.
-std::vector<Index> lowest_at_place(const Mesh& mesh);
-
-/// The vertex each corner goes to, and what the new vertices are copies of: the plan of split_non_manifold.
-struct Fans {
-    std::vector<Index> vertex_of_corner;
-    std::vector<Index> copies;
-};
-Fans fans_apart(const Mesh& mesh);
 
 } // namespace facetmill::clean_steps

@@ -1,10 +1,16 @@
 // The step of clean that makes one solid of closed pieces that pass through each other or themselves.
 #include "geometry/clean/solids.hpp"
+#include "geometry/clean/steps.hpp"
 #include "geometry/clean/united.hpp"
+#include "geometry/edit/around_edge.hpp"
+#include "geometry/inspect/evidence.hpp"
+#include "mesh/topology.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 
 namespace facetmill::clean_steps {
 
@@ -110,7 +116,7 @@ class Trial {
             remove_degenerate(work_);
         }
         if (settings_.duplicates) remove_duplicates(work_);
-        if (settings_.non_manifold) split_non_manifold(work_);
+        if (settings_.non_manifold) take_apart_non_manifold(work_);
         work_.counts = before; // a part of the union
     }
 
@@ -210,6 +216,132 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
         }
     }
     return false;
+}
+
+// Triangles without area, as rounding makes them of the pieces of a union.
+
+namespace {
+
+/// The corner opposite to the longest side of a triangle on a line; none where corners are at one place.
+std::optional<Index> middle_corner(const Mesh& mesh, Index f) {
+    const Index begin = mesh.face_begin(f);
+    std::array<Index, 3> c{begin, begin + 1, begin + 2};
+    Box box;
+    add_corners(box, mesh, f);
+    const Vec3 extent = box.extent();
+    const std::size_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    std::sort(c.begin(), c.end(),
+              [&](Index i, Index j) { return mesh.point(i)[axis] < mesh.point(j)[axis]; });
+    const bool apart =
+        mesh.point(c[0])[axis] < mesh.point(c[1])[axis] && mesh.point(c[1])[axis] < mesh.point(c[2])[axis];
+    return apart ? std::optional(c[1]) : std::nullopt;
+}
+
+/// One round: triangles that go, and what is put where. Each face takes part once.
+struct Round {
+    std::vector<std::uint8_t> goes;
+    std::vector<Insertion> insertions;
+    std::vector<Index> cut; ///< triangles that become two, ascending
+};
+
+Round plan(const Mesh& mesh) {
+    Round round;
+    std::vector<Index> flat;
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (mesh.face_size(f) == 3 && is_degenerate(mesh, f)) flat.push_back(f);
+    if (flat.empty()) return round;
+    round.goes.assign(mesh.face_count(), 0);
+    const auto edges = build_edges(mesh);
+    const auto faces = corner_faces(mesh);
+    std::vector<std::uint8_t> busy(mesh.face_count(), 0);
+    for (const Index f : flat) {
+        const auto middle = middle_corner(mesh, f);
+        if (!middle || busy[f]) continue;
+        const Index from = next_corner(mesh, f, *middle), e = edges.corner_edge[from];
+        if (e == none) continue;
+        for (const Index c : edges.corners_of(e)) {
+            const Index g = faces[c];
+            if (mesh.vertex(c) == mesh.vertex(from) || busy[g] || g == f) continue;
+            const Vec3 &a = mesh.point(c), &b = mesh.point(next_corner(mesh, g, c));
+            const double t = length(mesh.point(*middle) - a) / length(b - a);
+            round.insertions.push_back({c, t, mesh.vertex(*middle)});
+            if (mesh.face_size(g) == 3) round.cut.push_back(g);
+            busy[f] = busy[g] = 1;
+            round.goes[f] = 1;
+            break;
+        }
+    }
+    std::sort(round.cut.begin(), round.cut.end());
+    return round;
+}
+
+} // namespace
+
+void take_out_flat(Work& work) {
+    constexpr int most_rounds = 64;
+    for (int i = 0; i < most_rounds; ++i) {
+        Round round = plan(work.mesh);
+        if (round.insertions.empty()) return;
+        std::vector<std::uint8_t> goes(round.goes.size() + round.cut.size(), 0);
+        std::size_t before = 0; // triangles that became two, below f
+        for (Index f = 0; f < round.goes.size(); ++f) {
+            goes[f + before] = round.goes[f];
+            if (before < round.cut.size() && round.cut[before] == f) ++before;
+        }
+        work.mesh = insert_on_edges(work.mesh, std::move(round.insertions), {}, &work.changes);
+        work.mesh = keep_faces(work.mesh, faces_without(goes));
+    }
+}
+
+// Solids that overlap and yet meet in edges only: grids that cross along their lines.
+
+namespace {
+
+/// Whether two leaves, neighbours in the order around the edge, are at the same angle.
+bool same_angle(const Vec3& u, const Vec3& v, const EdgeLeaf& a, const EdgeLeaf& b) {
+    return a.half == b.half && (a.half % 2 == 0 || orientation_3d(u, v, a.beside, b.beside) == 0);
+}
+
+/// Whether the winding number takes more than two values around the edge.
+bool winds_twice(const Vec3& u, const Vec3& v, std::vector<EdgeLeaf> leaves) {
+    sort_around_edge(u, v, leaves);
+    int winding = 0, least = 0, most = 0;
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        winding += leaves[i].forward ? -1 : 1; // the inside is before a forward face
+        if (i + 1 < leaves.size() && same_angle(u, v, leaves[i], leaves[i + 1])) continue;
+        least = std::min(least, winding);
+        most = std::max(most, winding);
+    }
+    return winding == 0 && most - least > 1;
+}
+
+} // namespace
+
+std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
+    Mesh plain; // vertices at one place are one
+    plain.positions = mesh.positions;
+    plain.face_offsets = mesh.face_offsets;
+    const auto place = lowest_at_place(mesh);
+    for (Index c = 0; c < mesh.corner_count(); ++c) plain.corners.push_back(place[mesh.vertex(c)]);
+    const auto edges = build_edges(plain);
+    std::vector<std::pair<Index, Index>> pairs;
+    std::vector<Index> faces;
+    for (Index e = 0; e < edges.size(); ++e) {
+        const auto corners = edges.corners_of(e);
+        if (corners.size() < 4) continue;
+        if (faces.empty()) faces = corner_faces(plain);
+        const auto& [low, high] = edges.edges[e];
+        std::vector<EdgeLeaf> leaves;
+        for (const Index c : corners)
+            leaves.push_back({c, beside_edge(plain, faces[c], c), plain.vertex(c) == low});
+        if (!winds_twice(plain.positions[low], plain.positions[high], std::move(leaves))) continue;
+        for (std::size_t i = 0; i + 1 < corners.size(); ++i) // a chain: all pairs could be too many
+            if (faces[corners[i]] != faces[corners[i + 1]])
+                pairs.push_back(std::minmax({faces[corners[i]], faces[corners[i + 1]]}));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
 }
 
 } // namespace facetmill::clean_steps

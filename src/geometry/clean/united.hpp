@@ -19,12 +19,12 @@ struct United {
 };
 
 /// Cuts the faces of the clusters that intersect along each other, asks for the winding number on both sides
-/// of every patch between cuts (Zhou et al. 2016), and keeps what has at most 0 on one side and at least 1 on
-/// the other, facing out. Faces that are not cut stay polygons and keep their order; the pieces of cut ones
-/// are triangles and come last. Vertices at one place where faces are cut become one. Attributes of new
-/// corners are mixed within the face that they are part of, those on an edge between its ends only, so that
-/// seams stay seams. Coordinates are rounded, and new vertices within a distance of others become them: the
-/// result may intersect again.
+/// of every patch between cuts (Q. Zhou et al., "Mesh arrangements for solid geometry", 2016), and keeps what
+/// has at most 0 on one side and at least 1 on the other, facing out. Faces that are not cut stay polygons
+/// and keep their order; the pieces of cut ones are triangles and come last. Vertices at one place where
+/// faces are cut become one. Attributes of new corners are mixed within the face that they are part of, those
+/// on an edge between its ends only, so that seams stay seams. Coordinates are rounded, and new vertices
+/// within a distance of others become them: the result may intersect again.
 United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within);
 
 /// Takes triangles of exactly no area out of a closed surface without opening it: the vertex between the two

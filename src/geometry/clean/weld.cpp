@@ -68,42 +68,7 @@ Index root(const std::vector<Index>& target, Index v) {
     return v;
 }
 
-struct OpenEdge {
-    Index from, to;
-};
-
-std::vector<OpenEdge> open_edges(const Mesh& mesh) {
-    const auto edges = build_edges(mesh);
-    const auto faces = corner_faces(mesh);
-    std::vector<OpenEdge> open;
-    for (Index e = 0; e < edges.size(); ++e) {
-        const auto corners = edges.corners_of(e);
-        if (corners.size() == 1)
-            open.push_back(
-                {mesh.vertex(corners[0]), mesh.vertex(next_corner(mesh, faces[corners[0]], corners[0]))});
-    }
-    return open;
-}
-
 } // namespace
-
-std::vector<Index> lowest_at_place(const Mesh& mesh) {
-    const auto& p = mesh.positions;
-    Mesh points; // welding keeps first occurrences in order, so its numbers lead back to the lowest vertices
-    points.positions = p;
-    points.corners.resize(p.size());
-    for (Index v = 0; v < p.size(); ++v) points.corners[v] = v;
-    std::vector<Index> lowest(p.size());
-    for (Index v = 0; v < p.size(); ++v) lowest[v] = v;
-    if (weld_exact(points) == 0) return lowest;
-    std::vector<Index> first(points.vertex_count(), none);
-    for (Index v = 0; v < p.size(); ++v) {
-        Index& f = first[points.corners[v]];
-        if (f == none) f = v;
-        lowest[v] = f;
-    }
-    return lowest;
-}
 
 bool weld_equal(Work& work, bool comes_apart) {
     auto target = lowest_at_place(work.mesh);
@@ -117,8 +82,8 @@ bool weld_equal(Work& work, bool comes_apart) {
 bool weld_near(Work& work, double within) {
     const Mesh& mesh = work.mesh;
     const auto& p = mesh.positions;
-    std::vector<Box> boxes(p.size()); // of the ends of open edges: others are sound
-    for (const OpenEdge& e : open_edges(mesh)) {
+    std::vector<Box> boxes(p.size()); // of the ends of boundary edges: others are sound
+    for (const BoundaryEdge& e : boundary_edges(mesh)) {
         boxes[e.from].add(p[e.from]);
         boxes[e.to].add(p[e.to]);
     }
@@ -154,7 +119,7 @@ bool weld_near(Work& work, double within) {
 bool stitch(Work& work, double within) {
     const Mesh& mesh = work.mesh;
     const auto& p = mesh.positions;
-    const auto open = open_edges(mesh);
+    const auto open = boundary_edges(mesh);
     std::vector<Box> boxes(open.size());
     for (std::size_t i = 0; i < open.size(); ++i) boxes[i].add(p[open[i].from]);
     const BoxTree tree(boxes);

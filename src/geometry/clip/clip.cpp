@@ -2,13 +2,253 @@
 
 #include "base/error.hpp"
 #include "geometry/clip/assemble.hpp"
-#include "geometry/clip/body.hpp"
+#include "geometry/cut/score.hpp"
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace facetmill {
 
 namespace {
+
+// What is left of a mesh outside a convex body that planes bound.
+
+/// Attributes that number the elements of the scored mesh, so that the clipped one can be traced to it.
+constexpr std::string_view trace = "#trace";
+
+void number(Mesh& mesh, Domain domain, Index first) {
+    std::vector<std::uint32_t> numbers(mesh.count(domain));
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<Index>(i) + first;
+    mesh.attributes.push_back({std::string(trace), domain, Role::index, 1, false, std::move(numbers)});
+}
+
+const std::vector<std::uint32_t>& numbers_of(const Mesh& mesh, Domain domain) {
+    return std::get<std::vector<std::uint32_t>>(mesh.find(trace, domain)->data);
+}
+
+void forget(Mesh& mesh) {
+    for (const Domain d : {Domain::vertex, Domain::wedge, Domain::face}) mesh.drop(trace, d);
+}
+
+/// The faces of the scored mesh that the front did not take, and the front's caps turned round.
+class Rest {
+  public:
+    Rest(const Mesh& scored, const Mesh& front) : from_(scored), front_(front) {}
+
+    Mesh run() {
+        taken_.resize(from_.face_count());
+        for (const Index f : numbers_of(front_, Domain::face))
+            if (f > 0) taken_[f - 1] = 1;
+        find_inserted();
+        Mesh walls = keep_walls();
+        append_caps(walls);
+        forget(walls);
+        normalise_offsets(walls);
+        drop_unused(walls);
+        return walls;
+    }
+
+  private:
+    /// The scored mesh's vertex that a vertex of the front is, or none: the caps' own are where no such
+    /// vertex is.
+    Index traced(Index v) const {
+        const Index i = numbers_of(front_, Domain::vertex)[v];
+        return i < from_.vertex_count() && from_.positions[i] == front_.positions[v] ? i : none;
+    }
+
+    /// Points that caps put on the edges of the front's walls, where contours cross.
+    void find_inserted() {
+        for (Index f = 0; f < front_.face_count(); ++f) {
+            const Index source = numbers_of(front_, Domain::face)[f];
+            if (source == 0 || front_.face_size(f) == from_.face_size(source - 1)) continue;
+            std::vector<Index> ring;
+            for (const Index w : front_.face_wedges(f)) ring.push_back(front_.vertex_of_wedge(w));
+            std::rotate(ring.begin(),
+                        std::find_if(ring.begin(), ring.end(), [&](Index v) { return traced(v) != none; }),
+                        ring.end());
+            for (std::size_t i = 0; i < ring.size();) {
+                std::size_t end = i + 1;
+                while (end < ring.size() && traced(ring[end]) == none) ++end;
+                if (end > i + 1) {
+                    const Index a = traced(ring[i]), b = traced(ring[end % ring.size()]);
+                    std::vector<Vec3>& points = inserted_[{std::min(a, b), std::max(a, b)}];
+                    points.clear();
+                    for (std::size_t k = i + 1; k < end; ++k) points.push_back(front_.positions[ring[k]]);
+                    if (a > b) std::reverse(points.begin(), points.end());
+                }
+                i = end;
+            }
+        }
+    }
+
+    Mesh keep_walls() {
+        Mesh out;
+        out.positions = from_.positions;
+        out.wedge_vertex = from_.wedge_vertex;
+        out.face_offsets.push_back(0);
+        Descent descent;
+        descent.vertices.identity = descent.wedges.identity = true;
+        for (Index f = 0; f < from_.face_count(); ++f) {
+            if (taken_[f]) continue;
+            for_polygon_edges(from_.face_wedges(f), [&](Index a, Index b) {
+                out.corners.push_back(a);
+                if (!inserted_.empty()) insert(out, descent, a, b);
+            });
+            out.face_offsets.push_back(static_cast<Index>(out.corners.size()));
+            descent.faces.push_back(f);
+        }
+        inherit_attributes(out, from_, descent);
+        return out;
+    }
+
+    /// A vertex per point and, with seams, a wedge per pair of wedges.
+    void insert(Mesh& out, Descent& descent, Index a, Index b) {
+        const Index va = from_.vertex_of_wedge(a), vb = from_.vertex_of_wedge(b);
+        const auto at = inserted_.find({std::min(va, vb), std::max(va, vb)});
+        if (at == inserted_.end()) return;
+        std::vector<Index> wedges;
+        for (const Vec3& p : at->second) {
+            const Vec3 &low = from_.positions[at->first.first], &high = from_.positions[at->first.second];
+            const double size = dot(high - low, high - low);
+            const double t = size > 0 ? std::clamp(dot(p - low, high - low) / size, 0.0, 1.0) : 0.0;
+            auto [vertex, fresh] = vertex_at_.try_emplace({p.x, p.y, p.z});
+            if (fresh) {
+                vertex->second = static_cast<Index>(out.positions.size());
+                out.positions.push_back(p);
+                descent.vertices.edges.push_back({at->first.first, at->first.second, t});
+            }
+            auto [wedge, made] = wedge_at_.try_emplace({std::min(a, b), std::max(a, b), vertex->second});
+            if (made) {
+                wedge->second =
+                    out.has_seams() ? static_cast<Index>(out.wedge_vertex.size()) : vertex->second;
+                const Index first = va < vb ? a : b, second = va < vb ? b : a;
+                if (out.has_seams()) out.wedge_vertex.push_back(vertex->second);
+                if (out.has_seams() || fresh) descent.wedges.edges.push_back({first, second, t});
+            }
+            wedges.push_back(wedge->second);
+        }
+        if (va > vb) std::reverse(wedges.begin(), wedges.end());
+        out.corners.insert(out.corners.end(), wedges.begin(), wedges.end());
+    }
+
+    void append_caps(Mesh& walls) {
+        const Mesh caps = turned_caps();
+        if (caps.face_count() == 0) return;
+        const auto first_wedge = static_cast<Index>(walls.wedge_count());
+        const std::size_t first_corner = walls.corner_count();
+        const bool own = caps_have_own_wedges(walls);
+        append(walls, caps);
+        if (own && !walls.has_seams()) {
+            walls.wedge_vertex.resize(walls.vertex_count());
+            for (Index i = 0; i < walls.wedge_vertex.size(); ++i) walls.wedge_vertex[i] = i;
+        }
+        // Caps and walls meet at the walls' vertices.
+        const auto vertex_numbers = numbers_of(caps, Domain::vertex),
+                   wedge_numbers = numbers_of(caps, Domain::wedge);
+        for (std::size_t c = first_corner; c < walls.corner_count(); ++c) {
+            Index& w = walls.corners[c];
+            const Index wedge = w - first_wedge, vertex = caps.vertex_of_wedge(wedge);
+            const Index shared = shared_vertex(walls, caps, vertex, vertex_numbers[vertex]);
+            if (shared == none) continue;
+            if (own)
+                walls.wedge_vertex[w] = shared;
+            else if (!walls.has_seams())
+                w = shared;
+            else if (wedge_numbers[wedge] < from_.wedge_count() &&
+                     from_.vertex_of_wedge(wedge_numbers[wedge]) == shared)
+                w = wedge_numbers[wedge];
+            else
+                walls.wedge_vertex[w] = shared;
+        }
+    }
+    Index shared_vertex(const Mesh& walls, const Mesh& caps, Index vertex, Index numbered) const {
+        const Vec3& p = caps.positions[vertex];
+        if (numbered < from_.vertex_count() && walls.positions[numbered] == p) return numbered;
+        const auto at = vertex_at_.find({p.x, p.y, p.z});
+        return at == vertex_at_.end() ? none : at->second;
+    }
+
+    /// The front's caps alone, seen from behind.
+    Mesh turned_caps() const {
+        Mesh out;
+        out.positions = front_.positions;
+        out.wedge_vertex = front_.wedge_vertex;
+        out.face_offsets.push_back(0);
+        Descent descent;
+        descent.vertices.identity = descent.wedges.identity = true;
+        for (Index f = 0; f < front_.face_count(); ++f) {
+            if (numbers_of(front_, Domain::face)[f] != 0) continue;
+            const auto wedges = front_.face_wedges(f);
+            out.corners.insert(out.corners.end(), wedges.rbegin(), wedges.rend());
+            out.face_offsets.push_back(static_cast<Index>(out.corners.size()));
+            descent.faces.push_back(f);
+        }
+        inherit_attributes(out, front_, descent);
+        drop_unused(out);
+        turn(out);
+        return out;
+    }
+    /// Normals look the other way; textures are not seen in a mirror.
+    static void turn(Mesh& caps) {
+        for (Attribute& a : caps.attributes) {
+            if (a.domain != Domain::wedge) continue;
+            const bool vector = a.role == Role::normal || a.role == Role::tangent;
+            for (std::size_t w = 0; w < a.size(); ++w) {
+                for (int c = 0; vector && c < 3; ++c) a.set_value(w, c, -a.value(w, c));
+                if (a.role == Role::uv && a.name == "TEXCOORD_0") a.set_value(w, 0, 1 - a.value(w, 0));
+            }
+        }
+    }
+
+    const Mesh &from_, &front_;
+    std::vector<std::uint8_t> taken_;                               ///< [faces of from_]
+    std::map<std::pair<Index, Index>, std::vector<Vec3>> inserted_; ///< by edge, from its low vertex on
+    std::map<std::array<double, 3>, Index> vertex_at_;              ///< inserted points -> vertex
+    std::map<std::array<Index, 3>, Index> wedge_at_;                ///< (wedges, vertex) -> wedge
+};
+
+FlatSide flat_side(const Mesh& mesh, const ClipSettings& settings) {
+    if (is_closed(mesh)) return FlatSide::by_normal;
+    return settings.coplanar == Coplanar::keep ? FlatSide::front : FlatSide::back;
+}
+
+/// Clips by all planes at once: the front is what is in front of all of them, as the planes one after the
+/// other would leave it, the back is all the rest. The mesh is first scored along the body's faces, and the
+/// rest has the front's caps for its own, the other way round: so the two fit exactly, and with caps a closed
+/// mesh gives two closed ones. settings.keep is back or both.
+ClipResult clip_body(Mesh mesh, const ClipSettings& settings) {
+    ClipResult all;
+    ClipSettings inner = settings;
+    inner.keep = Keep::front;
+    inner.convex = false;
+    inner.triangulate = false;
+    const double snap = settings.snap ? float32_ulp(mesh.bounds()) : 0;
+    const FlatSide flat = flat_side(mesh, settings);
+    std::vector<std::uint8_t> inside(mesh.face_count(), 1);
+    for (const Plane& plane : settings.planes) {
+        ScoreResult scored = score(mesh, {plane, inside, flat, snap}, inner.memory);
+        std::vector<std::uint8_t> still(scored.source.size());
+        for (std::size_t f = 0; f < still.size(); ++f)
+            still[f] = inside[scored.source[f]] != 0 && scored.sides[f] > 0;
+        inside = std::move(still);
+        mesh = std::move(scored.mesh);
+        all.cut_faces += scored.cut_faces;
+    }
+    number(mesh, Domain::vertex, 0);
+    number(mesh, Domain::wedge, 0);
+    number(mesh, Domain::face, 1);
+    ClipResult front = clip(mesh, inner);
+    const std::size_t cut = all.cut_faces;
+    all = std::move(front);
+    all.cut_faces = cut;
+    forget_change(all.changes, trace);
+    // Nothing was clipped away: all of it is inside.
+    all.back = Rest(mesh, all.front).run();
+    forget(all.front);
+    if (settings.keep == Keep::back) all.front = {};
+    return all;
+}
 
 void make_triangles(ClipResult& result) {
     for (Mesh* m : {&result.front, &result.back})

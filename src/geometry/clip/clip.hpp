@@ -77,7 +77,7 @@ struct ClipResult {
 /// 1), the rest interpolated as on the walls. Vertices that no kept face uses go, unless they are isolated on
 /// the kept side. Order: kept faces and pieces in the order of their faces, then the cap. Throws usage
 /// (E-PLANE) for a plane that is none, and for Keep::both with several planes that are no convex body.
-/// Source: "Clipping facets by a plane" (notes, 1997).
+/// After P. Bourke, "Clipping Polygonal Facets with an Arbitrary Plane" (1997).
 ClipResult clip(Mesh mesh, const ClipSettings& settings);
 
 } // namespace facetmill

@@ -64,7 +64,8 @@ Vec2 seen_along(std::size_t axis, const Vec3& p);
 /// Capped, a closed mesh stays closed: walls stand on the outline and on its holes, and those of the inside
 /// and of the outside are the same triangles, turned; so the volumes of the two sides add up. Of an open mesh
 /// the contours that close get walls (see close_crop). Throws stage (E-CROP-CAP) when a closed mesh cannot be
-/// closed. Source: "Inside a polygon" (notes, 1987).
+/// closed. Inside is decided as by P. Bourke, "Determining if a point lies on the interior of a polygon"
+/// (1987).
 CropResult crop(const Mesh& mesh, const Footprint& footprint, const CropSettings& settings);
 
 /// The inside and the outside, whatever settings.keep is: their walls match also where snap cannot close one

@@ -35,8 +35,8 @@ std::vector<Index> PostView::ascending(Index post) const {
     return vertices;
 }
 
-WallPanel::WallPanel(Index wall, std::span<const BoundaryEdge> edges) : wall_(wall), edges_(edges) {
-    for (const BoundaryEdge& e : edges) {
+WallPanel::WallPanel(Index wall, std::span<const WallEdge> edges) : wall_(wall), edges_(edges) {
+    for (const WallEdge& e : edges) {
         balance_[e.low] += e.count;
         balance_[e.high] -= e.count;
     }
@@ -44,7 +44,7 @@ WallPanel::WallPanel(Index wall, std::span<const BoundaryEdge> edges) : wall_(wa
 }
 
 void WallPanel::stand_at_posts(PostView& view) const {
-    for (const BoundaryEdge& e : edges_)
+    for (const WallEdge& e : edges_)
         for (const Index v : {e.low, e.high}) {
             const double length = view.walls.length_of(wall_);
             const double at = std::clamp(view.walls.along(wall_, view.seen[v]), 0.0, length);

@@ -11,7 +11,7 @@
 namespace facetmill {
 
 /// An edge of the kept faces' boundary.
-struct BoundaryEdge {
+struct WallEdge {
     Index low, high; ///< vertices
     Index edge;      ///< in the edge table
     int count;       ///< faces that run from low to high minus those that run back; never 0
@@ -37,7 +37,7 @@ struct PostView {
 
 class WallPanel {
   public:
-    WallPanel(Index wall, std::span<const BoundaryEdge> edges);
+    WallPanel(Index wall, std::span<const WallEdge> edges);
 
     Index wall() const { return wall_; }
     /// Vertices where not as many edges arrive as leave, and leaving minus arriving.
@@ -80,7 +80,7 @@ class WallPanel {
     };
 
     Index wall_;
-    std::span<const BoundaryEdge> edges_;
+    std::span<const WallEdge> edges_;
     std::map<Index, int> balance_;
     std::map<std::pair<Index, Index>, int> upright_;
     std::map<std::pair<Index, Index>, Run> runs_;

@@ -3,8 +3,9 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "geometry/crop/crop.hpp"
+#include "geometry/crop/wall_panel.hpp"
+#include "geometry/cut/cap_paint.hpp"
 #include "geometry/edit/surgery.hpp"
-#include "geometry/crop/wall_faces.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -13,6 +14,108 @@
 namespace facetmill {
 
 namespace {
+
+// The faces of the walls of a crop, and their attributes.
+
+struct WallFaces {
+    std::span<const WallPanel> panels; ///< filled; their points are vertices of the mesh
+    const Walls& walls;
+    const WallSettings& settings;
+    Index first_added = 0; ///< the vertex of the first point that the panels added; the others follow
+};
+
+class Appender {
+  public:
+    Appender(const Mesh& from, const WallFaces& faces)
+        : from_(from), faces_(faces), own_(caps_have_own_wedges(from)), added_(faces.first_added) {}
+
+    Mesh run(AttributeChanges& changes) {
+        start();
+        for (const WallPanel& panel : faces_.panels) add(panel);
+        descent_.faces.resize(out_.face_count()); // walls copy the first face's and are painted
+        for (Index f = 0; f < from_.face_count(); ++f) descent_.faces[f] = f;
+        changes = inherit_attributes(out_, from_, descent_);
+        for (std::size_t i = 0; i < ranges_.size(); ++i) paint(i);
+        return std::move(out_);
+    }
+
+  private:
+    void start() {
+        out_.positions = from_.positions;
+        out_.wedge_vertex = from_.wedge_vertex;
+        out_.corners = from_.corners;
+        out_.face_offsets = from_.face_offsets;
+        if (own_ && out_.wedge_vertex.empty())
+            for (Index v = 0; v < out_.vertex_count(); ++v) out_.wedge_vertex.push_back(v);
+        descent_.vertices.identity = true;
+        descent_.wedges.copies.resize(from_.wedge_count());
+        for (Index w = 0; w < from_.wedge_count(); ++w) descent_.wedges.copies[w] = w;
+        lowest_.assign(from_.vertex_count(), none);
+        for (const Index w : from_.corners) {
+            Index& at = lowest_[from_.vertex_of_wedge(w)];
+            at = std::min(at, w);
+        }
+    }
+
+    void add(const WallPanel& panel) {
+        const std::size_t first = out_.face_count();
+        wedge_at_.clear();
+        own_wedges_.emplace_back();
+        for (const auto& t : panel.filling().triangles) {
+            const std::array<Index, 3> corners{wedge(panel, t[0]), wedge(panel, t[1]), wedge(panel, t[2])};
+            add_face(out_, corners);
+        }
+        added_ += static_cast<Index>(panel.filling().added.size());
+        ranges_.push_back({first, out_.face_count()});
+    }
+    /// With normals or coordinates of its own a wall has wedges of its own, made of the lowest there.
+    Index wedge(const WallPanel& panel, Index point) {
+        const auto points = static_cast<Index>(panel.points().size());
+        const Index v = point < points ? panel.points()[point] : added_ + point - points;
+        if (!own_) return lowest_[v];
+        const auto [at, fresh] = wedge_at_.try_emplace(v, static_cast<Index>(descent_.wedges.copies.size()));
+        if (fresh) {
+            descent_.wedges.copies.push_back(lowest_[v]);
+            out_.wedge_vertex.push_back(v);
+            own_wedges_.back().push_back(at->second);
+        }
+        return at->second;
+    }
+
+    void paint(std::size_t i) {
+        const FaceRange faces = ranges_[i];
+        if (faces.first == faces.last) return;
+        const WallSettings& s = faces_.settings;
+        const Index wall = faces_.panels[i].wall();
+        const auto& e = faces_.walls.edges()[wall];
+        CapPaint paint{s.primitive, 0, 0};
+        if (s.last_cut) paint.cut_id = *s.last_cut + 1 + wall;
+        if (s.last_group) paint.group = *s.last_group + 1 + e.ring;
+        Plane plane = pulled_back(upright_plane(s.axis, e.a, e.b), s.to_world);
+        const Vec3 looks = area_of_triangles(out_, out_.face_begin(static_cast<Index>(faces.first)),
+                                             out_.face_end(static_cast<Index>(faces.last - 1)));
+        if (dot(looks, plane.normal) < 0) plane.normal = -plane.normal;
+        paint_cap(out_, faces, own_wedges_[i], plane, paint);
+    }
+
+    const Mesh& from_;
+    const WallFaces& faces_;
+    bool own_;
+    Index added_; ///< the vertex of the next panel's first added point
+    Mesh out_;
+    Descent descent_;
+    std::vector<Index> lowest_; ///< [vertices] wedge
+    std::map<Index, Index> wedge_at_;
+    std::vector<FaceRange> ranges_;              ///< [panels]
+    std::vector<std::vector<Index>> own_wedges_; ///< [panels]
+};
+
+/// Appends the walls to the kept faces, panel by panel.
+AttributeChanges append_walls(Mesh& mesh, const WallFaces& faces) {
+    AttributeChanges changes;
+    mesh = Appender(mesh, faces).run(changes);
+    return changes;
+}
 
 [[noreturn]] void refuse(const Walls& walls, Index wall) {
     const auto& e = walls.edges()[wall];
@@ -74,7 +177,7 @@ class Closer {
             if (settings_.closed || walls_.is_on(wall, p, q)) edges_.push_back({low, high, e, count, wall});
         }
         std::stable_sort(edges_.begin(), edges_.end(),
-                         [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.wall < b.wall; });
+                         [](const WallEdge& a, const WallEdge& b) { return a.wall < b.wall; });
     }
 
     /// Puts a vertex on edges that pass a corner of the outline: where it runs straight on, or almost, faces
@@ -83,7 +186,7 @@ class Closer {
         std::vector<Insertion> insertions;
         std::vector<Lineage::Edge> added;
         const double rounding = walls_.rounding();
-        for (const BoundaryEdge& e : edges_) {
+        for (const WallEdge& e : edges_) {
             const double a = walls_.along(e.wall, view_.seen[e.low]),
                          b = walls_.along(e.wall, view_.seen[e.high]);
             for (const auto& stand : walls_.stands(e.wall)) {
@@ -100,7 +203,7 @@ class Closer {
         return true;
     }
     /// Puts a vertex on an edge of the boundary, at the place that at tells.
-    void insert(std::vector<Insertion>& insertions, const BoundaryEdge& e, const Lineage::Edge& at,
+    void insert(std::vector<Insertion>& insertions, const WallEdge& e, const Lineage::Edge& at,
                 Index vertex) const {
         for (const Index c : table_.corners_of(e.edge))
             insertions.push_back({c, mesh_.vertex(c) == at.a ? at.t : 1 - at.t, vertex});
@@ -117,7 +220,7 @@ class Closer {
     /// Of a mesh that was open: contours that do not close, and what is on a post that they leave unbalanced.
     void drop_open() {
         DisjointSets contours(mesh_.vertex_count());
-        for (const BoundaryEdge& e : edges_) contours.join(e.low, e.high);
+        for (const WallEdge& e : edges_) contours.join(e.low, e.high);
         std::set<Index> open;
         for (bool more = true; more;) {
             const std::size_t before = open.size();
@@ -125,19 +228,19 @@ class Closer {
             more = open.size() > before;
         }
         std::map<Index, OpenContour> found;
-        for (const BoundaryEdge& e : edges_) {
+        for (const WallEdge& e : edges_) {
             const Index root = contours.find(e.low);
             if (!open.contains(root)) continue;
             const auto [at, fresh] = found.try_emplace(root, OpenContour{e.wall, 0, mesh_.positions[e.low]});
             ++at->second.edges;
         }
         for (const auto& [root, contour] : found) result_.open.push_back(contour);
-        std::erase_if(edges_, [&](const BoundaryEdge& e) { return open.contains(contours.find(e.low)); });
+        std::erase_if(edges_, [&](const WallEdge& e) { return open.contains(contours.find(e.low)); });
     }
     void find_open(DisjointSets& contours, std::set<Index>& open) const {
         std::map<Index, int> balance;                                            // by vertex
         std::map<std::pair<Index, Index>, std::pair<int, std::set<Index>>> post; // by wall and post
-        for (const BoundaryEdge& e : edges_) {
+        for (const WallEdge& e : edges_) {
             if (open.contains(contours.find(e.low))) continue;
             balance[e.low] += e.count;
             balance[e.high] -= e.count;
@@ -204,7 +307,7 @@ class Closer {
             const std::size_t first = added.size();
             added.resize(first + panel.filling().added.size());
             for (const auto& on : panel.on_edges()) {
-                const BoundaryEdge& e = edges_[edge + on.edge];
+                const WallEdge& e = edges_[edge + on.edge];
                 const Lineage::Edge at{on.from, on.from == e.low ? e.high : e.low, on.t};
                 if (on.point < points) {
                     insert(insertions, e, at, panel.points()[on.point]);
@@ -232,7 +335,7 @@ class Closer {
     Walls walls_;
     PostView view_;
     EdgeTable table_;
-    std::vector<BoundaryEdge> edges_; ///< by wall
+    std::vector<WallEdge> edges_; ///< by wall
     std::vector<WallPanel> panels_;
     Index first_added_ = 0;
     WalledCrop result_;

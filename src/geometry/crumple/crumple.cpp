@@ -5,7 +5,7 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "geometry/edit/moved.hpp"
-#include "geometry/relax/neighbours.hpp"
+#include "geometry/relax/relax.hpp"
 #include "mesh/face.hpp"
 
 #include <algorithm>

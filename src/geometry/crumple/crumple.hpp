@@ -1,13 +1,34 @@
 #pragma once
 // Crumpling: every vertex is displaced once by a Gaussian amount, and faces that share it move with it.
 
-#include "geometry/crumple/noise.hpp"
+#include "base/vec.hpp"
 #include "mesh/mesh.hpp"
 
 #include <array>
+#include <cstdint>
 #include <span>
 
 namespace facetmill {
+
+/// A standard normal number, cut off at `truncate`, that is a pure function of its key. Numbers beyond the
+/// cut are drawn again, never clamped, so nothing heaps up there.
+double gaussian(std::uint64_t key, double truncate);
+
+/// The key of the noise at a world position: equal for positions equal in float32 (-0 is 0).
+std::uint64_t noise_key(std::uint64_t seed, const Vec3& world);
+
+/// Noise that is alike at places that are near each other: normal numbers on the points of a lattice, mixed
+/// by smooth weights and scaled to deviation 1 everywhere (value noise); octaves of twice the frequency and
+/// `roughness` times the amount each are added.
+struct CorrelatedNoise {
+    double frequency = 1; ///< lattice cells per world unit, above 0
+    int octaves = 1;
+    double roughness = 0.5; ///< amount of an octave beside the one before
+    double truncate = 3;
+
+    /// The amount at a world position, taken as float32; clamped to the cut.
+    double at(std::uint64_t seed, const Vec3& world) const;
+};
 
 struct CrumpleSettings {
     enum class Direction {
@@ -60,7 +81,7 @@ struct CrumpleResult {
 /// at `truncate` (drawn again, never clamped, so nothing heaps up at the limit); with a frequency, vertices
 /// that are near each other move alike (see CorrelatedNoise). Throws usage (E-RANGE) for a setting out of
 /// range, stage (E-TRANSFORM) when to_world is singular, (E-RANGE) when a vertex would leave the numbers that
-/// float32 has. Source: the note 'Geometric crumpling' (1994).
+/// float32 has. After P. Bourke, "Geometric Crumpling" (1994).
 CrumpleResult crumple(Mesh mesh, const CrumpleSettings& settings);
 
 /// The first half of crumple: nothing moves yet.

@@ -1,4 +1,4 @@
-#include "geometry/crumple/noise.hpp"
+#include "geometry/crumple/crumple.hpp"
 
 #include "base/portable_math.hpp"
 #include "base/numbers.hpp"

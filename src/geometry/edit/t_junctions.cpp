@@ -11,17 +11,14 @@ namespace facetmill {
 
 namespace {
 
-struct BoundaryEdge {
-    Index corner, face, from, to;
-};
-
-std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh) {
+/// The edges of one face, and those of three of which two pass by.
+std::vector<BoundaryEdge> odd_edges(const Mesh& mesh) {
     const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
     std::vector<BoundaryEdge> boundary;
     for (Index e = 0; e < edges.size(); ++e) {
         const auto corners = edges.corners_of(e);
-        if (corners.size() % 2 == 0) continue; // one face, or three of which two pass by
+        if (corners.size() % 2 == 0) continue;
         for (const Index c : corners)
             boundary.push_back({c, faces[c], mesh.vertex(c), mesh.vertex(next_corner(mesh, faces[c], c))});
     }
@@ -76,7 +73,7 @@ bool uses(const Mesh& mesh, Index f, Index v) {
 
 std::vector<Insertion> find_t_junctions(const Mesh& mesh, double within) {
     const auto& p = mesh.positions;
-    const auto boundary = boundary_edges(mesh);
+    const auto boundary = odd_edges(mesh);
     const BoundaryEdgesAt at(boundary);
     std::vector<Index> vertices;
     for (const auto& [v, e] : at.by_vertex)

@@ -2,7 +2,7 @@
 #include "geometry/inspect/evidence.hpp"
 
 #include "geometry/inspect/measures.hpp"
-#include "mesh/bare.hpp"
+#include "mesh/placement.hpp"
 #include "mesh/power_scale.hpp"
 
 #include <algorithm>

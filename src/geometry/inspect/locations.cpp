@@ -6,7 +6,7 @@
 #include "geometry/inspect/measures.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/orient/orient.hpp"
-#include "mesh/bare.hpp"
+#include "mesh/placement.hpp"
 
 #include <algorithm>
 #include <array>

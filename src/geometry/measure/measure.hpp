@@ -3,12 +3,25 @@
 // polygon" (2000) and "Centroid of a surface" (the area-weighted centroid of a shell); the solid after D.
 // Eberly, "Polyhedral mass properties (revisited)" (2002), by tetrahedra from the middle of the box.
 
-#include "geometry/measure/statistics.hpp"
 #include "geometry/triangulate/triangulate.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace facetmill {
+
+/// All zero for no numbers.
+struct Statistics {
+    std::size_t count = 0;
+    double minimum = 0, maximum = 0, mean = 0,
+           deviation = 0; ///< deviation: the standard deviation of all of them
+    double median = 0;    ///< of an even count the upper of the middle two
+    double sum = 0;
+};
+
+/// Numbers that are not finite are left out. Parallel, and the same for any number of threads.
+Statistics statistics(std::vector<double> numbers);
 
 /// A symmetric 3 x 3 matrix.
 struct Symmetric {

@@ -1,7 +1,7 @@
 #pragma once
 // Statistics as reports have them.
 
-#include "geometry/measure/statistics.hpp"
+#include "geometry/measure/measure.hpp"
 #include "options/fields.hpp"
 
 #include <functional>

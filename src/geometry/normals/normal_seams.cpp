@@ -1,4 +1,4 @@
-#include "geometry/normals/normal_seams.hpp"
+#include "geometry/normals/normals.hpp"
 
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"

@@ -1,5 +1,6 @@
 #pragma once
-// Which side of a surface is its outside.
+// Which side of a surface is its outside: the order of vertices that P. Bourke, "Facets, planes, normals,
+// rendering" (1992), asks for.
 
 #include "mesh/mesh.hpp"
 

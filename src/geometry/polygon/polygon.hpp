@@ -1,5 +1,5 @@
 #pragma once
-// Polygon maths in the plane and in space, after Bourke's notes "Polygon types" (1993), "Clockwise or
+// Polygon maths in the plane and in space, after P. Bourke's notes "Polygon types" (1993), "Clockwise or
 // counter-clockwise" (1998), "Clipping a line to a complex polygon" (1997), "Area of a 3D polygon" (2000),
 // "Inside a polygon" and "Area and centroid, second moment of a polygon" (1988). Signs that decide are exact
 // (base/predicates.hpp); sums are taken about a point of the polygon, so that polygons far from the origin
@@ -39,8 +39,8 @@ using Rings = std::span<const Ring>;
 /// A = 1/2 sum(x_i y_i+1 - x_i+1 y_i): positive when anticlockwise.
 double signed_area(Ring ring);
 
-/// 1 anticlockwise, -1 clockwise, 0 without area: the sign of the note's area, exact for any ring, concave
-/// too.
+/// 1 anticlockwise, -1 clockwise, 0 without area: the sign of the ring's signed area, exact for any ring,
+/// concave too.
 int orientation(Ring ring);
 
 /// Second moments: x = integral of y^2 (about the x axis), y = of x^2, xy = of x y. Length to the fourth.
@@ -62,7 +62,7 @@ struct Moments {
 };
 
 /// Of a polygon with holes by orientation, summed over its rings; when the sum is clockwise all signs are
-/// turned, as the note asks. None when the area is zero. The rings must not cross themselves: see classify.
+/// turned, as Bourke asks. None when the area is zero. The rings must not cross themselves: see classify.
 std::optional<Moments> moments(Rings rings);
 std::optional<Moments> moments(Ring ring);
 

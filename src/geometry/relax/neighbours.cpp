@@ -1,17 +1,59 @@
-#include "geometry/relax/neighbours.hpp"
+#include "geometry/relax/relax.hpp"
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
-#include "geometry/relax/sharp_edges.hpp"
 #include "mesh/buckets.hpp"
 #include "mesh/face.hpp"
+#include "mesh/topology.hpp"
 
 #include <algorithm>
 
 namespace facetmill {
 
 namespace {
+
+/// The other ends of the feature edges at each vertex, ascending. A feature edge is one whose two faces'
+/// normals differ by more than the angle (radians, in world space; the faces' directions are compared along
+/// the edge, so neighbours that disagree in direction make no feature edge), and one of more than two faces;
+/// with boundaries, one of a single face too. Faces without area make none.
+VertexLists feature_ends(const Mesh& mesh, double angle, const Transform& to_world, bool boundaries) {
+    const EdgeTable table = build_edges(mesh);
+    const std::vector<Index> faces = corner_faces(mesh);
+    const double limit = cosine(angle);
+    std::vector<std::uint8_t> is_feature(table.size());
+    parallel_for(table.size(), [&](std::size_t e) {
+        const auto at = table.corners_of(static_cast<Index>(e));
+        if (at.size() != 2) {
+            is_feature[e] = boundaries || at.size() > 2;
+            return;
+        }
+        const Vec3 a = normalised(area_vector(mesh, faces[at[0]], to_world)),
+                   b = normalised(area_vector(mesh, faces[at[1]], to_world));
+        const bool agree = mesh.vertex(at[0]) != mesh.vertex(at[1]);
+        if (a == Vec3{} || b == Vec3{}) return;
+        is_feature[e] = exceeds_feature_angle(agree ? dot(a, b) : -dot(a, b), limit);
+    });
+    VertexLists lists;
+    lists.offsets.assign(mesh.vertex_count() + 1, 0);
+    for (std::size_t e = 0; e < is_feature.size(); ++e)
+        if (is_feature[e]) {
+            ++lists.offsets[table.edges[e].low];
+            ++lists.offsets[table.edges[e].high];
+        }
+    lists.items.resize(exclusive_scan(lists.offsets));
+    std::vector<Index> at(lists.offsets.begin(), lists.offsets.end());
+    for (std::size_t e = 0; e < is_feature.size(); ++e) {
+        if (!is_feature[e]) continue;
+        const auto& [low, high] = table.edges[e];
+        lists.items[at[low]++] = high;
+        lists.items[at[high]++] = low;
+    }
+    parallel_for(mesh.vertex_count(), [&](std::size_t v) {
+        std::sort(lists.items.begin() + lists.offsets[v], lists.items.begin() + lists.offsets[v + 1]);
+    });
+    return lists;
+}
 
 using Settings = RelaxSettings;
 
@@ -161,8 +203,8 @@ class Choice {
     Choice(const Mesh& mesh, const Settings& settings) : mesh_(mesh), settings_(settings) {
         if (!settings.feature_angle) return;
         straight_ = cosine(*settings.feature_angle);
-        tracks_ = sharp_ends(mesh, *settings.feature_angle, settings.to_world,
-                             settings.boundary == Settings::Boundary::slide);
+        tracks_ = feature_ends(mesh, *settings.feature_angle, settings.to_world,
+                               settings.boundary == Settings::Boundary::slide);
     }
 
     struct Chosen {
@@ -183,7 +225,7 @@ class Choice {
     }
 
   private:
-    /// Whether the line of features has a corner at the vertex: it turns by more than the surface may bend.
+    /// Whether the line of features has a corner at the vertex: it turns by more than the feature angle.
     bool turns(Index v) const {
         const auto& p = mesh_.positions;
         const Vec3 in = settings_.to_world.vector(p[v] - p[tracks_.of(v)[0]]),

@@ -2,12 +2,13 @@
 // Relaxation: vertices move towards the mean of their neighbours, all at the same time.
 
 #include "mesh/mesh.hpp"
+#include "mesh/topology.hpp"
 
 namespace facetmill {
 
 struct RelaxSettings {
     enum class Method {
-        laplacian, ///< the note's: towards the mean of the neighbours
+        laplacian, ///< Bourke's: towards the mean of the neighbours
         taubin,    ///< a step in and a step out: shrinks hardly
         cotangent, ///< towards the mean weighted by the angles: vertices do not drift along the surface
         implicit,  ///< one linear system per iteration: any lambda is stable
@@ -29,8 +30,8 @@ struct RelaxSettings {
                                        ///< <= 1, below 0.7 for taubin, above 0 for implicit
     Neighbours neighbours = Neighbours::faces;
     Boundary boundary = Boundary::fixed;
-    std::optional<double> feature_angle = {}; ///< radians: edges that bend more are kept; vertices on them
-                                              ///< move along them only
+    std::optional<double> feature_angle = {}; ///< radians: edges whose faces meet at a larger angle are kept;
+                                              ///< vertices on them move along them only
     double pass_band = 0.1;              ///< taubin: 0 < k < 1, what of the surface's frequencies is kept
     double alpha = 0;                    ///< hc: 0 to 1: how much the first surface counts
     double beta = 0.5;                   ///< hc: 0 to 1: the vertex's own share of what is pushed back
@@ -52,14 +53,17 @@ struct RelaxResult {
 
 /// P' = P + lambda (mean of the neighbours - P) per iteration, simultaneously for all vertices.
 ///
-/// laplacian takes the plain mean (note, 1997). taubin (1995) follows each step by one of mu = 1 / (pass_band
-/// - 1 / lambda), which is negative. cotangent weights each neighbour by the cotangents of the two angles
-/// opposite to the edge (Pinkall, Polthier 1993), computed anew in every iteration; obtuse angles count 0 and
-/// slivers at most 10^6, so the mean stays among the neighbours, and triangles without area count nothing.
-/// implicit (Desbrun 1999) solves P' = P + lambda (mean' - P') with Eigen's conjugate gradients to a relative
-/// residual of 1e-10. hc (Vollmer 1999) takes the laplacian step and pushes back by beta of the vertex's
-/// and 1 - beta of the neighbours' mean difference to alpha * first + (1 - alpha) * previous
-/// place.
+/// laplacian takes the plain mean (P. Bourke, "Surface Relaxation and Smoothing", 1997). taubin (G. Taubin,
+/// "A signal processing approach to fair surface design", 1995) follows each step by one of mu = 1 /
+/// (pass_band - 1 / lambda), which is negative. cotangent weights each neighbour by the cotangents of the two
+/// angles opposite to the edge (U. Pinkall and K. Polthier, "Computing discrete minimal surfaces and their
+/// conjugates", 1993), computed anew in every iteration; obtuse angles count 0 and slivers at most 10^6, so
+/// the mean stays among the neighbours, and triangles without area count nothing. implicit (M. Desbrun et
+/// al., "Implicit fairing of irregular meshes using diffusion and curvature flow", 1999) solves P' = P +
+/// lambda (mean' - P') with Eigen's conjugate gradients to a relative residual of 1e-10. hc (J. Vollmer, R.
+/// Mencl and H. Mueller, "Improved Laplacian smoothing of noisy surface meshes", 1999) takes the laplacian
+/// step and pushes back by beta of the vertex's and 1 - beta of the neighbours' mean difference to alpha *
+/// first + (1 - alpha) * previous place.
 ///
 /// A boundary edge is one with exactly one face; edges with three and more faces are not boundary, but are
 /// features. A vertex with exactly two feature (or, sliding, boundary) edges moves along them; one with
@@ -74,5 +78,19 @@ RelaxResult relax(Mesh mesh, const RelaxSettings& settings = {});
 
 /// Throws usage (E-RANGE) when a setting is out of range; relax does it first of all.
 void check_relax_settings(const RelaxSettings& settings);
+
+struct Neighbourhoods {
+    VertexLists lists; ///< neighbours of each vertex, in a fixed order, each once; empty for those that stay
+    std::size_t held = 0; ///< vertices whose list is empty because they are on a fixed boundary, or where
+                          ///< features meet or end
+    std::vector<std::uint8_t> along; ///< [vertices] 1: moves along its boundary or feature only; may be empty
+};
+
+/// Only neighbours, boundary, feature_angle, to_world and whether mask is 0 count. Parallel, O(corners) for
+/// faces of bounded size. Throws limit (E-LIMIT) for polygons whose neighbours cannot be counted.
+Neighbourhoods neighbourhoods(const Mesh& mesh, const RelaxSettings& settings);
+
+/// One byte per vertex: 1 when it is the end of an edge that has exactly one face.
+std::vector<std::uint8_t> boundary_vertices(const Mesh& mesh);
 
 } // namespace facetmill

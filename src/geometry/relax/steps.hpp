@@ -1,7 +1,7 @@
 #pragma once
 // One simultaneous step of each method of relax.
 
-#include "geometry/relax/neighbours.hpp"
+#include "geometry/relax/relax.hpp"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Triangles and dots on a z-buffer of samples, and the picture that comes out.
 
-#include "geometry/render/picture.hpp"
+#include "geometry/render/render.hpp"
 
 #include <array>
 

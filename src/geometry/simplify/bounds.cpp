@@ -10,7 +10,7 @@
 #include "base/parallel.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/closest_point.hpp"
-#include "mesh/bare.hpp"
+#include "mesh/placement.hpp"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 // that others include.
 
 #include "base/portable_math.hpp"
-#include "geometry/normals/normal_seams.hpp"
+#include "geometry/normals/normals.hpp"
 #include "mesh/plane.hpp"
 
 #include <optional>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <span>
 
 namespace facetmill {
 
@@ -61,6 +62,185 @@ FaceTree::FaceTree(const Surface& surface, Use use) {
         node.set(slot, local(box.min), local(box.max));
     });
     if (use == Use::all) flatten();
+}
+
+// The part of the tree that lies flat along the surface: plates and patches.
+
+namespace {
+
+using Patches = FaceTree::Patches;
+using Plates = FaceTree::Plates;
+
+/// Two unit vectors across a unit vector, and across each other.
+std::array<Vec3, 2> across(const Vec3& n) {
+    const Vec3 u = normalised(cross(n, std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+    return {u, cross(n, u)};
+}
+
+/// A unit vector in the direction of v, or `otherwise` when v is too short to have one.
+Vec3 unit_or(const Vec3& v, const Vec3& otherwise) {
+    const double square = dot(v, v);
+    return square > 1e-280 ? v / std::sqrt(square) : otherwise;
+}
+
+void clear(Plates& plates, std::size_t slot) {
+    plates.offset[slot] = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        plates.normal[axis][slot] = 0;
+        plates.reach[axis][slot] = -HUGE_VALF;
+        for (std::size_t k = 0; k < 3; ++k) plates.beyond[axis][k][slot] = 0;
+    }
+}
+
+void clear(Patches& patches, std::size_t slot) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        patches.centre[axis][slot] = 0;
+        patches.half[axis][slot] = -HUGE_VALF;
+        for (std::size_t k = 0; k < 3; ++k) patches.axis[axis][k][slot] = 0;
+    }
+}
+
+/// a, b, c in the tree's frame. Any normal gives half spaces that hold the triangle; slivers have a poor one.
+void set(Plates& plates, std::size_t slot, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 area = cross(b - a, c - a), edges[] = {b - a, c - b, a - c};
+    const Vec3& longest =
+        *std::max_element(std::begin(edges), std::end(edges),
+                          [](const Vec3& x, const Vec3& y) { return dot(x, x) < dot(y, y); });
+    Vec3 normal = unit_or(area, across(unit_or(longest, {0, 0, 1}))[0]);
+    // The three corners differ along the normal of a sliver: there the plane says nothing.
+    const double na = dot(normal, a), nb = dot(normal, b), nc = dot(normal, c);
+    const auto [low, high] = std::minmax({na, nb, nc});
+    const bool flat = high - low < 1e-8;
+    plates.offset[slot] = flat ? static_cast<float>((low + high) / 2) : 0;
+    for (std::size_t k = 0; k < 3; ++k) plates.normal[k][slot] = flat ? static_cast<float>(normal[k]) : 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 beyond = unit_or(cross(edges[i], normal), {});
+        for (std::size_t k = 0; k < 3; ++k) plates.beyond[i][k][slot] = static_cast<float>(beyond[k]);
+        plates.reach[i][slot] = rounded_up(std::max({dot(beyond, a), dot(beyond, b), dot(beyond, c)}));
+    }
+}
+
+/// Sums over the corners of triangles, and over their area vectors.
+struct Moments {
+    Vec3 normal, sum;
+    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, count = 0;
+
+    void add(const Vec3& p) {
+        sum += p;
+        xx += p.x * p.x;
+        xy += p.x * p.y;
+        xz += p.x * p.z;
+        yy += p.y * p.y;
+        yz += p.y * p.z;
+        zz += p.z * p.z;
+        count += 1;
+    }
+    void add(const Moments& m) {
+        normal += m.normal;
+        sum += m.sum;
+        xx += m.xx;
+        xy += m.xy;
+        xz += m.xz;
+        yy += m.yy;
+        yz += m.yz;
+        zz += m.zz;
+        count += m.count;
+    }
+    /// The covariance times v, and so on.
+    Vec3 spread(const Vec3& v) const {
+        return Vec3{xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+                    xz * v.x + yz * v.y + zz * v.z} -
+               sum * (dot(sum, v) / count);
+    }
+};
+
+/// The mean normal last; before it the principal axes across it.
+std::array<Vec3, 3> axes_of(const Moments& m) {
+    const Vec3 normal = unit_or(m.normal, {0, 0, 1});
+    const auto [u, v] = across(normal);
+    const Vec3 su = m.spread(u), sv = m.spread(v);
+    const double uu = dot(u, su), uv = dot(v, su), vv = dot(v, sv);
+    const double difference = (uu - vv) / 2, root = std::sqrt(difference * difference + uv * uv);
+    // The longer of two forms of the same eigenvector.
+    const Vec3 major =
+        unit_or(difference >= 0 ? u * (difference + root) + v * uv : u * uv + v * (root - difference), u);
+    return {major, cross(normal, major), normal};
+}
+
+void set(Patches& patches, std::size_t slot, const FaceTree& tree, const std::array<Vec3, 3>& axes,
+         std::span<const FaceTree::Triangle> triangles) {
+    double low[] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (const auto& t : triangles)
+        for (const Vec3* p : {&t.a, &t.b, &t.c}) {
+            const Vec3 at = tree.local(*p);
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double x = dot(at, axes[i]);
+                low[i] = x < low[i] ? x : low[i];
+                high[i] = x > high[i] ? x : high[i];
+            }
+        }
+    Vec3 centre;
+    for (std::size_t i = 0; i < 3; ++i) centre += axes[i] * ((low[i] + high[i]) / 2);
+    for (std::size_t i = 0; i < 3; ++i) {
+        patches.centre[i][slot] = static_cast<float>(centre[i]);
+        for (std::size_t k = 0; k < 3; ++k) patches.axis[i][k][slot] = static_cast<float>(axes[i][k]);
+        patches.half[i][slot] = rounded_up((high[i] - low[i]) / 2);
+    }
+}
+
+/// The plates of four triangles, and their moments.
+Moments flatten_leaf(const FaceTree& tree, std::size_t n, Plates& plates) {
+    Moments m;
+    for (std::size_t slot = 0; slot < 4; ++slot) {
+        const std::size_t t = 4 * n + slot;
+        if (t >= tree.triangles.size()) {
+            clear(plates, slot);
+            continue;
+        }
+        const Vec3 a = tree.local(tree.triangles[t].a), b = tree.local(tree.triangles[t].b),
+                   c = tree.local(tree.triangles[t].c);
+        set(plates, slot, a, b, c);
+        m.normal += cross(b - a, c - a);
+        m.add(a);
+        m.add(b);
+        m.add(c);
+    }
+    return m;
+}
+
+} // namespace
+
+void FaceTree::flatten() {
+    constexpr std::size_t chunk = 1024;
+    resize_large(plates, (triangles.size() + 3) / 4);
+    std::vector<Moments> moments(plates.size());
+    parallel_for(
+        plates.size(), [&](std::size_t n) { moments[n] = flatten_leaf(*this, n, plates[n]); }, chunk);
+    patch_levels = std::min(8, height() - 1);
+    for (int level = 1; level <= patch_levels; ++level) {
+        const std::size_t size = std::size_t{1} << 2 * level; // triangles under a child
+        const std::size_t begin = patches.size(), children = moments.size();
+        patch_begin.push_back(begin);
+        patches.resize(begin + (children + 3) / 4);
+        std::vector<Moments> above((children + 3) / 4);
+        parallel_for(
+            above.size(),
+            [&](std::size_t n) {
+                for (std::size_t slot = 0; slot < 4; ++slot) {
+                    const std::size_t child = 4 * n + slot;
+                    if (child >= children) {
+                        clear(patches[begin + n], slot);
+                        continue;
+                    }
+                    const std::size_t first = child * size, last = std::min(first + size, triangles.size());
+                    set(patches[begin + n], slot, *this, axes_of(moments[child]),
+                        std::span(triangles).subspan(first, last - first));
+                    above[n].add(moments[child]);
+                }
+            },
+            std::max<std::size_t>(1, chunk >> 2 * (level - 1)));
+        moments = std::move(above);
+    }
 }
 
 } // namespace facetmill

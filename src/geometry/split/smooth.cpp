@@ -1,12 +1,14 @@
 #include "geometry/split/smooth.hpp"
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "base/portable_math.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/split/patterns.hpp"
-#include "geometry/split/rings.hpp"
+#include "geometry/split/split.hpp"
 #include "mesh/face.hpp"
+#include "mesh/topology.hpp"
 
 #include <fmt/format.h>
 
@@ -14,13 +16,92 @@ namespace facetmill {
 
 namespace {
 
-/// A vertex on a curve of sharp edges: the cubic B-spline's rule along it; corners and ends stay.
+// The neighbourhood that subdivision masks speak of, on a manifold, oriented mesh.
+
+/// Halfedges are corners: corner c runs from its vertex to the next corner's. A feature edge has one
+/// face, or its two faces meet at more than the feature angle.
+class SmoothRings {
+  public:
+    SmoothRings(const Mesh& mesh, const EdgeTable& edges, const SplitSettings& settings);
+
+    const Mesh& mesh;
+    const EdgeTable& edges;
+    VertexLists corners; ///< at vertices
+
+    Index next(Index c) const { return next_[c]; }
+    Index previous(Index c) const { return previous_[c]; }
+    /// The corner that runs the other way, or none at a boundary.
+    Index twin(Index c) const { return twin_[c]; }
+    Index from(Index c) const { return mesh.vertex(c); }
+    Index to(Index c) const { return mesh.vertex(next_[c]); }
+    bool is_feature(Index e) const { return e == none || feature_[e]; }
+    /// The other ends of the feature edges at a vertex, at most two of them; and how many there are.
+    struct FeatureEdges {
+        Index ends[2] = {none, none};
+        int count = 0;
+    };
+    FeatureEdges features_at(Index v) const;
+    bool is_boundary(Index e) const { return edges.corners_of(e).size() == 1; }
+    /// Whether a smooth rule holds at the vertex: not on a boundary, and fewer than two feature edges.
+    bool is_smooth(Index v) const;
+
+  private:
+    std::vector<Index> next_, previous_, twin_;
+    std::vector<std::uint8_t> feature_;
+};
+
+SmoothRings::SmoothRings(const Mesh& m, const EdgeTable& e, const SplitSettings& settings)
+    : mesh(m), edges(e), corners(corners_at_vertices(m)), next_(m.corner_count()),
+      previous_(m.corner_count()), twin_(m.corner_count(), none), feature_(e.size()) {
+    const std::vector<Index> faces = corner_faces(mesh);
+    parallel_for(mesh.corner_count(), [&](std::size_t i) {
+        const auto c = static_cast<Index>(i);
+        next_[c] = next_corner(mesh, faces[c], c);
+        previous_[next_[c]] = c;
+    });
+    const double limit = settings.feature_angle ? cosine(*settings.feature_angle) : -2;
+    const auto normal = [&](Index c) { return normalised(area_vector(mesh, faces[c], settings.to_world)); };
+    parallel_for(edges.size(), [&](std::size_t i) {
+        const auto at = edges.corners_of(static_cast<Index>(i));
+        if (at.size() != 2) {
+            feature_[i] = 1;
+            return;
+        }
+        twin_[at[0]] = at[1];
+        twin_[at[1]] = at[0];
+        if (settings.feature_angle)
+            feature_[i] = exceeds_feature_angle(dot(normal(at[0]), normal(at[1])), limit);
+    });
+}
+
+SmoothRings::FeatureEdges SmoothRings::features_at(Index v) const {
+    FeatureEdges features;
+    const auto see = [&](Index c, Index end) {
+        if (!is_feature(edges.corner_edge[c])) return;
+        if (features.count < 2) features.ends[features.count] = end;
+        ++features.count;
+    };
+    for (const Index c : corners.of(v)) {
+        see(c, to(c));
+        // The edge that ends here is another corner's own, unless it is a boundary.
+        if (twin(previous(c)) == none) see(previous(c), from(previous(c)));
+    }
+    return features;
+}
+
+bool SmoothRings::is_smooth(Index v) const {
+    for (const Index c : corners.of(v))
+        if (twin(c) == none || twin(previous(c)) == none) return false;
+    return features_at(v).count < 2;
+}
+
+/// A vertex on a curve of feature edges: the cubic B-spline's rule along it; corners and ends stay.
 std::optional<Vec3> on_curve(const SmoothRings& rings, Index v) {
-    const auto sharp = rings.sharp_at(v);
+    const auto features = rings.features_at(v);
     const auto& p = rings.mesh.positions;
-    if (sharp.count < 2 && rings.is_smooth(v)) return {};
-    if (sharp.count != 2) return p[v];
-    return p[v] * 0.75 + (p[sharp.ends[0]] + p[sharp.ends[1]]) * 0.125;
+    if (features.count < 2 && rings.is_smooth(v)) return {};
+    if (features.count != 2) return p[v];
+    return p[v] * 0.75 + (p[features.ends[0]] + p[features.ends[1]]) * 0.125;
 }
 
 Vec3 middle(const SmoothRings& rings, Index e) {
@@ -72,19 +153,20 @@ Vec3 catmull_clark_edge(const SmoothRings& rings, const std::vector<Index>& face
            (corner_mean(rings.mesh, faces[at[0]]) + corner_mean(rings.mesh, faces[at[1]])) * 0.25;
 }
 
-/// The point beyond a of the curve of sharp edges that runs from b to a, mirrored when the curve ends there.
+/// The point beyond a of the curve of feature edges that runs from b to a, mirrored when the curve ends
+/// there.
 Vec3 beyond(const SmoothRings& rings, Index a, Index b) {
     const auto& p = rings.mesh.positions;
-    const auto sharp = rings.sharp_at(a);
-    if (sharp.count == 2) return p[sharp.ends[0] == b ? sharp.ends[1] : sharp.ends[0]];
+    const auto features = rings.features_at(a);
+    if (features.count == 2) return p[features.ends[0] == b ? features.ends[1] : features.ends[0]];
     return p[a] * 2 - p[b];
 }
 
-/// The vertex across the edge of corner c, mirrored when it is sharp: what the eight-point mask calls a wing.
-/// c runs along a side of the triangle whose third vertex is `third`.
+/// The vertex across the edge of corner c, mirrored at a feature edge: what the eight-point mask calls a
+/// wing. c runs along a side of the triangle whose third vertex is `third`.
 Vec3 wing(const SmoothRings& rings, Index c, Index third) {
     const auto& p = rings.mesh.positions;
-    if (!rings.is_sharp(rings.edges.corner_edge[c])) return p[rings.from(rings.previous(rings.twin(c)))];
+    if (!rings.is_feature(rings.edges.corner_edge[c])) return p[rings.from(rings.previous(rings.twin(c)))];
     return p[rings.from(c)] + p[rings.to(c)] - p[third];
 }
 
@@ -109,7 +191,7 @@ Vec3 butterfly_irregular(const SmoothRings& rings, Index c) {
 Vec3 butterfly_edge(const SmoothRings& rings, Index e) {
     const auto& p = rings.mesh.positions;
     const auto& [low, high] = rings.edges.edges[e];
-    if (rings.is_sharp(e))
+    if (rings.is_feature(e))
         return (p[low] + p[high]) * (9.0 / 16) -
                (beyond(rings, low, high) + beyond(rings, high, low)) * (1.0 / 16);
     const auto at = rings.edges.corners_of(e);
@@ -145,7 +227,7 @@ Mesh loop_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRings& ring
     Mesh finer = apply_pattern(mesh, &points, QuadsPattern{true}, changes);
     place(
         finer, rings, [&](Index v) { return on_curve(rings, v).value_or(loop_vertex(rings, v)); },
-        [&](Index e) { return rings.is_sharp(e) ? middle(rings, e) : loop_edge(rings, e); });
+        [&](Index e) { return rings.is_feature(e) ? middle(rings, e) : loop_edge(rings, e); });
     return finer;
 }
 
@@ -167,7 +249,9 @@ Mesh catmull_clark_pass(const Mesh& mesh, const EdgeTable& table, const SmoothRi
     place(
         finer, rings,
         [&](Index v) { return on_curve(rings, v).value_or(catmull_clark_vertex(rings, faces, v)); },
-        [&](Index e) { return rings.is_sharp(e) ? middle(rings, e) : catmull_clark_edge(rings, faces, e); });
+        [&](Index e) {
+            return rings.is_feature(e) ? middle(rings, e) : catmull_clark_edge(rings, faces, e);
+        });
     return finer;
 }
 
@@ -190,11 +274,11 @@ struct Sqrt3Pattern {
         if (k == 3) return face.first_mix - before[face.face] + before[f];
         return points.wedge(3 * f + k, c == 3 * f + (k + 1) % 3 ? 2 : 1);
     }
-    /// Neither sharp, nor a seam, nor a border of primitives.
+    /// No feature edge, no seam, no boundary between primitives.
     bool may_turn(Index c) const {
         const Index twin = rings.twin(c);
         const Mesh& mesh = rings.mesh;
-        return twin != none && !rings.is_sharp(rings.edges.corner_edge[c]) &&
+        return twin != none && !rings.is_feature(rings.edges.corner_edge[c]) &&
                mesh.corners[rings.next(twin)] == mesh.corners[c] &&
                mesh.corners[rings.next(c)] == mesh.corners[twin] &&
                mesh.primitive_of(twin / 3) == mesh.primitive_of(c / 3);
@@ -217,9 +301,9 @@ struct Sqrt3Pattern {
 Vec3 sqrt3_vertex(const SmoothRings& rings, Index v, bool odd) {
     const auto& p = rings.mesh.positions;
     if (!rings.is_smooth(v)) {
-        const auto sharp = rings.sharp_at(v);
-        if (!odd || sharp.count != 2) return p[v];
-        return (p[v] * 19 + (p[sharp.ends[0]] + p[sharp.ends[1]]) * 4) / 27;
+        const auto features = rings.features_at(v);
+        if (!odd || features.count != 2) return p[v];
+        return (p[v] * 19 + (p[features.ends[0]] + p[features.ends[1]]) * 4) / 27;
     }
     const Star star(rings, v);
     if (star.n == 0) return p[v];

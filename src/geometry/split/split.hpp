@@ -44,8 +44,8 @@ struct SplitSettings {
     double max_edge = 0;         ///< target, world units: until no edge is longer (0: none)
     double min_angle = 0;        ///< target, radians: only triangles with an angle below (0: none)
     std::uint64_t max_faces = 0; ///< target: longest edges first, and never more faces than this (0: none)
-    std::optional<double> feature_angle = {}; ///< smooth methods, radians: edges that bend more stay sharp
-                                              ///< (none: only boundaries do)
+    std::optional<double> feature_angle = {}; ///< smooth methods, radians: edges whose faces meet at a larger
+                                              ///< angle stay sharp (none: only boundaries do)
     Transform to_world = {};            ///< part space -> world, where lengths and angles are measured
 };
 
@@ -92,12 +92,17 @@ struct SplitResult {
 /// with bisect only edges longer than that are marked, again and again; with midpoint, quads and the smooth
 /// methods of four faces all faces are split until it holds. min_angle: bisect or notch of the triangles with
 /// a smaller angle (and the closure). No angle becomes smaller than half the smallest there was with bisect
-/// (Rosenberg, Stenger 1975). faces: with bisect the longest edges first, with other methods as many passes
-/// as fit.
+/// (I. Rosenberg and F. Stenger, "A lower bound on the angles of triangles constructed by bisecting the
+/// longest side", 1975). faces: with bisect the longest edges first, with other methods as many passes as
+/// fit.
 ///
-/// Smooth methods: Loop 1987 (Biermann's boundary rules), Kobbelt 2000, Zorin, Schroeder, Sweldens 1996,
-/// Catmull, Clark 1978. Their masks are those of OpenMesh's subdividers, which test them. A feature edge
-/// follows Hoppe 1994: cubic B-spline along it (butterfly: four-point curve), a vertex of three or more
+/// Smooth methods: C. Loop, "Smooth subdivision surfaces based on triangles" (1987), with the boundary rules
+/// of H. Biermann, A. Levin and D. Zorin, "Piecewise smooth subdivision surfaces with normal control" (2000);
+/// L. Kobbelt, "Sqrt(3)-subdivision" (2000); D. Zorin, P. Schroeder and W. Sweldens, "Interpolating
+/// subdivision for meshes with arbitrary topology" (1996); E. Catmull and J. Clark, "Recursively generated
+/// B-spline surfaces on arbitrary topological meshes" (1978). Their masks are those of OpenMesh's
+/// subdividers, which test them. A feature edge follows H. Hoppe et al., "Piecewise smooth surface
+/// reconstruction" (1994): cubic B-spline along it (butterfly: four-point curve), a vertex of three or more
 /// feature edges or at the end of a boundary stays, one of a single feature edge is smooth. They require a
 /// manifold, consistently oriented mesh.
 ///
@@ -106,7 +111,7 @@ struct SplitResult {
 /// E-MANIFOLD) smooth methods on non-manifold or inconsistently oriented meshes; (usage, E-CONFLICT) targets
 /// that the method cannot reach. Throws limit before anything is built when the result would have more than
 /// 2^31 corners (E-LIMIT) or not fit into memory (E-MEMORY). Vertex and wedge attributes are interpolated,
-/// with the smooth methods normals recomputed; face attributes are copied. Source: the note "Splitting
+/// with the smooth methods normals recomputed; face attributes are copied. After P. Bourke, "Splitting
 /// facets" (1991).
 SplitResult split(const Mesh& mesh, const SplitSettings& settings);
 

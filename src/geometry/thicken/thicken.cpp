@@ -2,21 +2,93 @@
 
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
-#include "geometry/clean/steps.hpp"
+#include "geometry/edit/split_non_manifold.hpp"
+#include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/connectivity.hpp"
+#include "geometry/inspect/evidence.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/closest_point.hpp"
-#include "geometry/thicken/doubled.hpp"
 #include "mesh/face.hpp"
-#include "mesh/inverse.hpp"
+#include "mesh/lineage.hpp"
+#include "mesh/mesh.hpp"
 #include "mesh/topology.hpp"
+#include "mesh/transform.hpp"
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace facetmill {
 
 namespace {
+
+// A surface and its back: what thicken and two-sided have in common.
+
+/// The surface and its back, face by face: face f's back is face f + face_count, wedge w's is w +
+/// wedge_count.
+struct Doubled {
+    Mesh mesh;       ///< with wedge_vertex spelled out, without attributes
+    Descent descent; ///< complete but for what is added later
+};
+
+std::vector<Index> spelled_wedges(const Mesh& mesh) {
+    if (mesh.has_seams()) return mesh.wedge_vertex;
+    std::vector<Index> wedges(mesh.wedge_count());
+    for (Index w = 0; w < wedges.size(); ++w) wedges[w] = w;
+    return wedges;
+}
+
+/// back_vertex says where each vertex is on the back: itself, or one of the new ones, numbered from the
+/// vertex count on, which are copies of back_copies.
+Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
+                const std::vector<Index>& back_copies) {
+    Doubled d;
+    const auto wedges = spelled_wedges(mesh);
+    const auto count = static_cast<Index>(wedges.size());
+    d.mesh.positions = mesh.positions;
+    for (const Index v : back_copies) d.mesh.positions.push_back(mesh.positions[v]);
+    d.mesh.wedge_vertex = wedges;
+    for (const Index v : wedges) d.mesh.wedge_vertex.push_back(back_vertex[v]);
+    d.mesh.corners = mesh.corners;
+    d.mesh.face_offsets = mesh.face_offsets;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
+        d.mesh.corners.push_back(count + mesh.corners[begin]);
+        for (Index c = end - 1; c > begin; --c) d.mesh.corners.push_back(count + mesh.corners[c]);
+        if (!mesh.all_triangles()) d.mesh.face_offsets.push_back(static_cast<Index>(d.mesh.corners.size()));
+    }
+    for (int side = 0; side < 2; ++side) {
+        for (Index w = 0; w < count; ++w) d.descent.wedges.copies.push_back(w);
+        for (Index f = 0; f < mesh.face_count(); ++f) d.descent.faces.push_back(f);
+    }
+    for (Index v = 0; v < mesh.vertex_count(); ++v) d.descent.vertices.copies.push_back(v);
+    d.descent.vertices.copies.insert(d.descent.vertices.copies.end(), back_copies.begin(), back_copies.end());
+    return d;
+}
+
+/// Turns the normals of the wedges from `first` on, and the handedness of their tangents.
+void turn_wedges(Mesh& mesh, std::size_t first, AttributeChanges& changes) {
+    for (auto& a : mesh.attributes) {
+        if (a.domain != Domain::wedge || !(a.role == Role::normal || a.role == Role::tangent)) continue;
+        for (std::size_t w = first; w < a.size(); ++w) {
+            if (a.role == Role::normal)
+                for (int c = 0; c < a.components; ++c) a.set_value(w, c, -a.value(w, c));
+            else if (a.components == 4)
+                a.set_value(w, 3, -a.value(w, 3));
+        }
+        for (auto& f : changes)
+            if (f.attribute == a.name && f.domain == a.domain)
+                f = {a.name, a.domain, AttributeChange::Kind::recomputed, "reversed on the back"};
+    }
+}
+
+/// boundary_edges by corner.
+std::vector<BoundaryEdge> boundary_by_corner(const Mesh& mesh) {
+    auto edges = boundary_edges(mesh);
+    std::sort(edges.begin(), edges.end(),
+              [](const BoundaryEdge& a, const BoundaryEdge& b) { return a.corner < b.corner; });
+    return edges;
+}
 
 /// A symmetric 3 x 3 system a x = b, by cofactors.
 struct System {
@@ -106,8 +178,8 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
     const bool own = mesh.find("NORMAL", Domain::wedge) != nullptr;
     const auto back = static_cast<Index>(mesh.wedge_count());
     std::size_t added = 0;
-    for (const OpenEdge& e : open_edges(mesh)) {
-        const Index u = mesh.corners[e.corner], v = mesh.corners[e.next];
+    for (const BoundaryEdge& e : boundary_by_corner(mesh)) {
+        const Index u = mesh.corners[e.corner], v = mesh.corners[next_corner(mesh, e.face, e.corner)];
         std::array<Index, 4> ring{v, u, back + u, back + v};
         if (own) {
             const auto at = [&](std::size_t i) { return d.mesh.positions[d.mesh.vertex_of_wedge(ring[i])]; };
@@ -184,10 +256,6 @@ std::size_t unbalanced_edges(const Mesh& mesh) {
     return count;
 }
 
-} // namespace
-
-namespace {
-
 ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     ThickenResult r;
     const auto n = static_cast<Index>(mesh.vertex_count());
@@ -229,9 +297,137 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
     const LinkCounts links = count_links(mesh);
     if (links.crowded_edges == 0 && links.non_manifold_vertices == 0) return thicken_sheets(mesh, s);
-    clean_steps::Work apart{.mesh = mesh, .counts = {}, .not_done = {}, .changes = {}};
-    clean_steps::split_non_manifold(apart);
-    return thicken_sheets(apart.mesh, s);
+    return thicken_sheets(split_non_manifold(mesh).mesh, s);
+}
+
+namespace {
+
+/// Two directions that make a right-handed frame with the unit vector w.
+std::array<Vec3, 2> across(const Vec3& w) {
+    const double x = std::abs(w.x), y = std::abs(w.y), z = std::abs(w.z);
+    const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+    const Vec3 u = normalised(cross(other, w));
+    return {u, cross(w, u)};
+}
+
+} // namespace
+
+WiresResult wires(const Mesh& mesh, const WiresSettings& s) {
+    const auto table = build_edges(mesh);
+    std::vector<EdgeTable::Edge> lines;
+    WiresResult r;
+    for (Index e = 0; e < table.size(); ++e) {
+        if (s.open_only && table.corners_of(e).size() != 1) continue;
+        const auto& edge = table.edges[e];
+        if (length(mesh.positions[edge.high] - mesh.positions[edge.low]) > 0)
+            lines.push_back(edge);
+        else
+            ++r.skipped;
+    }
+    r.edges = lines.size();
+    const auto n = static_cast<Index>(s.sides);
+    const Index points = 2 * n, corners = 4 * n + 2 * n; // quads around, a polygon at each end
+    r.mesh.positions.resize(lines.size() * points);
+    r.mesh.corners.resize(lines.size() * corners);
+    r.mesh.face_offsets.resize(lines.size() * (n + 2) + 1);
+    struct Direction {
+        double x, y;
+    };
+    std::vector<Direction> ring(n);
+    for (Index i = 0; i < n; ++i) ring[i] = {cosine(2 * pi * i / n), sine(2 * pi * i / n)};
+    const Transform back = inverse(s.to_world).value_or(Transform{});
+    const double front = s.to_world.determinant() < 0 ? -1 : 1; // a mirrored part keeps its front
+    parallel_for(lines.size(), [&](std::size_t l) {
+        const Vec3 a = s.to_world.point(mesh.positions[lines[l].low]),
+                   b = s.to_world.point(mesh.positions[lines[l].high]);
+        const auto [u, v] = across(normalised(b - a));
+        const auto first = static_cast<Index>(l * points);
+        Index* corner = r.mesh.corners.data() + l * corners;
+        Index offset = static_cast<Index>(l * corners);
+        Index* offsets = r.mesh.face_offsets.data() + l * (n + 2);
+        for (Index i = 0; i < n; ++i) {
+            const Vec3 aside = (u * (ring[i].x * front) + v * ring[i].y) * (s.thickness / 2);
+            r.mesh.positions[first + i] = back.point(a + aside);
+            r.mesh.positions[first + n + i] = back.point(b + aside);
+            const Index j = (i + 1) % n;
+            *offsets++ = offset;
+            offset += 4;
+            for (const Index k : {i, j, n + j, n + i}) *corner++ = first + k;
+        }
+        *offsets++ = offset;
+        offset += n;
+        for (Index i = n; i-- > 0;) *corner++ = first + i;
+        *offsets++ = offset;
+        for (Index i = 0; i < n; ++i) *corner++ = first + n + i;
+    });
+    r.mesh.face_offsets.back() = static_cast<Index>(r.mesh.corners.size());
+    return r;
+}
+
+namespace {
+
+/// The places around a face from the lowest on, as it runs or backward.
+std::vector<Index> ring_of(const Mesh& mesh, const std::vector<Index>& place, Index f, bool backward) {
+    std::vector<Index> ring;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) ring.push_back(place[mesh.vertex(c)]);
+    if (backward) std::reverse(ring.begin(), ring.end());
+    std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+    return ring;
+}
+
+/// Flags the faces that have a face of their own at the same places the other way round.
+std::vector<std::uint8_t> faces_with_back(const Mesh& mesh) {
+    const auto place = lowest_at_place(mesh);
+    std::vector<std::uint8_t> flags(mesh.face_count(), 0);
+    Mesh plain; // to see fast that there are none, as mostly
+    plain.positions = mesh.positions;
+    plain.corners = mesh.corners;
+    plain.face_offsets = mesh.face_offsets;
+    for (Index w = 0; w < mesh.wedge_count(); ++w)
+        plain.wedge_vertex.push_back(place[mesh.vertex_of_wedge(w)]);
+    if (duplicate_faces(plain).empty()) return flags;
+    std::map<std::vector<Index>, std::size_t> left; // faces of each ring that are not a back yet
+    for (Index f = 0; f < mesh.face_count(); ++f) ++left[ring_of(mesh, place, f, false)];
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const auto back = left.find(ring_of(mesh, place, f, true));
+        if (back != left.end() && back->second > 0) {
+            --back->second;
+            flags[f] = 1;
+        }
+    }
+    return flags;
+}
+
+} // namespace
+
+TwoSidedResult two_sided(const Mesh& mesh) {
+    const auto done = faces_with_back(mesh);
+    if (mesh.face_count() > 0 && std::count(done.begin(), done.end(), 0) == 0)
+        return {mesh, kept_changes(mesh.attributes)};
+    std::vector<std::uint8_t> open(mesh.vertex_count(), 0);
+    for (const BoundaryEdge& e : boundary_edges(mesh)) open[e.from] = open[e.to] = 1;
+    std::vector<Index> back(mesh.vertex_count()), copies;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+        back[v] = open[v] ? v : static_cast<Index>(mesh.vertex_count() + copies.size());
+        if (!open[v]) copies.push_back(v);
+    }
+    Doubled d = doubled(mesh, back, copies);
+    TwoSidedResult r;
+    const bool plain =
+        !mesh.has_seams() && std::none_of(mesh.attributes.begin(), mesh.attributes.end(),
+                                          [](const auto& a) { return a.domain == Domain::wedge; });
+    if (plain) { // a vertex is all there is to a wedge
+        for (Index& c : d.mesh.corners) c = d.mesh.wedge_vertex[c];
+        d.mesh.wedge_vertex = {};
+        d.descent.wedges = d.descent.vertices;
+    }
+    r.changes = inherit_attributes(d.mesh, mesh, d.descent);
+    if (!plain) turn_wedges(d.mesh, mesh.wedge_count(), r.changes);
+    std::vector<std::uint8_t> gone(mesh.face_count(), 0); // backs that are there already
+    gone.insert(gone.end(), done.begin(), done.end());
+    r.mesh = std::count(gone.begin(), gone.end(), 1) > 0 ? keep_faces(d.mesh, faces_without(gone))
+                                                         : std::move(d.mesh);
+    return r;
 }
 
 } // namespace facetmill

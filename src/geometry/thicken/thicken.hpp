@@ -1,5 +1,6 @@
 #pragma once
-// Surfaces and lines that get a thickness.
+// Surfaces and lines that get a thickness, and surfaces a back. After P. Bourke, "Facets, planes, normals,
+// rendering" (1992).
 
 #include "mesh/mesh.hpp"
 

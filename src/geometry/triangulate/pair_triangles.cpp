@@ -1,4 +1,4 @@
-#include "geometry/triangulate/pair_triangles.hpp"
+#include "geometry/triangulate/triangulate.hpp"
 
 #include "base/parallel.hpp"
 #include "mesh/lineage.hpp"
@@ -29,11 +29,11 @@ Quad quad_of(const Mesh& mesh, const std::vector<Index>& face, Index a, Index b)
 Vec3 at(const Mesh& mesh, Index wedge) { return mesh.positions[mesh.vertex_of_wedge(wedge)]; }
 
 /// The largest |cosine| of the quad's corners; above 1 when it is bent too much, not convex, or without area.
-double worst_corner(const Mesh& mesh, const Quad& q, double cos_bend) {
+double worst_corner(const Mesh& mesh, const Quad& q, double min_cosine) {
     const std::array<Vec3, 4> p{at(mesh, q[0]), at(mesh, q[1]), at(mesh, q[2]), at(mesh, q[3])};
     const Vec3 second = cross(p[1] - p[0], p[2] - p[0]), first = cross(p[2] - p[0], p[3] - p[0]);
     const double size = length(first) * length(second);
-    if (!(size > 0) || dot(first, second) < cos_bend * size) return 2;
+    if (!(size > 0) || dot(first, second) < min_cosine * size) return 2;
     double worst = 0;
     for (std::size_t i = 0; i < 4; ++i) {
         const Vec3 in = p[i] - p[(i + 3) % 4], out = p[(i + 1) % 4] - p[i];
@@ -57,7 +57,7 @@ std::vector<Candidate> candidates(const Mesh& mesh, const EdgeTable& edges, cons
             mesh.corners[b] != mesh.corners[next_corner(mesh, f, a)] ||
             mesh.primitive_of(f) != mesh.primitive_of(g))
             return;
-        all[e].worst = worst_corner(mesh, quad_of(mesh, face, a, b), s.cos_bend);
+        all[e].worst = worst_corner(mesh, quad_of(mesh, face, a, b), s.min_cosine);
     });
     std::erase_if(all, [&](const Candidate& c) { return !(c.worst <= s.cos_corner); });
     std::sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) {

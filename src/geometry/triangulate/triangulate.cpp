@@ -3,8 +3,8 @@
 #include "base/parallel.hpp"
 #include "base/predicates.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
-#include "mesh/bare.hpp"
 #include "mesh/lineage.hpp"
+#include "mesh/placement.hpp"
 #include "mesh/quad_diagonal.hpp"
 
 namespace facetmill {

@@ -2,14 +2,15 @@
 // Faces of any kind into triangles, and the census of what kinds of face a mesh has.
 
 #include "geometry/polygon/polygon.hpp"
+#include "mesh/mesh.hpp"
 #include "mesh/scene.hpp"
 
 #include <array>
 
 namespace facetmill {
 
-/// The note's types of polygon over a mesh's faces, each seen along the coordinate axis nearest to its
-/// normal.
+/// The types of polygon of P. Bourke, "Polygon types" (1993), over a mesh's faces, each seen along the
+/// coordinate axis nearest to its normal.
 struct FaceKinds {
     std::array<std::size_t, polygon::kinds> of_kind{}; ///< by polygon::Kind
     std::size_t non_planar = 0;                        ///< farther from their plane than the tolerance
@@ -46,5 +47,25 @@ struct TriangulateResult {
 ///   backwards, and add up at every point to how often the face winds around it. Faces without area: the same
 ///   fan.
 TriangulateResult triangulate(const Mesh& mesh);
+
+struct PairSettings {
+    double min_cosine =
+        0.984807753012208; ///< of the largest angle between the two halves' normals (10 degrees)
+    double cos_corner =
+        0.866025403784439; ///< of the smallest corner a quad may have, and its largest's supplement (30)
+};
+
+struct PairResult {
+    Mesh mesh;
+    AttributeChanges changes;
+    std::size_t quads = 0;     ///< made
+    std::size_t triangles = 0; ///< left
+};
+
+/// Merges pairs of triangles that meet at an edge of exactly two faces, run along it opposite ways with the
+/// same wedges and have the same primitive. The edge whose quad has corners nearest to right angles goes
+/// first (ties: the lower edge); each triangle is used once. Vertices and wedges are kept; a quad has the
+/// face attributes of its first triangle, and takes its place. Other faces pass as they are.
+PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings = {});
 
 } // namespace facetmill

@@ -2,8 +2,8 @@
 // The node hierarchy of a glTF document: where each mesh stands in the world.
 
 #include "io/gltf/json.hpp"
-#include "mesh/inverse.hpp"
 #include "mesh/scene.hpp"
+#include "mesh/transform.hpp"
 
 #include <functional>
 #include <set>

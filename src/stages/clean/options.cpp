@@ -1,6 +1,6 @@
 #include "stages/clean/options.hpp"
 
-#include "mesh/stretch.hpp"
+#include "mesh/transform.hpp"
 
 namespace facetmill {
 

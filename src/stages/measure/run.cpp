@@ -1,6 +1,6 @@
 #include "geometry/measure/measure.hpp"
 
-#include "mesh/bare.hpp"
+#include "mesh/placement.hpp"
 #include "stages/measure/help.hpp"
 #include "stages/measure/options.hpp"
 #include "stages/measure/report.hpp"

@@ -1,7 +1,7 @@
 #include "stages/probe/questions.hpp"
 
-#include "mesh/bare.hpp"
 #include "mesh/face.hpp"
+#include "mesh/placement.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // What probe reports of its answers, and their tables.
 
-#include "geometry/measure/statistics.hpp"
+#include "geometry/measure/measure.hpp"
 #include "geometry/probe/probe.hpp"
 #include "options/fields.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // The options of render.
 
-#include "geometry/render/picture.hpp"
+#include "geometry/render/render.hpp"
 #include "stage/stage.hpp"
 
 namespace facetmill {

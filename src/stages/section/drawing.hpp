@@ -1,7 +1,7 @@
 #pragma once
 // The sections of a scene's parts as a drawing.
 
-#include "geometry/section/stack.hpp"
+#include "geometry/section/section.hpp"
 #include "io/drawing/drawing.hpp"
 #include "stage/context.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "geometry/deviation/deviation.hpp"
 #include "mesh/placement.hpp"
-#include "mesh/stretch.hpp"
+#include "mesh/transform.hpp"
 #include "stages/simplify/report.hpp"
 
 #include <fmt/format.h>

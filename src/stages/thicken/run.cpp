@@ -1,5 +1,5 @@
-#include "mesh/inverse.hpp"
 #include "mesh/placement.hpp"
+#include "mesh/transform.hpp"
 #include "stages/thicken/help.hpp"
 #include "stages/thicken/report.hpp"
 

@@ -2,7 +2,6 @@
 
 #include "base/portable_math.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
-#include "geometry/triangulate/pair_triangles.hpp"
 #include "stage/stage.hpp"
 #include "stages/triangulate/help.hpp"
 
@@ -65,7 +64,7 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context, Triangulat
         fans += result.fans;
         part.mesh = std::move(result.mesh);
         if (o.to == To::quads) {
-            auto paired = pair_triangles(part.mesh, {.cos_bend = cosine(o.feature_angle.radians)});
+            auto paired = pair_triangles(part.mesh, {.min_cosine = cosine(o.feature_angle.radians)});
             part.mesh = std::move(paired.mesh);
             entry.quads = paired.quads;
             entry.triangles = paired.triangles;

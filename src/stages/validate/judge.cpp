@@ -1,6 +1,6 @@
 #include "stages/validate/judge.hpp"
 
-#include "geometry/clean/solid_pieces.hpp"
+#include "geometry/clean/clean.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
@@ -126,7 +126,7 @@ class Judge {
     void judge_components(const Scene& scene, std::size_t index) {
         const Part& part = scene.parts[index];
         const Components components = face_components(part.mesh, false);
-        const Components solids = solid_pieces(part.mesh);
+        const Components solids = solid_components(part.mesh);
         std::vector<std::vector<Index>> faces(components.count);
         for (Index f = 0; f < part.mesh.face_count(); ++f) faces[components.of_face[f]].push_back(f);
         std::vector<std::size_t> of_solid(solids.count, 0);

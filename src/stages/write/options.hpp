@@ -1,7 +1,7 @@
 #pragma once
 // The options of write, and what they come to.
 
-#include "geometry/normals/give_normals.hpp"
+#include "geometry/normals/normals.hpp"
 #include "stage/stage.hpp"
 
 namespace facetmill {

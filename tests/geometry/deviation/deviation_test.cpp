@@ -3,8 +3,8 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "geometry/deviation/deviation.hpp"
-#include "mesh/unreferenced.hpp"
 #include "mesh/shapes.hpp"
+#include "mesh/surface.hpp"
 #include "support/meshes.hpp"
 
 #include <algorithm>

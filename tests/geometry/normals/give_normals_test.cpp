@@ -1,4 +1,4 @@
-#include "geometry/normals/give_normals.hpp"
+#include "geometry/normals/normals.hpp"
 
 #include "base/portable_math.hpp"
 #include "mesh/invariants.hpp"

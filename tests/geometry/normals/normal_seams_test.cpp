@@ -1,4 +1,4 @@
-#include "geometry/normals/normal_seams.hpp"
+#include "geometry/normals/normals.hpp"
 
 #include "base/portable_math.hpp"
 #include "geometry/simplify/simplify.hpp"

@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
 #include "base/parallel.hpp"
-#include "geometry/render/picture.hpp"
+#include "geometry/render/render.hpp"
 #include "mesh/shapes.hpp"
 #include "support/run_stage.hpp"
 

@@ -1,7 +1,6 @@
 #include "support/catch.hpp"
 
 #include "geometry/inspect/inspect.hpp"
-#include "geometry/triangulate/pair_triangles.hpp"
 #include "geometry/triangulate/triangulate.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"

@@ -1,4 +1,4 @@
-#include "mesh/inverse.hpp"
+#include "mesh/transform.hpp"
 
 #include <cmath>
 

@@ -1,9 +1,8 @@
-#include "geometry/normals/give_normals.hpp"
+#include "geometry/normals/normals.hpp"
 
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
 #include "geometry/edit/moved.hpp"
-#include "geometry/normals/normal_seams.hpp"
 #include "geometry/normals/one_ring.hpp"
 #include "mesh/face.hpp"
 
@@ -169,7 +168,8 @@ AttributeChanges without_normals(Mesh& mesh, bool had) {
     if (had) changes.push_back({"NORMAL", Domain::wedge, AttributeChange::Kind::dropped, "asked for"});
     std::erase_if(mesh.attributes, [&](const Attribute& a) {
         if (a.domain != Domain::wedge || !needs_normals(a.name)) return false;
-        changes.push_back({a.name, a.domain, AttributeChange::Kind::dropped, "without normals it means nothing"});
+        changes.push_back(
+            {a.name, a.domain, AttributeChange::Kind::dropped, "without normals it means nothing"});
         return true;
     });
     list_normals(mesh, false);
@@ -191,11 +191,12 @@ AttributeChanges give_normals(Mesh& mesh, NormalKind kind, double feature_angle)
     } else
         set_smooth_normals(mesh, feature_angle);
     AttributeChanges changes{{"NORMAL", Domain::wedge, AttributeChange::Kind::recomputed,
-                 kind == NormalKind::flat ? "the normals of the faces"
-                                          : "the mean of the surrounding faces, weighted by angles"}};
+                              kind == NormalKind::flat
+                                  ? "the normals of the faces"
+                                  : "the mean of the surrounding faces, weighted by angles"}};
     if (straighten_tangents(mesh))
-        changes.push_back(
-            {"TANGENT", Domain::wedge, AttributeChange::Kind::recomputed, "perpendicular to the new normals"});
+        changes.push_back({"TANGENT", Domain::wedge, AttributeChange::Kind::recomputed,
+                           "perpendicular to the new normals"});
     return changes;
 }
 

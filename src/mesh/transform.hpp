@@ -1,10 +1,16 @@
 #pragma once
-// How much a transform lengthens, for lengths in the world that are used in a part's own space.
+// Affine maps: their inverse, and how much they lengthen, for lengths in the world that are used in a part's
+// own space.
 
 #include "base/portable_math.hpp"
 #include "base/vec.hpp"
 
+#include <optional>
+
 namespace facetmill {
+
+/// The inverse of an affine map; none when it is singular.
+std::optional<Transform> inverse(const Transform& t);
 
 /// The cube root of how much volumes grow: what lengths grow by under a rotation and a uniform scale, and by
 /// their geometric mean under others. 1 for a transform that flattens.

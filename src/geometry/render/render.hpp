@@ -1,6 +1,6 @@
 #pragma once
 // A picture of a scene, for people who would rather look: orthographic, each face shaded by the angle between
-// its normal and the light, as the note on facets, normals and rendering describes.
+// its normal and the light, after P. Bourke, "Facets, planes, normals, rendering" (1992).
 
 #include "mesh/scene.hpp"
 

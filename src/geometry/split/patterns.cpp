@@ -1,4 +1,4 @@
-#include "geometry/split/pattern.hpp"
+#include "geometry/split/patterns.hpp"
 
 #include "base/storage.hpp"
 

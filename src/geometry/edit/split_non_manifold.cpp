@@ -1,14 +1,14 @@
-// The step of clean that takes edges and vertices apart where the surface is not a manifold.
+#include "geometry/edit/split_non_manifold.hpp"
+
 #include "base/parallel.hpp"
 #include "geometry/edit/around_edge.hpp"
-#include "geometry/clean/steps.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <map>
 
-namespace facetmill::clean_steps {
+namespace facetmill {
 
 namespace {
 
@@ -63,7 +63,7 @@ bool has_crowded_edges(const EdgeTable& edges) {
 
 /// Puts a point in the middle of crowded edges that no vertex could take apart, for every pair but the first
 /// and every face left over.
-bool divide_crowded_edges(Work& work) {
+bool divide_crowded_edges(NonManifoldSplit& work) {
     const Mesh& mesh = work.mesh;
     const auto edges = build_edges(mesh);
     if (!has_crowded_edges(edges)) return false;
@@ -86,7 +86,7 @@ bool divide_crowded_edges(Work& work) {
             insertions.push_back({groups[g].first, 0.5, v});
             if (groups[g].second != groups[g].first) insertions.push_back({groups[g].second, 0.5, v});
         }
-        ++work.counts.split_edges;
+        ++work.split_edges;
     }
     work.mesh = insert_on_edges(mesh, std::move(insertions), added, &work.changes);
     return true;
@@ -127,14 +127,15 @@ Fans fans_apart(const Mesh& mesh) {
     return result;
 }
 
-bool split_non_manifold(Work& work) {
-    const Fans fans = fans_apart(work.mesh);
-    const bool parted = !fans.copies.empty();
-    if (parted) {
-        work.counts.split_vertices += fans.copies.size();
-        work.mesh = part_corners(work.mesh, fans.vertex_of_corner, fans.copies);
+NonManifoldSplit split_non_manifold(Mesh mesh) {
+    NonManifoldSplit result{std::move(mesh), {}, 0, 0};
+    const Fans fans = fans_apart(result.mesh);
+    if (!fans.copies.empty()) {
+        result.split_vertices = fans.copies.size();
+        result.mesh = part_corners(result.mesh, fans.vertex_of_corner, fans.copies);
     }
-    return divide_crowded_edges(work) || parted;
+    divide_crowded_edges(result);
+    return result;
 }
 
-} // namespace facetmill::clean_steps
+} // namespace facetmill

@@ -1,4 +1,4 @@
-#include "geometry/render/picture.hpp"
+#include "geometry/render/render.hpp"
 
 #include "base/parallel.hpp"
 #include "geometry/render/painter.hpp"

@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
+#include "geometry/clean/clean.hpp"
 #include "geometry/orient/orient.hpp"
-#include "geometry/clean/solid_pieces.hpp"
 #include "mesh/shapes.hpp"
 
 using namespace facetmill;
@@ -18,7 +18,7 @@ Mesh cube(double size, const Vec3& middle, bool inward) {
 
 /// The piece of each of the mesh's cubes.
 std::vector<Index> of_cubes(const Mesh& mesh) {
-    const Components pieces = solid_pieces(mesh);
+    const Components pieces = solid_components(mesh);
     std::vector<Index> of;
     for (std::size_t f = 0; f < mesh.face_count(); f += 12) of.push_back(pieces.of_face[f]);
     return of;
@@ -34,7 +34,7 @@ TEST_CASE("a cavity belongs to the innermost solid around it", "[geometry]") {
     append(mesh, cube(1, {4, 0, 0}, true)); // inside the outer solid's wall
     append(mesh, cube(2, {20, 0, 0}, false));
     CHECK(of_cubes(mesh) == std::vector<Index>{0, 1, 1, 0, 1, 2});
-    CHECK(solid_pieces(mesh).count == 3);
+    CHECK(solid_components(mesh).count == 3);
 }
 
 TEST_CASE("what lies in no solid, looks outward or is open is a piece of its own", "[geometry]") {
