@@ -234,8 +234,10 @@ std::vector<Choice> word_choices(const Property& property) {
     const auto add = [&](const auto& named) {
         for (const auto& c : named) choices.push_back({c.name, c.help});
     };
-    if (property.name == "unit") add(unit_choices(to_string(Unit::unknown), "not known"));
-    if (property.name == "up") add(up_choices(to_string(UpAxis::unknown), "not known"));
+    if (std::holds_alternative<std::optional<Unit> Properties::*>(property.member))
+        add(unit_choices(to_string(Unit::unknown), "not known"));
+    if (std::holds_alternative<std::optional<UpAxis> Properties::*>(property.member))
+        add(up_choices(to_string(UpAxis::unknown), "not known"));
     return choices;
 }
 

@@ -3,6 +3,7 @@
 #include "base/portable_math.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "geometry/spatial/box_tree.hpp"
+#include "mesh/aspect_ratio.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/surface.hpp"
 #include "mesh/face.hpp"
@@ -26,13 +27,6 @@ double corner_angle(const Mesh& mesh, Index f, Index c) {
 
 double edge_length(const Mesh& mesh, Index f, Index c) {
     return length(mesh.point(next_corner(mesh, f, c)) - mesh.point(c));
-}
-
-double aspect_ratio(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double x = length(b - a), y = length(c - b), z = length(a - c),
-                 area = length(cross(b - a, c - a)) / 2;
-    const double longest = std::max({x, y, z});
-    return area > 0 ? longest * (x + y + z) / (4 * std::sqrt(3.0) * area) : HUGE_VAL;
 }
 
 /// The worst of the face's triangles.

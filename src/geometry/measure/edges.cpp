@@ -2,6 +2,7 @@
 #include "base/portable_math.hpp"
 #include "base/parallel.hpp"
 #include "geometry/measure/measure.hpp"
+#include "mesh/aspect_ratio.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
 
@@ -66,12 +67,6 @@ double angle_at(const Vec3& before, const Vec3& at, const Vec3& after, const Vec
     return dot(cross(a, b), normal) < 0 ? 2 * pi - angle : angle;
 }
 
-/// Longest edge over the height on it, so that an equilateral triangle has 1.
-double aspect_of(const Vec3& a, const Vec3& b, const Vec3& c, double area) {
-    const double longest = std::max({length(b - a), length(c - b), length(a - c)});
-    return area > 0 ? longest * longest / (2 * area) * 0.8660254037844386 : none_there;
-}
-
 // Of meshes whose boxes are not far from 1 in size.
 
 EdgeResult edges_of(const Mesh& mesh, const EdgeSettings& settings) {
@@ -101,7 +96,7 @@ FaceResult faces_of(const Mesh& mesh) {
     r.kinds = face_kinds(mesh);
     const std::vector<Vec3> areas = area_vectors(mesh);
     r.areas.resize(areas.size());
-    std::vector<double> angles(mesh.corner_count()), aspects(areas.size(), none_there);
+    std::vector<double> angles(mesh.corner_count()), ratios(areas.size(), none_there);
     parallel_for(areas.size(), [&](std::size_t i) {
         const auto f = static_cast<Index>(i);
         r.areas[i] = safe_length(areas[i]);
@@ -109,13 +104,12 @@ FaceResult faces_of(const Mesh& mesh) {
         for (Index c = begin; c < end; ++c)
             angles[c] = angle_at(mesh.point(previous_corner(c, begin, end)), mesh.point(c),
                                  mesh.point(next_corner(c, begin, end)), areas[i]);
-        if (end - begin == 3)
-            aspects[i] =
-                aspect_of(mesh.point(begin), mesh.point(begin + 1), mesh.point(begin + 2), r.areas[i]);
+        if (end - begin == 3 && r.areas[i] > 0)
+            ratios[i] = aspect_ratio(mesh.point(begin), mesh.point(begin + 1), mesh.point(begin + 2));
     });
     r.area = statistics(r.areas);
     r.angle = statistics(std::move(angles));
-    r.aspect = statistics(std::move(aspects));
+    r.aspect_ratio = statistics(std::move(ratios));
     return r;
 }
 

@@ -92,7 +92,7 @@ EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
 struct FaceResult {
     Statistics area, angle; ///< angle: 0 to 2 pi, beyond pi at concave corners
     Statistics
-        aspect; ///< of triangles: longest edge over the height on it, times sqrt(3)/2: 1 is equilateral
+        aspect_ratio; ///< of triangles with an area (mesh/aspect_ratio.hpp)
     FaceKinds kinds;
     std::vector<double> areas; ///< per face
 };

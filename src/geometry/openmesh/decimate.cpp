@@ -1,10 +1,10 @@
 #include "geometry/openmesh/decimate.hpp"
 
 #include "base/error.hpp"
+#include "mesh/aspect_ratio.hpp"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Decimater/DecimaterT.hh>
-#include <OpenMesh/Tools/Decimater/ModAspectRatioT.hh>
 #include <OpenMesh/Tools/Decimater/ModHausdorffT.hh>
 #include <OpenMesh/Tools/Decimater/ModQuadricT.hh>
 #include <OpenMesh/Tools/Decimater/ModRoundnessT.hh>
@@ -27,11 +27,12 @@ struct Shared {
     std::vector<Index> face_of{}; ///< as it was numbered, by face of the halfedges
     std::vector<Vec3> normals{};  ///< of the faces as they came
     double least_cosine = 0;      ///< of a face's normal and the one that it had
+    double max_aspect_ratio = 0;  ///< of a face, where all had less; 0: any
     std::vector<Decimation> made{};
 };
 
 /// Allows a collapse when it removes a free vertex, keeps the faces within the angle of the normal that they
-/// came with, and makes none flat. Notes what is made. (OpenMesh's own module for normals uses acos, whose
+/// came with and the aspect ratio within its limit (or no worse than it was), and makes none flat. Notes what is made. (OpenMesh's own module for normals uses acos, whose
 /// results depend on the machine.)
 template <class MeshT>
 class NotesT : public OpenMesh::Decimater::ModBaseT<MeshT> {
@@ -43,7 +44,7 @@ class NotesT : public OpenMesh::Decimater::ModBaseT<MeshT> {
     float collapse_priority(const CollapseInfo& ci) override {
         const auto role = [&](auto v) { return shared_->roles[static_cast<std::size_t>(v.idx())]; };
         const bool may = role(ci.v0) == DecimatedVertex::free && role(ci.v1) != DecimatedVertex::untouched;
-        return float(may && keeps_facing(ci) ? Base::LEGAL_COLLAPSE : Base::ILLEGAL_COLLAPSE);
+        return float(may && keeps_facing(ci) && keeps_shape(ci) ? Base::LEGAL_COLLAPSE : Base::ILLEGAL_COLLAPSE);
     }
 
     void preprocess_collapse(const CollapseInfo& ci) override {
@@ -68,6 +69,22 @@ class NotesT : public OpenMesh::Decimater::ModBaseT<MeshT> {
             if (dot(given, given) > 0 && !(dot(given, area) >= shared_->least_cosine * size)) return false;
         }
         return true;
+    }
+
+    /// Whether the worst aspect ratio of the faces around is within the limit, or no worse than before.
+    bool keeps_shape(const CollapseInfo& ci) {
+        if (!(shared_->max_aspect_ratio > 0)) return true;
+        auto& mesh = Base::mesh();
+        double before = 1, after = 1;
+        for (auto h = mesh.cvoh_iter(ci.v0); h.is_valid(); ++h) {
+            const auto face = mesh.face_handle(*h);
+            if (!face.is_valid()) continue;
+            const Vec3 x = vec(mesh.point(mesh.to_vertex_handle(*h))),
+                       y = vec(mesh.point(mesh.from_vertex_handle(mesh.prev_halfedge_handle(*h))));
+            before = std::max(before, aspect_ratio(vec(ci.p0), x, y));
+            if (face != ci.fl && face != ci.fr) after = std::max(after, aspect_ratio(vec(ci.p1), x, y));
+        }
+        return after <= shared_->max_aspect_ratio || after < before;
     }
 
     Shared* shared_ = nullptr;
@@ -101,7 +118,9 @@ using HandleOf = typename Module::Handle;
 std::vector<Decimation> decimate(std::span<const Vec3> positions, std::span<const Index> triangles,
                                  std::span<const DecimatedVertex> roles,
                                  const SimplifyConstraints& constraints, const DecimationGoal& goal) {
-    Shared shared{.roles = {roles.begin(), roles.end()}, .least_cosine = constraints.least_cosine};
+    Shared shared{.roles = {roles.begin(), roles.end()},
+                  .least_cosine = constraints.least_cosine,
+                  .max_aspect_ratio = constraints.aspect_ratio};
     Halfedges mesh;
     mesh.request_vertex_status();
     mesh.request_edge_status();
@@ -113,17 +132,12 @@ std::vector<Decimation> decimate(std::span<const Vec3> positions, std::span<cons
     OpenMesh::Decimater::DecimaterT<Halfedges> decimater(mesh);
     HandleOf<OpenMesh::Decimater::ModQuadricT<Halfedges>> quadric;
     HandleOf<NotesT<Halfedges>> notes;
-    HandleOf<OpenMesh::Decimater::ModAspectRatioT<Halfedges>> aspect;
     HandleOf<OpenMesh::Decimater::ModRoundnessT<Halfedges>> roundness;
     HandleOf<OpenMesh::Decimater::ModHausdorffT<Halfedges>> hausdorff;
     decimater.add(quadric);
     decimater.module(quadric).unset_max_err();
     decimater.add(notes);
     decimater.module(notes).share(&shared);
-    if (constraints.aspect_ratio > 0) {
-        decimater.add(aspect);
-        decimater.module(aspect).set_aspect_ratio(static_cast<float>(constraints.aspect_ratio));
-    }
     if (constraints.roundness > 0) {
         decimater.add(roundness);
         decimater.module(roundness).set_min_roundness(constraints.roundness, true);

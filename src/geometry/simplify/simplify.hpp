@@ -23,7 +23,7 @@ struct SimplifyLocks {
 /// What no collapse of the method constrained may bring about; 0 leaves a constraint out.
 struct SimplifyConstraints {
     double least_cosine = 0.5; ///< of the angle between a face's normal and the one that it came with
-    double aspect_ratio = 0;   ///< no face gets a larger one: longest edge by height
+    double aspect_ratio = 0;   ///< no face gets a larger one (mesh/aspect_ratio.hpp), unless one was worse
     double roundness = 0; ///< no face gets a smaller one: 1 for an equilateral triangle, 0 for a flat one
     double hausdorff = 0; ///< no vertex that went is farther from the faces near by, in the mesh's units
 };

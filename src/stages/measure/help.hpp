@@ -16,11 +16,11 @@ about the centroid, principal moments (ascending) with their axes, and radii of 
 for open surfaces, and in the total when any part is open.
 
 The turn of an edge is the angle between the normals of its two faces, negative where the surface is
-concave. aspect is the longest edge of a triangle over its height on that edge, normalised to 1 for
-an equilateral triangle. kinds counts the types of polygon. The mean curvature at a vertex comes
-from the turns of its edges, and the Gaussian curvature from what its angles lack of a full turn,
-both divided by a third of the area around the vertex; their statistics leave out the boundary. For
-a manifold, total_in_turns is the Euler number, whatever its shape.
+concave. aspect_ratio is that of triangles, as validate has it: 1 for an equilateral triangle. kinds
+counts the types of polygon. The mean curvature at a vertex comes from the turns of its edges, and
+the Gaussian curvature from what its angles lack of a full turn, both divided by a third of the area
+around the vertex; their statistics leave out the boundary. For a manifold, total_in_turns is the
+Euler number, whatever its shape.
 
 The mesh passes on unchanged except for the attributes asked for.
 

@@ -83,8 +83,8 @@ void declare_faces(DeclareFields<FaceResult>& d) {
     d.object("area", &FaceResult::area, "Their areas.", statistics_fields("square scene units"));
     d.object("angle", &FaceResult::angle, "Their inner angles.", statistics_fields("degrees", degrees));
     d.object(
-        "aspect", &FaceResult::aspect,
-        "Of triangles: the longest edge over the height on it, normalised to 1 for an equilateral triangle.",
+        "aspect_ratio", &FaceResult::aspect_ratio,
+        "Of triangles: the longest edge over the inradius, normalised to 1 for an equilateral triangle.",
         statistics_fields());
     d.counts("kinds", kinds_of, names, "The number of each kind that occurs.");
     d.field(

@@ -79,7 +79,7 @@ void declare_constraints(Declare<ConstraintOptions>& d) {
              "The largest angle between the normal of a face and its original normal.")
         .between(0, 180);
     d.option("aspect_ratio", &ConstraintOptions::aspect_ratio,
-             "The largest ratio of a face's longest edge to its height (a ratio, at least 1.16).")
+             "The largest aspect ratio of a face, as validate measures it (a ratio, 1 for equal sides).")
         .at_least(1);
     d.option("roundness", &ConstraintOptions::roundness,
              "The smallest roundness of a face: 1 is equilateral, 0 is degenerate (a ratio, without unit).")

@@ -106,7 +106,7 @@ TEST_CASE("measures of a bumpy sphere scale exactly", "[geometry]") {
         const auto f = measure_faces(far);
         check_scaled(f.area, faces.area, 2 * k);
         check_scaled(f.angle, faces.angle, 0);
-        check_scaled(f.aspect, faces.aspect, 0);
+        check_scaled(f.aspect_ratio, faces.aspect_ratio, 0);
         const auto c = measure_curvature(far);
         check_scaled(c.of_gaussian.median, bends.of_gaussian.median, -2 * k);
         check_scaled(c.of_mean.median, bends.of_mean.median, -k);

@@ -146,7 +146,7 @@ TEST_CASE("angles at corners, reflex ones too, and the shape of triangles", "[ge
     CHECK(r.kinds.count(polygon::Kind::quad) == 6);
     const FaceResult t = measure_faces(shapes::octahedron());
     CHECK(t.angle.minimum == Approx(pi / 3).epsilon(1e-15));
-    CHECK(t.aspect.maximum == Approx(1).epsilon(1e-14));
+    CHECK(t.aspect_ratio.maximum == Approx(1).epsilon(1e-14));
 }
 
 TEST_CASE("curvature of a sphere is one, and the missing angles sum to Euler's number", "[geometry]") {
