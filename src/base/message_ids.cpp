@@ -563,6 +563,13 @@ const std::vector<MessageId>& message_ids() {
          {},
          "split stopped before max_edge was reached, because of passes or max_faces.",
          "Allow more passes, or a longer max_edge."},
+        {"W-SURFACE-LOST",
+         {},
+         "A stage left none of the faces of a part, or took more of its area than the stage is expected to: a "
+         "tenth, or half for stages that change the shape (relax, split, simplify, clean with self_intersections: "
+         "union). Stages that cut off, scale or replace the surface as asked may take any area.",
+         "Validate what entered the stage: folded, flat or doubled surfaces cancel. `--strict=W-SURFACE-LOST` "
+         "makes it an error."},
         {"W-THICKEN",
          {},
          "The faces of a thickened part intersect, or it is smaller than its thickness.",

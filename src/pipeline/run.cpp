@@ -186,7 +186,7 @@ class Runner {
             Context context(state_, stage, step.only, scene.bounds(), step.where);
             if (!step.only.patterns.empty() && !step.stage->loads)
                 warn_of_empty_selection(step, scene, context);
-            scene = step.stage->run(std::move(scene), step.options.get(), context);
+            scene = perform(*step.stage, std::move(scene), step.options.get(), context);
             require_finite(scene);
             if (settings_.check_invariants) check_invariants(step, scene);
         });

@@ -38,6 +38,15 @@ const StageInfo* stage_named(std::string_view name) {
     return nullptr;
 }
 
+Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context) {
+    if (stage.checks || stage.loads) return stage.run(std::move(scene), options, context);
+    const auto before = surfaces_of_parts(scene);
+    scene = stage.run(std::move(scene), options, context);
+    warn_of_lost_surface(before, surfaces_of_parts(scene),
+                         stage.may_lose_with ? stage.may_lose_with(options) : stage.may_lose, context);
+    return scene;
+}
+
 std::vector<std::string> stage_names() {
     std::vector<std::string> names;
     for (const auto& s : registry()) names.push_back(s.name);

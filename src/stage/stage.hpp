@@ -18,6 +18,7 @@
 #include "options/declaration.hpp"
 #include "options/fields.hpp"
 #include "stage/context.hpp"
+#include "stage/surface_loss.hpp"
 
 namespace facetmill {
 
@@ -33,6 +34,7 @@ struct StageInfo {
     std::vector<std::string> examples; ///< as list items of a pipeline, without the dash: "relax: 3"
     bool checks = false; ///< it only judges: several in a row all run before a failure ends the branch
     bool loads = false;  ///< it adds to the scene rather than working on it (may come first)
+    MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options say otherwise
 
     // Filled by make_stage.
     Declaration options = {};
@@ -45,6 +47,8 @@ struct StageInfo {
     std::function<io::FileHeader(const void* options, const std::filesystem::path&)> header = {};
     /// Legality that a declaration cannot say; adds problems at the value's marks. May be empty.
     std::function<void(const void* options, const Value& given, Problems&)> verify = {};
+    /// What these options ask the stage to take of the surface. May be empty.
+    std::function<MayLose(const void* options)> may_lose_with = {};
 };
 
 struct RegisterStage {
@@ -56,11 +60,15 @@ const std::vector<StageInfo>& stages();
 const StageInfo* stage_named(std::string_view name);
 std::vector<std::string> stage_names();
 
+/// Runs the stage, and warns of the surface that it loses.
+Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context);
+
 template <class Options>
 struct StageHooks {
     std::function<StageFiles(const Options&)> files = {};
     std::function<void(const Options&, const Value&, Problems&)> verify = {};
     std::function<io::FileHeader(const Options&, const std::filesystem::path&)> header = {};
+    std::function<MayLose(const Options&)> may_lose = {};
 };
 
 template <class Options, class DeclareFunction>
@@ -76,6 +84,10 @@ void add_options(StageInfo& info, DeclareFunction declare, StageHooks<Options> h
     if (hooks.header)
         info.header = [f = hooks.header](const void* options, const std::filesystem::path& path) {
             return f(*static_cast<const Options*>(options), path);
+        };
+    if (hooks.may_lose)
+        info.may_lose_with = [f = hooks.may_lose](const void* options) {
+            return f(*static_cast<const Options*>(options));
         };
     if (hooks.verify)
         info.verify = [f = hooks.verify](const void* options, const Value& given, Problems& problems) {

@@ -46,7 +46,7 @@ inline StageRun run_stage(const std::string& name, const Value& value, Scene sce
     run.record.name = run.record.stage = name;
     const PartFilter all;
     Context context(*run.state, run.record, all, scene.bounds(), {});
-    run.scene = stage.run(std::move(scene), options.get(), context);
+    run.scene = perform(stage, std::move(scene), options.get(), context);
     return run;
 }
 

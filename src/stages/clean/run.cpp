@@ -28,6 +28,13 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
     return scene;
 }
 
+/// Components and what lies inside others go as asked; a union takes what solids have in common.
+MayLose may_lose(const CleanOptions& o) {
+    if (o.components || o.inner_components) return MayLose::area;
+    const bool unites = o.self_intersections == Untangle::unite || o.self_intersections == Untangle::all;
+    return unites ? MayLose::half : MayLose::tenth;
+}
+
 const RegisterStage registered = make_stage<CleanOptions>(
     {.name = "clean",
      .about = help::clean::about,
@@ -35,7 +42,7 @@ const RegisterStage registered = make_stage<CleanOptions>(
      .examples = {"clean", "clean: {holes: minimal, components: {min_faces: 10}}",
                   "clean: {self_intersections: union}", "clean: {weld: near, stitch: near, tolerance: 0.01%}",
                   "clean: {holes: {method: smooth, max_edges: 50}, inner_components: true}"}},
-    declare_clean, declare_clean_report, run, StageHooks<CleanOptions>{.files = {}, .verify = verify_clean});
+    declare_clean, declare_clean_report, run, StageHooks<CleanOptions>{.verify = verify_clean, .may_lose = may_lose});
 
 } // namespace
 

@@ -111,7 +111,8 @@ const RegisterStage registered{make_stage<CropOptions>(
                   "crop: {footprint: \"POLYGON ((0 0, 4 0, 4 4, 0 4), (1 1, 2 1, 2 2, 1 2))\", by: whole}",
                   "crop: {footprint: parcel.geojson, keep: outside, axis: z}",
                   "crop: {footprint: parcel.geojson, keep: both, cap: true}",
-                  "crop: {footprint: [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]], cap: true}"}},
+                  "crop: {footprint: [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]], cap: true}"},
+     .may_lose = MayLose::all},
     declare, declare_report, run, StageHooks<CropOptions>{.files = files, .verify = verify})};
 
 } // namespace

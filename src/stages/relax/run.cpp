@@ -89,7 +89,8 @@ const RegisterStage registered = make_stage<RelaxOptions>(
      .examples = {"relax: 3", "relax: {iterations: 10, lambda: 0.5, boundary: slide}",
                   "relax: {method: taubin, iterations: 20, feature_angle: 30deg}",
                   "relax: {method: implicit, lambda: 20}",
-                  "relax: {until: 0.01%, mask: {material: \"skin*\"}}"}},
+                  "relax: {until: 0.01%, mask: {material: \"skin*\"}}"},
+     .may_lose = MayLose::half},
     declare_relax, declare_report, run, {.verify = verify_relax});
 
 } // namespace

@@ -13,7 +13,8 @@ const RegisterStage registered = make_stage<SimplifyOptions>(
                   "simplify: {ratio: 5%, max_error: 0.1%}", "simplify: {lods: [100%, 50%, 10%]}",
                   "simplify: {ratio: 10%, method: shortest-edge}",
                   "simplify: {ratio: 2%, method: cluster, measure: false}",
-                  "simplify: {ratio: 20%, weights: {uv: 2, colour: 0}, topology: allow}"}},
+                  "simplify: {ratio: 20%, weights: {uv: 2, colour: 0}, topology: allow}"},
+     .may_lose = MayLose::half},
     declare_simplify, declare_simplify_report, simplify_parts, {.verify = verify_simplify});
 
 } // namespace

@@ -99,7 +99,8 @@ const RegisterStage registered = make_stage<TransformOptions>(
      .examples = {"transform: {scale: 0.001}",
                   "transform: {rotate: {axis: [1, 0, 0], angle: 90deg}, ground: true}",
                   "transform: {unit: m, up: y, centre: true, ground: true}",
-                  "transform: {translate: [0, 0, 2mm]}"}},
+                  "transform: {translate: [0, 0, 2mm]}"},
+     .may_lose = MayLose::area},
     declare_transform, declare_transform_report, run, {.verify = verify_transform});
 
 } // namespace

@@ -1,0 +1,81 @@
+#include "stage/surface_loss.hpp"
+
+#include "geometry/edit/moved.hpp"
+#include "mesh/placement.hpp"
+#include "stage/context.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+bool are_same_parts(const std::vector<PartSurface>& a, const std::vector<PartSurface>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const PartSurface& x, const PartSurface& y) { return x.name == y.name; });
+}
+
+PartSurface total(const std::vector<PartSurface>& parts) {
+    PartSurface sum;
+    for (const PartSurface& p : parts) {
+        sum.faces += p.faces;
+        sum.area += p.area;
+    }
+    return sum;
+}
+
+/// The share of the area that may go.
+double share(MayLose may_lose) {
+    switch (may_lose) {
+    case MayLose::tenth:
+        return 0.1;
+    case MayLose::half:
+        return 0.5;
+    case MayLose::area:
+    case MayLose::all:
+        break;
+    }
+    return 1;
+}
+
+/// What was lost of one part, empty when that is no more than may be: "none of its 12 faces is left".
+std::string loss(const PartSurface& before, const PartSurface& after, MayLose may_lose) {
+    if (before.faces == 0 || may_lose == MayLose::all) return {};
+    if (after.faces == 0)
+        return before.faces == 1 ? "its face is gone" : fmt::format("none of its {} faces is left", before.faces);
+    const double lost = 1 - after.area / before.area;
+    if (!(before.area > 0) || !std::isfinite(before.area) || !(lost > share(may_lose))) return {};
+    return fmt::format("{:.3g} % of its area is gone, {:.6g} of {:.6g} left", lost * 100, after.area,
+                       before.area);
+}
+
+} // namespace
+
+std::vector<PartSurface> surfaces_of_parts(const Scene& scene) {
+    std::vector<PartSurface> surfaces;
+    for (const Part& part : scene.parts)
+        surfaces.push_back(
+            {part.name, part.mesh.face_count(), surface_size(part.mesh, effective(part), false).area});
+    return surfaces;
+}
+
+void warn_of_lost_surface(const std::vector<PartSurface>& before, const std::vector<PartSurface>& after,
+                          MayLose may_lose, Context& context) {
+    std::vector<std::string> losses;
+    if (are_same_parts(before, after)) {
+        for (std::size_t i = 0; i < before.size(); ++i)
+            if (const auto text = loss(before[i], after[i], may_lose); !text.empty())
+                losses.push_back(fmt::format("of part '{}': {}", before[i].name, text));
+    } else if (const auto text = loss(total(before), total(after), may_lose); !text.empty())
+        losses.push_back("of the scene: " + text);
+    if (losses.empty()) return;
+    const std::size_t more = losses.size() - 1;
+    context.warn("W-SURFACE-LOST",
+                 fmt::format("'{}' lost surface {}{}", context.name(), losses.front(),
+                             more > 0 ? fmt::format("; and of {} more parts", more) : ""),
+                 "validate the scene before this stage; --strict=W-SURFACE-LOST makes it an error");
+}
+
+} // namespace facetmill

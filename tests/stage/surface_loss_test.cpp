@@ -1,0 +1,107 @@
+// No stage loses surface in silence.
+#include "support/catch.hpp"
+#include "support/run_stage.hpp"
+
+#include "mesh/shapes.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+using test::scene_of;
+
+/// A stage that may lose so much, and leaves the scene that make returns.
+test::StageRun performed(MayLose may_lose, Scene scene, const std::function<Scene(Scene)>& make) {
+    StageInfo stage{.name = "eat", .about = "", .details = "", .examples = {}};
+    stage.may_lose = may_lose;
+    stage.run = [&](Scene entering, const void*, Context&) { return make(std::move(entering)); };
+    test::StageRun run;
+    run.record.name = "eat";
+    const PartFilter all;
+    Context context(*run.state, run.record, all, scene.bounds(), {});
+    run.scene = perform(stage, std::move(scene), nullptr, context);
+    return run;
+}
+
+std::string warned(MayLose may_lose, Scene scene, const std::function<Scene(Scene)>& make) {
+    const auto run = performed(may_lose, std::move(scene), make);
+    REQUIRE(run.record.warnings.size() <= 1);
+    if (run.record.warnings.empty()) return "";
+    CHECK(run.record.warnings[0].id == "W-SURFACE-LOST");
+    return run.record.warnings[0].message;
+}
+
+/// Leaves the first faces of the first part.
+auto leaving(std::size_t faces) {
+    return [faces](Scene scene) {
+        scene.parts.at(0).mesh.corners.resize(3 * faces);
+        return scene;
+    };
+}
+
+/// A sheet of ten faces of equal area.
+Scene sheet() { return scene_of(shapes::grid(5, 1)); }
+
+} // namespace
+
+TEST_CASE("a stage that leaves no face says so, unless it has said so itself", "[stage]") {
+    for (const MayLose may : {MayLose::tenth, MayLose::half, MayLose::area})
+        CHECK(warned(may, sheet(), leaving(0)) ==
+              "'eat' lost surface of part 'part': none of its 10 faces is left");
+    CHECK(warned(MayLose::all, sheet(), leaving(0)) == "");
+    CHECK(warned(MayLose::tenth, scene_of(Mesh{}), leaving(0)) == "");
+}
+
+TEST_CASE("a stage that takes more of the area than it may says how much", "[stage]") {
+    CHECK(warned(MayLose::tenth, sheet(), leaving(9)) == "");
+    CHECK(warned(MayLose::tenth, sheet(), leaving(8)).starts_with(
+        "'eat' lost surface of part 'part': 20 % of its area is gone, "));
+    CHECK(warned(MayLose::half, sheet(), leaving(5)) == "");
+    CHECK(warned(MayLose::half, sheet(), leaving(4)).find("60 %") != std::string::npos);
+    CHECK(warned(MayLose::area, sheet(), leaving(1)) == "");
+}
+
+TEST_CASE("surface is missed in every part, and in the scene when the parts are others", "[stage]") {
+    Scene two = sheet();
+    two.parts.push_back(two.parts[0]);
+    two.parts[1].name = "other";
+    CHECK(warned(MayLose::tenth, two, leaving(0)) ==
+          "'eat' lost surface of part 'part': none of its 10 faces is left");
+    const auto first_only = [](Scene scene) {
+        scene.parts.pop_back();
+        return scene;
+    };
+    CHECK(warned(MayLose::tenth, two, first_only).starts_with("'eat' lost surface of the scene: 50 %"));
+    CHECK(warned(MayLose::half, two, first_only) == "");
+    const auto nothing = [](Scene) { return Scene{}; };
+    CHECK(warned(MayLose::half, two, nothing) == "'eat' lost surface of the scene: none of its 20 faces is left");
+}
+
+TEST_CASE("areas beyond numbers are not compared", "[stage]") {
+    Scene wide = sheet();
+    for (Vec3& p : wide.parts[0].mesh.positions) p = p * 1e200;
+    CHECK(warned(MayLose::tenth, wide, leaving(2)) == "");
+    Scene flat = sheet();
+    for (Vec3& p : flat.parts[0].mesh.positions) p.y = 0;
+    CHECK(warned(MayLose::tenth, flat, leaving(2)) == "");
+}
+
+TEST_CASE("relax that shrinks a sphere away says so", "[stages]") {
+    const auto run = test::run_stage("relax", "{iterations: 400}", scene_of(shapes::icosphere(1)));
+    CHECK(run.warnings() == std::vector<std::string>{"W-SURFACE-LOST"});
+    CHECK(test::run_stage("relax", "{iterations: 1}", scene_of(shapes::icosphere(2))).warnings().empty());
+}
+
+TEST_CASE("clean of a sheet with its hole filled leaves faces, or says that it does not", "[stages]") {
+    const auto run = test::run_stage("clean", "{holes: minimal, self_intersections: all}", sheet());
+    const auto warnings = run.warnings();
+    const bool told = std::find(warnings.begin(), warnings.end(), "W-SURFACE-LOST") != warnings.end();
+    CHECK((run.mesh().face_count() > 0 || told));
+}
+
+TEST_CASE("what is taken as asked is not lost", "[stages]") {
+    Scene scene = sheet();
+    append(scene.parts[0].mesh, shapes::icosphere(2));
+    CHECK(test::run_stage("clean", "{components: {keep: 1}}", scene).warnings().empty());
+    CHECK(test::run_stage("transform", "{scale: 0.001}", scene).warnings().empty());
+}
