@@ -136,6 +136,42 @@ class Language(Case):
         self.assertEqual((info["vertices"], info["faces"], info["euler"], info["closed"]), (35002, 70000, 2, True))
 
     @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
+    def test_info_tells_of_each_component(self):
+        # A tetrahedron, twelve single triangles, and a square.
+        points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+        for i in range(12):
+            points += [(5 + i, 0, 0), (5.5 + i, 0, 0), (5 + i, 1, 0)]
+            faces.append(tuple(range(len(points) - 3, len(points))))
+        points += [(0, 9, 0), (1, 9, 0), (1, 10, 0), (0, 10, 0)]
+        n = len(points)
+        faces += [(n - 4, n - 3, n - 2), (n - 4, n - 2, n - 1)]
+        self.write("many.off", "\n".join(["OFF", f"{n} {len(faces)} 0"] + [" ".join(map(str, p)) for p in points]
+                                        + [" ".join(map(str, (3, *f))) for f in faces]) + "\n")
+        info = json.loads(self.mill("info", "--json", "many.off").stdout)
+        jsonschema.Draft202012Validator(json.loads(self.mill("schema", "info").stdout)).validate(info)
+        detail = [tuple(c[key] for key in ("faces", "euler", "boundary_loops", "closed", "genus"))
+                  for c in info["components_detail"]]
+        self.assertEqual(detail[:3], [(4, 2, 0, True, 0), (2, 1, 1, False, None), (1, 1, 1, False, None)])
+        self.assertEqual((len(detail), info["components_omitted"]), (14, 0))
+        self.assertEqual(sum(c[1] for c in detail), info["euler"])
+        text = self.mill("info", "many.off").stdout
+        self.assertIn("4 faces, euler 2, closed, genus 0", text)
+        self.assertIn("and 4 more", text)
+
+    @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
+    def test_a_failed_check_has_a_value_and_a_hint(self):
+        self.mill("pipe", "--quiet", "--report", "r.json", "generate", "cube", "!", "validate", "--faces", "3",
+                  "--closed", "false", "--longest_edge.max", "1.5", expect=1)
+        report = json.loads((self.dir / "r.json").read_text())
+        jsonschema.Draft202012Validator(json.loads(self.mill("schema", "report").stdout)).validate(report)
+        found = {check["name"]: check["found"] for check in report["checks"]}
+        self.assertEqual((found["faces"], found["closed"]), (12, True))
+        self.assertIsInstance(found["longest_edge"], float)
+        hints = {check["name"]: check["hint"] for check in report["checks"]}
+        self.assertIn("simplify", hints["faces"])
+
+    @unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
     def test_diff_follows_its_schema(self):
         schema = json.loads(self.mill("schema", "diff").stdout)
         self.write("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
