@@ -140,8 +140,9 @@ std::vector<double> face_values(const Mesh& mesh, const Property& property) {
     const PowerScale scale = even_scale(mesh.bounds());
     if (scale.none()) return property.of_faces(mesh);
     auto values = property.of_faces(scale(mesh));
-    if (property.kind == PropertyKind::length)
-        for (double& x : values) x = unscaled(x, scale.powers[0]);
+    const int power = property.kind == PropertyKind::length ? 1 : property.kind == PropertyKind::area ? 2 : 0;
+    if (power > 0)
+        for (double& x : values) x = unscaled(x, power * scale.powers[0]);
     return values;
 }
 
