@@ -10,6 +10,7 @@
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
 #   make format   run clang-format over the sources
+#   make check-style   what CI says of the sources: layers, clang-format, clang-tidy
 
 PRESET ?= release
 JOBS ?= $(shell n=$$(nproc); [ $$n -gt 2 ] && echo 2 || echo $$n)
@@ -18,14 +19,19 @@ FILTER ?= .
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all build deps demo test asan tsan bench install deb format check-layers clean
+.PHONY: all deps configure build tests demo test asan tsan bench install deb format check-layers check-style clean
 all: build
 
 deps:
 	@tools/deps.sh
 
-build: deps
+configure: deps
 	@cmake --preset $(PRESET) --log-level=NOTICE
+
+build: configure
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target facetmill manual
+
+tests: configure
 	@cmake --build --preset $(PRESET) -j $(JOBS)
 
 demo: build
@@ -35,7 +41,7 @@ demo: build
 	@echo "Look at out/nefertiti.html (the report) and out/nefertiti.glb in any glTF viewer;"
 	@echo "out/nefertiti.draco.glb is the same mesh compressed, out/nefertiti.json the report for programs."
 
-test: build
+test: tests
 	@tests/conformance/setup.sh $(BUILD)/conformance || echo "The tests go on without the glTF validator." >&2
 	@ctest --preset $(PRESET)
 
@@ -62,6 +68,9 @@ format:
 
 check-layers:
 	python3 tools/check_layers.py
+
+check-style: check-layers configure
+	python3 tools/check_style.py $(BUILD)
 
 clean:
 	rm -rf build out
