@@ -2,10 +2,9 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
-#include "geometry/spatial/closest_point.hpp"
 #include "geometry/deviation/bound.hpp"
+#include "geometry/spatial/closest_point.hpp"
 #include "mesh/power_scale.hpp"
-#include "geometry/spatial/hilbert_curve.hpp"
 
 #include <algorithm>
 
@@ -35,8 +34,7 @@ std::vector<Vec3> used_points(const Surface& surface) {
     std::vector<Vec3> points;
     for (std::size_t v = 0; v < used.size(); ++v)
         if (used[v]) points.push_back(surface.positions[v]);
-    const auto order =
-        order_along_curve(points.size(), box_of(points), [&](std::size_t i) { return points[i]; });
+    const auto order = order_of_queries(points);
     std::vector<Vec3> along(points.size());
     parallel_for(points.size(), [&](std::size_t i) { along[i] = points[order[i]]; });
     return along;
@@ -178,6 +176,40 @@ DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const De
 
 namespace {
 
+/// The length that half of about 64 triangles exceed.
+double usual_length(const Surface& surface) {
+    std::vector<double> lengths;
+    for (std::size_t t = 0; t < surface.size(); t += surface.size() / 64 + 1) {
+        const Vec3 &a = surface.point(t, 0), &b = surface.point(t, 1), &c = surface.point(t, 2);
+        const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+        if (std::isfinite(longest)) lengths.push_back(longest);
+    }
+    if (lengths.empty()) return 0;
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    return *middle;
+}
+
+/// Whether most of about 64 points of a surface are farther from another than its triangles are long.
+bool is_far(const Surface& from, const Surface& to, const FaceTree& tree) {
+    if (tree.empty()) return false;
+    const double near = usual_length(to);
+    std::size_t looked_at = 0;
+    std::size_t far = 0;
+    for (std::size_t t = 0; t < from.size(); t += from.size() / 64 + 1) {
+        ++looked_at;
+        if (!(closest_point(tree, from.point(t, 0), none, near).distance <= near)) ++far;
+    }
+    return 2 * far > looked_at;
+}
+
+DirectedDeviation deviation_between(const Surface& from, const Surface& to,
+                                    const DeviationSettings& settings) {
+    FaceTree tree(to, FaceTree::Use::near);
+    if (is_far(from, to, tree)) tree.flatten();
+    return deviation_to(from, tree, settings);
+}
+
 Surface scaled(Surface surface, const PowerScale& scale) {
     surface.positions = scale(surface.positions);
     return surface;
@@ -206,12 +238,8 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     DeviationResult result;
     result.seed = settings.seed;
     result.diagonal = diagonal(first.bounds());
-    { // one tree at a time
-        const FaceTree tree(second);
-        result.forward = deviation_to(first, tree, settings);
-    }
-    const FaceTree tree(first);
-    result.backward = deviation_to(second, tree, settings);
+    result.forward = deviation_between(first, second, settings); // one tree at a time
+    result.backward = deviation_between(second, first, settings);
     const bool one_empty = (result.forward.vertices == 0) != (result.backward.vertices == 0);
     if (one_empty)
         for (auto* d : {&result.forward, &result.backward}) d->maximum = d->rms = d->mean = HUGE_VAL;

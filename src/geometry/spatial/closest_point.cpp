@@ -2,8 +2,9 @@
 // that slivers lose nothing.
 #include "geometry/spatial/closest_point.hpp"
 
-#include "base/simd.hpp"
 #include "base/parallel.hpp"
+#include "base/simd.hpp"
+#include "geometry/spatial/dense_box.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
 
 #include <algorithm>
@@ -180,11 +181,26 @@ class Search {
         face_ = tree_.faces[triangle];
     }
 
+    /// Searches what is near the hint in the tree, more and more of it, as long as it is not near enough.
     template <class Query>
-    void run(double enough) {
-        using Number = typename Query::Number;
-        const double enough_square = enough < 0 ? -1 : enough * tree_.scale * enough * tree_.scale;
+    void run_from(Index hint, double enough_square) {
         const Query query(tree_, p_);
+        const int root = tree_.height() - 1;
+        if (hint == none) return run(query, enough_square, root, 0);
+        test(hint);
+        if (square_ <= enough_square) return;
+        if (enough_square >= 0)
+            for (const int level : {0, 2, 4}) {
+                if (level >= root) break;
+                run(query, enough_square, level, hint >> 2 * (level + 1));
+                if (square_ <= enough_square) return;
+            }
+        run(query, enough_square, root, 0);
+    }
+
+    template <class Query>
+    void run(const Query& query, double enough_square, int level, std::uint32_t node) {
+        using Number = typename Query::Number;
         struct Entry {
             Number bound;
             std::int32_t level;
@@ -192,7 +208,7 @@ class Search {
         };
         Entry stack[4 * 17]; // 17 levels of four hold all indices; three wait at each
         int size = 0;
-        stack[size++] = {0, tree_.height() - 1, 0};
+        stack[size++] = {0, level, node};
         Number limit = limit_for<Query>();
         while (size > 0) {
             const Entry entry = stack[--size];
@@ -232,12 +248,12 @@ class Search {
     [[gnu::always_inline]] void fetch(int level, std::uint32_t node) const {
         if (level < 0)
             fetch_soon(tree_.triangles[node]);
+        else if (level > tree_.patch_levels)
+            fetch_soon(tree_.node(level, node));
         else if (level == 0)
             fetch_soon(tree_.plates[node]);
-        else if (level <= tree_.patch_levels)
-            fetch_soon(tree_.patch(level, node));
         else
-            fetch_soon(tree_.node(level, node));
+            fetch_soon(tree_.patch(level, node));
     }
 
     /// What a bound must not exceed to be of interest: the square so far, and a little for its rounding.
@@ -271,13 +287,14 @@ Closest closest_point(const FaceTree& tree, const Vec3& p, Index hint, double en
     if (tree.empty() || !is_finite(p)) return {};
     const double reach = reach_of(tree, p);
     // From very far the closest point is that of a point in the same direction.
-    const bool beyond = reach > FarQuery::largest;
-    Search search(tree, beyond ? tree.middle + (p - tree.middle) * (FarQuery::largest / reach) : p);
-    if (hint != none) search.test(hint);
+    const double largest = FarQuery::largest * tree.reach;
+    const bool beyond = reach > largest;
+    Search search(tree, beyond ? tree.middle + (p - tree.middle) * (largest / reach) : p);
+    const double enough_square = enough < 0 || beyond ? -1 : enough * tree.scale * enough * tree.scale;
     if (reach <= NearQuery::largest)
-        search.run<NearQuery>(enough);
+        search.run_from<NearQuery>(hint, enough_square);
     else
-        search.run<FarQuery>(beyond ? -1 : enough);
+        search.run_from<FarQuery>(hint, enough_square);
     Closest found = search.result();
     if (beyond) { // in units of the reach, whose square might overflow
         const double unit = reach / tree.scale;
@@ -286,9 +303,13 @@ Closest closest_point(const FaceTree& tree, const Vec3& p, Index hint, double en
     return found;
 }
 
+std::vector<Index> order_of_queries(std::span<const Vec3> points) {
+    const auto point = [&](std::size_t i) { return points[i]; };
+    return order_along_curve(points.size(), dense_box(points.size(), box_of(points), point), point);
+}
+
 std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points) {
-    const std::vector<Index> order =
-        order_along_curve(points.size(), box_of(points), [&](std::size_t i) { return points[i]; });
+    const std::vector<Index> order = order_of_queries(points);
     std::vector<Closest> found(points.size());
     parallel_chunks(
         points.size(),

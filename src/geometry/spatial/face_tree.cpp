@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/storage.hpp"
+#include "geometry/spatial/dense_box.hpp"
 #include "geometry/spatial/median_order.hpp"
 
 #include <algorithm>
@@ -32,11 +33,24 @@ std::vector<Index> finite_triangles(const Surface& surface) {
 
 } // namespace
 
+/// A frame of where most triangles are, so that float32 tells them apart whatever else there is. Rays need a
+/// frame of everything.
+void FaceTree::set_dense_frame(const Surface& surface, const std::vector<Index>& kept) {
+    const Box all = surface.bounds();
+    const Box dense = dense_box(kept.size(), all, [&](std::size_t i) { return surface.point(kept[i], 0); });
+    constexpr double most = 1e20; // squares of this are float32 still
+    const Vec3 whole = all.extent(), part = dense.extent();
+    if (std::max({whole.x, whole.y, whole.z}) > most * std::max({part.x, part.y, part.z})) return;
+    set_frame(dense);
+    const Vec3 low = local(all.min), high = local(all.max);
+    for (std::size_t axis = 0; axis < 3; ++axis) reach = std::max({reach, -low[axis], high[axis]});
+}
+
 FaceTree::FaceTree(const Surface& surface, Use use) {
     const std::vector<Index> kept = finite_triangles(surface);
     if (kept.empty()) return;
-    const Box all = surface.bounds();
-    set_frame(all);
+    set_frame(surface.bounds());
+    if (use == Use::near) set_dense_frame(surface, kept);
     std::vector<CentredItem> order;
     resize_large(order, kept.size());
     parallel_for(order.size(), [&](std::size_t i) {
@@ -100,6 +114,13 @@ void clear(Patches& patches, std::size_t slot) {
     }
 }
 
+/// How far float32 may be off at points outside the frame (see FaceTree::reach); queries know of the frame
+/// alone.
+double beyond_frame(const Vec3& p) {
+    const double far = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return far > 2 ? far * 0x1p-18 : 0;
+}
+
 /// a, b, c in the tree's frame. Any normal gives half spaces that hold the triangle; slivers have a poor one.
 void set(Plates& plates, std::size_t slot, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 area = cross(b - a, c - a), edges[] = {b - a, c - b, a - c};
@@ -110,13 +131,15 @@ void set(Plates& plates, std::size_t slot, const Vec3& a, const Vec3& b, const V
     // The three corners differ along the normal of a sliver: there the plane says nothing.
     const double na = dot(normal, a), nb = dot(normal, b), nc = dot(normal, c);
     const auto [low, high] = std::minmax({na, nb, nc});
-    const bool flat = high - low < 1e-8;
+    const double error = std::max({beyond_frame(a), beyond_frame(b), beyond_frame(c)});
+    const bool flat = high - low < 1e-8 && error == 0;
     plates.offset[slot] = flat ? static_cast<float>((low + high) / 2) : 0;
     for (std::size_t k = 0; k < 3; ++k) plates.normal[k][slot] = flat ? static_cast<float>(normal[k]) : 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 beyond = unit_or(cross(edges[i], normal), {});
         for (std::size_t k = 0; k < 3; ++k) plates.beyond[i][k][slot] = static_cast<float>(beyond[k]);
-        plates.reach[i][slot] = rounded_up(std::max({dot(beyond, a), dot(beyond, b), dot(beyond, c)}));
+        plates.reach[i][slot] =
+            rounded_up(std::max({dot(beyond, a), dot(beyond, b), dot(beyond, c)}) + error);
     }
 }
 
@@ -170,9 +193,11 @@ std::array<Vec3, 3> axes_of(const Moments& m) {
 void set(Patches& patches, std::size_t slot, const FaceTree& tree, const std::array<Vec3, 3>& axes,
          std::span<const FaceTree::Triangle> triangles) {
     double low[] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high[] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    double error = 0;
     for (const auto& t : triangles)
         for (const Vec3* p : {&t.a, &t.b, &t.c}) {
             const Vec3 at = tree.local(*p);
+            error = std::max(error, beyond_frame(at));
             for (std::size_t i = 0; i < 3; ++i) {
                 const double x = dot(at, axes[i]);
                 low[i] = x < low[i] ? x : low[i];
@@ -184,7 +209,7 @@ void set(Patches& patches, std::size_t slot, const FaceTree& tree, const std::ar
     for (std::size_t i = 0; i < 3; ++i) {
         patches.centre[i][slot] = static_cast<float>(centre[i]);
         for (std::size_t k = 0; k < 3; ++k) patches.axis[i][k][slot] = static_cast<float>(axes[i][k]);
-        patches.half[i][slot] = rounded_up((high[i] - low[i]) / 2);
+        patches.half[i][slot] = rounded_up((high[i] - low[i]) / 2 + error);
     }
 }
 
@@ -216,7 +241,7 @@ void FaceTree::flatten() {
     std::vector<Moments> moments(plates.size());
     parallel_for(
         plates.size(), [&](std::size_t n) { moments[n] = flatten_leaf(*this, n, plates[n]); }, chunk);
-    patch_levels = std::min(8, height() - 1);
+    patch_levels = std::min(2, height() - 1);
     for (int level = 1; level <= patch_levels; ++level) {
         const std::size_t size = std::size_t{1} << 2 * level; // triangles under a child
         const std::size_t begin = patches.size(), children = moments.size();

@@ -13,7 +13,11 @@ namespace facetmill {
 
 /// Built once, in parallel, the same for any number of threads; then only read.
 struct FaceTree : BoxLevels {
-    enum class Use { all, rays }; ///< a tree for rays alone is made faster, and knows no distances
+    enum class Use {
+        all,
+        rays, ///< rays alone: made faster, and knows no distances
+        near  ///< closest points alone, most of them near the surface: made faster; see flatten
+    };
     /// Four boxes turned to the mean normal of what they hold, in the tree's frame: the points centre + sum
     /// of axis[i] * x[i] with |x[i]| <= half[i]. Empty slots have half = -infinity.
     struct Patches {
@@ -31,6 +35,10 @@ struct FaceTree : BoxLevels {
 
     explicit FaceTree(const Surface& surface, Use use = Use::all);
 
+    /// Makes plates and patches, which a tree for near points does without: points that are farther from the
+    /// surface than its triangles are long are found three times as fast with them.
+    void flatten();
+
     bool empty() const { return triangles.empty(); }
     /// The turned boxes of the children of a node, on levels 1 to patch_levels.
     const Patches& patch(int level, std::size_t i) const {
@@ -40,12 +48,13 @@ struct FaceTree : BoxLevels {
     std::vector<Triangle> triangles;      ///< those with finite corners, neighbours by geometry/spatial/median_order.hpp
     std::vector<Index> faces;             ///< of triangles
     std::vector<Plates> plates;           ///< of triangles 4i to 4i + 3
-    int patch_levels = 0;                 ///< at most 8; above, pieces are too curved to gain
+    int patch_levels = -1; ///< at most 2; above, pieces are too curved to gain. -1: no plates either
     std::vector<std::size_t> patch_begin; ///< into patches
     std::vector<Patches> patches;
+    double reach = 1; ///< of everything, in the tree's frame: above 1 some of it lies outside
 
   private:
-    void flatten(); ///< makes plates and patches
+    void set_dense_frame(const Surface& surface, const std::vector<Index>& kept);
 };
 
 } // namespace facetmill

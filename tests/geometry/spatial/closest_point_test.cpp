@@ -20,6 +20,16 @@ Vec3 random_point(double size, std::uint64_t key) {
             between(-size, size, 5, 3 * key + 2)};
 }
 
+/// The trees that know distances: of all uses, for near points, and that with what far points need.
+std::vector<FaceTree> trees_of(const Surface& surface) {
+    std::vector<FaceTree> trees;
+    trees.emplace_back(surface);
+    trees.emplace_back(surface, FaceTree::Use::near);
+    trees.emplace_back(surface, FaceTree::Use::near);
+    trees.back().flatten();
+    return trees;
+}
+
 /// By trying every triangle.
 double distance_by_trial(const Surface& surface, const Vec3& p) {
     double least = HUGE_VAL;
@@ -56,14 +66,53 @@ TEST_CASE("the tree finds what trying every triangle finds", "[geometry]") {
     const Mesh shape = GENERATE(as<Mesh>{}, testing::noisy_icosphere(2, 0.1, 3), shapes::quad_cube(),
                                 shapes::torus(20, 9), shapes::tetrahedron());
     const Surface surface = surface_of(shape);
-    const FaceTree tree(surface);
-    REQUIRE(tree.triangles.size() == surface.size());
-    for (std::uint64_t k = 0; k < 200; ++k) {
-        const Vec3 p = random_point(k % 2 ? 1.5 : 30, k);
-        const Closest found = closest_point(tree, p);
-        CHECK(found.distance == Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-14));
-        CHECK(found.distance == Approx(length(found.point - p)));
-        CHECK(found.face < shape.face_count());
+    for (const FaceTree& tree : trees_of(surface)) {
+        REQUIRE(tree.triangles.size() == surface.size());
+        for (std::uint64_t k = 0; k < 200; ++k) {
+            const Vec3 p = random_point(k % 2 ? 1.5 : 30, k);
+            const Closest found = closest_point(tree, p);
+            CHECK(found.distance == Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-14));
+            CHECK(found.distance == Approx(length(found.point - p)));
+            CHECK(found.face < shape.face_count());
+        }
+    }
+}
+
+TEST_CASE("a hint and a distance that is enough never hide what is farther", "[geometry]") {
+    const Surface surface = surface_of(testing::noisy_icosphere(4, 0.05, 6));
+    for (const FaceTree& tree : trees_of(surface))
+        for (std::uint64_t k = 0; k < 500; ++k) {
+            const Vec3 p = random_point(1.2, k);
+            const auto hint = static_cast<Index>(k * 7919 % tree.triangles.size());
+            const double distance = closest_point(tree, p).distance;
+            CHECK(closest_point(tree, p, hint).distance == distance);
+            CHECK(closest_point(tree, p, hint, distance * 0.99).distance == distance);
+            const double enough = closest_point(tree, p, hint, distance * 1.5).distance;
+            CHECK(enough >= distance);
+            CHECK(enough <= distance * 1.5);
+        }
+}
+
+TEST_CASE("triangles far away from the others change no distance", "[geometry]") {
+    const double far = GENERATE(1.0, 1e3, 1e5, 1e8, 1e15);
+    Surface surface = surface_of(testing::noisy_icosphere(3, 0.05, 4));
+    for (const Vec3& at : {Vec3{far, far, far}, Vec3{-far, 0, far / 2}})
+        for (const Vec3& off : {Vec3{}, Vec3{0.02, 0, 0}, Vec3{0, 0.02, 0.01}}) {
+            surface.corners.push_back(static_cast<Index>(surface.positions.size()));
+            surface.positions.push_back(at + off);
+        }
+    std::vector<Vec3> points;
+    for (std::uint64_t k = 0; k < 40; ++k) {
+        points.push_back(random_point(1.2, 4 * k));
+        points.push_back(surface.positions[k] + random_point(1e-4, 4 * k + 1));
+        points.push_back(Vec3{far, far, far} + random_point(1, 4 * k + 2));
+        points.push_back(random_point(4 * far, 4 * k + 3));
+    }
+    for (const FaceTree& tree : trees_of(surface)) {
+        const auto found = closest_points(tree, points);
+        for (std::size_t i = 0; i < points.size(); ++i) // as well as the coordinates of a point tell
+            REQUIRE(found[i].distance ==
+                    Approx(distance_by_trial(surface, points[i])).epsilon(1e-14).margin(1e-15 * (1 + far)));
     }
 }
 

@@ -27,6 +27,7 @@ std::vector<Mesh> meshes() {
 TEST_CASE("closest points are as far as CGAL's", "[geometry]") {
     for (const Mesh& mesh : meshes()) {
         const FaceTree tree(surface_of(mesh));
+        const FaceTree near(surface_of(mesh), FaceTree::Use::near);
         const oracle::Tree other(mesh);
         std::vector<Vec3> points = mesh.positions; // on the surface, near it, anywhere, far away
         for (std::uint64_t k = 0; k < 500; ++k) {
@@ -37,6 +38,8 @@ TEST_CASE("closest points are as far as CGAL's", "[geometry]") {
         const auto found = closest_points(tree, points);
         for (std::size_t i = 0; i < points.size(); ++i)
             REQUIRE(found[i].distance == Approx(other.distance(points[i])).epsilon(1e-12).margin(1e-15));
+        const auto again = closest_points(near, points);
+        for (std::size_t i = 0; i < points.size(); ++i) REQUIRE(again[i].distance == found[i].distance);
     }
 }
 
