@@ -239,3 +239,29 @@ TEST_CASE("simplify takes faces without area, and targets above and below what t
     CHECK(stuck.warnings() == std::vector<std::string>{"W-SIMPLIFY-STOPPED"});
     CHECK(stuck.mesh().face_count() == 4);
 }
+
+TEST_CASE("simplify: 100 % does nothing, as it says, without a warning", "[stages]") {
+    CHECK(run_stage("simplify", "100%", scene_of(shapes::icosphere(2))).warnings().empty());
+    CHECK(
+        run_stage("simplify", "{lods: [100%, 50%, 10%]}", scene_of(shapes::icosphere(3))).warnings().empty());
+    CHECK(run_stage("simplify", "{ratio: 100%, faces: 5000}", scene_of(shapes::cube())).warnings() ==
+          std::vector<std::string>{"W-SIMPLIFY-NOTHING"});
+}
+
+TEST_CASE("simplify: area and volume before and after are reported", "[stages]") {
+    Scene scene = scene_of(shapes::icosphere(4));
+    for (int i = 0; i < 3; ++i) scene.parts[0].transform.m[i][i] = 10;
+    const Json size = run_stage("simplify", "10%", scene).record.result["parts"][0]["size"];
+    const double ball = 4.18879 * 1000;
+    CHECK(size["before"]["volume"].get<double>() == Approx(ball).epsilon(0.01));
+    CHECK(size["after"]["volume"].get<double>() == Approx(ball).epsilon(0.02));
+    CHECK(size["after"]["volume"] != size["before"]["volume"]);
+    CHECK(size["before"]["area"].get<double>() == Approx(1256.6).epsilon(0.01));
+    CHECK(size["after"]["area"].get<double>() == Approx(1256.6).epsilon(0.02));
+    const Json open = run_stage("simplify", "20%", scene_of(shapes::grid(8, 8))).record.result["parts"][0];
+    CHECK(open["size"]["before"]["volume"].is_null());
+    CHECK(open["size"]["after"]["area"].get<double>() == Approx(64));
+    CHECK_FALSE(run_stage("simplify", "{ratio: 20%, measure: false}", scene_of(shapes::grid(8, 8)))
+                    .record.result["parts"][0]
+                    .contains("size"));
+}

@@ -256,6 +256,8 @@ class Outside {
 
 } // namespace
 
+std::vector<std::uint8_t> consistent_flips(const Mesh& mesh) { return Spreader(mesh).run().flips; }
+
 OrientResult orient(Mesh mesh, const OrientSettings& settings) {
     OrientResult result;
     std::vector<std::uint8_t> flips(mesh.face_count(), 1);

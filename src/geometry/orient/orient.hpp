@@ -15,7 +15,8 @@ enum class OrientMethod {
     flip,       ///< every face is turned round
 };
 enum class Nested {
-    cavities, ///< a closed component inside another, which it does not meet, is its cavity: it faces the hollow
+    cavities, ///< a closed component inside another, which it does not meet, is its cavity: it faces the
+              ///< hollow
     solids,   ///< every closed component is a solid of its own
 };
 
@@ -43,13 +44,16 @@ struct OrientResult {
 };
 
 /// Turns faces round so that neighbours agree (spread over edges of two faces) and, for outward, the front of
-/// each component is its outside. For closed components that is decided by the sign of the volume and by how many
-/// other closed components contain them without touching them (exact rays along an axis); for open ones by a vote
-/// of rays from their faces along the axes: the side from which more of them escape is outside. Edges of more
-/// than two faces part components. A component that cannot be oriented (a Moebius strip) is left as it was. Corners
-/// are reversed from the second on; wedge normals that then point against their faces are turned with them,
-/// and their tangents' handedness. O(n log n).
+/// each component is its outside. For closed components that is decided by the sign of the volume and by how
+/// many other closed components contain them without touching them (exact rays along an axis); for open ones
+/// by a vote of rays from their faces along the axes: the side from which more of them escape is outside.
+/// Edges of more than two faces part components. A component that cannot be oriented (a Moebius strip) is
+/// left as it was. Corners are reversed from the second on; wedge normals that then point against their faces
+/// are turned with them, and their tangents' handedness. O(n log n).
 OrientResult orient(Mesh mesh, const OrientSettings& settings);
+
+/// 1 for the faces that the method consistent turns round; the mesh stays as it is.
+std::vector<std::uint8_t> consistent_flips(const Mesh& mesh);
 
 /// Turns the flagged faces round; see orient for what becomes of attributes.
 AttributeChanges flip_faces(Mesh& mesh, const std::vector<std::uint8_t>& flags);

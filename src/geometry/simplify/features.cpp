@@ -1,6 +1,7 @@
 #include "geometry/simplify/features.hpp"
 
 #include "base/parallel.hpp"
+#include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -38,8 +39,10 @@ struct Borders {
 
 class Classifier {
   public:
-    Classifier(State& s, const Borders& borders, const SimplifyLocks& lock)
-        : s_(s), borders_(borders), lock_(lock) {}
+    /// corner_cosine: of the angle by which a boundary turns at a corner; none: it has no corners.
+    Classifier(State& s, const Borders& borders, const SimplifyLocks& lock,
+               std::optional<double> corner_cosine)
+        : s_(s), borders_(borders), lock_(lock), corner_cosine_(corner_cosine) {}
 
     Kind operator()(Index v) {
         if (is_plain(v)) return Kind::smooth;
@@ -130,10 +133,20 @@ class Classifier {
             now = then;
         }
         for (const Index c : features_) s_.flags[c] |= feature_edge;
-        if (open) s_.flags[start->corner] |= boundary_edge | feature_edge;
+        if (open) {
+            s_.flags[start->corner] |= boundary_edge | feature_edge;
+            locked_ |= turns_between(now->in, s_.tri[start->corner], start->out);
+        }
         features += static_cast<int>(features_.size());
         if (features == 0) return Kind::smooth;
         return features == 2 && !locked_ ? Kind::curve : Kind::corner;
+    }
+
+    /// Whether the boundary has a corner at v.
+    bool turns_between(Index before, Index v, Index after) const {
+        if (!corner_cosine_) return false;
+        const Vec3 in = normalised(s_.at[v] - s_.at[before]), out = normalised(s_.at[after] - s_.at[v]);
+        return exceeds_feature_angle(dot(in, out), *corner_cosine_);
     }
 
     const FanSpoke* leading_to(Index other) const {
@@ -157,6 +170,7 @@ class Classifier {
     State& s_;
     const Borders& borders_;
     const SimplifyLocks& lock_;
+    std::optional<double> corner_cosine_;
     bool locked_ = false; ///< the vertex looked at
     std::vector<FanSpoke> spokes_;
     std::vector<Index> ins_, features_;
@@ -220,7 +234,8 @@ void for_pairs(const std::vector<OpenEdge>& edges, Body&& body) {
 
 } // namespace
 
-void classify(State& s, const Mesh& mesh, const SimplifyLocks& lock) {
+void classify(State& s, const Mesh& mesh, const SimplifyLocks& lock, std::optional<double> corner_angle) {
+    if (corner_angle) corner_angle = cosine(*corner_angle);
     const Borders borders{labels_of(s, mesh, primitive_attribute), labels_of(s, mesh, "group")};
     const auto in_body = [&](const Vec3& p) {
         return !lock.body.empty() && std::all_of(lock.body.begin(), lock.body.end(),
@@ -228,7 +243,7 @@ void classify(State& s, const Mesh& mesh, const SimplifyLocks& lock) {
     };
     s.kind.resize(s.vertex_slots());
     parallel_chunks(s.vertex_slots(), [&](std::size_t begin, std::size_t end) {
-        Classifier kind_of(s, borders, lock);
+        Classifier kind_of(s, borders, lock, corner_angle);
         for (std::size_t v = begin; v < end; ++v) {
             s.kind[v] = kind_of(static_cast<Index>(v));
             const Index source = s.source[v];
@@ -283,7 +298,8 @@ CoincidentBorders::CoincidentBorders(Mesh& mesh, const std::vector<Index>& targe
     }
 }
 
-void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes) const {
+void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges,
+                                 AttributeChanges& changes) const {
     std::vector<Index> first(mesh.vertex_count(), none);
     std::vector<Index> wedge_of(mesh.vertex_count(), none); // one at each vertex
     std::map<std::pair<Index, Index>, Index> others;        // by vertex and side

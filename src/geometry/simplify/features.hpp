@@ -7,7 +7,8 @@ namespace facetmill::simplification {
 
 /// Sets the kinds of the vertices and the flags of the edges. Found once, since every collapse that is
 /// allowed keeps the answer.
-void classify(State& s, const Mesh& mesh, const SimplifyLocks& lock);
+/// corner_angle: vertices where a boundary turns by more than this stay, too (radians).
+void classify(State& s, const Mesh& mesh, const SimplifyLocks& lock, std::optional<double> corner_angle = {});
 
 /// Which corners' edges are features now, by the corners of the mesh; empty when none is.
 std::vector<std::uint8_t> feature_corners(const State& s);

@@ -4,6 +4,7 @@
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "geometry/intersect/self_intersections.hpp"
+#include "geometry/orient/orient.hpp"
 #include "geometry/simplify/attributes.hpp"
 #include "geometry/simplify/features.hpp"
 #include "geometry/simplify/methods.hpp"
@@ -115,14 +116,17 @@ void settle_normals(Mesh& mesh, const NormalSeams& seams, AttributeChanges& chan
         if (change.domain != Domain::wedge) continue;
         if (change.attribute == "NORMAL")
             change = {change.attribute, change.domain, AttributeChange::Kind::recomputed,
-                    seams.shading == Shading::faceted ? "flat shading: the normals of the new faces"
-                                                      : "area-weighted where seams below the feature angle "
-                                                        "were merged, interpolated elsewhere"};
+                      seams.shading == Shading::faceted ? "flat shading: the normals of the new faces"
+                                                        : "area-weighted where seams below the feature angle "
+                                                          "were merged, interpolated elsewhere"};
         else if (change.attribute == "TANGENT")
             change = {change.attribute, change.domain, AttributeChange::Kind::interpolated,
-                    "one of each merged normal seam, mixed at new elements"};
+                      "one of each merged normal seam, mixed at new elements"};
     }
 }
+
+/// Turns a triangle round.
+void turn_round(Mesh& mesh, std::size_t f) { std::swap(mesh.corners[3 * f + 1], mesh.corners[3 * f + 2]); }
 
 /// A mesh made ready to be simplified, and how results of it are made.
 class Subject {
@@ -138,7 +142,8 @@ class Subject {
         if (settings.method != Method::constrained) start_.largest_error = 0;
     }
 
-    /// What the work is done on: triangles, without the seams that only normals make.
+    /// What the work is done on: triangles, without the seams that only normals make, and turned round where
+    /// neighbours disagree.
     const Mesh& mesh() const { return own_ ? *own_ : given_; }
     std::size_t faces() const { return mesh().face_count(); }
     std::size_t vertices() const { return used_.count; } ///< that faces use
@@ -183,6 +188,8 @@ class Subject {
         Finished finished = finish(shape, mesh(), log ? &*log : nullptr);
         if (borders_) borders_->separate(finished.mesh, finished.wedges, finished.changes);
         r.mesh = std::move(finished.mesh);
+        for (std::size_t f = 0; f < r.mesh.face_count() && !turned_.empty(); ++f)
+            if (turned_[shape.face_source[f]]) turn_round(r.mesh, f);
         r.changes = std::move(finished.changes);
         r.faces_after = r.mesh.face_count();
         r.vertices_after = r.mesh.vertex_count();
@@ -205,23 +212,49 @@ class Subject {
         return mesh();
     }
 
-    /// A state with kinds, the borders that run along each other joined the first time.
+    /// A state with kinds, where the method has use for them. What is in the way of them is put right the
+    /// first time.
     State laid_out() {
+        if (settings_.method == Method::cluster)
+            return carries_attributes(mesh()) ? classified() : lay_out(mesh(), used_);
+        State s = classified();
+        if (join_borders(s)) s = classified();
+        if (orient_faces(s)) s = classified();
+        return s;
+    }
+
+    State classified() const {
+        // The length of an edge says nothing about the outline, which other methods have in their quadrics.
+        const bool corners = settings_.method == Method::shortest_edge;
         State s = lay_out(mesh(), used_);
-        const bool cluster = settings_.method == Method::cluster;
-        if (cluster && !carries_attributes(mesh())) return s;
-        classify(s, mesh(), lock_);
-        // Locked borders match anyway, and cells keep none.
-        if (borders_ || lock_.boundary || cluster || settings_.method == Method::constrained) return s;
+        classify(s, mesh(), lock_, corners ? std::optional(settings_.feature_angle) : std::nullopt);
+        return s;
+    }
+
+    /// Joins borders that run along each other. Locked ones match anyway.
+    bool join_borders(const State& s) {
+        if (borders_ || lock_.boundary || settings_.method == Method::constrained) return false;
         const std::vector<Index> target = CoincidentBorders::find(s, mesh());
-        if (target.empty()) return s;
+        if (target.empty()) return false;
         if (!own_) own_.emplace(given_);
         borders_.emplace(*own_, target);
         used_ = UsedVertices(*own_);
         for (Index v = 0; v < lock_.vertices.size(); ++v) lock_.vertices[target[v]] |= lock_.vertices[v];
-        s = lay_out(mesh(), used_);
-        classify(s, mesh(), lock_);
-        return s;
+        return true;
+    }
+
+    /// Turns faces round whose neighbours disagree with them: else the edges there count as not manifold.
+    bool orient_faces(const State& s) {
+        const bool pinned = std::find(s.kind.begin(), s.kind.end(), Kind::pinned) != s.kind.end();
+        if (!pinned || !turned_.empty()) return false;
+        std::vector<std::uint8_t> turned = consistent_flips(mesh());
+        start_.turned = static_cast<std::size_t>(std::count(turned.begin(), turned.end(), 1));
+        if (start_.turned == 0) return false;
+        if (!own_) own_.emplace(given_);
+        for (std::size_t f = 0; f < turned.size(); ++f)
+            if (turned[f]) turn_round(*own_, f);
+        turned_ = std::move(turned);
+        return true;
     }
 
     Mesh given_;
@@ -231,6 +264,8 @@ class Subject {
     NormalSeams seams_;
     UsedVertices used_;
     std::optional<CoincidentBorders> borders_;
+    std::vector<std::uint8_t>
+        turned_;           ///< [faces] 1 for those that the work is done on turned round; empty: none
     SimplifyResult start_; ///< what all results have in common
 };
 

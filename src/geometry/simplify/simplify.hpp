@@ -60,8 +60,10 @@ struct SimplifySettings {
     Intersections self_intersections = Intersections::ignore;
     AttributeWeights weights{}; ///< for quadric and quadric-endpoints
     SimplifyLocks lock{};
-    SimplifyConstraints constraints{};    ///< for the method constrained
-    double feature_angle = 30 * pi / 180; ///< radians, see merge_normal_seams; 0: every normal seam stays
+    SimplifyConstraints constraints{}; ///< for the method constrained
+    /// Radians, see merge_normal_seams (0: every normal seam stays); and of corners of boundaries, see
+    /// shortest_edge.
+    double feature_angle = 30 * pi / 180;
     // At least one target; the first one met stops the work.
     std::optional<double> ratio =
         {}; ///< of the triangles that came in, 0 < ratio <= 1; the count is rounded up
@@ -99,12 +101,15 @@ struct SimplifyResult {
     Blocked blocked;
     NormalSeams::Shading shading = NormalSeams::Shading::as_given; ///< what was done about normal seams
     std::size_t merged_wedges = 0;                                 ///< by them
-    std::size_t faces_given = 0;                                   ///< as they came, polygons too
-    std::size_t faces_before = 0, faces_after = 0;                 ///< triangles
-    std::size_t vertices_before = 0, vertices_after = 0;           ///< used by faces
-    std::size_t collapses = 0;                                     ///< that led to the mesh
-    std::size_t rolled_back = 0;                                   ///< that were taken back for max_error
-    std::size_t measurements = 0;                                  ///< that max_error took
+    /// Faces that the work was done on turned round, so that neighbours agree; in `mesh` they face as they
+    /// did.
+    std::size_t turned = 0;
+    std::size_t faces_given = 0;                         ///< as they came, polygons too
+    std::size_t faces_before = 0, faces_after = 0;       ///< triangles
+    std::size_t vertices_before = 0, vertices_after = 0; ///< used by faces
+    std::size_t collapses = 0;                           ///< that led to the mesh
+    std::size_t rolled_back = 0;                         ///< that were taken back for max_error
+    std::size_t measurements = 0;                        ///< that max_error took
     std::optional<double> measured; ///< the deviation when max_error was given, in the mesh's units
     std::optional<std::size_t> intersections_before = {}, intersections_after = {}; ///< when counted
     std::size_t held = 0; ///< vertices that less error was allowed to, to avoid self-intersections
@@ -119,16 +124,19 @@ struct SimplifyResult {
 /// Simplifies a mesh.
 ///
 /// Requires nothing: open, non-manifold and degenerate input is worked on, except within reach of its
-/// non-manifold or inconsistently oriented vertices, which stay with all their edges. Polygons are
+/// non-manifold vertices, which stay with all their edges. Where neighbours face opposite ways the work is
+/// done as if they agreed (cluster aside), and every face that is left faces as it did; surfaces that cannot
+/// be oriented (a Moebius strip) count as not manifold where their neighbours disagree. Polygons are
 /// triangulated first. Vertices that no face uses are dropped.
 ///
 /// Guarantees: every collapse satisfies the link condition, so a manifold stays manifold, a closed surface
 /// closed, and the genus, the number of components and of boundary loops stay; a closed component keeps at
 /// least four faces. No collapse turns a face by more than 60 degrees, makes one degenerate or doubles one.
 /// Boundaries, UV and normal seams, and borders of primitives and groups collapse only along themselves;
-/// where more than two of them meet, or one ends, the vertex stays. Vertices that were not moved keep their
-/// exact position. Open borders that run along each other at exactly the same places, as of patches that were
-/// never welded, collapse as the two sides of a seam and stay apart (with quadric, quadric-endpoints and
+/// where more than two of them meet, or one ends, the vertex stays; with shortest_edge so do the vertices
+/// where a boundary turns by more than the feature angle. Vertices that were not moved keep their exact
+/// position. Open borders that run along each other at exactly the same places, as of patches that were never
+/// welded, collapse as the two sides of a seam and stay apart (with quadric, quadric-endpoints and
 /// shortest-edge).
 ///
 /// max_error: every vertex and centre of a face that came in is followed to a face near by, and a collapse is

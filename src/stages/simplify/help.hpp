@@ -21,8 +21,10 @@ and groups collapse only along themselves and stay matched; where several of the
 stays. The same holds for boundaries at exactly the same position, within a part and between parts:
 parts with the same node transform, attributes and shading whose boundaries coincide are simplified
 as one, to a common target. Where a part meets another that differs in these, or that is not
-selected, its vertices stay. Non-manifold and inconsistently oriented regions are left as they are.
-Isolated vertices are removed. With topology: allow, components may vanish, holes may close and
+selected, its vertices stay. Non-manifold regions are left as they are. Where neighbouring faces are
+oriented inconsistently, the work is done as if they agreed, and each face keeps its orientation.
+With shortest-edge, vertices where a boundary turns by more than the feature angle stay. Isolated
+vertices are removed. With topology: allow, components may vanish, holes may close and
 handles may be pinched off, which can leave edges of four faces; the report gives the counts before
 and after. The method cluster keeps neither topology nor borders, and reports that in the same way.
 
@@ -45,7 +47,7 @@ The method constrained keeps boundaries, seams and borders vertex by vertex.
 
 largest_error is, for quadric and cluster, the largest root mean square distance of a new vertex to
 its planes; for shortest-edge, half the length of the longest edge collapsed; for constrained, null.
-A target at or above the input does nothing (W-SIMPLIFY-NOTHING). When no collapse is left, the work
+A target at or above the input does nothing (W-SIMPLIFY-NOTHING, unless it is 100 %). When no collapse is left, the work
 stops and says why (W-SIMPLIFY-STOPPED). self_intersections: avoid repeats the whole work up to ten
 times, each time with half the error allowed for faces that came to intersect, and then up to six
 times with those faces kept as they were; the count that remains is reported.

@@ -24,8 +24,9 @@ std::optional<std::size_t> share(std::optional<std::int64_t> whole, std::size_t 
                                     (static_cast<double>(own) / static_cast<double>(all)));
 }
 
-void warn(const Part& part, const SimplifyResult& r, Context& context) {
-    if (r.stop == Stop::nothing)
+/// asked: whether less than all of the part was asked for.
+void warn(const Part& part, const SimplifyResult& r, bool asked, Context& context) {
+    if (r.stop == Stop::nothing && asked)
         context.warn(
             "W-SIMPLIFY-NOTHING",
             fmt::format("part '{}' has {} triangles and {} vertices, at or below the target: nothing to do",
@@ -42,9 +43,11 @@ void warn(const Part& part, const SimplifyResult& r, Context& context) {
 
 /// A part as it came, as far as the report compares with it.
 struct Before {
-    Surface surface; ///< in the world
-    Properties topology;
+    Surface surface;       ///< in the world
+    Properties properties; ///< in the world
 };
+
+Size size_of(const Properties& p) { return {p.area, p.volume}; }
 
 class Simplifier {
   public:
@@ -75,6 +78,7 @@ class Simplifier {
     }
 
   private:
+    bool measures() const { return o_.measure || o_.certify; }
     bool changes_topology() const {
         return o_.topology == SimplifySettings::Topology::allow ||
                o_.method == SimplifySettings::Method::cluster;
@@ -126,8 +130,8 @@ class Simplifier {
     /// Sets the results of the parts of a set, one for each level.
     void simplify_set(const Set& set) {
         for (const std::size_t p : set) {
-            if (o_.measure || o_.certify) before_[p].surface = surface_of(scene_.parts[p]);
-            if (changes_topology()) before_[p].topology = inspect(scene_.parts[p].mesh);
+            if (measures()) before_[p].surface = surface_of(scene_.parts[p]);
+            if (measures() || changes_topology()) before_[p].properties = inspect(scene_.parts[p]);
         }
         const Transform to_world = effective(scene_.parts[set.front()]);
         SimplifySettings settings =
@@ -155,7 +159,7 @@ class Simplifier {
         for (std::size_t i = 0; i < results_[number].size(); ++i) {
             Part level = base;
             if (i > 0) level.name += fmt::format(".lod{}", i);
-            take(level, number, std::move(results_[number][i]));
+            take(level, number, std::move(results_[number][i]), asks_for_less(i));
             if (i == 0) {
                 part = std::move(level);
                 continue;
@@ -166,20 +170,31 @@ class Simplifier {
         before_[number] = {};
     }
 
-    void take(Part& part, std::size_t number, SimplifyResult r) {
+    /// Whether the target of a level is below all that there is: 100 % does nothing, as it says.
+    bool asks_for_less(std::size_t level) const {
+        if (o_.lods) return o_.lods->ratios[level].value < 1;
+        return !o_.ratio || o_.ratio->value < 1 || o_.faces || o_.vertices;
+    }
+
+    void take(Part& part, std::size_t number, SimplifyResult r, bool asked) {
         part.mesh = std::move(r.mesh);
         context_.attribute_changes(part, r.changes);
-        warn(part, r, context_);
-        SimplifiedPart entry{std::move(r), greatest_stretch(effective(part)), part.name, {}, {}, {}};
+        warn(part, r, asked, context_);
+        SimplifiedPart entry{std::move(r), greatest_stretch(effective(part)), part.name, {}, {}, {}, {}};
         if (const Set set = set_of(number); set.size() > 1)
             for (const std::size_t p : set) {
                 if (p == number) continue;
                 if (!entry.together_with) entry.together_with.emplace();
                 entry.together_with->push_back(scene_.parts[p].name);
             }
-        if (changes_topology()) entry.topology = {before_[number].topology, inspect(part.mesh)};
-        if (o_.measure || o_.certify)
-            entry.deviation = deviation(before_[number].surface, surface_of(part), {.certify = o_.certify});
+        const Before& before = before_[number];
+        if (measures() || changes_topology()) {
+            const Properties after = inspect(part);
+            if (changes_topology()) entry.topology = {before.properties, after};
+            if (measures()) entry.sizes = {size_of(before.properties), size_of(after)};
+        }
+        if (measures())
+            entry.deviation = deviation(before.surface, surface_of(part), {.certify = o_.certify});
         report_.parts.push_back(std::move(entry));
     }
 

@@ -96,6 +96,18 @@ void declare_topologies(DeclareFields<SimplifiedPart::Topology>& d) {
     d.object("after", &SimplifiedPart::Topology::after, "Of the part that left.", declare_topology);
 }
 
+void declare_size(DeclareFields<Size>& d) {
+    d.field("area", &Size::area, "The surface area.").unit("square scene units");
+    d.field("volume", &Size::volume, "The enclosed volume.")
+        .unit("cubic scene units")
+        .null_when("the part is not closed");
+}
+
+void declare_sizes(DeclareFields<SimplifiedPart::Sizes>& d) {
+    d.object("before", &SimplifiedPart::Sizes::before, "Of the part that entered.", declare_size);
+    d.object("after", &SimplifiedPart::Sizes::after, "Of the part that left.", declare_size);
+}
+
 void declare_counts(DeclareFields<SimplifiedPart>& d) {
     d.field("triangles_before", of_result(&SimplifyResult::faces_before), "Triangles that entered.");
     d.field("triangles_after", of_result(&SimplifyResult::faces_after), "Triangles that left.");
@@ -159,6 +171,12 @@ void declare_part(DeclareFields<SimplifiedPart>& d) {
               {"as given", Shading::as_given, "nothing was done"}},
              "What was done about seams of normals.");
     d.field("merged_wedges", of_result(&SimplifyResult::merged_wedges), "Wedges that this made one.");
+    const auto turned = [](const SimplifiedPart& p) {
+        return p.result.turned > 0 ? std::optional(p.result.turned) : std::nullopt;
+    };
+    d.field("turned_faces", turned,
+            "Faces that were turned round for the work, so that neighbours agree; they face as they did.")
+        .only_when("there are such");
     declare_counts(d);
     declare_work(d);
     d.field("part", &SimplifiedPart::part, "Its name.");
@@ -166,6 +184,8 @@ void declare_part(DeclareFields<SimplifiedPart>& d) {
         .only_when("there are such");
     d.object("topology", &SimplifiedPart::topology, "What topology was and is.", declare_topologies)
         .only_when("the method may change it");
+    d.object("size", &SimplifiedPart::sizes, "What the surface measured and measures.", declare_sizes)
+        .only_when("measure or certify is on");
     d.object("deviation", &SimplifiedPart::deviation, "From the part that entered.", declare_deviation_fields)
         .only_when("measure or certify is on");
 }

@@ -11,16 +11,27 @@
 
 namespace facetmill {
 
+/// What a surface measures.
+struct Size {
+    double area = 0;
+    std::optional<double> volume; ///< when closed
+};
+
 /// A part, or a level of one.
 struct SimplifiedPart {
     struct Topology {
         Properties before, after;
+    };
+    /// Of the surface, in the world.
+    struct Sizes {
+        Size before, after;
     };
     SimplifyResult result; ///< without its mesh
     double scale = 1;      ///< takes lengths from the part's space to the scene's
     std::string part;
     std::optional<std::vector<std::string>> together_with;
     std::optional<Topology> topology; ///< of methods that may change it
+    std::optional<Sizes> sizes;       ///< when measured
     std::optional<DeviationResult> deviation;
 };
 

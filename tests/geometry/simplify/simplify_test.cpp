@@ -1,10 +1,10 @@
 #include "geometry/simplify/simplify.hpp"
 
 #include "base/error.hpp"
-#include "geometry/spatial/closest_point.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/intersect/self_intersections.hpp"
+#include "geometry/spatial/closest_point.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -486,4 +486,55 @@ TEST_CASE("the constrained method keeps its constraints, seams and guarantees", 
     const auto kept = simplify(broken, {.method = Method::constrained, .ratio = 0.3});
     CHECK(count(kept.mesh).crowded == count(broken).crowded);
     CHECK(count(kept.mesh).euler == count(broken).euler);
+}
+
+TEST_CASE("a surface whose faces disagree is simplified as if they agreed, and faces as it did",
+          "[geometry]") {
+    const Mesh agreed = rough(shapes::icosphere(4), 0.002);
+    Mesh mixed = agreed;
+    std::vector<std::uint8_t> turned(mixed.face_count());
+    for (Index f = 0; f < mixed.face_count(); f += 3) {
+        std::swap(mixed.corners[3 * f + 1], mixed.corners[3 * f + 2]);
+        turned[f] = 1;
+    }
+    const auto flips = std::size_t(std::count(turned.begin(), turned.end(), 1));
+    mixed.attributes.push_back({"turned", Domain::face, Role::generic, 1, false, turned});
+    for (const Method method :
+         {Method::quadric, Method::quadric_endpoints, Method::shortest_edge, Method::constrained}) {
+        const auto plain = simplify(agreed, {.method = method, .ratio = 0.3});
+        const auto r = simplify(mixed, {.method = method, .ratio = 0.3});
+        CHECK(r.turned == flips);
+        CHECK(r.stop == Stop::ratio);
+        CHECK(r.mesh.positions == plain.mesh.positions);
+        REQUIRE(r.mesh.corners.size() == plain.mesh.corners.size());
+        const Attribute* was = r.mesh.find("turned", Domain::face);
+        REQUIRE(was);
+        for (Index f = 0; f < r.mesh.face_count(); ++f) {
+            const std::size_t other = was->value(f, 0) == 1 ? 1 : 0;
+            CHECK(r.mesh.corners[3 * f] == plain.mesh.corners[3 * f]);
+            CHECK(r.mesh.corners[3 * f + 1] == plain.mesh.corners[3 * f + 1 + other]);
+            CHECK(r.mesh.corners[3 * f + 2] == plain.mesh.corners[3 * f + 2 - other]);
+        }
+    }
+    CHECK(simplify(agreed, {.ratio = 0.3}).turned == 0);
+}
+
+TEST_CASE("shortest-edge keeps the corners of an open sheet", "[geometry]") {
+    const auto area = [](const Mesh& m) {
+        double sum = 0;
+        for (Index f = 0; f < m.face_count(); ++f)
+            sum +=
+                length(cross(m.point(3 * f + 1) - m.point(3 * f), m.point(3 * f + 2) - m.point(3 * f))) / 2;
+        return sum;
+    };
+    const Mesh sheet = shapes::grid(20, 20);
+    for (const double ratio : {0.2, 0.02}) {
+        const auto r = simplify(sheet, {.method = Method::shortest_edge, .ratio = ratio});
+        CHECK(double(r.faces_after) <= ratio * double(r.faces_before) + 1);
+        CHECK(area(r.mesh) == Approx(400));
+        const Box box = r.mesh.bounds();
+        CHECK(box.max == Vec3{20, 20, 0});
+        for (const Vec3 corner : {Vec3{0, 0, 0}, Vec3{20, 0, 0}, Vec3{0, 20, 0}, Vec3{20, 20, 0}})
+            CHECK(std::count(r.mesh.positions.begin(), r.mesh.positions.end(), corner) == 1);
+    }
 }
