@@ -138,7 +138,6 @@ Json report_schema() {
     Json& definitions = schema["$defs"];
     Json forms = Json::array();
     for (const auto& stage : stages()) {
-        if (stage.result.all.empty()) continue;
         const std::string name = "result." + stage.name;
         definitions[name] = stage.result.schema();
         definitions[name]["properties"]["deviation"] = contract_result_schema();

@@ -155,7 +155,7 @@ TEST_CASE("bytes are counted with decimal and with binary units", "[options]") {
     CHECK(between->max == 1024);
 }
 
-TEST_CASE("what is no count of bytes is refused with a way out", "[options]") {
+TEST_CASE("what is no count of bytes is refused with a hint", "[options]") {
     for (const auto& [text, told] : std::vector<std::pair<const char*, const char*>>{
              {"10 mb", "10MB (1000000 bytes each) or 10MiB (1048576)?"},
              {"10M", "10MB (1000000 bytes each) or 10MiB (1048576)?"},

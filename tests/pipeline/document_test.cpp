@@ -99,7 +99,7 @@ TEST_CASE("core tags are understood", "[pipeline]") {
           R"({a: "12", b: 12, c: {d: 1}, e: "3"})");
 }
 
-TEST_CASE("what is wrong with a text is said with its place and the way out", "[pipeline]") {
+TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipeline]") {
     struct Case {
         std::string text, problem;
     };

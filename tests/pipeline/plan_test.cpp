@@ -38,7 +38,7 @@ std::string stages(const std::string& items) {
 
 } // namespace
 
-TEST_CASE("what is wrong with a pipeline is said with its place and the way out", "[pipeline]") {
+TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[pipeline]") {
     struct Case {
         std::string text, problem;
     };

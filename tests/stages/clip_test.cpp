@@ -222,10 +222,10 @@ TEST_CASE("clip refuses what is no plane", "[stages]") {
           "usage [E-PLANE] 'planes' is empty | for example planes: [z=0, x=centre]");
     CHECK(refusal(map({{"cap", text("true")}})) ==
           "usage [E-MISSING] clip: one of plane, planes, box is needed");
-    const char* way_out =
+    const char* hint =
         " | for example {min: [0, 0, 0], max: [1, 1, 1]} or {centre: [0, 0, 0], size: [1, 1, 1]}";
     CHECK(refusal(map({{"box", map({{"min", numbers({"0", "0", "0"})}})}})) ==
-          std::string("usage [E-BOX] a box needs min and max, or centre and size") + way_out);
+          std::string("usage [E-BOX] a box needs min and max, or centre and size") + hint);
     CHECK(refusal(map({{"box", text("0,0,0,1,0,1")}})) ==
           "usage [E-BOX] the box has no extent along y: 0 | max must be greater than min in all three");
     CHECK(refusal(map({{"box", text("1,2")}})).starts_with("usage [E-TYPE] expected a box ({min: [0, 0, 0]"));

@@ -179,7 +179,7 @@ TEST_CASE("relax: until has many iterations, and says when they were not enough"
               .record.result["parts"][0]["iterations"] == 1);
 }
 
-TEST_CASE("crumple: an amplitude beyond the edges is warned of, with the way out", "[stages]") {
+TEST_CASE("crumple: an amplitude beyond the edges is warned of, with a hint", "[stages]") {
     const auto r =
         run_stage("crumple", options({{"amplitude", "2"}, {"grid", "1"}}), scene_of(shapes::quad_cube()));
     REQUIRE(r.warnings() == std::vector<std::string>{"W-AMPLITUDE"});

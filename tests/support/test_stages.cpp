@@ -72,8 +72,14 @@ void declare_cut(Declare<CutOptions>& d) {
     });
     d.at_most_one({"faces", "ratio"});
 }
-Scene run_cut(Scene scene, const CutOptions& o, Context& context) {
-    context.result()["depth"] = context.resolve(o.depth, scene, "depth");
+struct CutReport {
+    double depth = 0;
+};
+void declare_cut_report(DeclareFields<CutReport>& d) {
+    d.field("depth", &CutReport::depth, "How deep").unit("scene units");
+}
+Scene run_cut(Scene scene, const CutOptions& o, Context& context, CutReport& report) {
+    report.depth = context.resolve(o.depth, scene, "depth");
     context.for_each_part(scene, [&](Part& part) {
         auto keep = static_cast<std::size_t>(o.faces);
         if (o.ratio)
@@ -83,7 +89,8 @@ Scene run_cut(Scene scene, const CutOptions& o, Context& context) {
     });
     return scene;
 }
-const RegisterStage cut(make_stage<CutOptions>(info("test-cut", "Drops faces"), declare_cut, run_cut));
+const RegisterStage cut(make_stage<CutOptions>(info("test-cut", "Drops faces"), declare_cut,
+                                               declare_cut_report, run_cut));
 
 // --- test-write: the names and faces of the parts, as text
 

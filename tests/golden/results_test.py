@@ -1,0 +1,107 @@
+"""Every stage's result, run for run, follows the schema that its declaration gives, and every declared field is seen
+in one of the runs: a field that nothing writes, or a key that nothing declares, fails."""
+
+import json
+import unittest
+
+from support import Case, main
+
+try:
+    import jsonschema
+except ImportError:
+    jsonschema = None
+
+# Two closed cubes in one OBJ, with a group; a line and a self-crossing face beside them.
+CUBES = "".join(
+    f"o {name}\n" + "".join(f"v {x + i} {j} {k}\n" for k in (0, 1) for j in (0, 1) for i in (0, 1))
+    + "".join("f " + " ".join(str(8 * n + c) for c in face) + "\n"
+              for face in ((1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)))
+    for n, (name, x) in enumerate((("a", 0), ("b", 3))))
+OPEN = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+
+RUNS = [
+    "load cubes.obj ! transform --unit mm ! merge ! separate ! two-sided ! two-sided material",
+    "load cubes.obj ! merge body --weld ! orient ! triangulate quads ! triangulate ! ensure --closed",
+    "load cubes.obj ! relax 2 ! relax --until 1% ! crumple 1% --self_intersections avoid ! crumple --grid 1",
+    "load cubes.obj ! split ! split --max_edge 0.4 ! split --min_angle 40deg ! split --faces 300 ! split core",
+    "load cubes.obj ! thicken 0.1 ! thicken 0.1 --self_intersections false",
+    "load cubes.obj ! thicken 0.05 --mode edges",
+    "load cubes.obj ! clip z=0.5 --cap ! clip x=0.25 --space local ! clean --holes minimal --self_intersections all",
+    "load cubes.obj ! crop [[0,0],[4,0],[4,0.7],[0,0.7]] --cap ! tile 0.4 --axes xyz",
+    "load cubes.obj ! tile 0.4",
+    "load open.off ! clip z=0.5 --cap ! clean --holes minimal ! measure ! probe 0,0,0",
+    "load cubes.obj ! section z=0.5 --hatch 10% ! section --count 4 ! section z=9",
+    "load open.off ! section z=0.5 ! section --count 3",
+    "load cubes.obj ! measure --density 2 ! measure --path m.json ! probe 0.5,0.5,0.5 ! probe --points_of a",
+    "load cubes.obj ! probe --segments 0.5,0.5,-1,0.5,0.5,2 ! probe --rays 0.5,0.5,-1,0,0,1 ! probe --along NORMAL",
+    "load cubes.obj ! probe --segments 0.5,0.5,-1,0.5,0.5,2 --face 0 ! probe --rays 9,9,9,0,0,1 --face 0",
+    "load cubes.obj ! render --path p.png ! measure --curvature ! render --path q.png --attribute mean_curvature",
+    "load cubes.obj --unit mm --up z ! write a.glb ! write b.glb --draco true ! write c.stl --unit m",
+    "load cubes.obj ! validate --closed ! validate --closed --baseline known.json --update_baseline",
+    "generate sphere ! simplify 50% ! simplify --faces 600 --topology allow ! simplify --max_error 1%",
+    "generate sphere ! simplify --ratio 50% --self_intersections count ! simplify 50% --method cluster",
+    "generate sphere ! simplify --vertices 500 --method shortest-edge --certify ! simplify --lods 50%,20%",
+    "generate sphere ! simplify --ratio 50% --ensure.deviation 10% ! ensure --deviation 10%",
+    "load touching.obj ! simplify 50%",
+]
+
+
+def seen(schema, value, prefix, names):
+    """Adds the dotted names of the keys in the value, with [] behind those of lists."""
+    for key, one in value.items():
+        name = prefix + key
+        if isinstance(one, list) and one and isinstance(one[0], dict):
+            names.add(name + "[]")
+            for item in one:
+                seen(schema, item, name + "[].", names)
+        else:
+            names.add(name + ("[]" if isinstance(one, list) else ""))
+            if isinstance(one, dict):
+                seen(schema, one, name + ".", names)
+
+
+@unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
+class Results(Case):
+    def setUp(self):
+        super().setUp()
+        self.write("cubes.obj", CUBES)
+        self.write("open.off", OPEN)
+        # Two grids of 4 x 4 quads that share an edge.
+        grid = "".join(f"o {n}\n" + "".join(f"v {4 * k + i} {j} 0\n" for j in range(5) for i in range(5))
+                       + "".join(f"f {b} {b + 1} {b + 6} {b + 5}\n" for j in range(4) for i in range(4)
+                                 for b in [25 * k + 5 * j + i + 1]) for k, n in enumerate("ab"))
+        self.write("touching.obj", grid)
+
+    def test_every_result_follows_its_schema_and_every_field_is_seen(self):
+        schema = json.loads(self.mill("schema", "report").stdout)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        validator = jsonschema.Draft202012Validator(schema)
+        declared = {s["name"]: {row["name"] for row in s["result"]}
+                    for s in json.loads(self.mill("stages", "--json").stdout)}
+        found = {name: set() for name in declared}
+        for name in declared:
+            self.assertIn(f"result.{name}", schema["$defs"])
+            self.assertFalse(schema["$defs"][f"result.{name}"]["additionalProperties"], name)
+        for line in RUNS:
+            self.mill("pipe", "--report", "r.json", "--quiet", *line.split())
+            report = json.loads((self.dir / "r.json").read_text())
+            validator.validate(report)
+            for stage in report["stages"]:
+                seen(schema, stage["result"], "", found[stage["stage"]])
+        ran = {word for line in RUNS for word in line.replace("!", " ").split()} & declared.keys()
+        self.assertEqual(ran, declared.keys(), "a stage that no run has")
+        for name, fields in declared.items():
+            names = {n.removesuffix("[]") for n in found[name]}
+            missing = sorted(n for n in fields if n.removesuffix("[]") not in names)
+            self.assertEqual(missing, [], f"{name}: fields that no run shows")
+
+    def test_an_undeclared_key_is_refused(self):
+        schema = json.loads(self.mill("schema", "report").stdout)
+        self.mill("pipe", "--report", "r.json", "--quiet", "load", "cubes.obj", "!", "merge")
+        report = json.loads((self.dir / "r.json").read_text())
+        report["stages"][1]["result"]["surprise"] = 1
+        self.assertTrue(list(jsonschema.Draft202012Validator(schema).iter_errors(report)))
+
+
+if __name__ == "__main__":
+    main()
