@@ -8,8 +8,6 @@
 
 namespace facetmill {
 
-/// The list that a text with commas stands for: "1, 2, 3" or "[1, 2, 3]", as one-liners have it.
-Value split_at_commas(const Value& text);
 /// Reads a list of exactly so many numbers, or a text of them with commas ("0,0,1,-2", as the one-liner
 /// writes it). False after adding a problem (E-TYPE: expected ..., found ...).
 bool parse_numbers(const Value& value, std::span<double> out, std::string_view expected, Problems& problems);

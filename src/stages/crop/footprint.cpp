@@ -1,6 +1,7 @@
 #include "stages/crop/footprint.hpp"
 
 #include "base/hash.hpp"
+#include "stage/options/lists.hpp"
 
 #include <fmt/format.h>
 
@@ -41,25 +42,19 @@ bool parse_ring(const Value& value, FootprintOption& out, Problems& problems) {
     return true;
 }
 
-/// Lists in a text, as one-liners have them.
-Value listed(const Json& json, const Mark& mark) {
-    if (!json.is_array())
-        return Value::scalar(json.is_string() ? json.get<std::string>() : json.dump(), mark);
-    Value list = Value::list({}, mark);
-    for (const Json& item : json) list.items.push_back(listed(item, mark));
-    return list;
-}
-
 } // namespace
 
 bool OptionType<FootprintOption>::parse(const Value& value, FootprintOption& out, Problems& problems) {
     if (value.deferred) return true;
     if (value.is_scalar() && io::is_wkt(value.text)) return parse_text(value, out, problems);
     if (value.is_scalar() && value.text.starts_with('[')) {
-        const Json json = Json::parse(value.text, nullptr, false);
-        return json.is_array() ? parse(listed(json, value.mark), out, problems) : refuse(value, problems);
+        const auto list = list_in_text(value);
+        return list ? parse(*list, out, problems) : refuse(value, problems);
     }
-    if (value.is_scalar() && !value.text.empty()) return out.path = value.text, true;
+    if (value.is_scalar() && !value.text.empty()) {
+        out.path = value.text;
+        return true;
+    }
     if (!value.is_list() || value.items.empty()) return refuse(value, problems);
     const bool nested =
         value.items[0].is_list() && !value.items[0].items.empty() && value.items[0].items[0].is_list();

@@ -2,7 +2,7 @@
 
 #include "base/hash.hpp"
 #include "io/csv.hpp"
-#include "stage/options/numbers.hpp"
+#include "stage/options/lists.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -35,33 +35,20 @@ bool parse_row(const Value& value, std::size_t columns, std::vector<double>& num
     return true;
 }
 
-/// "1,2,3", as a one-liner has it; of several rows "1,2,3; 4,5,6" or "[[1,2,3],[4,5,6]]".
-bool parse_text(const Value& value, std::size_t columns, std::vector<double>& numbers, Problems& problems) {
-    std::string text = value.text;
-    std::erase(text, ' ');
-    if (text.starts_with("[[") && text.ends_with("]]")) {
-        text = text.substr(2, text.size() - 4);
-        for (std::size_t at; (at = text.find("],[")) != std::string::npos;) text.replace(at, 3, ";");
-    }
-    bool good = true;
-    for (std::size_t at = 0; at <= text.size() && good;) {
-        const auto end = std::min(text.find(';', at), text.size());
-        const Value row = split_at_commas(Value::scalar(text.substr(at, end - at), value.mark));
-        Problems of_row; // the whole text is what people are told of
-        good = parse_row(row, columns, numbers, of_row);
-        at = end + 1;
-    }
-    return good || refuse(value, columns, problems);
-}
-
 } // namespace
 
 bool parse(const Value& value, std::size_t columns, std::vector<double>& numbers, std::string& file,
            Problems& problems) {
     if (value.deferred) return true;
-    if (value.is_scalar() && (value.text.find(',') == std::string::npos || value.text.ends_with(".csv")))
-        return file = value.text, !file.empty();
-    if (value.is_scalar()) return parse_text(value, columns, numbers, problems);
+    if (value.is_scalar() && (value.text.find(',') == std::string::npos || value.text.ends_with(".csv"))) {
+        file = value.text;
+        return !file.empty();
+    }
+    if (value.is_scalar()) {
+        const auto list = list_in_text(value);
+        Problems of_row; // the whole text is what people are told of
+        return (list && parse(*list, columns, numbers, file, of_row)) || refuse(value, columns, problems);
+    }
     if (!value.is_list() || value.items.empty()) return refuse(value, columns, problems);
     if (!value.items[0].is_list()) return parse_row(value, columns, numbers, problems);
     bool good = true;

@@ -3,7 +3,7 @@
 #include "base/portable_math.hpp"
 #include "base/spelling.hpp"
 #include "options/mark_at.hpp"
-#include "stage/options/numbers.hpp"
+#include "stage/options/lists.hpp"
 
 #include <fmt/format.h>
 
@@ -27,8 +27,7 @@ bool parse_lock(const Value& v, LockOptions& out, Problems& problems) {
 
 bool parse_locks(const Value& value, LockOptions& out, Problems& problems) {
     if (value.deferred) return true;
-    Value words = value;
-    if (value.is_scalar()) words = split_at_commas(value);
+    const Value words = listed(value);
     bool good = words.is_list();
     if (!good) parse_lock(value, out, problems);
     for (const Value& word : words.items) good &= parse_lock(word, out, problems);
@@ -96,8 +95,7 @@ void declare_levels(Declare<LevelOptions>& d) {
         .required();
     d.shorthand("a list of ratios", {{"type", "array"}},
                 [](const Value& v, LevelOptions& out, Problems& problems) {
-                    const Value list = v.is_scalar() && !v.deferred ? split_at_commas(v) : v;
-                    return OptionType<std::vector<Ratio>>::parse(list, out.ratios, problems);
+                    return OptionType<std::vector<Ratio>>::parse(listed(v), out.ratios, problems);
                 });
 }
 

@@ -1,0 +1,18 @@
+#pragma once
+// Lists in one text, as one-liners have them: "1, 2, 3", "[1, 2, 3]", "1,2; 3,4" and "[[1, 2], [3, 4]]".
+
+#include "options/value.hpp"
+
+#include <optional>
+
+namespace facetmill {
+
+/// The list that a scalar's text stands for; its items have the scalar's mark. Items are separated by commas
+/// and may be lists in brackets; semicolons separate rows. A text without any of them is a list of one item.
+/// None when brackets do not match.
+std::optional<Value> list_in_text(const Value& text);
+
+/// The value, or the list that its text stands for when it is a scalar.
+Value listed(const Value& value);
+
+} // namespace facetmill
