@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "pipeline/document.hpp"
 #include "stage/common_keys.hpp"
 #include "stage/stage.hpp"
 
@@ -76,12 +77,70 @@ bool comma_list(const Option& option) {
     return one != OptionType<PathText>::schema() && one != OptionType<Vec3>::schema();
 }
 
+/// Whether a value of that schema may be of this type: "object", "array".
+bool may_be(const Json& schema, const char* type) {
+    if (const auto is = schema.find("type"); is != schema.end() && *is == type) return true;
+    for (const char* forms : {"anyOf", "oneOf"})
+        if (const auto any = schema.find(forms); any != schema.end())
+            for (const Json& form : *any)
+                if (may_be(form, type)) return true;
+    return false;
+}
+
+/// The schema of one value of an option that takes several, else of its value.
+const Json& schema_of_one(const Option& option) {
+    return option.repeatable && option.schema.contains("anyOf") ? option.schema["anyOf"][0] : option.schema;
+}
+
+/// Whether the text is to be read as YAML: a map where one may stand, or lists in a list. A path may begin
+/// and end with such signs, too.
+bool is_flow(const std::string& text, const Option* option) {
+    if (text.starts_with('{') && text.ends_with('}')) {
+        return !option || option->fields || may_be(schema_of_one(*option), "object");
+    }
+    return option && text.starts_with('[') && text.ends_with(']') &&
+           text.find_first_of("[{", 1) != text.npos && may_be(option->schema, "array") &&
+           schema_of_one(*option) != OptionType<PathText>::schema();
+}
+
+/// All of a value is at that place; percentages are spelled out.
+void settle_flow(Value& value, const Mark& mark) {
+    value.mark = mark;
+    if (value.is_scalar() && !value.quoted) value.text = percent(value.text);
+    for (auto& item : value.items) settle_flow(item, mark);
+    for (auto& entry : value.entries) {
+        entry.key_mark = mark;
+        settle_flow(entry.value, mark);
+    }
+}
+
+Value flow(const std::string& text, const Mark& mark, Problems& problems) {
+    Problems own;
+    Value value = pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{"", text}), own);
+    for (const auto& d : own.all())
+        problems.add(mark, d.id, fmt::format("in '{}': {}", text, d.message), d.hint);
+    settle_flow(value, mark);
+    return value;
+}
+
+/// Four numbers are one plane and not four: where one value may be a list itself, numbers alone are one
+/// value.
+Value as_one_value(Value list, const Option& option) {
+    const bool numbers = std::all_of(list.items.begin(), list.items.end(), [](const Value& item) {
+        return item.is_scalar() && parse_real(item.text).has_value();
+    });
+    if (!option.repeatable || !numbers || !may_be(schema_of_one(option), "array")) return list;
+    const Mark mark = list.mark;
+    return Value::list({std::move(list)}, mark);
+}
+
 } // namespace
 
-Value pipe_value(std::string text, const Option* option, const Mark& mark) {
+Value pipe_value(std::string text, const Option* option, const Mark& mark, Problems& problems) {
     text = expressions(std::move(text));
-    const bool list = option && comma_list(*option) && text.find(',') != text.npos;
-    return list ? split(text, mark) : scalar(text, mark);
+    if (is_flow(text, option)) return flow(text, mark, problems);
+    if (!option || !comma_list(*option) || text.find(',') == text.npos) return scalar(text, mark);
+    return as_one_value(split(text, mark), *option);
 }
 
 const Option* find_dotted(const Declaration& declaration, std::string_view name) {
@@ -152,7 +211,7 @@ class Parser {
                 wrong(fmt::format("'{}' takes no '['", name));
                 ++at_;
             } else {
-                bare.push_back(pipe_value(all_[at_], primary, mark()));
+                bare.push_back(pipe_value(all_[at_], primary, mark(), problems_));
                 ++at_;
             }
         }
@@ -231,11 +290,11 @@ class Parser {
     }
 
     Value given(const std::string& text, const std::string& key, const Option* known, const Mark& where) {
-        if (key != "only") return pipe_value(text, known, where);
+        if (key != "only") return pipe_value(text, known, where, problems_);
         Option list;
         list.repeatable = true;
         list.schema = OptionType<std::vector<std::string>>::schema();
-        return pipe_value(text, &list, where);
+        return pipe_value(text, &list, where, problems_);
     }
 
     /// Whether the next argument is the option's value. A truth takes only true or false; so does a property.
@@ -337,7 +396,7 @@ class Parser {
         list.repeatable = true;
         list.schema = OptionType<std::vector<std::string>>::schema();
         const bool parts = variable == "part" && text.find(',') == text.npos;
-        Value values = pipe_value(text, parts ? nullptr : &list, inside(offset));
+        Value values = pipe_value(text, parts ? nullptr : &list, inside(offset), problems_);
         if (parts)
             values.quoted = true; // a bare * would be an alias in YAML
         else if (!values.is_list())

@@ -1,5 +1,7 @@
 #include "io/bytes.hpp"
 
+#include "base/memory.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -38,6 +40,23 @@ struct Descriptor {
                 fmt::format("'{}' cannot be read: {}", name, std::strerror(error)));
 }
 
+/// How many bytes are taken from what does not say its size: an eighth of the memory that this process may
+/// still take.
+std::size_t stream_limit() {
+    const auto there = available_memory();
+    return there ? static_cast<std::size_t>(*there / 8) : SIZE_MAX;
+}
+
+/// How many bytes a gzip file of that size may inflate to: 64 MiB, or 200 times its size when that is more.
+/// Meshes as text come to 50 times at most; deflate can do 1032, which nothing but a bomb does.
+std::size_t inflation_limit(std::size_t compressed) {
+    constexpr std::size_t harmless = std::size_t{64} << 20, ratio = 200;
+    return compressed > SIZE_MAX / ratio ? SIZE_MAX : std::max(harmless, ratio * compressed);
+}
+
+/// A device never ends (/dev/zero), or is a terminal.
+constexpr std::size_t max_device_bytes = std::size_t{64} << 20;
+
 [[noreturn]] void too_large(const std::string& name, std::size_t limit) {
     throw Error(ErrorKind::limit, "E-SIZE", fmt::format("'{}' gives more than {} bytes", name, limit),
                 "write it to a file first, uncompressed");
@@ -57,7 +76,7 @@ Bytes read_all(int fd, std::size_t expected, std::size_t limit, const std::strin
     Bytes bytes;
     std::size_t size = 0;
     for (std::size_t room = expected + 1;; room = std::max<std::size_t>(size, 1 << 16)) {
-        bytes.resize(size + room);
+        bytes.resize(std::min(size + room, std::max(limit, expected) + 1));
         std::size_t got = 0;
         while (size < bytes.size() &&
                (got = read_some(fd, bytes.data() + size, bytes.size() - size, name)) > 0)
@@ -87,6 +106,8 @@ struct Inflater {
 
 /// Inflates a gzip file of one or more members.
 Bytes inflated(Span bytes, std::size_t limit, const std::string& name) {
+    const bool by_ratio = inflation_limit(bytes.size()) < limit;
+    limit = std::min(limit, inflation_limit(bytes.size()));
     Inflater z;
     Bytes out;
     std::size_t size = 0, at = 0;
@@ -106,6 +127,11 @@ Bytes inflated(Span bytes, std::size_t limit, const std::string& name) {
         const int state = ::inflate(&z.stream, Z_NO_FLUSH);
         at += in - z.stream.avail_in;
         size += room - z.stream.avail_out;
+        if (size > limit && by_ratio)
+            throw Error(ErrorKind::limit, "E-SIZE",
+                        fmt::format("'{}' inflates to more than {} bytes from {}, as no mesh does", name,
+                                    limit, bytes.size()),
+                        "if it is one all the same, inflate it first: gzip -d");
         if (size > limit) too_large(name, limit);
         if (state == Z_STREAM_END) {
             if (!is_gzip(bytes.subspan(at))) break;
@@ -137,8 +163,11 @@ Input Input::open(const std::filesystem::path& path, std::size_t max_stream) {
     if (input.owner_) {
         input.bytes_ = {static_cast<const std::byte*>(input.owner_.get()), size};
     } else {
-        auto bytes = std::make_shared<const Bytes>(
-            read_all(file.fd, size, regular ? SIZE_MAX - 1 : max_stream, input.name_));
+        const bool device = S_ISCHR(about.st_mode) || S_ISBLK(about.st_mode);
+        const std::size_t limit = regular  ? SIZE_MAX - 1
+                                  : device ? std::min(max_stream, max_device_bytes)
+                                           : std::min(max_stream, stream_limit());
+        auto bytes = std::make_shared<const Bytes>(read_all(file.fd, size, limit, input.name_));
         input.bytes_ = *bytes;
         input.owner_ = std::move(bytes);
     }
@@ -152,7 +181,7 @@ Input Input::of(std::string name, Bytes bytes) {
     auto shared = std::make_shared<const Bytes>(std::move(bytes));
     input.bytes_ = *shared;
     input.owner_ = std::move(shared);
-    input.inflate(std::size_t{4} << 30);
+    input.inflate(SIZE_MAX);
     return input;
 }
 
@@ -176,11 +205,11 @@ Input Input::beside(const std::filesystem::path& relative) const {
     return open(path_beside(relative)).staged_as(path_.parent_path() / relative, instead_);
 }
 
-void Input::inflate(std::size_t limit) {
+void Input::inflate(std::size_t max_bytes) {
     stored_ = bytes_;
     if (!is_gzip(bytes_)) return;
     stored_owner_ = owner_;
-    auto bytes = std::make_shared<const Bytes>(inflated(bytes_, limit, name_));
+    auto bytes = std::make_shared<const Bytes>(inflated(bytes_, std::min(max_bytes, stream_limit()), name_));
     bytes_ = *bytes;
     owner_ = std::move(bytes);
 }

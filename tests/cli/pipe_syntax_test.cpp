@@ -144,3 +144,25 @@ TEST_CASE("a group that true switches on is a flag", "[cli]") {
     CHECK(
         same("write a.glb --draco.position_bits 12", "[{write: {draco: {position_bits: 12}, path: a.glb}}]"));
 }
+
+TEST_CASE("what a file can say in braces and brackets, a one-liner can", "[cli]") {
+    const auto same_as = [](std::vector<std::string> arguments, const std::string& text) {
+        return yaml(std::move(arguments)) ==
+               pipeline::emit_yaml(
+                   pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{"expected", text}),
+                                        *std::make_unique<Problems>()));
+    };
+    const std::string both = "[{clip: {planes: [[1, 0, 0, -0.25], [0, 0, 1, -0.5]]}}]";
+    CHECK(same_as({"clip", "--planes", "[[1,0,0,-0.25],[0,0,1,-0.5]]"}, both));
+    CHECK(same_as({"clip", "--planes", "[1,0,0,-0.25]", "--planes", "0,0,1,-0.5"}, both));
+    CHECK(same_as({"clip", "--planes", "z=0,x=10pct"}, "[{clip: {planes: [z=0, x=10%]}}]"));
+    CHECK(same_as({"clip", "--planes", "{normal: [0, 0, 1], through: centre}", "--planes", "x=0"},
+                  "[{clip: {planes: [{normal: [0, 0, 1], through: centre}, x=0]}}]"));
+    CHECK(same_as({"clip", "--plane", "{normal: [0, 0, 1], through: 20pct}"},
+                  "[{clip: {plane: {normal: [0, 0, 1], through: 20%}}}]"));
+    CHECK(same_as({"relax", "--ensure", "{closed: true, faces: {max: 9}}"},
+                  "[{relax: null, ensure: {closed: true, faces: {max: 9}}}]"));
+    CHECK(same_as({"load", "{a}.stl", "[b].stl"}, "[{load: ['{a}.stl', '[b].stl']}]"));
+    CHECK(yaml({"clip", "--plane", "{normal: [0, 0}"}).find("error[E-YAML]: in '{normal: [0, 0}'") !=
+          std::string::npos);
+}

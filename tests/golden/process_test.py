@@ -1,5 +1,6 @@
 """The executable among other processes: signals, full disks, unwritable targets, streams. All outputs or none."""
 
+import gzip
 import json
 import os
 import pathlib
@@ -296,6 +297,14 @@ class Process(Case):
         later = time.time() + 10
         os.utime(self.dir / "my scan.off", (later, later))
         self.assertEqual(subprocess.run(make, cwd=self.dir).returncode, 1, text)
+
+    def test_input_that_never_ends_ends_quickly(self):
+        (self.dir / "bomb.stl.gz").write_bytes(gzip.compress(bytes(80 << 20), 6))
+        for name in ("bomb.stl.gz", "/dev/zero"):
+            self.assertIn("E-SIZE", self.mill("info", name, expect=7).stderr)
+        with open("/dev/zero", "rb") as zero:
+            run = subprocess.run([str(FACETMILL), "info", "-"], stdin=zero, capture_output=True, text=True, timeout=60)
+        self.assertEqual(run.returncode, 7, run.stderr)
 
 
 class Save(Case):

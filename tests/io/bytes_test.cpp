@@ -68,3 +68,17 @@ TEST_CASE("inputs that are not there are refused", "[io]") {
     CHECK(failure([&] { Input::open(dir.path()); }) ==
           fmt::format("missing [E-DIRECTORY] '{}' is a directory, expected a file", dir.path().string()));
 }
+
+TEST_CASE("a device, and gzip that inflates as no mesh does, end at a limit", "[io]") {
+    CHECK(
+        failure([] { Input::open("/dev/zero"); }) ==
+        "limit [E-SIZE] '/dev/zero' gives more than 67108864 bytes | write it to a file first, uncompressed");
+    const TemporaryDirectory dir;
+    const io::Bytes bomb = io::gzipped(io::Bytes(std::size_t{80} << 20));
+    put(dir / "bomb.gz", std::string(io::as_text(bomb)));
+    CHECK(failure([&] { Input::open(dir / "bomb.gz"); }) ==
+          fmt::format(
+              "limit [E-SIZE] '{}' inflates to more than 67108864 bytes from {}, as no mesh does | if it "
+              "is one all the same, inflate it first: gzip -d",
+              (dir / "bomb.gz").string(), bomb.size()));
+}
