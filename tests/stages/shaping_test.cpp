@@ -259,6 +259,21 @@ TEST_CASE("split: a target that is not reached is warned of", "[stages]") {
                   "', which its cuts may never reach | leave out cut, or give passes and no target");
 }
 
+TEST_CASE("split: narrow faces that are left, and faces that a method leaves, are warned of", "[stages]") {
+    Mesh needle;
+    needle.positions = {{0, 0, 0}, {9, 0, 0}, {9, 1, 0}};
+    needle.corners = {0, 1, 2};
+    const auto r = run_stage("split", options({{"min_angle", "20"}, {"passes", "10"}}), scene_of(needle));
+    REQUIRE(r.warnings() == std::vector<std::string>{"W-SPLIT-STOPPED"});
+    CHECK(r.record.result["parts"][0]["stopped_by"] == "narrow");
+    CHECK(r.mesh().face_count() < 5);
+    for (const char* method : {"fan", "halve", "diagonal"}) {
+        const auto still = run_stage("split", options({{"method", method}}), scene_of(needle));
+        CHECK(still.warnings() == std::vector<std::string>{"W-SPLIT-NOTHING"});
+        CHECK(still.mesh().face_count() == 1);
+    }
+}
+
 TEST_CASE("split: pieces over each other and edges of more than two faces are warned of", "[stages]") {
     Mesh dart;
     dart.positions = {{0.5, 0, 0}, {2, 1, 0}, {0, 0, 0}, {2, -1, 0}};

@@ -310,6 +310,12 @@ Mesh cut_marked(const Mesh& mesh, const MeasuredEdges& edges, const EdgeMarks& m
     return apply_pattern(mesh, &points, BisectPattern{{edges.table, marks}, longest}, so_far.changes);
 }
 
+std::size_t narrow_faces(const Mesh& mesh, const SplitSettings& settings) {
+    if (settings.min_angle <= 0) return 0;
+    const auto chosen = chosen_faces(mesh, settings);
+    return static_cast<std::size_t>(std::count(chosen.begin(), chosen.end(), 1));
+}
+
 std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far) {
     if (settings.method == SplitMethod::bisect) return bisected(mesh, settings, so_far);
     if (settings.method == SplitMethod::notch) return notched(mesh, settings, so_far);

@@ -19,6 +19,9 @@ using EdgeMarks = std::vector<std::uint8_t>;
 /// The local number (0 to 2) of the longest edge of each triangle, 3 when it has none; ties: the lower edge.
 std::vector<std::uint8_t> longest_edges(const Mesh& mesh, const MeasuredEdges& edges);
 
+/// The number of triangles that have an angle below settings.min_angle; the mesh must have only triangles.
+std::size_t narrow_faces(const Mesh& mesh, const SplitSettings& settings);
+
 /// bisect, notch or halve of every face, or of the narrow ones (settings.min_angle). One pass; min_angle
 /// finds nothing: an empty optional. AttributeChanges and counts of spots go to so_far.
 std::optional<Mesh> split_marked(const Mesh& mesh, const SplitSettings& settings, SplitResult& so_far);

@@ -4,6 +4,7 @@
 
 #include "base/parallel.hpp"
 #include "base/storage.hpp"
+#include "geometry/split/centre.hpp"
 #include "geometry/split/points.hpp"
 #include "mesh/quad_diagonal.hpp"
 
@@ -215,23 +216,8 @@ struct GridPattern {
     }
 };
 
-/// What each corner counts in the centre that a face is cut to: all the same, but in a concave quad the two
-/// at the ends of the diagonal that lies inside, because from its middle all of the quad is seen.
-struct CentreWeights {
-    double even, odd; ///< of corners 0, 2 ... and 1, 3 ...
-    double of(Index k) const { return k % 2 == 0 ? even : odd; }
-};
-inline CentreWeights centre_weights(const PatternFace& face) {
-    const Index n = face.size();
-    if (n == 4) {
-        const QuadDiagonals quad = quad_diagonals(face.mesh, face.face);
-        if (quad.concave()) return quad.first ? CentreWeights{0.5, 0} : CentreWeights{0, 0.5};
-    }
-    return {1.0 / n, 1.0 / n};
-}
-
 inline void centroid(const PatternFace& face, PatternOut& out) {
-    const CentreWeights weights = centre_weights(face);
+    const CentreWeights weights = centre_weights(face.mesh, face.face);
     for (Index k = 0; k < face.size(); ++k) out.source(face.at(k), weights.of(k));
     out.end_mix();
 }
@@ -334,7 +320,7 @@ struct CorePattern {
     bool triangles_only(const Mesh&) const { return false; }
     void emit(const PatternFace& face, PatternOut& out) const {
         const Index n = face.size();
-        const CentreWeights weights = centre_weights(face);
+        const CentreWeights weights = centre_weights(face.mesh, face.face);
         std::vector<Index> inner(n);
         for (Index k = 0; k < n; ++k) {
             for (Index s = 0; s < n; ++s) out.source(face.at(s), (s == k ? 0.5 : 0.0) + 0.5 * weights.of(s));

@@ -124,10 +124,21 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
         }
         refuse_giant_split(next_from, next.corners());
         check_polygons(next_from, settings.method);
+        const std::size_t folded = result.folded, shared = result.shared;
         Mesh finer = split_once(next_from, settings, result);
-        if (settings.min_angle > 0 && finer.face_count() == 0) {
-            result.stop = Stop::target; // none is narrow
-            break;
+        if (settings.min_angle > 0) {
+            if (finer.face_count() == 0) {
+                result.stop = Stop::target; // none is narrow
+                break;
+            }
+            const std::size_t narrow = narrow_faces(triangulated(finer), settings);
+            if (result.passes > 0 && narrow > result.narrow) {
+                result.stop = Stop::narrow;
+                result.folded = folded;
+                result.shared = shared;
+                break;
+            }
+            result.narrow = narrow;
         }
         result.mesh = std::move(finer);
         from = &result.mesh;

@@ -53,7 +53,8 @@ struct SplitResult {
     enum class Stop {
         passes,  ///< as many as were asked for
         target,  ///< no edge is longer than max_edge, or no triangle narrower than min_angle
-        budget,  ///< the next cut would have made more than SplitSettings::faces
+        budget,  ///< the next cut would have made more than SplitSettings::max_faces
+        narrow,  ///< another pass would have made more triangles narrower than min_angle
         nothing, ///< no edge has a length
     };
     Mesh mesh;
@@ -62,6 +63,7 @@ struct SplitResult {
     int passes = 0;        ///< done
     Stop stop = Stop::passes;
     std::size_t folded = 0; ///< faces whose pieces lie over each other (folding_faces), summed over passes
+    std::size_t narrow = 0; ///< with min_angle: triangles left that have a smaller angle
     std::size_t shared = 0; ///< spots where two faces share two edges, so that new edges of theirs coincide
                             ///< and have more than two faces; summed over passes
 };
@@ -74,8 +76,9 @@ struct SplitResult {
 /// (triangles back to back, for one): new edges between these are one edge of both, which SplitResult::shared
 /// counts. varignon leaves such corners whole, diagonal takes the other diagonal where that is sound.
 ///
-/// Concave quads are cut to the middle of their inner diagonal, so that no piece looks the other way; what
-/// cannot be cut so, larger faces and the cuts of grid, halve and varignon, SplitResult::folded counts.
+/// Concave quads are cut to the middle of their inner diagonal and larger concave faces to the centroid of
+/// their kernel (centre_weights), so that no new face looks the other way. Larger faces without a kernel, and
+/// concave ones that grid, halve and varignon cut, cannot be cut so; SplitResult::folded counts them.
 ///
 /// Closures, where a neighbour puts points on a face's edges: midpoint, quads, varignon and grid put the same
 /// points on every edge, so none is needed; centroid, fan, core and diagonal put none. bisect marks the
@@ -93,7 +96,9 @@ struct SplitResult {
 /// methods of four faces all faces are split until it holds. min_angle: bisect or notch of the triangles with
 /// a smaller angle (and the closure). No angle becomes smaller than half the smallest there was with bisect
 /// (I. Rosenberg and F. Stenger, "A lower bound on the angles of triangles constructed by bisecting the
-/// longest side", 1975). faces: with bisect the longest edges first, with other methods as many passes as
+/// longest side", 1975). Since a split only divides angles, narrow triangles become smaller but not fewer:
+/// SplitResult::narrow counts those that are left, and a pass after the first that would make more of them is
+/// not done. max_faces: with bisect the longest edges first, with other methods as many passes as
 /// fit.
 ///
 /// Smooth methods: C. Loop, "Smooth subdivision surfaces based on triangles" (1987), with the boundary rules

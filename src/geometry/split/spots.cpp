@@ -1,6 +1,7 @@
 #include "geometry/split/spots.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/split/centre.hpp"
 #include "mesh/face.hpp"
 #include "mesh/quad_diagonal.hpp"
 
@@ -82,15 +83,6 @@ bool has_reflex_corner(const Mesh& mesh, Index f, const Vec3& normal) {
     return false;
 }
 
-bool hides_from_centre(const Mesh& mesh, Index f, const Vec3& normal) {
-    const Index begin = mesh.face_begin(f), n = mesh.face_size(f);
-    if (n == 4 && quad_diagonals(mesh, f).concave()) return false;
-    const Vec3 centre = corner_mean(mesh, f);
-    for (Index k = 0; k < n; ++k)
-        if (looks_back(mesh.point(begin + k), mesh.point(begin + (k + 1) % n), centre, normal)) return true;
-    return false;
-}
-
 } // namespace
 
 std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edges) {
@@ -147,7 +139,8 @@ std::size_t folding_faces(const Mesh& mesh, SplitMethod method) {
             for (auto f = static_cast<Index>(begin); f < end; ++f) {
                 if (mesh.face_size(f) == 3) continue;
                 const Vec3 normal = area_vector(mesh, f);
-                found += between ? has_reflex_corner(mesh, f, normal) : hides_from_centre(mesh, f, normal);
+                found += between ? has_reflex_corner(mesh, f, normal)
+                                 : hides_from_centre(mesh, f, centre_weights(mesh, f));
             }
             return found;
         },

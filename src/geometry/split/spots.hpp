@@ -17,9 +17,9 @@ std::vector<std::uint8_t> shared_corners(const Mesh& mesh, const EdgeTable& edge
 std::size_t shared_cuts(const Mesh& mesh, const EdgeTable& edges, const std::vector<std::uint8_t>& marks);
 
 /// How many faces have a piece that looks the other way than the face: not convex ones where grid, halve or
-/// varignon cut between edges; those that the centre of their corners does not see all of where a method cuts
-/// to it (of quads only those that cross themselves: see centre_weights). 0 for the smooth methods, and those
-/// that cut triangles or diagonals.
+/// varignon cut between edges; those that their centre (centre_weights) does not see all of where a method
+/// cuts to it, because they have no kernel (of quads only those that cross themselves). 0 for the smooth
+/// methods, and those that cut triangles or diagonals.
 std::size_t folding_faces(const Mesh& mesh, SplitMethod method);
 
 } // namespace facetmill

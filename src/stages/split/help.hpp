@@ -14,9 +14,11 @@ coincide and have more than two faces (W-SPLIT-SHARED gives the count). varignon
 whole, and diagonal takes the other diagonal where it can. Seams stay seams: there is one new wedge
 per edge and pair of wedges.
 
-Concave quads are cut to a point from which the whole quad is visible, except by halve, varignon and
-grid; with these, and in concave faces of five or more corners, new faces may overlap
-(W-SPLIT-FOLDED gives the count).
+Methods that cut to the centre of a face use the mean of its corners. In a concave face they use a
+point from which the whole face is visible, if there is one. In concave faces without such a point,
+and in concave faces cut by halve, varignon and grid, new faces may overlap (W-SPLIT-FOLDED gives
+the count). fan, halve and diagonal leave triangles as they are (W-SPLIT-NOTHING, if a part has
+nothing else).
 
 Where a method cuts only some edges of a face, the neighbouring faces follow. bisect cuts every
 triangle that has a cut edge at its longest edge as well (Rivara's rule), into two, three or four.
@@ -32,9 +34,11 @@ Vertex and wedge attributes are interpolated, and face attributes are copied to 
 replace a face; after smooth methods normals are recomputed. Existing vertices keep their numbers. A
 result of more than 2^31 corners (E-LIMIT), or one that does not fit into memory (E-MEMORY), is
 refused before anything is built. A split with a target ends after the given number of passes at the
-latest; the report says what stopped it (passes, max_edge, min_angle or max_faces), and
-W-SPLIT-STOPPED and W-SPLIT-NOTHING report targets that were not reached. The report gives the
-longest edge and the smallest angle before and after, in world units and degrees.
+latest; the report says what stopped it (passes, max_edge, min_angle, max_faces or narrow), and
+W-SPLIT-STOPPED and W-SPLIT-NOTHING report targets that were not reached. Because a split only
+divides angles, min_angle makes narrow triangles smaller rather than fewer; a pass after the first
+that would make more of them is not done. The report gives the longest edge and the smallest angle
+before and after, in world units and degrees.
 
 Sources: P. Bourke, 'Splitting facets' (1991); I. Rosenberg and F. Stenger, 'A lower bound on the
 angles of triangles constructed by bisecting the longest side' (1975); M.-C. Rivara, 'Algorithms for

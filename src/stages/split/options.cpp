@@ -66,8 +66,9 @@ void declare_split(Declare<SplitOptions>& d) {
         .above(0);
     d.option("min_angle", &SplitOptions::min_angle,
              "Split only triangles that have a smaller angle than this (an angle), by bisect or notch, and "
-             "the neighbours that must follow, once per pass. With bisect no angle becomes smaller than half "
-             "the smallest original one.")
+             "the neighbours that must follow. A split makes such triangles smaller, not fewer: another pass "
+             "is done only if it does not make more of them, and a warning gives the number that is left. "
+             "With bisect no angle becomes smaller than half the smallest original one.")
         .above(0)
         .at_most(60);
     d.option("max_faces", &SplitOptions::max_faces,

@@ -28,6 +28,7 @@ void declare_part(DeclareFields<SplitPart>& d) {
               {"max_edge", "max_edge", "no edge is longer"},
               {"min_angle", "min_angle", "no triangle has a smaller angle"},
               {"max_faces", "max_faces", "the next cut would have made more"},
+              {"narrow", "narrow", "another pass would have made more triangles with a smaller angle"},
               {"nothing", "nothing", "no edge has a length"}},
              "What stopped the work.");
     const auto self = [](const SplitPart& p) -> const SplitPart& { return p; };
@@ -52,11 +53,39 @@ const char* stopped_by(const SplitOptions& o, SplitResult::Stop stop) {
         return o.max_edge ? "max_edge" : "min_angle";
     case SplitResult::Stop::budget:
         return "max_faces";
+    case SplitResult::Stop::narrow:
+        return "narrow";
     case SplitResult::Stop::nothing:
         break;
     }
     return "nothing";
 }
+
+namespace {
+
+/// The faces that a method without target splits, when it is not all of them.
+const char* only_splits(SplitMethod method) {
+    switch (method) {
+    case SplitMethod::fan:
+        return "faces of four and more corners";
+    case SplitMethod::halve:
+    case SplitMethod::diagonal:
+        return "quads";
+    default:
+        return nullptr;
+    }
+}
+
+void warn_of_narrow_faces(const Part& part, const SplitResult& r, const SplitSettings& s, Context& context) {
+    const char* why = r.stop == SplitResult::Stop::narrow ? "another pass would make more of them"
+                                                          : "passes ended the split";
+    context.warn("W-SPLIT-STOPPED",
+                 fmt::format("part '{}' has {} faces with an angle below {:.4g} degrees left: {}", part.name,
+                             r.narrow, s.min_angle * (180 / pi), why),
+                 "a split never makes an angle larger: relax evens faces out, simplify removes narrow ones");
+}
+
+} // namespace
 
 void warn_of_targets(const Part& part, const SplitResult& r, const SplitSettings& s, double longest,
                      Context& context) {
@@ -74,6 +103,14 @@ void warn_of_targets(const Part& part, const SplitResult& r, const SplitSettings
                         out_of_room ? std::string("max_faces") : fmt::format("passes ({})", s.passes)),
             out_of_room ? "give a larger max_faces, or a longer max_edge"
                         : "allow more passes, or a longer max_edge");
+    else if (s.min_angle > 0 && r.narrow > 0)
+        warn_of_narrow_faces(part, r, s, context);
+    else if (const char* kind = only_splits(s.method);
+             kind && r.passes > 0 && r.added == 0 && part.mesh.face_count() > 0)
+        context.warn("W-SPLIT-NOTHING",
+                     fmt::format("part '{}' stays as it is: {} splits only {}, and it has none", part.name,
+                                 to_string(s.method), kind),
+                     "use midpoint, centroid or quads, which split faces of all kinds");
 }
 
 void warn_of_spots(const Part& part, const SplitResult& r, SplitMethod method, Context& context) {

@@ -176,6 +176,21 @@ TEST_CASE("min_angle: only narrow triangles and what follows, and no angle below
     CHECK(test::count(r.mesh).unbalanced == 0);
 }
 
+TEST_CASE("min_angle: passes end before they multiply narrow triangles", "[geometry]") {
+    const Mesh mesh = rough();
+    for (const auto method : {SplitMethod::bisect, SplitMethod::notch}) {
+        SplitSettings s = by(method);
+        s.min_angle = 0.35;
+        s.passes = 1;
+        const SplitResult once = split(mesh, s);
+        s.passes = 10;
+        const SplitResult r = split(mesh, s);
+        CHECK(r.stop == SplitResult::Stop::narrow);
+        CHECK(r.narrow > 0);
+        CHECK(r.narrow <= once.narrow);
+    }
+}
+
 TEST_CASE("targets that a method cannot reach are refused", "[geometry]") {
     SplitSettings s = by(SplitMethod::centroid);
     s.max_edge = 1;

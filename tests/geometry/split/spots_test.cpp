@@ -78,12 +78,35 @@ TEST_CASE("concave quads are cut so that no piece looks the other way", "[geomet
 TEST_CASE("concave faces whose pieces lie over each other are counted", "[geometry]") {
     using enum SplitMethod;
     for (const auto method : {grid, halve, varignon}) CHECK(split(dart(0), {method, 1}).folded == 1);
-    // Its corners' centre is not seen from the end of the arm.
-    const Mesh hook =
-        faces({{0, 0, 0}, {9, 0, 0}, {9, 1, 0}, {1, 1, 0}, {1, 9, 0}, {0, 9, 0}}, {{0, 1, 2, 3, 4, 5}});
-    CHECK(split(hook, {centroid, 1}).folded == 1);
+    // From no point are both arms seen.
+    const Mesh fork =
+        faces({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {8, 9, 0}, {8, 1, 0}, {1, 1, 0}, {1, 9, 0}, {0, 9, 0}},
+              {{0, 1, 2, 3, 4, 5, 6, 7}});
+    CHECK(split(fork, {centroid, 1}).folded == 1);
     CHECK(split(regular(7), {centroid, 1}).folded == 0);
     CHECK(split(bent_quads(), {midpoint, 1}).folded == 0);
+}
+
+TEST_CASE("large concave faces are cut to a point that sees all of them", "[geometry]") {
+    using enum SplitMethod;
+    // The mean of the corners of the first is its reflex corner, of the second it is not seen from the arms.
+    const std::vector<std::vector<Vec3>> shapes = {
+        {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}},
+        {{0, 0, 0}, {9, 0, 0}, {9, 1, 0}, {1, 1, 0}, {1, 9, 0}, {0, 9, 0}}};
+    const double areas[] = {3, 17};
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        for (std::size_t turn = 0; turn < 6; ++turn)
+            for (const auto method : {centroid, fan, quads, midpoint, core}) {
+                auto points = shapes[i];
+                std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(turn), points.end());
+                for (Vec3& p : points) p = {p.y + 7, 0.5 * p.x - p.y, p.x}; // in a slanted plane
+                const SplitResult r = split(faces(points, {{0, 1, 2, 3, 4, 5}}), {method, 1});
+                CAPTURE(to_string(method), i, turn);
+                const double whole = areas[i] * std::sqrt(1 + 0.25 + 1);
+                CHECK(test::area(triangulated(r.mesh)) == Approx(whole).epsilon(1e-12));
+                CHECK(least_area(r.mesh) > 1e-6);
+                CHECK(r.folded == 0);
+            }
 }
 
 TEST_CASE("diagonal cuts quads as triangulated does", "[geometry]") {
