@@ -414,6 +414,12 @@ const std::vector<MessageId>& message_ids() {
          {},
          "crumple keeps apart only faces of the same part, and parts are near each other.",
          "`merge` them first."},
+        {"W-CRUMPLE-ROUNDED",
+         {},
+         "crumple rounds positions to float32 to keep faces apart, and far from the origin that moves "
+         "vertices "
+         "noticeably.",
+         "Move the part to its origin first, or use `self_intersections: allow`."},
         {"W-EXTENSION",
          {},
          "A glTF extension is dropped, because the data it applies to has changed or it is not supported.",

@@ -259,6 +259,18 @@ TEST_CASE("split: a target that is not reached is warned of", "[stages]") {
                   "', which its cuts may never reach | leave out cut, or give passes and no target");
 }
 
+TEST_CASE("crumple: rounding to float32 far from the origin is warned of", "[stages]") {
+    const auto crumpled = [](double shift) {
+        Mesh cube = shapes::cube();
+        for (Vec3& p : cube.positions) p.x += shift;
+        return run_stage("crumple", options({{"amplitude", "0.01"}, {"self_intersections", "avoid"}}),
+                         scene_of(cube))
+            .warnings();
+    };
+    CHECK(crumpled(0).empty());
+    CHECK(crumpled(5e6) == std::vector<std::string>{"W-CRUMPLE-ROUNDED"});
+}
+
 TEST_CASE("split: narrow faces that are left, and faces that a method leaves, are warned of", "[stages]") {
     Mesh needle;
     needle.positions = {{0, 0, 0}, {9, 0, 0}, {9, 1, 0}};

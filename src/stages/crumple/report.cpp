@@ -1,8 +1,10 @@
 #include "stages/crumple/report.hpp"
 
+#include "base/numbers.hpp"
 #include "mesh/face.hpp"
 #include "mesh/placement.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -98,6 +100,23 @@ void warn_of_folds(const CrumpledPart& work, Context& context) {
                 "in part '{}' {} faces are concave or intersect themselves: the faces made of them overlap",
                 work.part->name, work.pieces.folded),
             "use triangulate first");
+}
+
+void warn_of_rounding(const CrumpledPart& part, const CrumpleMoves& moves, double amplitude,
+                      Context& context) {
+    double farthest = 0;
+    for (std::size_t v = 0; v < part.before.size(); ++v) {
+        const Vec3 to = part.before[v] + moves.moves[v];
+        const Vec3 rounded{as_float32(to.x), as_float32(to.y), as_float32(to.z)};
+        farthest = std::max(farthest, length(part.to_world.vector(rounded - to)));
+    }
+    if (!(amplitude > 0 && farthest > amplitude / 100)) return;
+    context.warn(
+        "W-CRUMPLE-ROUNDED",
+        fmt::format("crumple: to keep faces apart, positions of part '{}' are rounded to float32, which "
+                    "moves a vertex by {:.3g}, more than 1 % of the amplitude {:.3g}",
+                    part.part->name, farthest, amplitude),
+        "move the part to its origin first, or use self_intersections: allow");
 }
 
 void warn_of_parts(const Scene& scene, Context& context) {

@@ -35,6 +35,10 @@ void declare_crumple_report(DeclareFields<CrumpleReport>& d);
 
 /// Warns of an amplitude that is larger than the edges: nothing tears, but faces run into each other.
 void warn_of_tangles(const CrumpledPart& part, double amplitude, Context& context);
+/// Warns when avoiding intersections, which rounds positions to float32, moves a vertex by more than 1 % of
+/// the amplitude: far from the origin float32 is coarse.
+void warn_of_rounding(const CrumpledPart& part, const CrumpleMoves& moves, double amplitude,
+                      Context& context);
 /// Warns of concave quads, which cannot be split n x n without folds.
 void warn_of_folds(const CrumpledPart& part, Context& context);
 /// Warns when parts are so near each other that their faces may have come to meet.

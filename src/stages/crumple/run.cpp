@@ -74,7 +74,9 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
         sheets.push_back({&part.mesh, crumple_moves(part.mesh, settings)});
         works.push_back({&part, std::move(pieces), part.mesh.positions, settings.to_world});
         warn_of_folds(works.back(), context);
-        if (o.self_intersections == Intersections::allow && o.frequency == 0)
+        if (o.self_intersections != Intersections::allow)
+            warn_of_rounding(works.back(), sheets.back().moves, settings.amplitude, context);
+        else if (o.frequency == 0)
             warn_of_tangles(works.back(), settings.amplitude, context);
     });
     masks.warn_if_idle(context);
