@@ -11,19 +11,25 @@ try:
 except ImportError:
     jsonschema = None
 
-# Two closed cubes in one OBJ, with a group; a line and a self-crossing face beside them.
+# Two closed cubes in one OBJ.
 CUBES = "".join(
     f"o {name}\n" + "".join(f"v {x + i} {j} {k}\n" for k in (0, 1) for j in (0, 1) for i in (0, 1))
     + "".join("f " + " ".join(str(8 * n + c) for c in face) + "\n"
               for face in ((1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)))
     for n, (name, x) in enumerate((("a", 0), ("b", 3))))
 OPEN = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+FLIPPED = OPEN.replace("3 2 0 3", "3 0 2 3")  # one face is turned round
+CROSSED = "OFF\n8 6 0\n" + "".join(f"{x} {y} {z}\n" for z in (0, 1) for x, y in ((0, 0), (2, 2), (2, 0), (0, 1))) + (
+    "4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n4 3 2 1 0\n4 4 5 6 7\n")  # a prism over a bow tie
 
 RUNS = [
+    "load cubes.obj ! thicken 0.1 ! section z=0.5",
+    "load crossed.off ! section z=0.5",
+    "load flipped.off ! clean --holes minimal",
     "load cubes.obj ! transform --unit mm ! merge ! separate ! two-sided ! two-sided material",
     "load cubes.obj ! merge body --weld ! orient ! triangulate quads ! triangulate ! ensure --closed",
     "load cubes.obj ! relax 2 ! relax --until 1% ! crumple 1% --self_intersections avoid ! crumple --grid 1",
-    "load cubes.obj ! split ! split --max_edge 0.4 ! split --min_angle 40deg ! split --faces 300 ! split core",
+    "load cubes.obj ! triangulate ! split ! split --max_edge 0.4 ! split --min_angle 40deg ! split --max_faces 300",
     "load cubes.obj ! thicken 0.1 ! thicken 0.1 --self_intersections false",
     "load cubes.obj ! thicken 0.05 --mode edges",
     "load cubes.obj ! clip z=0.5 --cap ! clip x=0.25 --space local ! clean --holes minimal --self_intersections all",
@@ -66,6 +72,8 @@ class Results(Case):
         super().setUp()
         self.write("cubes.obj", CUBES)
         self.write("open.off", OPEN)
+        self.write("flipped.off", FLIPPED)
+        self.write("crossed.off", CROSSED)
         # Two grids of 4 x 4 quads that share an edge.
         grid = "".join(f"o {n}\n" + "".join(f"v {4 * k + i} {j} 0\n" for j in range(5) for i in range(5))
                        + "".join(f"f {b} {b + 1} {b + 6} {b + 5}\n" for j in range(4) for i in range(4)
