@@ -119,8 +119,7 @@ Command diff_command() {
                 .not_negative();
             arguments
                 .add("--ignore", &options->ignored,
-                     "Sections that do not decide: counts, topology, geometry, attributes, materials, parts, "
-                     "document.")
+                     "Sections that do not decide:\ncounts, topology, geometry, attributes, materials, parts, document.")
                 .separated_by_commas()
                 .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
             arguments

@@ -25,7 +25,7 @@ const MessageId& message_asked_for(const std::string& text, const CommandLine& l
     std::string id = text;
     for (char& c : id) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
     if (const auto* known = message_id(id)) return *known;
-    std::vector<std::string> ids; // of the same letter, when one is given: W-UNIT is W-UNITS, not E-UNIT
+    std::vector<std::string> ids; // of the same letter, when one is given
     for (const auto& m : message_ids())
         if (!id.starts_with("W-") || m.is_warning()) ids.emplace_back(m.id);
     throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no error or warning '{}'", text),

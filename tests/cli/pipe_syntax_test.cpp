@@ -155,7 +155,7 @@ TEST_CASE("what a file can say in braces and brackets, a one-liner can", "[cli]"
     const std::string both = "[{clip: {planes: [[1, 0, 0, -0.25], [0, 0, 1, -0.5]]}}]";
     CHECK(same_as({"clip", "--planes", "[[1,0,0,-0.25],[0,0,1,-0.5]]"}, both));
     CHECK(same_as({"clip", "--planes", "[1,0,0,-0.25]", "--planes", "0,0,1,-0.5"}, both));
-    CHECK(same_as({"clip", "--planes", "z=0,x=10pct"}, "[{clip: {planes: [z=0, x=10%]}}]"));
+    CHECK(same_as({"clip", "--planes", "z=0,x=10pct"}, "[{clip: {planes: [z=0, x=10pct]}}]"));
     CHECK(same_as({"clip", "--planes", "{normal: [0, 0, 1], through: centre}", "--planes", "x=0"},
                   "[{clip: {planes: [{normal: [0, 0, 1], through: centre}, x=0]}}]"));
     CHECK(same_as({"clip", "--plane", "{normal: [0, 0, 1], through: 20pct}"},

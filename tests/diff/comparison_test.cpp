@@ -106,8 +106,8 @@ TEST_CASE("one piece or part turned inside out is enough to differ", "[report]")
     b.parts[0].mesh = turned(a.parts[0].mesh, 240);
     c.parts[1].mesh = turned(a.parts[1].mesh, 0);
     CHECK(different(report::compare(a, a)).empty());
-    for (const auto& [other, note] : {std::pair(b, "1 of 3 pieces, the first at face 80 of 'part'"),
-                                      std::pair(c, "1 of 3 pieces, the first at face 0 of 'part'")}) {
+    for (const auto& [other, note] : {std::pair(b, "1 of 3 components, the first at face 80 of 'part'"),
+                                      std::pair(c, "1 of 3 components, the first at face 0 of 'part'")}) {
         const auto found = report::compare(a, other);
         CHECK(different(found) == "geometry: reversed");
         for (const auto& d : found.lines)

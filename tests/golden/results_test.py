@@ -49,6 +49,7 @@ RUNS = [
     "generate sphere ! simplify --vertices 500 --method shortest-edge --certify ! simplify --lods 50%,20%",
     "generate sphere ! simplify --ratio 50% --ensure.deviation 10% ! ensure --deviation 10%",
     "load touching.obj ! simplify 50%",
+    "load flipped.off ! split ! simplify 60%",
 ]
 
 

@@ -143,6 +143,6 @@ TEST_CASE("content decides over the name, and the name where content does not te
           "'a.stl' is read as off, because that is its content, whatever its name");
     CHECK(reading("standard input", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") == "nothing");
     CHECK(reading("notes.txt", "hello")
-              .starts_with("usage [E-FORMAT] the format of 'notes.txt' is not recognised | say it with "
+              .starts_with("usage [E-FORMAT] the format of 'notes.txt' is not recognised | give "
                            "'format', one of: "));
 }

@@ -150,7 +150,8 @@ TEST_CASE("ensure is checked right after its stage, and a failure keeps all outp
     CHECK(record.exit_code == 1);
     CHECK(errors_of(record) == "p.yaml:6:14: error[E-CHECK]: 'closed' must be true, found false\n"
                                "      ensure: {closed: true, faces: {max: 5}}\n"
-                               "               ^~~~~~");
+                               "               ^~~~~~\n"
+                               "  hint: clean: {holes: minimal} fills holes, orient makes faces consistent");
     CHECK(record.checks.size() == 2);
     CHECK(record.outputs.empty());
     CHECK(ran(record) == "test-load test-write test-cut");

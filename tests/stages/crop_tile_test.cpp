@@ -69,7 +69,7 @@ TEST_CASE("tile refuses what makes no grid", "[stages]") {
           }).starts_with("stage [E-HATCH] the spacing of 'hatch' comes to 0 in this scene"));
     CHECK(test::failure([&] {
               run_stage("section", "{spacing: 1%}", scene_of(point));
-          }).starts_with("stage [E-SECTION] 'every' must be above zero"));
+          }).starts_with("stage [E-SECTION] 'spacing' must be above zero"));
 }
 
 TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
@@ -162,7 +162,7 @@ TEST_CASE("crop says when nothing or all is kept", "[stages]") {
 
 TEST_CASE("crop refuses footprints before it runs", "[stages]") {
     CHECK(refusal("crop", "[[0, 0], [2, 2], [2, 0], [0, 2]]")
-              .starts_with("usage [E-FOOTPRINT] crop: the footprint crosses itself near (1, 1)"));
+              .starts_with("usage [E-FOOTPRINT] crop: the footprint intersects itself near (1, 1)"));
     CHECK(refusal("crop", "[[0, 0], [1, 0]]")
               .starts_with("usage [E-FOOTPRINT] crop: ring 1 of the footprint has 2"));
     CHECK(refusal("crop", "[[0, 0], [1]]").starts_with("usage [E-TYPE] expected a footprint"));

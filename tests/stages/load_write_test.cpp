@@ -227,7 +227,7 @@ TEST_CASE("write names Draco's bits, and 32-bit floats that move points onto lin
                                     {"draco", {}, options({{"position_bits", "3"}})}};
     const std::string coarse = told_of(b, Value::map(given));
     CHECK(coarse.find("Draco's 3 bits put ") == 0);
-    CHECK(coarse.ends_with(" points on others: more draco.position_bits, or no draco"));
+    CHECK(coarse.ends_with(" points on others: use more draco.position_bits, or no draco"));
     mesh = shapes::grid(1, 1); // a corner so near the diagonal that float32 puts it there
     for (Vec3& p : mesh.positions) p += Vec3{1 << 20, 0, 0};
     mesh.positions[1] = {(1 << 20) + 0.5 - 1e-9, 0.5, 0};
@@ -272,7 +272,7 @@ TEST_CASE("write refuses what it cannot mean", "[stages]") {
     b.scene.parts.emplace_back().mesh = shapes::cube();
     CHECK(failure([&] { b.run("write", Value::scalar("c.xyz")); })
               .starts_with(
-                  "usage [E-FORMAT] the suffix of 'c.xyz' names no format | say it with 'format', one of: "));
+                  "usage [E-FORMAT] the suffix of 'c.xyz' names no format | give 'format', one of: "));
     CHECK(failure([&] {
               b.run("write", options({{"path", "c.stl"}, {"unit", "mm"}}));
           }) == "stage [E-UNIT] the scene has no unit, so it cannot be written in mm | give the unit when it "

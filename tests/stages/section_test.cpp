@@ -114,7 +114,7 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
         return failure([&] { run_stage("section", options, scene_of(shapes::cube())); });
     };
     CHECK(refusal("{path: a.pdf}") ==
-          "usage [E-DRAWING] test.yaml:1:6: section: drawings are not written as 'a.pdf' | the formats "
+          "usage [E-DRAWING] test.yaml:1:8: section: drawings are not written as 'a.pdf' | the formats "
           "are .svg, .dxf and .json");
     CHECK(refusal("{plane: {normal: [0, 0, 0]}}") ==
           "usage [E-PLANE] test.yaml:1:1: the plane's normal is zero, so it has no direction | for example "

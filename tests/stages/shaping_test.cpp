@@ -168,7 +168,8 @@ TEST_CASE("relax: until has many iterations, and says when they were not enough"
     const auto& part = r.record.result["parts"][0];
     CHECK(part["iterations"] > 10);
     CHECK(part["settled"] == true);
-    CHECK(r.warnings().empty());
+    // It settles only when next to nothing is left, which is said.
+    CHECK(r.warnings() == std::vector<std::string>{"W-SURFACE-LOST"});
     const auto few = run_stage("relax", options({{"until", "0.01%"}, {"iterations", "2"}}),
                                scene_of(shapes::icosphere(2)));
     CHECK(few.record.result["parts"][0]["iterations"] == 2);

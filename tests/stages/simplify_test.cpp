@@ -141,7 +141,7 @@ TEST_CASE("simplify: a part that is gone is told", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     const auto r = run_stage("simplify", "{faces: 1, topology: allow}", scene);
     CHECK(r.mesh().face_count() == 0);
-    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-VANISHED"});
+    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-VANISHED", "W-SURFACE-LOST"});
 }
 
 TEST_CASE("simplify: what cannot be is refused before anything is opened", "[stages]") {

@@ -53,6 +53,11 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
     return scene;
 }
 
+/// Smooth methods approach a surface inside the corners of the first, however much that is.
+MayLose may_lose(const SplitOptions& o) {
+    return is_smooth(o.chosen()) ? MayLose::area : MayLose::half;
+}
+
 const RegisterStage split_stage = make_stage<SplitOptions>(
     {.name = "split",
      .about = help::split::about,
@@ -60,7 +65,7 @@ const RegisterStage split_stage = make_stage<SplitOptions>(
      .examples = {"split: midpoint", "split: {method: bisect, passes: 3}", "split: {grid: 3}",
                   "split: {max_edge: 2%}", "split: {method: loop, passes: 2, feature_angle: 30deg}"},
      .may_lose = MayLose::half},
-    declare_split, declare_split_report, run, {.verify = verify_split});
+    declare_split, declare_split_report, run, {.verify = verify_split, .may_lose = may_lose});
 
 } // namespace
 

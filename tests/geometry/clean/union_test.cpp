@@ -206,7 +206,7 @@ TEST_CASE("clean refuses to unite what has no inside, and leaves it as it was", 
     CHECK(says(refusal(together({solid, moved(shapes::grid(4, 4), {-1, -1, 1})})), "is open"));
     Mesh unsure = other;
     std::swap(unsure.corners[0], unsure.corners[1]);
-    CHECK(says(refusal(together({solid, unsure})), "disagree"));
+    CHECK(says(refusal(together({solid, unsure})), "inconsistently oriented"));
     // What can be united is, beside what cannot.
     const Mesh far = moved(together({solid, other}), {10, 0, 0});
     const auto r = clean(together({solid, inside_out(other), far}), uniting());

@@ -99,7 +99,7 @@ TEST_CASE("large concave faces are cut to a point that sees all of them", "[geom
             for (const auto method : {centroid, fan, quads, midpoint, core}) {
                 auto points = shapes[i];
                 std::rotate(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(turn), points.end());
-                for (Vec3& p : points) p = {p.y + 7, 0.5 * p.x - p.y, p.x}; // in a slanted plane
+                for (Vec3& p : points) p = {p.x + 7, p.y - 0.5 * p.x, p.y}; // in a slanted plane
                 const SplitResult r = split(faces(points, {{0, 1, 2, 3, 4, 5}}), {method, 1});
                 CAPTURE(to_string(method), i, turn);
                 const double whole = areas[i] * std::sqrt(1 + 0.25 + 1);
