@@ -314,9 +314,10 @@ class Clipper {
 
     void settle(PlaneCut& cut) const {
         if (cut.flat.empty()) return;
-        if (settings_.keep == Keep::both || is_closed(*cut.mesh)) return settle_flat_by_normal(cut);
+        const bool keep = settings_.coplanar == Coplanar::keep;
+        if (is_closed(*cut.mesh) || (settings_.keep == Keep::both && keep)) return settle_flat_by_normal(cut);
         const int kept = settings_.keep == Keep::front ? 1 : -1;
-        settle_flat(cut, settings_.coplanar == Coplanar::keep ? kept : 0);
+        settle_flat(cut, keep ? kept : 0);
     }
 
     Mesh side_of(PlaneCut& cut, int side, std::size_t number) {

@@ -14,7 +14,7 @@ namespace {
 using Cell = std::array<std::int64_t, 3>;
 
 struct Range {
-    double low, high; ///< cells
+    double low = -HUGE_VAL, high = HUGE_VAL; ///< cells
 };
 
 class Tiler {
@@ -25,11 +25,15 @@ class Tiler {
                 throw Error(ErrorKind::usage, "E-TILE", "a tile's size must be above zero");
     }
 
-    TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, Cell cell) {
+    /// within: the cells along this axis that the cuts so far leave. A point that rounding puts beyond a
+    /// plane it was cut at stays on its side of it, so every cut leaves fewer cells and the recursion ends.
+    TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, Cell cell, Range within = {}) {
         if (mesh.face_count() == 0) return {};
         if (axis == settings_.axes.size()) return finished(std::move(mesh), std::move(memory), cell);
         const TileAxis& a = settings_.axes[axis];
-        const Range cells = cells_of(mesh, a);
+        Range cells = cells_of(mesh, a);
+        cells.low = std::clamp(cells.low, within.low, within.high);
+        cells.high = std::clamp(cells.high, within.low, within.high);
         if (cells.low >= cells.high) {
             cell[a.axis] = static_cast<std::int64_t>(cells.low);
             return split(std::move(mesh), std::move(memory), axis + 1, cell);
@@ -43,10 +47,15 @@ class Tiler {
         // A mesh that the plane only touches may reach over it by rounding in the world: it is in the cell
         // beside.
         if (halves.front.face_count() == 0 || halves.back.face_count() == 0)
-            return one_side(std::move(halves), axis, cell, middle);
+            return one_side(std::move(halves), axis, cell, middle, within);
         TileResult front, back;
-        tbb::parallel_invoke([&] { back = split(std::move(halves.back), halves.memory, axis, cell); },
-                             [&] { front = split(std::move(halves.front), halves.memory, axis, cell); });
+        tbb::parallel_invoke(
+            [&] {
+                back = split(std::move(halves.back), halves.memory, axis, cell, {within.low, middle - 1});
+            },
+            [&] {
+                front = split(std::move(halves.front), halves.memory, axis, cell, {middle, within.high});
+            });
         return joined(std::move(back), std::move(front), halves);
     }
 
@@ -100,7 +109,7 @@ class Tiler {
         return r;
     }
 
-    TileResult one_side(ClipResult halves, std::size_t axis, Cell cell, double middle) {
+    TileResult one_side(ClipResult halves, std::size_t axis, Cell cell, double middle, Range within) {
         const bool front = halves.back.face_count() == 0;
         Mesh& mesh = front ? halves.front : halves.back;
         const TileAxis& a = settings_.axes[axis];
@@ -110,7 +119,8 @@ class Tiler {
             cell[a.axis] = static_cast<std::int64_t>(front ? middle : middle - 1);
             whole = split(std::move(mesh), halves.memory, axis + 1, cell);
         } else {
-            whole = split(std::move(mesh), halves.memory, axis, cell);
+            (front ? within.low : within.high) = front ? middle : middle - 1;
+            whole = split(std::move(mesh), halves.memory, axis, cell, within);
         }
         return joined(std::move(whole), {}, halves);
     }

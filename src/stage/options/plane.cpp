@@ -60,17 +60,27 @@ const Declaration& plane_declaration() {
     return declaration;
 }
 
-/// Least and greatest of n . p, and the box, over what a plane is placed in.
+/// Flags the vertices that faces use; all of them in a mesh without faces.
+std::vector<std::uint8_t> placed_vertices(const Mesh& mesh) {
+    std::vector<std::uint8_t> used(mesh.vertex_count(), mesh.face_count() == 0);
+    for (Index c = 0; c < mesh.corner_count(); ++c) used[mesh.vertex(c)] = 1;
+    return used;
+}
+
+/// Least and greatest of n . p, and the box, over what a plane is placed in: faces, and where there are none,
+/// points.
 struct Reach {
     double low = HUGE_VAL, high = -HUGE_VAL;
     Box box;
 
     void add(const Mesh& mesh, const Transform& map, const Vec3& n) {
+        const std::vector<std::uint8_t> used = placed_vertices(mesh);
         const Reach all = parallel_reduce(
             mesh.vertex_count(), Reach{},
             [&](std::size_t begin, std::size_t end) {
                 Reach r;
                 for (std::size_t v = begin; v < end; ++v) {
+                    if (!used[v]) continue;
                     const Vec3 p = map.identity() ? mesh.positions[v] : map.point(mesh.positions[v]);
                     r.box.add(p);
                     r.low = std::min(r.low, dot(n, p)), r.high = std::max(r.high, dot(n, p));

@@ -64,6 +64,12 @@ TEST_CASE("every case with corners on the plane", "[geometry]") {
     ClipSettings drop = at_plane({{1, 0, 0}, {}, 0});
     drop.coplanar = Coplanar::drop;
     CHECK(clip(triangle(0, 0, 0), drop).front.face_count() == 0);
+    drop.keep = Keep::both; // neither side keeps what is dropped
+    const ClipResult both = clip(triangle(0, 0, 0), drop);
+    CHECK(both.front.face_count() + both.back.face_count() == 0);
+    drop.coplanar = Coplanar::keep;
+    const ClipResult kept = clip(triangle(0, 0, 0), drop);
+    CHECK(kept.front.face_count() + kept.back.face_count() == 1);
 }
 
 TEST_CASE("a quad is cut into what its name says", "[geometry]") {

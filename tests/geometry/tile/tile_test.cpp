@@ -161,3 +161,20 @@ TEST_CASE("too many tiles, and none, are refused", "[geometry]") {
               tile(shapes::cube(), grid_of({{0, 0, 0}}));
           }) == "usage [E-TILE] a tile's size must be above zero");
 }
+
+TEST_CASE("tiles: points that rounding puts beyond their plane do not cut a half again and again",
+          "[geometry]") {
+    Mesh mesh;
+    mesh.positions = {{0.39350000023841858, 0, 0},
+                      {-2.8605707484530285e-05, -1.635079231437138e-18, -0.12084858119487762},
+                      {0.2496829479932785, 0, -0.3660675585269928},
+                      {0.24921877682209015, -1.1647414400073425e-17, -0.37906917649929353},
+                      {-5.3308293159412759e-17, 0.72183173894882202, -0.31369361281394958},
+                      {0.033971618860960007, -8.537025045333154e-18, -0.12268006801605225}};
+    mesh.corners = {0, 2, 3, 1, 4, 5};
+    const TileResult r = tile(mesh, grid_of({{0, 0.9, 0}, {1, 0.9, 0}, {2, 0.9, 0}}));
+    double area = 0;
+    for (const Tile& t : r.tiles) area += test::area(t.mesh);
+    CHECK(r.tiles.size() <= 16);
+    CHECK(area >= test::area(mesh) * (1 - 1e-12));
+}
