@@ -226,8 +226,8 @@ class Subject {
     State classified() const {
         // The length of an edge says nothing about the outline, which other methods have in their quadrics.
         // Where the topology may change, holes may close and small components vanish, corners and all.
-        const bool corners =
-            settings_.method == Method::shortest_edge && settings_.topology == Topology::keep;
+        const bool corners = settings_.method == Method::shortest_edge &&
+                             settings_.topology == SimplifySettings::Topology::keep;
         State s = lay_out(mesh(), used_);
         classify(s, mesh(), lock_, corners ? std::optional(settings_.feature_angle) : std::nullopt);
         return s;
