@@ -256,7 +256,7 @@ TEST_CASE("versions in ranges", "[pipeline]") {
     CHECK(pipeline::satisfies("1.2.3", "") == std::nullopt);
 }
 
-TEST_CASE("--set changes options by the name of a step or of a stage", "[pipeline]") {
+TEST_CASE("options are changed with --set, by the name of a step or of a stage", "[pipeline]") {
     const std::string text = stages("  - test-cut: 5\n    name: first\n  - test-cut: {plane: {offset: 1}}\n");
     const auto with = [&](std::vector<std::pair<std::string, std::string>> sets) {
         PlanSettings settings;

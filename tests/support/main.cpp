@@ -39,7 +39,7 @@ int list_for_ctest(const std::string& executable, const Catch::IConfig& config) 
         if (info.isHidden()) continue;
         const std::string spec = spec_of(info.name);
         const auto parsed = Catch::TestSpecParser(Catch::ITagAliasRegistry::get()).parse(spec).testSpec();
-        if (!parsed.matches(info)) {
+        if (!parsed.matches(info) || spec.starts_with('-')) {
             std::cerr << "no argument selects the case '" << info.name << "': choose another name\n";
             return 1;
         }
