@@ -39,11 +39,12 @@ const StageInfo* stage_named(std::string_view name) {
 }
 
 Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context) {
-    if (stage.checks || stage.loads) return stage.run(std::move(scene), options, context);
+    const MayLose may_lose = stage.may_lose_with ? stage.may_lose_with(options) : stage.may_lose;
+    if (stage.checks || stage.loads || may_lose == MayLose::all)
+        return stage.run(std::move(scene), options, context);
     const auto before = surfaces_of_parts(scene);
     scene = stage.run(std::move(scene), options, context);
-    warn_of_lost_surface(before, surfaces_of_parts(scene),
-                         stage.may_lose_with ? stage.may_lose_with(options) : stage.may_lose, context);
+    warn_of_lost_surface(before, surfaces_of_parts(scene), may_lose, context);
     return scene;
 }
 
