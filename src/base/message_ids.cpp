@@ -572,10 +572,13 @@ const std::vector<MessageId>& message_ids() {
          "Allow more passes or a longer max_edge; `relax` evens out narrow faces, which a split cannot."},
         {"W-SURFACE-LOST",
          {},
-         "A stage left none of the faces of a part, or took more of its area than the stage is expected to: a "
-         "tenth, or half for stages that change the shape (relax, split, simplify, clean with self_intersections: "
+         "A stage left none of the faces of a part, or took more of its area than the stage is expected to: "
+         "a "
+         "tenth, or half for stages that change the shape (relax, split, simplify, clean with "
+         "self_intersections: "
          "union). Stages that cut off, scale or replace the surface as asked may take any area.",
-         "Validate what entered the stage: folded, flat or doubled surfaces cancel. `--strict=W-SURFACE-LOST` "
+         "Validate what entered the stage: folded, flat or doubled surfaces cancel. "
+         "`--strict=W-SURFACE-LOST` "
          "makes it an error."},
         {"W-THICKEN",
          {},
@@ -634,16 +637,30 @@ std::vector<std::string> warning_ids() {
 std::string to_string(ErrorKind kind) {
     const char* word = "";
     switch (kind) {
-    case ErrorKind::check: word = "a check did not hold"; break;
-    case ErrorKind::usage: word = "the command line or the pipeline is wrong"; break;
-    case ErrorKind::missing: word = "an input is missing or not permitted"; break;
-    case ErrorKind::output: word = "an output cannot be written"; break;
+    case ErrorKind::check:
+        word = "a check did not hold";
+        break;
+    case ErrorKind::usage:
+        word = "the command line or the pipeline is wrong";
+        break;
+    case ErrorKind::missing:
+        word = "an input is missing or not permitted";
+        break;
+    case ErrorKind::output:
+        word = "an output cannot be written";
+        break;
     case ErrorKind::stage:
         word = "a stage cannot process its input";
         break;
-    case ErrorKind::malformed: word = "an input is malformed"; break;
-    case ErrorKind::limit: word = "a limit or memory"; break;
-    case ErrorKind::bug: word = "a bug in facetmill"; break;
+    case ErrorKind::malformed:
+        word = "an input is malformed";
+        break;
+    case ErrorKind::limit:
+        word = "a limit or memory";
+        break;
+    case ErrorKind::bug:
+        word = "a bug in facetmill";
+        break;
     }
     return fmt::format("{} ({})", static_cast<int>(kind), word);
 }

@@ -14,7 +14,7 @@ namespace facetmill {
 struct MessageId {
     std::string_view id; ///< "E-KEY", "W-UNITS"
     std::vector<ErrorKind>
-        kinds; ///< of an error: the kinds (exit codes) that it comes with; of a warning: none
+        kinds;                ///< of an error: the kinds (exit codes) that it comes with; of a warning: none
     std::string_view meaning; ///< one or two sentences
     std::string_view hint;    ///< what to do; a message has a hint of its own where more is known
 

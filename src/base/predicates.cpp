@@ -1,7 +1,7 @@
 #include "base/predicates.hpp"
 
-#include "base/exact_sum.hpp"
 #include "base/exact_integer.hpp"
+#include "base/exact_sum.hpp"
 
 #include <algorithm>
 #include <array>

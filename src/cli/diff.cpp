@@ -101,42 +101,43 @@ int diff(DiffOptions& options, const CommandLine& line, const Console& console) 
 } // namespace
 
 Command diff_command() {
-    return {
-        "diff", "Compares two mesh files; the exit code is 1 when they differ.", diff_examples, false,
-        [](Arguments& arguments, Console& console) {
-            auto options = std::make_shared<DiffOptions>();
-            auto& settings = options->settings;
-            arguments.add("A", &options->a, "The mesh file to compare with, or - for standard input.")
-                .required();
-            arguments.add("B", &options->b, "The other mesh file.").required();
-            arguments.add("--max", &options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
-            arguments.add("--rms", &options->rms,
-                          "The largest root mean square distance over the area allowed.");
-            arguments.add("--mean", &options->mean, "The largest mean distance over the area allowed.");
-            arguments
-                .add("--values", &settings.attribute_limit,
-                     "How far attribute values may be apart. Default: 1e-6.")
-                .not_negative();
-            arguments
-                .add("--ignore", &options->ignored,
-                     "Sections that do not decide:\ncounts, topology, geometry, attributes, materials, parts, document.")
-                .separated_by_commas()
-                .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
-            arguments
-                .add("--samples", &settings.deviation.samples,
-                     "Points measured on the area, each way. Default: 100000.")
-                .between(0, 1000000000);
-            arguments.add("--seed", &settings.deviation.seed, "The seed of their positions. Default: 1.")
-                .not_negative();
-            arguments.add("--certify", &settings.deviation.certify,
-                          "Also computes a guaranteed bound of the distance, and compares --max with it.");
-            arguments.add("--all", &options->all, "Also shows what is equal.");
-            arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
-            arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
-                .between(1, 4096);
-            add_message_options(arguments, console);
-            return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
-        }};
+    return {"diff", "Compares two mesh files; the exit code is 1 when they differ.", diff_examples, false,
+            [](Arguments& arguments, Console& console) {
+                auto options = std::make_shared<DiffOptions>();
+                auto& settings = options->settings;
+                arguments.add("A", &options->a, "The mesh file to compare with, or - for standard input.")
+                    .required();
+                arguments.add("B", &options->b, "The other mesh file.").required();
+                arguments.add("--max", &options->maximum, "The largest distance allowed (0.2, 2mm, 0.5%).");
+                arguments.add("--rms", &options->rms,
+                              "The largest root mean square distance over the area allowed.");
+                arguments.add("--mean", &options->mean, "The largest mean distance over the area allowed.");
+                arguments
+                    .add("--values", &settings.attribute_limit,
+                         "How far attribute values may be apart. Default: 1e-6.")
+                    .not_negative();
+                arguments
+                    .add("--ignore", &options->ignored,
+                         "Sections that do not decide:\ncounts, topology, geometry, attributes, materials, "
+                         "parts, document.")
+                    .separated_by_commas()
+                    .one_of({std::begin(report::comparison_sections), std::end(report::comparison_sections)});
+                arguments
+                    .add("--samples", &settings.deviation.samples,
+                         "Points measured on the area, each way. Default: 100000.")
+                    .between(0, 1000000000);
+                arguments.add("--seed", &settings.deviation.seed, "The seed of their positions. Default: 1.")
+                    .not_negative();
+                arguments.add(
+                    "--certify", &settings.deviation.certify,
+                    "Also computes a guaranteed bound of the distance, and compares --max with it.");
+                arguments.add("--all", &options->all, "Also shows what is equal.");
+                arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
+                arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
+                    .between(1, 4096);
+                add_message_options(arguments, console);
+                return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
+            }};
 }
 
 } // namespace facetmill::cli

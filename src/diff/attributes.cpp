@@ -1,5 +1,5 @@
-#include "mesh/placement.hpp"
 #include "diff/lines.hpp"
+#include "mesh/placement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -99,7 +99,8 @@ void compare_attributes(const Comparing& with) {
         const auto in_a = a.find(key), in_b = b.find(key);
         const Json about_a = in_a == a.end() ? Json(nullptr) : in_a->second.about();
         const Json about_b = in_b == b.end() ? Json(nullptr) : in_b->second.about();
-        const std::string name = fmt::format("{} ({})", key.second, to_string(static_cast<Domain>(key.first)));
+        const std::string name =
+            fmt::format("{} ({})", key.second, to_string(static_cast<Domain>(key.first)));
         if (about_a != about_b)
             with.add("attributes", name, about_a, about_b);
         else

@@ -14,8 +14,8 @@ void compare_properties(const Comparing& with) {
     for (const auto& p : property_table()) {
         const bool counted = p.kind == PropertyKind::count || p.truth();
         if (!counted || p.costly || p.of_scene() || p.on_request()) continue;
-        with.add(counts.contains(p.name) ? "counts" : "topology", std::string(p.name),
-                 property_json(p, a), property_json(p, b));
+        with.add(counts.contains(p.name) ? "counts" : "topology", std::string(p.name), property_json(p, a),
+                 property_json(p, b));
     }
 }
 

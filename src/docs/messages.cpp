@@ -41,8 +41,8 @@ std::string messages_markdown() {
 }
 
 std::string messages_man() {
-    std::string text = fmt::format(".TH FACETMILL\\-MESSAGES 7 \"2026-11-22\" \"facetmill {}\" \"facetmill\"\n",
-                                   FACETMILL_VERSION);
+    std::string text = fmt::format(
+        ".TH FACETMILL\\-MESSAGES 7 \"2026-11-22\" \"facetmill {}\" \"facetmill\"\n", FACETMILL_VERSION);
     text += ".SH NAME\nfacetmill\\-messages \\- the errors and warnings of facetmill by their ids\n"
             ".SH DESCRIPTION\nEach error and warning has a stable id, which\n.B facetmill explain\nexplains, "
             "too.\n";

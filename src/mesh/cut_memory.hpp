@@ -30,8 +30,8 @@ struct CutMemory {
 
     /// What is known of that plane, however it is written (same_plane); or nothing.
     const Entry* find(const Plane& plane) const;
-    /// Adds points to what is known of the plane. Those exactly on it need no memory and are left out, but the plane
-    /// is known from now on, for the points that later cuts make on edges along it.
+    /// Adds points to what is known of the plane. Those exactly on it need no memory and are left out, but
+    /// the plane is known from now on, for the points that later cuts make on edges along it.
     void add(const Plane& plane, std::vector<Vec3> points);
 };
 

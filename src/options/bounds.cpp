@@ -1,6 +1,6 @@
 // Bounds and limits, of options/types.hpp: numbers that a value must have or may not pass.
-#include "base/portable_math.hpp"
 #include "base/numbers.hpp"
+#include "base/portable_math.hpp"
 #include "options/types.hpp"
 
 #include <algorithm>

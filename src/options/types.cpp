@@ -19,7 +19,6 @@ constexpr std::array<std::pair<std::string_view, double>, 8> length_units{{{"um"
                                                                            {"ft", 0.3048},
                                                                            {"inch", 0.0254}}};
 
-
 } // namespace
 
 bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint) {

@@ -34,8 +34,7 @@ bool Failures::judge_checks(std::size_t first) {
         const auto& check = record_.checks[i];
         if (check.passed) continue;
         const std::string text =
-            fmt::format("'{}' must be {}, found {}{}", check.name, check.expected,
-                        report::found_text(check),
+            fmt::format("'{}' must be {}, found {}{}", check.name, check.expected, report::found_text(check),
                         check.part.empty() ? "" : fmt::format(" in part '{}'", check.part));
         if (check.severity == Severity::error) {
             all_hold = false;

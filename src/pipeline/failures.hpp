@@ -36,12 +36,13 @@ class Failures {
         } catch (Error& e) {
             add(e.at(where));
         } catch (const std::bad_alloc&) {
-            add(ErrorKind::limit, {{Severity::error, "E-MEMORY", fmt::format("not enough memory for {}", what),
-                                   where, "simplify earlier, or use a machine with more memory"}});
+            add(ErrorKind::limit,
+                {{Severity::error, "E-MEMORY", fmt::format("not enough memory for {}", what), where,
+                  "simplify earlier, or use a machine with more memory"}});
         } catch (const std::exception& e) {
             add(ErrorKind::bug, {{Severity::error, "E-BUG",
-                                 fmt::format("{} failed in a way it never should: {}", what, e.what()), where,
-                                 "please report it, with the pipeline and the input"}});
+                                  fmt::format("{} failed in a way it never should: {}", what, e.what()),
+                                  where, "please report it, with the pipeline and the input"}});
         }
         return false;
     }

@@ -84,9 +84,9 @@ std::string locations_text(const Check& check) {
     const Json& first = check.evidence[0];
     if (!first.contains("at")) return shares_text(check.evidence);
     std::string text = "first ";
-    const std::string count = check.locations ? fmt::format("{} location{}, ", *check.locations,
-                                                            *check.locations == 1 ? "" : "s")
-                                              : "";
+    const std::string count =
+        check.locations ? fmt::format("{} location{}, ", *check.locations, *check.locations == 1 ? "" : "s")
+                        : "";
     if (check.locations) text = count + "the first ";
     if (check.fresh && *check.fresh > 0) text = count + fmt::format("{} new, the first ", *check.fresh);
     return text + location_text(first);

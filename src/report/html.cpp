@@ -164,8 +164,7 @@ std::string to_html(const RunRecord& record) {
         escaped(record.pipeline), style, escaped(record.about));
     out += verdict(record);
     out += table("Errors", heads({"", "what", "where", "hint"}), diagnostics(record.errors, "bad"));
-    out +=
-        table("Warnings", heads({"", "what", "where", "hint"}), diagnostics(record.warnings, "warn"));
+    out += table("Warnings", heads({"", "what", "where", "hint"}), diagnostics(record.warnings, "warn"));
     out +=
         table("Stages", heads({"name", "stage", "#faces before", "#faces after", "#vertices after", "notes"}),
               stage_rows(record));

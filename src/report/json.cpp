@@ -35,10 +35,10 @@ Json stage_json(const StageRecord& stage) {
     Json changes = Json::array();
     for (const auto& [part, change] : stage.attribute_changes)
         changes.push_back({{"part", part},
-                          {"attribute", change.attribute},
-                          {"domain", to_string(change.domain)},
-                          {"change", to_string(change.kind)},
-                          {"why", text_or_null(change.why)}});
+                           {"attribute", change.attribute},
+                           {"domain", to_string(change.domain)},
+                           {"change", to_string(change.kind)},
+                           {"why", text_or_null(change.why)}});
     return {{"name", stage.name},
             {"stage", stage.stage},
             {"path", stage.path},

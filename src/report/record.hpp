@@ -21,11 +21,11 @@ struct Check {
     /// A number, a truth, a word, the corners of a box {min, max} or a list of names, by the property's kind;
     /// null when the property does not apply.
     Json found = {};
-    std::string found_words = {};            ///< what people read for it, where that says more
-    std::optional<double> min = {}, max = {}; ///< what a number had to lie between
-    std::string hint = {};                   ///< when it failed: the stage that mends it
-    std::string part = {};                   ///< the part it is about; empty: the scene
-    Json evidence = {};                      ///< the first locations: [{part, at, face}], or null
+    std::string found_words = {};              ///< what people read for it, where that says more
+    std::optional<double> min = {}, max = {};  ///< what a number had to lie between
+    std::string hint = {};                     ///< when it failed: the stage that mends it
+    std::string part = {};                     ///< the part it is about; empty: the scene
+    Json evidence = {};                        ///< the first locations: [{part, at, face}], or null
     std::optional<std::size_t> locations = {}; ///< how many speak against it, where found does not tell
     std::optional<std::size_t> fresh = {}; ///< how many of these a baseline does not know; none without one
     bool waived = false;                   ///< it did not hold, but that is known; passed is true

@@ -8,19 +8,21 @@ namespace facetmill::report {
 
 /// One value by the property's kind; null where it does not apply or was not asked for.
 Json property_json(const Property& property, const Properties& properties);
-Json properties_json(const Properties& properties);     ///< numbers and truths of section 7, null where not applicable
+Json properties_json(
+    const Properties& properties); ///< numbers and truths of section 7, null where not applicable
 /// All of section 7 for a scene: properties_json plus unit, up, attributes, materials and parts.
 Json scene_json(const Scene& scene, const Properties& properties);
 /// The components of a scene of these properties with most faces, the largest first: [{part, faces, euler,
 /// boundary_loops, closed, genus}].
 Json components_json(const Scene& scene, const Properties& properties, std::size_t limit);
-Json to_json(const RunRecord& record);                  ///< the report; its schema is schema()
-Json schema();                                          ///< JSON Schema (2020-12) of the report
-Json info_schema();                                     ///< ... and of `info --json`
-std::string to_text(const RunRecord& record, bool colour);  ///< for a terminal
-std::string to_html(const RunRecord& record);           ///< one self-contained page
-std::string to_junit(const RunRecord& record);          ///< checks as test cases
-/// The renderer for a report's file name: .json, .html, .xml (JUnit), .txt. Throws usage (E-REPORT) otherwise.
+Json to_json(const RunRecord& record);                     ///< the report; its schema is schema()
+Json schema();                                             ///< JSON Schema (2020-12) of the report
+Json info_schema();                                        ///< ... and of `info --json`
+std::string to_text(const RunRecord& record, bool colour); ///< for a terminal
+std::string to_html(const RunRecord& record);              ///< one self-contained page
+std::string to_junit(const RunRecord& record);             ///< checks as test cases
+/// The renderer for a report's file name: .json, .html, .xml (JUnit), .txt. Throws usage (E-REPORT)
+/// otherwise.
 std::string render_for(const std::string& path, const RunRecord& record);
 
 } // namespace facetmill::report

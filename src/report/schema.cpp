@@ -64,7 +64,8 @@ Json found() {
 
 /// One value of a property.
 Json value_schema(const Property& p) {
-    Json schema = p.truth() ? typed("boolean") : nullable(p.kind == PropertyKind::count ? "integer" : "number");
+    Json schema =
+        p.truth() ? typed("boolean") : nullable(p.kind == PropertyKind::count ? "integer" : "number");
     const auto unit = unit_of(p.kind);
     schema["description"] = std::string(p.help) + (unit.empty() ? "" : fmt::format(" In {}.", unit));
     return schema;
@@ -100,10 +101,10 @@ Json scene_schema() {
 
 Json stage_schema() {
     const Json changes = closed_object({{"part", typed("string")},
-                                       {"attribute", typed("string")},
-                                       {"domain", choice({"vertex", "wedge", "face"})},
-                                       {"change", choice({"kept", "interpolated", "recomputed", "dropped"})},
-                                       {"why", nullable("string")}});
+                                        {"attribute", typed("string")},
+                                        {"domain", choice({"vertex", "wedge", "face"})},
+                                        {"change", choice({"kept", "interpolated", "recomputed", "dropped"})},
+                                        {"why", nullable("string")}});
     return closed_object({{"name", typed("string", "Unique in the run")},
                           {"stage", typed("string")},
                           {"path", typed("string", "Where in the pipeline: stages[5].branch.far[0]")},

@@ -57,8 +57,8 @@ void add_checks(const std::vector<Check>& checks, const Paint& paint, std::strin
                                  : c.severity == Severity::error ? "31"
                                                                  : "35",
                                  outcome(c)),
-                           c.name, c.stage, c.part.empty() ? "" : ", part " + c.part, c.expected, found_text(c),
-                           where.empty() ? "" : "; " + where);
+                           c.name, c.stage, c.part.empty() ? "" : ", part " + c.part, c.expected,
+                           found_text(c), where.empty() ? "" : "; " + where);
     }
 }
 

@@ -2,8 +2,8 @@
 
 #include "base/glob.hpp"
 #include "base/parallel.hpp"
-#include "mesh/power_scale.hpp"
 #include "mesh/placement.hpp"
+#include "mesh/power_scale.hpp"
 
 #include <fmt/format.h>
 

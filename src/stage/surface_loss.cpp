@@ -44,7 +44,8 @@ double share(MayLose may_lose) {
 std::string loss(const PartSurface& before, const PartSurface& after, MayLose may_lose) {
     if (before.faces == 0 || may_lose == MayLose::all) return {};
     if (after.faces == 0)
-        return before.faces == 1 ? "its face is gone" : fmt::format("none of its {} faces is left", before.faces);
+        return before.faces == 1 ? "its face is gone"
+                                 : fmt::format("none of its {} faces is left", before.faces);
     const double lost = 1 - after.area / before.area;
     if (!(before.area > 0) || !std::isfinite(before.area) || !(lost > share(may_lose))) return {};
     return fmt::format("{:.3g} % of its area is gone, {:.6g} of {:.6g} left", lost * 100, after.area,

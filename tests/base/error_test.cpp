@@ -6,8 +6,10 @@
 using namespace facetmill;
 
 TEST_CASE("a diagnostic is rendered with its source line, a caret and the way out", "[base]") {
-    auto source = std::make_shared<const SourceText>(SourceText{"a.yaml", "facetmill: 1\nstages:\n  - clop: 3\n"});
-    const Diagnostic d{Severity::error, "E-STAGE", "there is no stage 'clop'", Mark{source, 3, 5, 4}, "did you mean 'clip'?"};
+    auto source =
+        std::make_shared<const SourceText>(SourceText{"a.yaml", "facetmill: 1\nstages:\n  - clop: 3\n"});
+    const Diagnostic d{Severity::error, "E-STAGE", "there is no stage 'clop'", Mark{source, 3, 5, 4},
+                       "did you mean 'clip'?"};
     CHECK(render(d) == "a.yaml:3:5: error[E-STAGE]: there is no stage 'clop'\n"
                        "    - clop: 3\n"
                        "      ^~~~\n"
@@ -15,7 +17,8 @@ TEST_CASE("a diagnostic is rendered with its source line, a caret and the way ou
 }
 
 TEST_CASE("a diagnostic without a place says who speaks", "[base]") {
-    CHECK(render({Severity::warning, "W-UNITS", "unknown unit", {}, {}}) == "facetmill: warning[W-UNITS]: unknown unit");
+    CHECK(render({Severity::warning, "W-UNITS", "unknown unit", {}, {}}) ==
+          "facetmill: warning[W-UNITS]: unknown unit");
 }
 
 TEST_CASE("nearest names", "[base]") {

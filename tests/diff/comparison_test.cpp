@@ -1,7 +1,7 @@
 #include "support/catch.hpp"
 
-#include "mesh/shapes.hpp"
 #include "diff/comparison.hpp"
+#include "mesh/shapes.hpp"
 
 using namespace facetmill;
 using report::Comparison;

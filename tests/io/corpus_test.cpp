@@ -59,7 +59,8 @@ TEST_CASE("every text mesh of the corpus is read with its counts, or refused whe
                 std::cout << " | " << p.name << " v " << p.mesh.vertex_count() << " w "
                           << p.mesh.wedge_count() << " f " << p.mesh.face_count();
                 for (const auto& a : p.mesh.attributes)
-                    std::cout << " " << a.name << ":" << to_string(a.domain) << ":" << a.type() << a.components;
+                    std::cout << " " << a.name << ":" << to_string(a.domain) << ":" << a.type()
+                              << a.components;
             }
             std::cout << "\n";
             for (const auto& w : log.warnings) std::cout << "    " << render(w) << "\n";

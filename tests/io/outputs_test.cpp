@@ -82,7 +82,8 @@ TEST_CASE("targets that cannot be written are refused before anything is", "[io]
                       (dir / "file").string()));
     outputs.add(dir / "once", bytes_of("x"));
     CHECK(failure([&] { outputs.add(dir / "folder/../once", bytes_of("y")); }) ==
-          fmt::format("output [E-DUPLICATE-OUTPUT] '{}' is written twice in one run, with different contents | give the "
+          fmt::format("output [E-DUPLICATE-OUTPUT] '{}' is written twice in one run, with different contents "
+                      "| give the "
                       "second a name or a folder of its own",
                       (dir / "folder/../once").string()));
     CHECK(outputs.add(dir / "folder/../once", bytes_of("x")).target == dir / "once"); // a shared texture

@@ -136,7 +136,8 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "      ^~~~~~~~\n"
          "  hint: begin with load: FILE"},
         {stages("  - test-write: o.glb\n  - branch:\n      far: [test-write: ./O.glb]\n"),
-         "p.yaml:6:25: error[E-DUPLICATE-OUTPUT]: 'o.glb' and 'O.glb' are one file where case does not count\n"
+         "p.yaml:6:25: error[E-DUPLICATE-OUTPUT]: 'o.glb' and 'O.glb' are one file where case does not "
+         "count\n"
          "        far: [test-write: ./O.glb]\n"
          "                          ^~~~~~~\n"
          "  hint: the first is at p.yaml:4:17"},

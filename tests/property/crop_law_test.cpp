@@ -2,8 +2,8 @@
 // and hard ones when FACETMILL_CORPUS names a folder of them.
 #include "base/portable_math.hpp"
 #include "base/random.hpp"
-#include "geometry/cut/cut.hpp"
 #include "geometry/crop/crop.hpp"
+#include "geometry/cut/cut.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"

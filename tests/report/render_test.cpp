@@ -52,33 +52,33 @@ RunRecord full_record() {
     skipped.path = "stages[1]";
     skipped.skipped = true;
     record.stages = {cut, skipped};
-    record.checks = {
-        {.name = "closed", .stage = "validate", .expected = "true", .found = true},
-        {.name = "euler",
-         .stage = "validate",
-         .passed = false,
-         .expected = "2",
-         .found = 0,
-         .hint = "clean fills holes",
-         .part = "cube",
-         .evidence = Json::array({{{"part", "cube"}, {"face", 3}, {"at", {1, 2.5, 3}}}}),
-         .where = file_mark("p.yaml")},
-        {.name = "area",
-         .stage = "validate",
-         .passed = false,
-         .severity = Severity::warning,
-         .expected = "at most 5",
-         .found = 6},
-        {.name = "oriented",
-         .stage = "validate",
-         .expected = "true",
-         .found = false,
-         .part = "cube",
-         .evidence = Json::array({{{"part", "cube"}, {"face", 4}, {"at", {0, 0, 1}}}}),
-         .locations = 12,
-         .waived = true}};
-    record.errors = {{Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), "", true},
-                     {Severity::error, "E-WRITE", "the disk is full", {}, "make room"}};
+    record.checks = {{.name = "closed", .stage = "validate", .expected = "true", .found = true},
+                     {.name = "euler",
+                      .stage = "validate",
+                      .passed = false,
+                      .expected = "2",
+                      .found = 0,
+                      .hint = "clean fills holes",
+                      .part = "cube",
+                      .evidence = Json::array({{{"part", "cube"}, {"face", 3}, {"at", {1, 2.5, 3}}}}),
+                      .where = file_mark("p.yaml")},
+                     {.name = "area",
+                      .stage = "validate",
+                      .passed = false,
+                      .severity = Severity::warning,
+                      .expected = "at most 5",
+                      .found = 6},
+                     {.name = "oriented",
+                      .stage = "validate",
+                      .expected = "true",
+                      .found = false,
+                      .part = "cube",
+                      .evidence = Json::array({{{"part", "cube"}, {"face", 4}, {"at", {0, 0, 1}}}}),
+                      .locations = 12,
+                      .waived = true}};
+    record.errors = {
+        {Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), "", true},
+        {Severity::error, "E-WRITE", "the disk is full", {}, "make room"}};
     record.exit_code = 4;
     record.seconds = 1.5;
     record.peak_memory = 123456789;
@@ -151,19 +151,19 @@ TEST_CASE("what varies is under one key", "[report]") {
 }
 
 TEST_CASE("the text for the terminal", "[report]") {
-    CHECK(
-        to_text(full_record(), false) ==
-        "p.yaml: Mills <cubes> & more\n"
-        "  cut       1,200 -> 12 faces                     0.25 s\n"
-        "            warning[W-CAP]: one loop stays open\n"
-        "  relax     skipped\n"
-        "checks: 1 passed, 1 known, 2 failed\n"
-        "  failed euler (validate, part cube): expected 2, found 0; first face 3 of 'cube' at 1 2.5 3\n"
-        "  warned area (validate): expected at most 5, found 6\n"
-        "  known oriented (validate, part cube): expected true, found false; 12 locations, the first face 4 of "
-        "'cube' at 0 0 1\n"
-        "wrote b.glb (56.8 kB)\n"
-        "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); exit code 4\n");
+    CHECK(to_text(full_record(), false) ==
+          "p.yaml: Mills <cubes> & more\n"
+          "  cut       1,200 -> 12 faces                     0.25 s\n"
+          "            warning[W-CAP]: one loop stays open\n"
+          "  relax     skipped\n"
+          "checks: 1 passed, 1 known, 2 failed\n"
+          "  failed euler (validate, part cube): expected 2, found 0; first face 3 of 'cube' at 1 2.5 3\n"
+          "  warned area (validate): expected at most 5, found 6\n"
+          "  known oriented (validate, part cube): expected true, found false; 12 locations, the first face "
+          "4 of "
+          "'cube' at 0 0 1\n"
+          "wrote b.glb (56.8 kB)\n"
+          "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); exit code 4\n");
     RunRecord good;
     good.pipeline = "p.yaml";
     good.seconds = 0.5;

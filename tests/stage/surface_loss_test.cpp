@@ -54,8 +54,8 @@ TEST_CASE("a stage that leaves no face says so, unless it has said so itself", "
 
 TEST_CASE("a stage that takes more of the area than it may says how much", "[stage]") {
     CHECK(warned(MayLose::tenth, sheet(), leaving(9)) == "");
-    CHECK(warned(MayLose::tenth, sheet(), leaving(8)).starts_with(
-        "'eat' lost surface of part 'part': 20 % of its area is gone, "));
+    CHECK(warned(MayLose::tenth, sheet(), leaving(8))
+              .starts_with("'eat' lost surface of part 'part': 20 % of its area is gone, "));
     CHECK(warned(MayLose::half, sheet(), leaving(5)) == "");
     CHECK(warned(MayLose::half, sheet(), leaving(4)).find("60 %") != std::string::npos);
     CHECK(warned(MayLose::area, sheet(), leaving(1)) == "");
@@ -74,7 +74,8 @@ TEST_CASE("surface is missed in every part, and in the scene when the parts are 
     CHECK(warned(MayLose::tenth, two, first_only).starts_with("'eat' lost surface of the scene: 50 %"));
     CHECK(warned(MayLose::half, two, first_only) == "");
     const auto nothing = [](Scene) { return Scene{}; };
-    CHECK(warned(MayLose::half, two, nothing) == "'eat' lost surface of the scene: none of its 20 faces is left");
+    CHECK(warned(MayLose::half, two, nothing) ==
+          "'eat' lost surface of the scene: none of its 20 faces is left");
 }
 
 TEST_CASE("areas beyond numbers are not compared", "[stage]") {

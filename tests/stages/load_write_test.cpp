@@ -270,9 +270,9 @@ TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages
 TEST_CASE("write refuses what it cannot mean", "[stages]") {
     Bench b;
     b.scene.parts.emplace_back().mesh = shapes::cube();
-    CHECK(failure([&] { b.run("write", Value::scalar("c.xyz")); })
-              .starts_with(
-                  "usage [E-FORMAT] the suffix of 'c.xyz' names no format | give 'format', one of: "));
+    CHECK(failure([&] {
+              b.run("write", Value::scalar("c.xyz"));
+          }).starts_with("usage [E-FORMAT] the suffix of 'c.xyz' names no format | give 'format', one of: "));
     CHECK(failure([&] {
               b.run("write", options({{"path", "c.stl"}, {"unit", "mm"}}));
           }) == "stage [E-UNIT] the scene has no unit, so it cannot be written in mm | give the unit when it "

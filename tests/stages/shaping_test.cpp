@@ -233,7 +233,8 @@ TEST_CASE("split: targets and what they report", "[stages]") {
     CHECK(few.mesh().face_count() <= 100);
     CHECK(few.mesh().face_count() > 92);
     CHECK(few.record.result["parts"][0]["stopped_by"] == "max_faces");
-    CHECK(problems_of("split", options({{"method", "core"}, {"max_edge", "1"}})).substr(0, 11) == "E-CONFLICT ");
+    CHECK(problems_of("split", options({{"method", "core"}, {"max_edge", "1"}})).substr(0, 11) ==
+          "E-CONFLICT ");
     CHECK(problems_of("split", options({{"min_angle", "20"}, {"max_faces", "9"}})).substr(0, 11) ==
           "E-CONFLICT ");
     CHECK(problems_of("split", options({{"method", "sqrt3"}, {"feature_angle", "20"}})).substr(0, 11) ==

@@ -225,9 +225,9 @@ TEST_CASE("separate refuses a group that is not there, and too many parts", "[st
         Scene scene = scene_of(shapes::tetrahedron());
         scene.parts[0].mesh.attributes.push_back(
             {"group", Domain::face, Role::generic, 1, false, std::vector<double>{1, 2, value, -3}});
-        CHECK(failure([&] {
-                  run_stage("separate", "group", scene);
-              }).starts_with("stage [E-GROUP] separate: 'group' of part 'part' does not number groups: it is "));
+        CHECK(failure([&] { run_stage("separate", "group", scene); })
+                  .starts_with(
+                      "stage [E-GROUP] separate: 'group' of part 'part' does not number groups: it is "));
         scene.parts[0].mesh.attributes[0].set_value(2, 0, 1);
         CHECK(run_stage("separate", "group", scene).scene.parts.size() == 3);
     }

@@ -148,7 +148,8 @@ TEST_CASE("a cavity looks outward as a component when it looks into the hollow",
     Mesh alone = shapes::cube();
     append(alone, inner);
     for (std::size_t v = 8; v < 16; ++v) alone.positions[v].x += 5; // inside out, in no solid
-    CHECK(judged("{outward_oriented: true, per: component}", alone) == "part.1 outward_oriented: true, found false");
+    CHECK(judged("{outward_oriented: true, per: component}", alone) ==
+          "part.1 outward_oriented: true, found false");
 }
 
 TEST_CASE("validate judges each part or component when asked", "[stages]") {
@@ -174,12 +175,13 @@ TEST_CASE("validate measures angles, edges and ratios", "[stages]") {
 }
 
 TEST_CASE("validate finds folds, T-vertices, overlaps and the wrong side out", "[stages]") {
-    CHECK(judged("{folded_faces: 0, coplanar_overlaps: 0, t_junctions: 0, outward_oriented: true}", shapes::cube()) ==
-          "");
+    CHECK(judged("{folded_faces: 0, coplanar_overlaps: 0, t_junctions: 0, outward_oriented: true}",
+                 shapes::cube()) == "");
     CHECK(judged("{folded_faces: 0}", shapes::folded_quad()) == "folded_faces: 0, found 1");
     CHECK(judged("{coplanar_overlaps: 0}", shapes::folded_quad()) == "coplanar_overlaps: 0, found 1");
     CHECK(judged("{coplanar_overlaps: 0}", shapes::crossing()) == "");
-    CHECK(judged("{outward_oriented: true}", flipped(shapes::cube())) == "outward_oriented: true, found false");
+    CHECK(judged("{outward_oriented: true}", flipped(shapes::cube())) ==
+          "outward_oriented: true, found false");
     CHECK(judged("{outward_oriented: true}", shapes::moebius(9)) == "outward_oriented: true, found false");
     Mesh crack;
     crack.positions = {{0, 0, 0}, {2, 0, 0}, {0, -2, 0}, {0, 2, 0}, {1, 0, 0}};
@@ -219,7 +221,8 @@ TEST_CASE("validate knows what a purpose needs", "[stages]") {
     CHECK(judged("{for: web}", shapes::grid(2, 2)) ==
           ""); // open, without normals and weights: none is missed
     CHECK(judged("{for: solid}", flipped(shapes::cube())) == "outward_oriented: true, found false");
-    CHECK(judged("{for: solid, outward_oriented: false}", flipped(shapes::cube())) == ""); // what is given counts
+    CHECK(judged("{for: solid, outward_oriented: false}", flipped(shapes::cube())) ==
+          ""); // what is given counts
 }
 
 TEST_CASE("validate limits what a scene holds", "[stages]") {

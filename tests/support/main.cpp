@@ -1,5 +1,6 @@
-// The test runner's main. Beside Catch2's own arguments it knows --ctest, which writes the script that tells ctest of
-// every case: "geometry/clip/cap: a square hole is closed" runs in a process of its own, with its room as label.
+// The test runner's main. Beside Catch2's own arguments it knows --ctest, which writes the script that tells
+// ctest of every case: "geometry/clip/cap: a square hole is closed" runs in a process of its own, with its
+// room as label.
 
 #define CATCH_CONFIG_RUNNER
 #include "support/catch.hpp"

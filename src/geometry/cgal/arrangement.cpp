@@ -1,7 +1,7 @@
 #include "geometry/cgal/arrangement.hpp"
 
-#include "geometry/spatial/box_tree.hpp"
 #include "geometry/cgal/plane_cut.hpp"
+#include "geometry/spatial/box_tree.hpp"
 #include "mesh/topology.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

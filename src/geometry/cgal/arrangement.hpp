@@ -56,9 +56,9 @@ class Arrangement {
 
     /// Calls hit(triangle, way) for the triangles, but those listed, that a ray from the centre of three
     /// nodes along an axis passes through: way is 1 when it leaves through their front, -1 when it enters.
-    /// Edges and vertices count once (see `passes` of geometry/spatial/rays.hpp). Returns 1 when the ray begins on
-    /// the front of the three nodes, else -1. Exact, as long as no other triangle holds the centre. Requires
-    /// nodes that are not on one line.
+    /// Edges and vertices count once (see `passes` of geometry/spatial/rays.hpp). Returns 1 when the ray
+    /// begins on the front of the three nodes, else -1. Exact, as long as no other triangle holds the centre.
+    /// Requires nodes that are not on one line.
     int look_ahead(const std::array<Index, 3>& nodes, std::span<const Index> but,
                    const std::function<void(Index triangle, int way)>& hit) const;
 

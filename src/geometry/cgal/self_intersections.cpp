@@ -1,11 +1,11 @@
 #include "geometry/intersect/self_intersections.hpp"
 
 #include "base/parallel.hpp"
-#include "geometry/spatial/box_pairs.hpp"
 #include "geometry/inspect/evidence.hpp"
-#include "mesh/surface.hpp"
 #include "geometry/intersect/contacts.hpp"
 #include "geometry/intersect/disjoint_triangles.hpp"
+#include "geometry/spatial/box_pairs.hpp"
+#include "mesh/surface.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>

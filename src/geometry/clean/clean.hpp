@@ -32,10 +32,10 @@ struct HoleSettings {
 };
 
 struct ComponentSettings {
-    std::size_t min_faces = 0;    ///< pieces of fewer faces go
-    double min_size = 0;          ///< pieces whose box has a shorter diagonal go, mesh units
-    double min_area = 0;          ///< pieces with a smaller share of the whole area go
-    std::size_t keep = 0;         ///< all but so many of largest area go; 0: no limit
+    std::size_t min_faces = 0; ///< pieces of fewer faces go
+    double min_size = 0;       ///< pieces whose box has a shorter diagonal go, mesh units
+    double min_area = 0;       ///< pieces with a smaller share of the whole area go
+    std::size_t keep = 0;      ///< all but so many of largest area go; 0: no limit
 };
 
 /// Every step on or off. Lengths are in mesh units.
@@ -43,7 +43,7 @@ struct CleanSettings {
     Nearness weld = Nearness::exact; ///< vertices at one place become one; near: ends of open edges too
     Nearness stitch = Nearness::off; ///< open edges that run along each other become one, so do their ends
     Nearness t_junctions = Nearness::exact; ///< open edges get the vertices of other open edges along them
-    bool degenerate = true;                ///< faces of exactly zero area, and repeated corners, go
+    bool degenerate = true;                 ///< faces of exactly zero area, and repeated corners, go
     bool duplicates = true;   ///< one face of each set with the same vertices stays, none of an inner wall
     bool non_manifold = true; ///< edges of more than two faces and vertices of several fans come apart
     bool isolated = true;     ///< vertices that no face uses go
@@ -69,8 +69,8 @@ struct CleanCounts {
                 filled_holes = 0, hole_faces = 0, components = 0, component_faces = 0, inner_components = 0,
                 inner_component_faces = 0, isolated_vertices = 0, intersecting_faces = 0;
     std::size_t united_components = 0; ///< closed pieces that intersected and are part of a union now
-    std::size_t refined_faces = 0; ///< cut where they intersected, once per pass
-    std::size_t covered_faces = 0; ///< intersected nothing and lay inside another piece
+    std::size_t refined_faces = 0;     ///< cut where they intersected, once per pass
+    std::size_t covered_faces = 0;     ///< intersected nothing and lay inside another piece
     /// Edges of more than two faces that unions made, where solids touch; none if non_manifold takes them
     /// apart.
     std::size_t touching_edges = 0;

@@ -15,7 +15,7 @@ struct Work {
     CleanCounts counts;
     std::vector<NotDone> not_done;
     AttributeChanges changes; ///< of the step that mixed attributes last
-    bool untangled = false; ///< the mesh is known to have no crossings
+    bool untangled = false;   ///< the mesh is known to have no crossings
 };
 
 /// Vertices at one place become the lowest of them. Where the faces that meet there would only come apart

@@ -2,9 +2,9 @@
 
 #include "base/memory.hpp"
 #include "geometry/clean/united_mesh.hpp"
+#include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "mesh/surface.hpp"
-#include "geometry/edit/surgery.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,7 +1,7 @@
 // Steps of clean that merge vertices.
-#include "geometry/spatial/box_tree.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/surgery.hpp"
+#include "geometry/spatial/box_tree.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>

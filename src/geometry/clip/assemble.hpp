@@ -2,8 +2,8 @@
 // Puts one side of a cut together: kept faces, pieces, cap, attributes. For clip only.
 
 #include "geometry/clip/cap.hpp"
-#include "geometry/cut/cap_paint.hpp"
 #include "geometry/clip/clip.hpp"
+#include "geometry/cut/cap_paint.hpp"
 
 namespace facetmill {
 

@@ -2,12 +2,12 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "geometry/cut/cap_paint.hpp"
-#include "geometry/cut/cut.hpp"
 #include "geometry/crop/cut.hpp"
-#include "geometry/crop/walls.hpp"
 #include "geometry/crop/outline_walls.hpp"
 #include "geometry/crop/trace.hpp"
+#include "geometry/crop/walls.hpp"
+#include "geometry/cut/cap_paint.hpp"
+#include "geometry/cut/cut.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,8 +3,8 @@
 #include "base/parallel.hpp"
 #include "geometry/clip/clip.hpp"
 #include "geometry/crop/outline_walls.hpp"
-#include "geometry/cut/score.hpp"
 #include "geometry/crop/trace.hpp"
+#include "geometry/cut/score.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 // One wall of a crop: the boundary of the kept faces at a segment of the outline, completed and filled. For
 // crop only.
 
-#include "geometry/cut/fill_disjoint.hpp"
 #include "geometry/crop/outline_walls.hpp"
+#include "geometry/cut/fill_disjoint.hpp"
 
 #include <map>
 #include <set>

@@ -41,8 +41,8 @@ struct WalledCrop {
 /// triangles, turned, but for those without area between points at one place.
 ///
 /// Attributes: walls have their own as caps of clip have. Of a mesh that was open, only edges on the outline
-/// count, and contours that do not close are left and reported. Throws UnclosedWalls (stage, E-CROP-CAP) for a closed mesh
-/// when the walls cannot be completed.
+/// count, and contours that do not close are left and reported. Throws UnclosedWalls (stage, E-CROP-CAP) for
+/// a closed mesh when the walls cannot be completed.
 WalledCrop close_crop(Mesh kept, const Footprint& footprint, const WallSettings& settings);
 
 } // namespace facetmill

@@ -1,7 +1,7 @@
 #include "geometry/crumple/crumple.hpp"
 
-#include "base/portable_math.hpp"
 #include "base/numbers.hpp"
+#include "base/portable_math.hpp"
 #include "base/random.hpp"
 
 #include <algorithm>

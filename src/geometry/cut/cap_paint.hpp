@@ -1,8 +1,8 @@
 #pragma once
 // The attributes that caps have of their own. For the stages that cap only.
 
-#include "mesh/plane.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/plane.hpp"
 
 namespace facetmill {
 

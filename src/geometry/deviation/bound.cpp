@@ -67,7 +67,8 @@ struct Outcome {
 
 class Certifier {
   public:
-    Certifier(DirectedDeviation& d, const Surface& from, const FaceTree& to, const DeviationSettings& settings)
+    Certifier(DirectedDeviation& d, const Surface& from, const FaceTree& to,
+              const DeviationSettings& settings)
         : d_(d), from_(from), tree_(to), settings_(settings), slack_(from.bounds().diagonal() * 1e-6) {}
 
     void run() {

@@ -6,9 +6,9 @@
 namespace facetmill {
 
 struct MaskSettings {
-    std::string material = {};                   ///< name or glob of materials; empty: any
+    std::string material = {};              ///< name or glob of materials; empty: any
     std::optional<std::int64_t> group = {}; ///< number in face attribute `group`
-    std::string attribute = {};                  ///< name; its first number, 0 to 1, is the share of the move
+    std::string attribute = {};             ///< name; its first number, 0 to 1, is the share of the move
     bool invert = false;                    ///< the others, or the rest of the share
 
     bool any() const { return !material.empty() || group || !attribute.empty(); }

@@ -22,18 +22,18 @@ enum class Shape {
 /// it.
 struct GenerateSettings {
     Shape shape = Shape::sphere;
-    double radius = 1;   ///< sphere, icosphere, cylinder, cone; torus: of the circle that the tube follows
-    double minor_radius = 0.4; ///< torus: of the tube, below radius
-    double size = 2;     ///< side of cube, grid, gaussian, menger
-    double height = 2;   ///< cylinder, cone; gaussian: of the peak
-    double spread = 0.3; ///< gaussian: its standard deviation s
+    double radius = 1; ///< sphere, icosphere, cylinder, cone; torus: of the circle that the tube follows
+    double minor_radius = 0.4;  ///< torus: of the tube, below radius
+    double size = 2;            ///< side of cube, grid, gaussian, menger
+    double height = 2;          ///< cylinder, cone; gaussian: of the peak
+    double spread = 0.3;        ///< gaussian: its standard deviation s
     std::int64_t segments = 48; ///< sphere, torus, cylinder, cone: pieces around the axis, at least 3
-    std::int64_t rings = 24;  ///< sphere: bands from pole to pole, at least 2; torus: pieces around the tube,
-                              ///< at least 3; cylinder, cone: rows, at least 1
-    std::int64_t cells = 10;  ///< cube, grid, gaussian: cells along a side, at least 1
+    std::int64_t rings = 24; ///< sphere: bands from pole to pole, at least 2; torus: pieces around the tube,
+                             ///< at least 3; cylinder, cone: rows, at least 1
+    std::int64_t cells = 10; ///< cube, grid, gaussian: cells along a side, at least 1
     std::int64_t subdivisions = 3; ///< icosphere 0 to 12: refinements; menger 1 to 4
-    bool caps = true;         ///< cylinder, cone: closed by fans
-    bool quads = false;       ///< quads where the shape has them, rather than triangles
+    bool caps = true;              ///< cylinder, cone: closed by fans
+    bool quads = false;            ///< quads where the shape has them, rather than triangles
     double noise = 0;       ///< standard deviation of Gaussian noise on x, y and z of each vertex; at least 0
     std::uint64_t seed = 0; ///< of the noise
 };

@@ -14,8 +14,8 @@ struct AttributeCheck {
     bool (*concerns)(const Attribute& attribute);
     /// Whether element i keeps it from holding.
     bool (*fails)(const Mesh& mesh, const Attribute& attribute, std::size_t i);
-    bool together = false;  ///< all of these attributes are judged as one, told at the first
-    bool of_any = false;    ///< it holds for a mesh without such attributes, else it does not apply
+    bool together = false; ///< all of these attributes are judged as one, told at the first
+    bool of_any = false;   ///< it holds for a mesh without such attributes, else it does not apply
 };
 
 bool outside_unit(const Mesh&, const Attribute& a, std::size_t i) {

@@ -88,8 +88,7 @@ std::vector<BoundaryChain> boundary_chains(const Mesh& mesh) {
 
 std::vector<Location> locations_against(const Mesh& mesh, const Property& property,
                                         const LocationQuery& query) {
-    if (property.of_faces)
-        return inspect_room::locations_of_faces(mesh, worst_faces(mesh, property, query));
+    if (property.of_faces) return inspect_room::locations_of_faces(mesh, worst_faces(mesh, property, query));
     return property.locations ? property.locations(mesh, query) : std::vector<Location>{};
 }
 

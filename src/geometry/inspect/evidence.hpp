@@ -29,9 +29,9 @@ struct LocationQuery {
 };
 
 /// The first locations that speak against a property, in the mesh's (the part's own) space, in order of edge,
-/// face or vertex number: those that keep it from holding as a sound mesh has it. Of properties that each face
-/// has (min_angle), the worst faces whose value fails, the worst first; values are taken where the part stands.
-/// Empty for properties that are not about places. O(n log n).
+/// face or vertex number: those that keep it from holding as a sound mesh has it. Of properties that each
+/// face has (min_angle), the worst faces whose value fails, the worst first; values are taken where the part
+/// stands. Empty for properties that are not about places. O(n log n).
 std::vector<Location> locations_against(const Mesh& mesh, const Property& property,
                                         const LocationQuery& query = {});
 std::vector<Location> locations_against(const Part& part, const Property& property,

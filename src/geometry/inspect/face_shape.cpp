@@ -4,9 +4,9 @@
 #include "geometry/inspect/measures.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/aspect_ratio.hpp"
+#include "mesh/face.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/surface.hpp"
-#include "mesh/face.hpp"
 
 #include <algorithm>
 
@@ -21,8 +21,7 @@ double angle(const Vec3& at, const Vec3& b, const Vec3& c) {
 }
 
 double corner_angle(const Mesh& mesh, Index f, Index c) {
-    return angle(mesh.point(c), mesh.point(previous_corner(mesh, f, c)),
-                 mesh.point(next_corner(mesh, f, c)));
+    return angle(mesh.point(c), mesh.point(previous_corner(mesh, f, c)), mesh.point(next_corner(mesh, f, c)));
 }
 
 double edge_length(const Mesh& mesh, Index f, Index c) {
@@ -70,7 +69,8 @@ template <class Value>
 std::vector<double> most_of_corners(const Mesh& mesh, Value&& value) {
     return of_each_face(mesh, [&](Index f) {
         double most = 0;
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) most = std::max(most, value(mesh, f, c));
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+            most = std::max(most, value(mesh, f, c));
         return most;
     });
 }

@@ -281,8 +281,7 @@ std::vector<Properties> inspect_components(const Mesh& mesh, std::size_t limit) 
 
 void InspectSettings::request(const Property& property) {
     if (property.costly) self_intersections = true;
-    if (property.on_request() &&
-        std::find(requested.begin(), requested.end(), &property) == requested.end())
+    if (property.on_request() && std::find(requested.begin(), requested.end(), &property) == requested.end())
         requested.push_back(&property);
 }
 

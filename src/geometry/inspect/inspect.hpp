@@ -22,8 +22,8 @@ struct LocationQuery;
 struct Evidence;
 struct EvidenceQuery;
 
-/// The values of properties. Of a scene: what its parts have, joined as each property's row says; bounds, area
-/// and volume in world space.
+/// The values of properties. Of a scene: what its parts have, joined as each property's row says; bounds,
+/// area and volume in world space.
 struct Properties {
     std::int64_t vertices = 0, wedges = 0, edges = 0, faces = 0, triangles = 0;
     std::int64_t components = 0; ///< connected through vertices; isolated vertices are not counted
@@ -110,11 +110,10 @@ struct Measured {
 /// One property: all that is known of it, in one row. Its value is either a member of Properties, which the
 /// one pass of inspect fills, or has a function of its own, called on request.
 struct Property {
-    using Member =
-        std::variant<std::monostate, std::int64_t Properties::*, bool Properties::*, double Properties::*,
-                     std::optional<std::int64_t> Properties::*, std::optional<double> Properties::*,
-                     std::optional<Unit> Properties::*, std::optional<UpAxis> Properties::*,
-                     Box Properties::*>;
+    using Member = std::variant<std::monostate, std::int64_t Properties::*, bool Properties::*,
+                                double Properties::*, std::optional<std::int64_t> Properties::*,
+                                std::optional<double> Properties::*, std::optional<Unit> Properties::*,
+                                std::optional<UpAxis> Properties::*, Box Properties::*>;
     using LocationsOf = std::vector<Location> (*)(const Mesh& local, const LocationQuery& query);
     using EvidenceOf = std::vector<Evidence> (*)(const Scene& scene, const EvidenceQuery& query);
 

@@ -21,9 +21,9 @@ std::vector<double> shortest_edges(const Mesh& mesh);
 std::vector<double> longest_edges(const Mesh& mesh);
 /// How far the farthest corner is from the mean plane.
 std::vector<double> nonplanarities(const Mesh& mesh);
-/// The way from the face's middle straight in (against its normal) to the first face that is seen from behind;
-/// infinity where there is none, or the face has no area. In floating point: a ray that passes exactly through
-/// an edge may miss it.
+/// The way from the face's middle straight in (against its normal) to the first face that is seen from
+/// behind; infinity where there is none, or the face has no area. In floating point: a ray that passes
+/// exactly through an edge may miss it.
 std::vector<double> wall_thicknesses(const Mesh& mesh);
 
 // face_pairs.cpp

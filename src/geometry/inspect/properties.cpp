@@ -377,8 +377,8 @@ constexpr Property table[] = {
 std::span<const Property> property_table() { return table; }
 
 const Property* property_named(std::string_view name) {
-    const auto found = std::find_if(std::begin(table), std::end(table),
-                                    [&](const Property& p) { return p.name == name; });
+    const auto found =
+        std::find_if(std::begin(table), std::end(table), [&](const Property& p) { return p.name == name; });
     return found == std::end(table) ? nullptr : found;
 }
 

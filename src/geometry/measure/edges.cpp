@@ -1,6 +1,6 @@
 // Edges, corners and curvature of geometry/measure/measure.hpp.
-#include "base/portable_math.hpp"
 #include "base/parallel.hpp"
+#include "base/portable_math.hpp"
 #include "geometry/measure/measure.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/power_scale.hpp"

@@ -90,9 +90,8 @@ EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
 
 /// Inner angles at the corners of faces, and areas.
 struct FaceResult {
-    Statistics area, angle; ///< angle: 0 to 2 pi, beyond pi at concave corners
-    Statistics
-        aspect_ratio; ///< of triangles with an area (mesh/aspect_ratio.hpp)
+    Statistics area, angle;  ///< angle: 0 to 2 pi, beyond pi at concave corners
+    Statistics aspect_ratio; ///< of triangles with an area (mesh/aspect_ratio.hpp)
     FaceKinds kinds;
     std::vector<double> areas; ///< per face
 };

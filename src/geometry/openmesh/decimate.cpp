@@ -32,8 +32,8 @@ struct Shared {
 };
 
 /// Allows a collapse when it removes a free vertex, keeps the faces within the angle of the normal that they
-/// came with and the aspect ratio within its limit (or no worse than it was), and makes none flat. Notes what is made. (OpenMesh's own module for normals uses acos, whose
-/// results depend on the machine.)
+/// came with and the aspect ratio within its limit (or no worse than it was), and makes none flat. Notes what
+/// is made. (OpenMesh's own module for normals uses acos, whose results depend on the machine.)
 template <class MeshT>
 class NotesT : public OpenMesh::Decimater::ModBaseT<MeshT> {
   public:
@@ -44,7 +44,8 @@ class NotesT : public OpenMesh::Decimater::ModBaseT<MeshT> {
     float collapse_priority(const CollapseInfo& ci) override {
         const auto role = [&](auto v) { return shared_->roles[static_cast<std::size_t>(v.idx())]; };
         const bool may = role(ci.v0) == DecimatedVertex::free && role(ci.v1) != DecimatedVertex::untouched;
-        return float(may && keeps_facing(ci) && keeps_shape(ci) ? Base::LEGAL_COLLAPSE : Base::ILLEGAL_COLLAPSE);
+        return float(may && keeps_facing(ci) && keeps_shape(ci) ? Base::LEGAL_COLLAPSE
+                                                                : Base::ILLEGAL_COLLAPSE);
     }
 
     void preprocess_collapse(const CollapseInfo& ci) override {

@@ -173,14 +173,15 @@ class Outside {
             [](double a, double b) { return a + b; });
     }
 
-    /// In how many other closed components each closed component lies. One that touches or crosses another is not
-    /// nested in it: overlapping solids are no cavities of each other.
+    /// In how many other closed components each closed component lies. One that touches or crosses another is
+    /// not nested in it: overlapping solids are no cavities of each other.
     void find_depths() {
         std::vector<std::vector<Index>> around(spread_.components.size());
         parallel_for(
             around.size(),
             [&](std::size_t p) {
-                if (spread_.components[p].orientable && spread_.components[p].closed) around[p] = components_around(p);
+                if (spread_.components[p].orientable && spread_.components[p].closed)
+                    around[p] = components_around(p);
             },
             1);
         if (std::all_of(around.begin(), around.end(), [](const auto& a) { return a.empty(); })) return;
@@ -204,7 +205,8 @@ class Outside {
     }
 
     /// The pairs of components, of those that may be nested, whose faces meet.
-    std::set<std::pair<Index, Index>> intersecting_components(const std::vector<std::vector<Index>>& around) const {
+    std::set<std::pair<Index, Index>>
+    intersecting_components(const std::vector<std::vector<Index>>& around) const {
         constexpr std::size_t most_pairs = std::size_t{1} << 24;
         SelfIntersectionSettings settings{.limit = most_pairs};
         settings.among.resize(mesh_.face_count());
@@ -218,8 +220,8 @@ class Outside {
         return meeting;
     }
 
-    /// Rays along the axes from faces spread over the component: how much of their front sees the outside, less
-    /// how much of their back does. Only the component itself is in the way.
+    /// Rays along the axes from faces spread over the component: how much of their front sees the outside,
+    /// less how much of their back does. Only the component itself is in the way.
     double votes(std::size_t p) const {
         constexpr std::size_t most = 256;
         const auto& faces = faces_[p];
@@ -270,7 +272,8 @@ OrientResult orient(Mesh mesh, const OrientSettings& settings) {
             const auto turns = Outside(agreed, spread, settings.nested).run();
             for (Index f = 0; f < flips.size(); ++f) flips[f] = flips[f] != turns[spread.component_of[f]];
         }
-        for (Index f = 0; f < flips.size(); ++f) spread.components[spread.component_of[f]].flipped += flips[f];
+        for (Index f = 0; f < flips.size(); ++f)
+            spread.components[spread.component_of[f]].flipped += flips[f];
         result.components = std::move(spread.components);
     }
     result.flipped = static_cast<std::size_t>(std::count(flips.begin(), flips.end(), 1));

@@ -89,7 +89,8 @@ void set_target(const Mesh& mesh, Attribute& a, const std::vector<Vec3>& target,
 }
 
 /// Relaxes the morph targets of positions as often as the surface was, and says what became of all targets.
-AttributeChanges relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& settings, const Run& base) {
+AttributeChanges relax_targets(Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
+                               const Run& base) {
     AttributeChanges changes;
     for (auto& a : mesh.attributes) {
         if (a.role != Role::morph_vector) continue;

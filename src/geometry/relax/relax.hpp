@@ -32,10 +32,10 @@ struct RelaxSettings {
     Boundary boundary = Boundary::fixed;
     std::optional<double> feature_angle = {}; ///< radians: edges whose faces meet at a larger angle are kept;
                                               ///< vertices on them move along them only
-    double pass_band = 0.1;              ///< taubin: 0 < k < 1, what of the surface's frequencies is kept
-    double alpha = 0;                    ///< hc: 0 to 1: how much the first surface counts
-    double beta = 0.5;                   ///< hc: 0 to 1: the vertex's own share of what is pushed back
-    std::vector<double> mask = {};       ///< [vertices] 0 to 1: share of the move; empty: all of it
+    double pass_band = 0.1;        ///< taubin: 0 < k < 1, what of the surface's frequencies is kept
+    double alpha = 0;              ///< hc: 0 to 1: how much the first surface counts
+    double beta = 0.5;             ///< hc: 0 to 1: the vertex's own share of what is pushed back
+    std::vector<double> mask = {}; ///< [vertices] 0 to 1: share of the move; empty: all of it
     double until = 0;        ///< stop when no vertex moved farther in an iteration, world units; 0: never
     Transform to_world = {}; ///< part space -> world, where angles and moves are measured
 };

@@ -45,10 +45,11 @@ struct FaceTree : BoxLevels {
         return patches[patch_begin[static_cast<std::size_t>(level) - 1] + i];
     }
 
-    std::vector<Triangle> triangles;      ///< those with finite corners, neighbours by geometry/spatial/median_order.hpp
-    std::vector<Index> faces;             ///< of triangles
-    std::vector<Plates> plates;           ///< of triangles 4i to 4i + 3
-    int patch_levels = -1; ///< at most 2; above, pieces are too curved to gain. -1: no plates either
+    std::vector<Triangle>
+        triangles;            ///< those with finite corners, neighbours by geometry/spatial/median_order.hpp
+    std::vector<Index> faces; ///< of triangles
+    std::vector<Plates> plates; ///< of triangles 4i to 4i + 3
+    int patch_levels = -1;      ///< at most 2; above, pieces are too curved to gain. -1: no plates either
     std::vector<std::size_t> patch_begin; ///< into patches
     std::vector<Patches> patches;
     double reach = 1; ///< of everything, in the tree's frame: above 1 some of it lies outside

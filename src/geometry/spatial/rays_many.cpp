@@ -1,7 +1,7 @@
 // Many lines at once, of geometry/spatial/rays.hpp.
 #include "base/parallel.hpp"
-#include "geometry/spatial/rays_walk.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
+#include "geometry/spatial/rays_walk.hpp"
 
 namespace facetmill {
 

@@ -1,9 +1,9 @@
 #pragma once
-// How geometry/spatial/rays.hpp finds what a line meets: the exact test of a triangle, and the way through the tree,
-// in steps, so that many lines can take turns.
+// How geometry/spatial/rays.hpp finds what a line meets: the exact test of a triangle, and the way through
+// the tree, in steps, so that many lines can take turns.
 
-#include "base/simd.hpp"
 #include "base/predicates.hpp"
+#include "base/simd.hpp"
 #include "geometry/spatial/rays.hpp"
 
 #include <algorithm>

@@ -46,7 +46,7 @@ struct SplitSettings {
     std::uint64_t max_faces = 0; ///< target: longest edges first, and never more faces than this (0: none)
     std::optional<double> feature_angle = {}; ///< smooth methods, radians: edges whose faces meet at a larger
                                               ///< angle stay sharp (none: only boundaries do)
-    Transform to_world = {};            ///< part space -> world, where lengths and angles are measured
+    Transform to_world = {};                  ///< part space -> world, where lengths and angles are measured
 };
 
 struct SplitResult {
@@ -59,8 +59,8 @@ struct SplitResult {
     };
     Mesh mesh;
     AttributeChanges changes; ///< what became of the attributes
-    std::size_t added = 0; ///< faces more than before
-    int passes = 0;        ///< done
+    std::size_t added = 0;    ///< faces more than before
+    int passes = 0;           ///< done
     Stop stop = Stop::passes;
     std::size_t folded = 0; ///< faces whose pieces lie over each other (folding_faces), summed over passes
     std::size_t narrow = 0; ///< with min_angle: triangles left that have a smaller angle

@@ -2,8 +2,8 @@
 
 #include "stage/options/numbers.hpp"
 
-#include "base/portable_math.hpp"
 #include "base/numbers.hpp"
+#include "base/portable_math.hpp"
 
 #include <fmt/format.h>
 
@@ -51,7 +51,8 @@ void verify_box(const BoxOption& box, const Mark& where, Problems& problems) {
         const double extent = box.min ? (*box.max)[i] - (*box.min)[i] : (*box.size)[i];
         if (!(extent > 0))
             return problems.add(
-                where, "E-BOX", fmt::format("the box has no extent along {}: {}", "xyz"[i], to_string(extent)),
+                where, "E-BOX",
+                fmt::format("the box has no extent along {}: {}", "xyz"[i], to_string(extent)),
                 box.min ? "max must be greater than min in all three" : "sizes are above zero");
     }
     if (box.axis == Vec3{})

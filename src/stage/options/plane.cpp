@@ -136,7 +136,8 @@ bool OptionType<PlaneCoefficients>::parse(const Value& value, PlaneCoefficients&
 }
 std::string OptionType<PlaneCoefficients>::print(const PlaneCoefficients& value) {
     const auto& v = value.abcd;
-    return fmt::format("[{}, {}, {}, {}]", to_string(v[0]), to_string(v[1]), to_string(v[2]), to_string(v[3]));
+    return fmt::format("[{}, {}, {}, {}]", to_string(v[0]), to_string(v[1]), to_string(v[2]),
+                       to_string(v[3]));
 }
 Json OptionType<PlaneCoefficients>::schema() { return numbers_schema(4); }
 

@@ -82,10 +82,9 @@ void declare_faces(DeclareFields<FaceResult>& d) {
         names.push_back(polygon::to_string(static_cast<polygon::Kind>(k)));
     d.object("area", &FaceResult::area, "Their areas.", statistics_fields("square scene units"));
     d.object("angle", &FaceResult::angle, "Their inner angles.", statistics_fields("degrees", degrees));
-    d.object(
-        "aspect_ratio", &FaceResult::aspect_ratio,
-        "Of triangles: the longest edge over the inradius, normalised to 1 for an equilateral triangle.",
-        statistics_fields());
+    d.object("aspect_ratio", &FaceResult::aspect_ratio,
+             "Of triangles: the longest edge over the inradius, normalised to 1 for an equilateral triangle.",
+             statistics_fields());
     d.counts("kinds", kinds_of, names, "The number of each kind that occurs.");
     d.field(
         "non_planar", [](const FaceResult& f) { return f.kinds.non_planar; },

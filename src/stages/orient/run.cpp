@@ -76,8 +76,8 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
         context.warn("W-ORIENT",
                      fmt::format("orient: {} of part '{}' is not orientable, like a Moebius strip, and stays "
                                  "as it was; neighbours cannot be consistent at ({:.6g}, {:.6g}, {:.6g})",
-                                 crossed == 1 ? "a component" : fmt::format("{} components", crossed), part.name,
-                                 at.x, at.y, at.z),
+                                 crossed == 1 ? "a component" : fmt::format("{} components", crossed),
+                                 part.name, at.x, at.y, at.z),
                      "cut it there, or use two-sided");
     }
     if (undecided > 0)

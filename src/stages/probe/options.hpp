@@ -1,8 +1,8 @@
 #pragma once
 // The options of probe.
 
-#include "stages/probe/rows.hpp"
 #include "stage/stage.hpp"
+#include "stages/probe/rows.hpp"
 
 namespace facetmill {
 

@@ -54,9 +54,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
 }
 
 /// Smooth methods approach a surface inside the corners of the first, however much that is.
-MayLose may_lose(const SplitOptions& o) {
-    return is_smooth(o.chosen()) ? MayLose::area : MayLose::half;
-}
+MayLose may_lose(const SplitOptions& o) { return is_smooth(o.chosen()) ? MayLose::area : MayLose::half; }
 
 const RegisterStage split_stage = make_stage<SplitOptions>(
     {.name = "split",

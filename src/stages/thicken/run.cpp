@@ -61,7 +61,7 @@ const RegisterStage registered =
                                 .details = help::thicken::details,
                                 .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
                                              "thicken: {thickness: 0.5%, mode: edges, sides: 6}"},
-     .may_lose = MayLose::area},
+                                .may_lose = MayLose::area},
                                declare_thicken, declare_thicken_report, run);
 
 } // namespace

@@ -85,7 +85,8 @@ std::vector<std::uint64_t> location_keys(const Scene& scene, const Assertion& as
     std::vector<std::uint64_t> keys;
     for (const Part& part : scene.parts) {
         const PartKeys known(part);
-        for (const Location& location : locations_against(part, assertion)) keys.push_back(known.of(location));
+        for (const Location& location : locations_against(part, assertion))
+            keys.push_back(known.of(location));
     }
     std::sort(keys.begin(), keys.end());
     return keys;

@@ -43,7 +43,9 @@ class Judge {
             take(std::move(limit.check), std::move(failure), verdict);
         }
         if (s_.per == Per::scene)
-            with_parts(scene, selected, [&](const Scene& all) { judge(all, {"", "", "", selected, nullptr}); });
+            with_parts(scene, selected, [&](const Scene& all) {
+                judge(all, {"", "", "", selected, nullptr});
+            });
         if (s_.per == Per::part)
             for (const std::size_t i : selected)
                 with_parts(scene, {&i, 1}, [&](const Scene& one) {
@@ -63,7 +65,7 @@ class Judge {
         std::string part, component; ///< what it is known by, whatever the numbers
         std::span<const std::size_t> parts;
         const std::vector<Index>* faces; ///< of a component of the one part; null: as the part has them
-        bool shared = false;             ///< it is one of several components of a solid: the outer, or a cavity
+        bool shared = false; ///< it is one of several components of a solid: the outer, or a cavity
     };
 
     Properties properties_of(const Scene& scene, const Subject& subject) const {

@@ -34,9 +34,9 @@ struct ValidateReport {
 };
 
 /// Adds one check to the context for every assertion and thing that it is about, failed ones with evidence:
-/// the first locations, with the faces as the part numbers them, and how many there are. Those of the baseline
-/// are waived as long as they get no worse. The scene is as before afterwards. Throws usage (E-UNIT) for
-/// lengths, missing and malformed for the baseline, output for the copy.
+/// the first locations, with the faces as the part numbers them, and how many there are. Those of the
+/// baseline are waived as long as they get no worse. The scene is as before afterwards. Throws usage (E-UNIT)
+/// for lengths, missing and malformed for the baseline, output for the copy.
 ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context);
 
 } // namespace facetmill

@@ -13,14 +13,15 @@ namespace facetmill {
 
 /// A failed check, and the locations that speak against it.
 struct Failure {
-    std::string check, part; ///< part is empty: the scene
+    std::string check, part;    ///< part is empty: the scene
     std::string component = {}; ///< of per: component, what it is known by
     std::string expected;
     Json found;
     std::optional<double> min = {}, max = {}; ///< what a number had to lie between
-    std::vector<std::uint64_t> keys = {}; ///< of all its locations (stages/validate/evidence_json.hpp), ascending
-    std::size_t more = 0;                 ///< read from a file: locations that it only counts,
-    std::uint64_t more_hash = 0;          ///< and what they are known by together
+    std::vector<std::uint64_t> keys =
+        {};                      ///< of all its locations (stages/validate/evidence_json.hpp), ascending
+    std::size_t more = 0;        ///< read from a file: locations that it only counts,
+    std::uint64_t more_hash = 0; ///< and what they are known by together
 
     std::size_t locations() const { return keys.size() + more; }
     /// Whether it is the same check of the same thing.
@@ -31,9 +32,9 @@ struct Failure {
 
 /// A list of failures. As a file: {"facetmill_baseline": 1, "failures": [{"check", "part", "component",
 /// "expected", "found", "locations", "known", "more"}]}: `known` has the keys of locations as 16 hexadecimal
-/// digits, "... x3" for three at the same positions. Of more than `max_known` different ones it has the lowest (a
-/// sample, since they are hashes), and `more` what the others are known by together. So a file has about 25
-/// bytes per location and at most 1.3 MB per check.
+/// digits, "... x3" for three at the same positions. Of more than `max_known` different ones it has the
+/// lowest (a sample, since they are hashes), and `more` what the others are known by together. So a file has
+/// about 25 bytes per location and at most 1.3 MB per check.
 class KnownFailures {
   public:
     static constexpr std::size_t max_known = 50000;
@@ -50,9 +51,9 @@ class KnownFailures {
         std::size_t fresh = 0;           ///< locations that are new
         std::vector<std::uint64_t> keys; ///< of those, as far as they are known one by one
     };
-    /// Waived is what failed before, at no location that is new, and with a value that is no worse: the same, or
-    /// a number not farther from what is expected. Beyond what the file lists, locations are new when there are
-    /// more of them, or as many but others (one at least).
+    /// Waived is what failed before, at no location that is new, and with a value that is no worse: the same,
+    /// or a number not farther from what is expected. Beyond what the file lists, locations are new when
+    /// there are more of them, or as many but others (one at least).
     Verdict judge(const Failure& failure) const;
 
     /// How much of this is no longer there, by what fails now.

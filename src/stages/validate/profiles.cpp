@@ -35,8 +35,9 @@ Rows rows_of(Profile profile) {
                 {"faces", some}};
     default:
         add(rows, sound);
-        add(rows,
-            {{"outward_oriented", yes}, {"duplicate_faces", no_more_than_none}, {"folded_faces", no_more_than_none}});
+        add(rows, {{"outward_oriented", yes},
+                   {"duplicate_faces", no_more_than_none},
+                   {"folded_faces", no_more_than_none}});
     }
     if (profile == Profile::solid) return rows;
     add(rows, {{"self_intersections", no_more_than_none}, {"isolated_vertices", no_more_than_none}});

@@ -22,8 +22,8 @@ void give_normals(Scene& out, std::vector<Lent>& lent, const WriteOptions& o, Co
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& part = out.parts[k];
         lent[k].mesh = part.mesh;
-        context.attribute_changes(part,
-                       give_normals(part.mesh, o.normals, o.feature_angle ? o.feature_angle->radians : pi));
+        context.attribute_changes(
+            part, give_normals(part.mesh, o.normals, o.feature_angle ? o.feature_angle->radians : pi));
         part.changed = true;
     }
 }

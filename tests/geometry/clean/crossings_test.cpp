@@ -5,8 +5,8 @@
 #include "support/meshes.hpp"
 
 #include "geometry/clean/clean.hpp"
-#include "geometry/inspect/inspect.hpp"
 #include "geometry/edit/surgery.hpp"
+#include "geometry/inspect/inspect.hpp"
 
 using namespace facetmill;
 using namespace facetmill::testing;

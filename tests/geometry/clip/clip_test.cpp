@@ -269,10 +269,11 @@ TEST_CASE("both sides of several planes are refused", "[geometry]") {
     ClipSettings settings = at_plane(x_half);
     settings.planes.push_back(x_half);
     settings.keep = Keep::both;
-    CHECK(test::failure([&] { clip(shapes::cube(), settings); }) ==
-          "usage [E-CONFLICT] keeping both sides takes exactly one plane | clip once for every plane, or keep "
-          "the front "
-          "or the back");
+    CHECK(
+        test::failure([&] { clip(shapes::cube(), settings); }) ==
+        "usage [E-CONFLICT] keeping both sides takes exactly one plane | clip once for every plane, or keep "
+        "the front "
+        "or the back");
 }
 
 TEST_CASE("skin weights sum to one after a cut, of no more joints than before", "[geometry]") {

@@ -4,15 +4,15 @@
 #include "support/meshes.hpp"
 
 #include "geometry/deviation/deviation.hpp"
-#include "geometry/inspect/inspect.hpp"
-#include "geometry/measure/measure.hpp"
 #include "geometry/edit/moved.hpp"
-#include "geometry/orient/orient.hpp"
-#include "mesh/plane.hpp"
-#include "geometry/polygon/polygon.hpp"
-#include "mesh/power_scale.hpp"
-#include "geometry/spatial/rays.hpp"
+#include "geometry/inspect/inspect.hpp"
 #include "geometry/intersect/self_intersections.hpp"
+#include "geometry/measure/measure.hpp"
+#include "geometry/orient/orient.hpp"
+#include "geometry/polygon/polygon.hpp"
+#include "geometry/spatial/rays.hpp"
+#include "mesh/plane.hpp"
+#include "mesh/power_scale.hpp"
 #include "mesh/shapes.hpp"
 
 using namespace facetmill;

@@ -1,8 +1,8 @@
 #include "support/catch.hpp"
 #include "support/measure.hpp"
 
-#include "base/portable_math.hpp"
 #include "base/parallel.hpp"
+#include "base/portable_math.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/measure/measure.hpp"
 #include "geometry/thicken/thicken.hpp"

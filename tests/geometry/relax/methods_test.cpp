@@ -1,8 +1,8 @@
 // The methods of relax beyond the note's, features, masks, targets.
 #include "geometry/crumple/crumple.hpp"
-#include "geometry/generate/generate.hpp"
 #include "geometry/edit/mask.hpp"
 #include "geometry/edit/moved.hpp"
+#include "geometry/generate/generate.hpp"
 #include "geometry/relax/relax.hpp"
 #include "geometry/split/split.hpp"
 #include "mesh/invariants.hpp"

@@ -2,8 +2,8 @@
 
 #include "base/portable_math.hpp"
 #include "geometry/crumple/crumple.hpp"
-#include "geometry/simplify/simplify.hpp"
 #include "geometry/edit/surgery.hpp"
+#include "geometry/simplify/simplify.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/topology.hpp"

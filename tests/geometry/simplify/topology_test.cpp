@@ -181,8 +181,8 @@ TEST_CASE("cluster and levels refuse what they cannot do", "[geometry]") {
     const auto refusal = [](const SimplifySettings& s) {
         return test::failure([&] { simplify(shapes::cube(), s); });
     };
-    CHECK(refusal({.method = Method::cluster, .lock = {.boundary = true}, .faces = 5}).find("cannot lock vertices") !=
-          std::string::npos);
+    CHECK(refusal({.method = Method::cluster, .lock = {.boundary = true}, .faces = 5})
+              .find("cannot lock vertices") != std::string::npos);
     CHECK(refusal({.method = Method::constrained, .topology = Topology::allow, .faces = 5}) ==
           "usage [E-RANGE] simplify: constrained keeps the topology");
     CHECK(refusal({.weights = {.uv = -1}, .faces = 5}).find("weights are at least 0") != std::string::npos);

@@ -1,8 +1,8 @@
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
-#include "geometry/spatial/box_pairs.hpp"
 #include "geometry/intersect/disjoint_triangles.hpp"
+#include "geometry/spatial/box_pairs.hpp"
 
 #include <set>
 

@@ -2,8 +2,8 @@
 #include "support/catch.hpp"
 #include "support/meshes.hpp"
 
-#include "geometry/spatial/closest_point.hpp"
 #include "geometry/deviation/deviation.hpp"
+#include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/rays.hpp"
 #include "oracle/cgal_oracle.hpp"
 

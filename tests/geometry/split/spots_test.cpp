@@ -219,9 +219,10 @@ TEST_CASE("cuts at the widest angle take no target", "[geometry]") {
     SplitSettings s{SplitMethod::bisect, 9};
     s.cut = SplitSettings::Cut::widest_angle, s.max_edge = 0.5;
     const Mesh needle = faces({{0, 0, 0}, {10, 0, 0}, {0.2, 0.1, 0}}, {{0, 1, 2}});
-    CHECK(test::failure([&] { split(needle, s); }) ==
-          "usage [E-CONFLICT] split: the cut at the widest angle reaches no target | cut in the middle of the "
-          "longest edge, or give passes and no target");
+    CHECK(
+        test::failure([&] { split(needle, s); }) ==
+        "usage [E-CONFLICT] split: the cut at the widest angle reaches no target | cut in the middle of the "
+        "longest edge, or give passes and no target");
     s.cut = SplitSettings::Cut::longest_edge, s.passes = 100;
     const SplitResult r = split(needle, s);
     CHECK(facet_shape(r.mesh).longest_edge <= 0.5);
