@@ -56,8 +56,10 @@ Soup compact(const Soup& soup) {
     std::vector<std::size_t> number(soup.points.size(), soup.points.size());
     for (auto triangle : soup.triangles) {
         for (std::size_t& v : triangle) {
-            if (number[v] == soup.points.size())
-                number[v] = all.points.size(), all.points.push_back(soup.points[v]);
+            if (number[v] == soup.points.size()) {
+                number[v] = all.points.size();
+                all.points.push_back(soup.points[v]);
+            }
             v = number[v];
         }
         all.triangles.push_back(triangle);

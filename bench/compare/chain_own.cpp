@@ -40,7 +40,9 @@ int main(int argc, char** argv) {
     try {
         if (argc == 2) return run(argv[1]);
     } catch (const std::exception& e) {
-        return fmt::print(stderr, "{}\n", e.what()), 1;
+        fmt::print(stderr, "{}\n", e.what());
+        return 1;
     }
-    return fmt::print(stderr, "usage: chain_own FILE\n"), 2;
+    fmt::print(stderr, "usage: chain_own FILE\n");
+    return 2;
 }

@@ -56,7 +56,8 @@ Plane oblique(const Mesh& mesh) { return {{1, 0.7, 0.3}, mesh.bounds().centre(),
 std::size_t ours(Mesh mesh, Keep keep, Meter& meter) {
     ClipSettings settings;
     settings.planes = {oblique(mesh)};
-    settings.keep = keep, settings.cap = true;
+    settings.keep = keep;
+    settings.cap = true;
     meter.bytes_in = bytes_of(mesh);
     ClipResult result;
     meter.measure([&] { result = clip(std::move(mesh), settings); });
@@ -93,7 +94,10 @@ const std::map<std::string, Peer> peers{
 
 int run(const std::string& name, const char* path) {
     const auto peer = peers.find(name);
-    if (peer == peers.end()) return fmt::print(stderr, "no peer '{}'\n", name), 2;
+    if (peer == peers.end()) {
+        fmt::print(stderr, "no peer '{}'\n", name);
+        return 2;
+    }
     io::ReadLog log;
     const Mesh mesh = io::read_scene(io::Input::open(path), {}, log).parts.at(0).mesh;
     Meter meter;

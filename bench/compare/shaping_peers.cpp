@@ -101,7 +101,10 @@ std::map<std::string, Peer> peers() {
 int run(const std::string& name, const char* path) {
     const auto all = peers();
     const auto peer = all.find(name);
-    if (peer == all.end()) return fmt::print(stderr, "no peer '{}'\n", name), 2;
+    if (peer == all.end()) {
+        fmt::print(stderr, "no peer '{}'\n", name);
+        return 2;
+    }
     io::ReadLog log;
     Clock clock;
     const std::size_t faces =
@@ -118,7 +121,8 @@ int main(int argc, char** argv) {
     try {
         if (command == "run" && argc == 4) return run(argv[2], argv[3]);
     } catch (const std::exception& e) {
-        return fmt::print(stderr, "{}\n", e.what()), 1;
+        fmt::print(stderr, "{}\n", e.what());
+        return 1;
     }
     if (command == "list") {
         for (const auto& [name, peer] : peers()) fmt::print("{}\n", name);

@@ -128,7 +128,10 @@ std::map<std::string, Peer> peers() {
 int run(const char* name, const char* in, const char* out, double ratio) {
     const auto all = peers();
     const auto peer = all.find(name);
-    if (peer == all.end()) return fmt::print(stderr, "no peer '{}'\n", name), 2;
+    if (peer == all.end()) {
+        fmt::print(stderr, "no peer '{}'\n", name);
+        return 2;
+    }
     const Mesh mesh = read(in);
     Clock clock;
     const Mesh result = peer->second(mesh, ratio, clock);
@@ -164,7 +167,9 @@ int main(int count, char** words) {
             return 0;
         }
     } catch (const std::exception& e) {
-        return fmt::print(stderr, "{}\n", e.what()), 1;
+        fmt::print(stderr, "{}\n", e.what());
+        return 1;
     }
-    return fmt::print(stderr, "simplify_peers run PEER IN OUT RATIO | judge REFERENCE MESH | list\n"), 2;
+    fmt::print(stderr, "simplify_peers run PEER IN OUT RATIO | judge REFERENCE MESH | list\n");
+    return 2;
 }

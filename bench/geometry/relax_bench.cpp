@@ -15,7 +15,8 @@ namespace {
 
 RelaxSettings ten(Method method) {
     RelaxSettings s;
-    s.method = method, s.iterations = 10;
+    s.method = method;
+    s.iterations = 10;
     return s;
 }
 

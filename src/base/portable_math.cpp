@@ -103,7 +103,10 @@ double logarithm(double x) {
     if (x == infinity) return x;
     int exponent = 0;
     double m = std::frexp(x, &exponent); // [0.5, 1), exact
-    if (m < 0.70710678118654752440) m *= 2, --exponent;
+    if (m < 0.70710678118654752440) {
+        m *= 2;
+        --exponent;
+    }
     // log(1 + f) = 2 artanh(s), s = f / (2 + f), in the form f - (f^2/2 - s (f^2/2 + R)) that loses nothing
     // near 1.
     constexpr double c[] = {2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11,

@@ -25,7 +25,8 @@ struct Axis {
         double most = 0, least = HUGE_VAL;
         for (const double x : numbers) {
             if (x == 0) continue;
-            most = std::max(most, std::abs(x)), least = std::min(least, std::abs(x));
+            most = std::max(most, std::abs(x));
+            least = std::min(least, std::abs(x));
         }
         if (!(most > 0 && std::isfinite(most))) return;
         const int power = std::clamp(-std::ilogb(most), -1000, 1000);
@@ -53,7 +54,9 @@ int whole_orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
     std::array<mpz_class, 3> u, v, w;
     for (std::size_t i = 0; i < 3; ++i) {
         const mpz_class from = whole(a[i]);
-        u[i] = whole(b[i]) - from, v[i] = whole(c[i]) - from, w[i] = whole(d[i]) - from;
+        u[i] = whole(b[i]) - from;
+        v[i] = whole(c[i]) - from;
+        w[i] = whole(d[i]) - from;
     }
     mpz_class sum;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -87,13 +90,20 @@ void add_product(Expansion& sum, const Difference& a, const Difference& b, const
 int exact_orientation_3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const Axis x{a.x, b.x, c.x, d.x}, y{a.y, b.y, c.y, d.y}, z{a.z, b.z, c.z, d.z};
     if (!doubles_hold_products({x, y, z})) return whole_orientation_3d(a, b, c, d);
-    for (Vec3* p : {&a, &b, &c, &d}) p->x *= x.scale, p->y *= y.scale, p->z *= z.scale;
+    for (Vec3* p : {&a, &b, &c, &d}) {
+        p->x *= x.scale;
+        p->y *= y.scale;
+        p->z *= z.scale;
+    }
     const Difference ux(b.x, a.x), uy(b.y, a.y), uz(b.z, a.z), vx(c.x, a.x), vy(c.y, a.y), vz(c.z, a.z),
         wx(d.x, a.x), wy(d.y, a.y), wz(d.z, a.z);
     Expansion exact;
-    add_product(exact, uy, vz, wx, 1), add_product(exact, uz, vy, wx, -1);
-    add_product(exact, uz, vx, wy, 1), add_product(exact, ux, vz, wy, -1);
-    add_product(exact, ux, vy, wz, 1), add_product(exact, uy, vx, wz, -1);
+    add_product(exact, uy, vz, wx, 1);
+    add_product(exact, uz, vy, wx, -1);
+    add_product(exact, uz, vx, wy, 1);
+    add_product(exact, ux, vz, wy, -1);
+    add_product(exact, ux, vy, wz, 1);
+    add_product(exact, uy, vx, wz, -1);
     return exact.sign();
 }
 
@@ -106,7 +116,12 @@ int orientation_2d(double ax, double ay, double bx, double by, double cx, double
         return sign_of(det);
     const Axis x{ax, bx, cx}, y{ay, by, cy};
     if (!doubles_hold_products({x, y})) return whole_orientation_2d(ax, ay, bx, by, cx, cy);
-    ax *= x.scale, bx *= x.scale, cx *= x.scale, ay *= y.scale, by *= y.scale, cy *= y.scale;
+    ax *= x.scale;
+    bx *= x.scale;
+    cx *= x.scale;
+    ay *= y.scale;
+    by *= y.scale;
+    cy *= y.scale;
     ExactSum<12> exact; // (a-c) x (b-c), multiplied out
     exact.add_product(ax, by);
     exact.add_product(-ax, cy);

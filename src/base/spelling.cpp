@@ -30,7 +30,10 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
         std::size_t distance = edit_distance(word, candidate);
         const bool prefix = word.size() >= 3 && candidate.starts_with(word);
         if (prefix) distance = std::min<std::size_t>(distance, 1);
-        if (distance < best) best = distance, found = candidate;
+        if (distance < best) {
+            best = distance;
+            found = candidate;
+        }
     }
     return found;
 }

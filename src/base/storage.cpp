@@ -23,7 +23,8 @@ void prefault(void* memory, std::size_t bytes) {
         },
         piece);
 #else
-    (void)memory, (void)bytes;
+    (void)memory;
+    (void)bytes;
 #endif
 }
 

@@ -14,9 +14,24 @@ struct Vec3 {
     constexpr double operator[](std::size_t i) const { return i == 0 ? x : i == 1 ? y : z; }
     constexpr double& operator[](std::size_t i) { return i == 0 ? x : i == 1 ? y : z; }
     constexpr bool operator==(const Vec3&) const = default;
-    constexpr Vec3& operator+=(const Vec3& b) { return x += b.x, y += b.y, z += b.z, *this; }
-    constexpr Vec3& operator-=(const Vec3& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
-    constexpr Vec3& operator*=(double s) { return x *= s, y *= s, z *= s, *this; }
+    constexpr Vec3& operator+=(const Vec3& b) {
+        x += b.x;
+        y += b.y;
+        z += b.z;
+        return *this;
+    }
+    constexpr Vec3& operator-=(const Vec3& b) {
+        x -= b.x;
+        y -= b.y;
+        z -= b.z;
+        return *this;
+    }
+    constexpr Vec3& operator*=(double s) {
+        x *= s;
+        y *= s;
+        z *= s;
+        return *this;
+    }
 };
 
 constexpr Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
@@ -57,7 +72,10 @@ struct Box {
         }
     }
     void add(const Box& b) {
-        if (!b.empty()) add(b.min), add(b.max);
+        if (!b.empty()) {
+            add(b.min);
+            add(b.max);
+        }
     }
     Vec3 centre() const { return (min + max) * 0.5; }
     Vec3 extent() const { return empty() ? Vec3{} : max - min; }

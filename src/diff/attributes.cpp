@@ -80,7 +80,10 @@ void compare_values(const Comparing& with, const std::string& name, const Found&
         for (std::size_t i = 0; i < x.size(); ++i)
             for (int c = 0; c < x.components; ++c) {
                 const double d = apart(x.value(i, c), y.value(i, c));
-                if (d > most) most = d, where = before + i;
+                if (d > most) {
+                    most = d;
+                    where = before + i;
+                }
             }
         before += x.size();
     }

@@ -82,7 +82,8 @@ void compare_geometry(const Comparing& with) {
     const Turned turned = turned_round(with.a, with.b);
     with.add("geometry", "reversed", false, turned.round, !turned.round, turned.note);
     const Shape a(with.a), b(with.b);
-    with.result.geometry_a = a.kind(), with.result.geometry_b = b.kind();
+    with.result.geometry_a = a.kind();
+    with.result.geometry_b = b.kind();
     const auto d = with.result.deviation = deviation(a.main(), b.main(), settings.deviation);
     const Distances distances(with, *d);
     const auto &f = d->forward, &g = d->backward;

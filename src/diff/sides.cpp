@@ -32,9 +32,14 @@ void add_part(const Part& part, std::vector<Piece>& pieces) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
         Piece& piece = pieces[before + of.of_face[f]];
         const Vec3 at = t.point(mesh.point(mesh.face_begin(f)));
-        if (piece.face == none) piece.part = part.name, piece.face = f, origins[of.of_face[f]] = at;
+        if (piece.face == none) {
+            piece.part = part.name;
+            piece.face = f;
+            origins[of.of_face[f]] = at;
+        }
         const Vec3 area = area_vector(mesh, f, t) * sign;
-        piece.area += length(area), piece.looks += area;
+        piece.area += length(area);
+        piece.looks += area;
         piece.volume += dot(area, at - origins[of.of_face[f]]) / 3;
         Vec3 corners;
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners += t.point(mesh.point(c));
@@ -64,7 +69,11 @@ bool same_place(const Piece& a, const Piece& b) {
 /// All pieces as one. Each volume has its own origin, which matters for open pieces only.
 Piece whole(const std::vector<Piece>& pieces) {
     Piece sum;
-    for (const Piece& p : pieces) sum.area += p.area, sum.volume += p.volume, sum.looks += p.looks;
+    for (const Piece& p : pieces) {
+        sum.area += p.area;
+        sum.volume += p.volume;
+        sum.looks += p.looks;
+    }
     return sum;
 }
 

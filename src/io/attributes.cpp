@@ -71,7 +71,10 @@ std::size_t zero_what_is_not_finite(std::vector<T>& values) {
             [&](std::size_t begin, std::size_t end) {
                 std::size_t found = 0;
                 for (std::size_t i = begin; i < end; ++i)
-                    if (!std::isfinite(values[i])) values[i] = 0, ++found;
+                    if (!std::isfinite(values[i])) {
+                        values[i] = 0;
+                        ++found;
+                    }
                 return found;
             },
             [](std::size_t a, std::size_t b) { return a + b; });

@@ -52,7 +52,8 @@ VertexChanges vertex_changes(const Scene& before, const Scene& after) {
         if (!by_part) continue;
         add_used(after.parts[i], false, there);
         add(changes, std::move(here), std::move(there));
-        here = {}, there = {};
+        here = {};
+        there = {};
     }
     if (by_part) return changes;
     for (const Part& part : after.parts) add_used(part, true, there);

@@ -26,7 +26,8 @@ bool read_angle(const Value& value, Limit& out, Problems& problems) {
     if (!OptionType<Angle>::parse(value, angle, problems)) return false;
     // As written when in degrees: a way there and back would round it.
     const auto parts = number_and_unit(value.text);
-    return out = parts->second == "rad" ? angle.radians * (180 / pi) : parts->first, true;
+    out = parts->second == "rad" ? angle.radians * (180 / pi) : parts->first;
+    return true;
 }
 
 bool read_count(const Value& value, Limit& out, Problems& problems) {
@@ -34,7 +35,8 @@ bool read_count(const Value& value, Limit& out, Problems& problems) {
     const auto number = value.as_real();
     if (!number || *number != std::floor(*number) || *number < 0)
         return wrong_type(value, "a count (0, 1, 2 ...)", problems);
-    return out = number, true;
+    out = number;
+    return true;
 }
 
 struct ByteUnit {
@@ -91,7 +93,8 @@ bool read_bytes(const Value& value, Limit& out, Problems& problems) {
                                           : "bytes come whole");
         return false;
     }
-    return out = whole, true;
+    out = whole;
+    return true;
 }
 
 using Reader = bool (*)(const Value&, Limit&, Problems&);

@@ -81,15 +81,43 @@ template <class T>
 class OptionRef {
   public:
     OptionRef(Declaration& owner, std::size_t index) : owner_(&owner), index_(index) {}
-    OptionRef& between(double min, double max) { return range().min = min, range().max = max, *this; }
-    OptionRef& at_least(double min) { return range().min = min, *this; }
-    OptionRef& at_most(double max) { return range().max = max, *this; }
-    OptionRef& above(double min) { return range().min = min, range().min_open = true, *this; }
-    OptionRef& below(double max) { return range().max = max, range().max_open = true, *this; }
-    OptionRef& required() { return option().required = true, option().default_text.clear(), *this; }
-    OptionRef& primary() { return option().primary = true, *this; }
+    OptionRef& between(double min, double max) {
+        range().min = min;
+        range().max = max;
+        return *this;
+    }
+    OptionRef& at_least(double min) {
+        range().min = min;
+        return *this;
+    }
+    OptionRef& at_most(double max) {
+        range().max = max;
+        return *this;
+    }
+    OptionRef& above(double min) {
+        range().min = min;
+        range().min_open = true;
+        return *this;
+    }
+    OptionRef& below(double max) {
+        range().max = max;
+        range().max_open = true;
+        return *this;
+    }
+    OptionRef& required() {
+        option().required = true;
+        option().default_text.clear();
+        return *this;
+    }
+    OptionRef& primary() {
+        option().primary = true;
+        return *this;
+    }
     /// For numbers whose type does not say it: a double that is a count, an integer that is bytes.
-    OptionRef& measures(Dimension dimension) { return option().dimension = dimension, *this; }
+    OptionRef& measures(Dimension dimension) {
+        option().dimension = dimension;
+        return *this;
+    }
     Option& option() { return owner_->options[index_]; }
 
   private:

@@ -45,7 +45,8 @@ bool OptionType<bool>::parse(const Value& value, bool& out, Problems& problems) 
     if (value.deferred) return true;
     const auto truth = value.as_bool();
     if (!truth) return wrong_type(value, "true or false", problems);
-    return out = *truth, true;
+    out = *truth;
+    return true;
 }
 std::string OptionType<bool>::print(const bool& value) { return value ? "true" : "false"; }
 Json OptionType<bool>::schema() { return {{"type", "boolean"}}; }
@@ -55,7 +56,8 @@ bool OptionType<std::int64_t>::parse(const Value& value, std::int64_t& out, Prob
     if (value.deferred) return true;
     const auto number = value.as_integer();
     if (!number) return wrong_type(value, "an integer", problems);
-    return out = *number, true;
+    out = *number;
+    return true;
 }
 std::string OptionType<std::int64_t>::print(const std::int64_t& value) { return fmt::format("{}", value); }
 Json OptionType<std::int64_t>::schema() { return {{"type", "integer"}}; }
@@ -67,7 +69,8 @@ bool OptionType<double>::parse(const Value& value, double& out, Problems& proble
     if (value.deferred) return true;
     const auto number = value.as_real();
     if (!number) return wrong_type(value, "a finite number", problems);
-    return out = *number, true;
+    out = *number;
+    return true;
 }
 std::string OptionType<double>::print(const double& value) { return to_string(value); }
 Json OptionType<double>::schema() { return {{"type", "number"}}; }
@@ -76,7 +79,8 @@ std::optional<double> OptionType<double>::magnitude(const double& value) { retur
 bool OptionType<std::string>::parse(const Value& value, std::string& out, Problems& problems) {
     if (value.deferred) return true;
     if (!value.is_scalar()) return wrong_type(value, "a text", problems);
-    return out = value.text, true;
+    out = value.text;
+    return true;
 }
 std::string OptionType<std::string>::print(const std::string& value) { return value; }
 Json OptionType<std::string>::schema() { return {{"type", Json::array({"string", "number", "boolean"})}}; }
@@ -86,7 +90,8 @@ bool OptionType<PathText>::parse(const Value& value, PathText& out, Problems& pr
     if (value.deferred) return true;
     if (!value.is_scalar() || value.text.empty()) return wrong_type(value, "a path", problems);
     if (value.text.find('\0') != std::string::npos) return wrong_type(value, "a path without NUL", problems);
-    return out.text = value.text, true;
+    out.text = value.text;
+    return true;
 }
 std::string OptionType<PathText>::print(const PathText& value) { return value.text; }
 Json OptionType<PathText>::schema() { return {{"type", "string"}, {"minLength", 1}}; }
@@ -140,12 +145,22 @@ bool OptionType<Length>::parse(const Value& value, Length& out, Problems& proble
         const auto basis = unit.substr(percent.size());
         out.kind = Length::Kind::percent;
         if (basis.empty()) return true;
-        if (basis == " of part") return out.of = Length::Of::part, true;
-        if (basis == " of load") return out.of = Length::Of::load, true;
+        if (basis == " of part") {
+            out.of = Length::Of::part;
+            return true;
+        }
+        if (basis == " of load") {
+            out.of = Length::Of::load;
+            return true;
+        }
         return wrong_type(value, expected, problems);
     }
     for (const auto& [name, metres] : length_units)
-        if (unit == name) return out.kind = Length::Kind::physical, out.amount = number * metres, true;
+        if (unit == name) {
+            out.kind = Length::Kind::physical;
+            out.amount = number * metres;
+            return true;
+        }
     return wrong_type(value, expected, problems, "units: um, mm, cm, m, km, in, ft, or %");
 }
 std::string OptionType<Length>::print(const Length& value) { return value.text.empty() ? "0" : value.text; }

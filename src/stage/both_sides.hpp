@@ -16,8 +16,10 @@ class BothSides {
     /// The part gets one name and keeps its mesh; a copy of it with the other name and mesh comes behind it.
     void part_in_two(Part& part, const char* name, const char* other_name, Mesh other) {
         Part copy = part;
-        copy.name += other_name, part.name += name;
-        copy.mesh = std::move(other), copy.changed = true;
+        copy.name += other_name;
+        part.name += name;
+        copy.mesh = std::move(other);
+        copy.changed = true;
         others_.emplace_back(static_cast<std::size_t>(&part - scene_.parts.data()), std::move(copy));
     }
     /// Puts them into the scene.

@@ -41,7 +41,10 @@ double world_diagonal(const Part& part) {
             for (std::size_t i = begin; i < end; ++i) b.add(to_world.point(points[i]));
             return b;
         },
-        [](Box a, const Box& b) { return a.add(b), a; });
+        [](Box a, const Box& b) {
+            a.add(b);
+            return a;
+        });
     return diagonal(box);
 }
 

@@ -103,7 +103,9 @@ std::string to_string(const DeviationLimits& limits) {
     const auto add = [&](const char* name, const std::optional<Length>& limit) {
         if (limit) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, limit->text);
     };
-    add("max", limits.max), add("rms", limits.rms), add("mean", limits.mean);
+    add("max", limits.max);
+    add("rms", limits.rms);
+    add("mean", limits.mean);
     if (limits.certify) text += ", certified";
     return limits.from == DeviationLimits::From::load ? text + " from load" : text;
 }

@@ -86,8 +86,10 @@ TEST_CASE("predicates agree with rational numbers on coordinates of all sizes", 
             }
         if (next() % 2) // nearly on a line through the origin
             for (std::size_t i = 0; i < 3; ++i)
-                if (std::isfinite(p[1][i] * 2))
-                    p[2][i] = p[1][i] * 2, p[0][i] *= static_cast<double>(next() % 2);
+                if (std::isfinite(p[1][i] * 2)) {
+                    p[2][i] = p[1][i] * 2;
+                    p[0][i] *= static_cast<double>(next() % 2);
+                }
         for (Vec3& q : p) q.z = next() % 4 ? q.z : 0;
         const int space = oracle::orientation(p[0], p[1], p[2], p[3]);
         const auto on_floor = [&](int i) { return Vec3{p[i].x, p[i].y, 0}; };

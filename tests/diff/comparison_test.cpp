@@ -211,7 +211,10 @@ TEST_CASE("normals are compared in the world", "[report]") {
     const Scene a = scene_of(shapes::uv_cube());
     Scene turned = a, baked = a;
     Transform quarter;
-    quarter.m[0][0] = 0, quarter.m[0][1] = -1, quarter.m[1][0] = 1, quarter.m[1][1] = 0;
+    quarter.m[0][0] = 0;
+    quarter.m[0][1] = -1;
+    quarter.m[1][0] = 1;
+    quarter.m[1][1] = 0;
     turned.parts[0].transform = quarter;
     apply(baked.parts[0].mesh, quarter);
     CHECK(different(report::compare(turned, baked)).empty());
@@ -241,7 +244,8 @@ TEST_CASE("materials differ by their looks and by the faces they are on", "[repo
     a.materials = {{.name = "red"}, {.name = "blue"}};
     Mesh& mesh = a.parts[0].mesh;
     mesh.primitives.resize(2);
-    mesh.primitives[0].material = 0, mesh.primitives[1].material = 1;
+    mesh.primitives[0].material = 0;
+    mesh.primitives[1].material = 1;
     const auto assign = [](Scene& scene, std::vector<std::uint32_t> faces) {
         auto& m = scene.parts[0].mesh;
         m.drop(primitive_attribute, Domain::face);

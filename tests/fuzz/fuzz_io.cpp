@@ -11,7 +11,10 @@
 using namespace facetmill;
 
 int main(int count, char** arguments) {
-    if (count < 3) return std::fprintf(stderr, "fuzz_io SECONDS FILE...\n"), 2;
+    if (count < 3) {
+        std::fprintf(stderr, "fuzz_io SECONDS FILE...\n");
+        return 2;
+    }
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(std::atoi(arguments[1]));
     std::size_t runs = 0, troubles = 0;
     for (std::uint64_t seed = 0; std::chrono::steady_clock::now() < end; ++seed)

@@ -268,7 +268,9 @@ TEST_CASE("recompute_normals keeps the seams of normals", "[mesh]") {
 TEST_CASE("apply moves normals as planes move, and turns faces when it mirrors", "[mesh]") {
     Mesh mesh = shapes::uv_cube();
     Transform t;
-    t.m[0][0] = -2, t.m[0][1] = 1, t.m[1][3] = 5;
+    t.m[0][0] = -2;
+    t.m[0][1] = 1;
+    t.m[1][3] = 5;
     apply(mesh, t);
     CHECK(broken_invariants(mesh).empty());
     Mesh expected = mesh;

@@ -43,7 +43,12 @@ TEST_CASE("sides of a plane are exact where products vanish or overflow", "[geom
 
 TEST_CASE("a plane pulled back through a map separates the same points", "[geometry]") {
     Transform t;
-    t.m[0][0] = 0, t.m[0][1] = -2, t.m[1][0] = 2, t.m[1][1] = 0, t.m[2][2] = -1, t.m[2][3] = 5;
+    t.m[0][0] = 0;
+    t.m[0][1] = -2;
+    t.m[1][0] = 2;
+    t.m[1][1] = 0;
+    t.m[2][2] = -1;
+    t.m[2][3] = 5;
     const Plane world{{1, 2, 3}, {0.5, 0.25, 4}, 0};
     const Plane local = pulled_back(world, t);
     for (int i = 0; i < 27; ++i) {

@@ -26,7 +26,8 @@ TEST_CASE("admesh's broken blocks come out good", "[property]") {
         CleanSettings settings;
         settings.holes = HoleSettings{};
         settings.components = ComponentSettings{.keep = 1};
-        settings.weld = Nearness::near, settings.tolerance = 0.05 * mesh.bounds().diagonal();
+        settings.weld = Nearness::near;
+        settings.tolerance = 0.05 * mesh.bounds().diagonal();
         const Properties before = inspect(mesh);
         const Mesh good = orient(clean(mesh, settings).mesh, {}).mesh;
         const Properties after = inspect(good, {.self_intersections = true});

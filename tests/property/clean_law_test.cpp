@@ -18,12 +18,17 @@ std::vector<std::pair<std::string, CleanSettings>> all_settings(double diagonal)
     CleanSettings plain, off, near, holes, smooth, solid, all;
     off.weld = off.t_junctions = Nearness::off;
     off.degenerate = off.duplicates = off.non_manifold = off.isolated = false;
-    near.weld = near.stitch = near.t_junctions = Nearness::near, near.tolerance = 1e-3 * diagonal;
+    near.weld = near.stitch = near.t_junctions = Nearness::near;
+    near.tolerance = 1e-3 * diagonal;
     holes.holes = HoleSettings{};
     smooth.holes = HoleSettings{HoleFill::smooth, 40, 0};
-    solid.components = ComponentSettings{2, 0, 0, 0}, solid.holes = HoleSettings{};
+    solid.components = ComponentSettings{2, 0, 0, 0};
+    solid.holes = HoleSettings{};
     solid.inner_components = true;
-    all = near, all.self_intersections = Untangle::all, all.inner_components = true,
+    all = near;
+    all.self_intersections = Untangle::all;
+    all.inner_components = true;
+
     all.holes = HoleSettings{};
     return {{"plain", plain},   {"off", off},     {"near", near}, {"holes", holes},
             {"smooth", smooth}, {"solid", solid}, {"all", all}};

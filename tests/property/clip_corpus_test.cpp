@@ -66,7 +66,8 @@ double length_of_cut(const Mesh& mesh, const Plane& plane) {
         double around = 0;
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
             const double s = side(plane, mesh.point(c));
-            above |= s >= 0, below |= s <= 0;
+            above |= s >= 0;
+            below |= s <= 0;
             around +=
                 length(mesh.point(c + 1 == mesh.face_end(f) ? mesh.face_begin(f) : c + 1) - mesh.point(c));
         }
@@ -140,7 +141,8 @@ void check_planes(const Mesh& mesh, const Properties& whole, std::uint64_t key, 
     settings.cap = settings.cap_numbers = true;
     CAPTURE(key, mesh.face_count());
     const ClipResult r = clip(mesh, settings);
-    ++counts.cuts, counts.caps += r.cap_faces > 0;
+    ++counts.cuts;
+    counts.caps += r.cap_faces > 0;
     const Properties front = inspect(r.front), back = inspect(r.back);
     CHECK(r.open.empty());
     CHECK(front.closed);
@@ -163,7 +165,8 @@ void check_row(const Mesh& mesh, const Properties& whole, std::uint64_t key, Cou
     for (std::uint64_t k = 0; k < 4; ++k)
         settings.planes.push_back(some_plane(key * 4 + k, mesh, whole.bounds));
     settings.planes.push_back(settings.planes[0]);
-    settings.cap = true, settings.snap = key % 2 == 0;
+    settings.cap = true;
+    settings.snap = key % 2 == 0;
     CAPTURE(key, mesh.face_count());
     const ClipResult r = clip(mesh, settings);
     ++counts.rows;

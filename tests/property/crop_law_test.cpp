@@ -60,7 +60,9 @@ struct Counts {
 CropResult cropped(const Mesh& mesh, const Footprint& footprint, std::size_t axis, polygon::Keep keep,
                    bool snap) {
     CropSettings settings;
-    settings.axis = axis, settings.keep = keep, settings.cap = true;
+    settings.axis = axis;
+    settings.keep = keep;
+    settings.cap = true;
     settings.snap = snap;
     return crop(mesh, footprint, settings);
 }
@@ -100,7 +102,8 @@ void check_crop(const Mesh& mesh, const Properties& whole, std::uint64_t key, Co
     }
     const CropResult in = cropped(mesh, *footprint, axis, polygon::Keep::inside, key % 2 == 1),
                      out = cropped(mesh, *footprint, axis, polygon::Keep::outside, key % 2 == 1);
-    ++counts.crops, counts.caps += in.cap_faces > 0;
+    ++counts.crops;
+    counts.caps += in.cap_faces > 0;
     const Properties front = inspect(in.mesh), back = inspect(out.mesh);
     CHECK(in.open.empty());
     CHECK(front.closed);

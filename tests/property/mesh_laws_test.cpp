@@ -147,7 +147,12 @@ TEST_CASE("law: triangulating keeps vertices, area, volume and closedness", "[pr
 
 TEST_CASE("law: a mirrored, turned or moved mesh keeps its counts; its volume scales", "[property]") {
     Transform t;
-    t.m[0][0] = -2, t.m[1][1] = 0, t.m[1][2] = 0.5, t.m[2][1] = 0.5, t.m[2][2] = 0, t.m[0][3] = 8;
+    t.m[0][0] = -2;
+    t.m[1][1] = 0;
+    t.m[1][2] = 0.5;
+    t.m[2][1] = 0.5;
+    t.m[2][2] = 0;
+    t.m[0][3] = 8;
     for (const Mesh& mesh : closed_meshes(2)) {
         Mesh moved = mesh;
         apply(moved, t);

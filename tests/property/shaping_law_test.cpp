@@ -53,7 +53,8 @@ TEST_CASE("law: relaxation stays within the bounds, and no lambda leaves them", 
         for (const double lambda : {0.25, 1.0}) {
             Box box = m.bounds();
             const Vec3 slack = box.extent() * 1e-12;
-            box.add(box.min - slack), box.add(box.max + slack);
+            box.add(box.min - slack);
+            box.add(box.max + slack);
             for (const Vec3& p :
                  relax(m, {.iterations = 4, .lambda = lambda, .boundary = RelaxSettings::Boundary::free})
                      .mesh.positions)

@@ -143,10 +143,14 @@ TEST_CASE("the schema names every key of a report, and nothing else", "[report]"
 
 TEST_CASE("what varies is under one key", "[report]") {
     RunRecord slow = full_record();
-    slow.seconds = 99, slow.peak_memory = 1, slow.threads = 64, slow.stages[0].seconds = 7;
+    slow.seconds = 99;
+    slow.peak_memory = 1;
+    slow.threads = 64;
+    slow.stages[0].seconds = 7;
     Json a = to_json(full_record()), b = to_json(slow);
     CHECK(a.dump() != b.dump());
-    a.erase("run"), b.erase("run");
+    a.erase("run");
+    b.erase("run");
     CHECK(a.dump() == b.dump());
 }
 

@@ -19,7 +19,8 @@ std::string complaint(const Value& value) {
 
 Box unit_box() {
     Box box;
-    box.add(Vec3{0, 0, 0}), box.add(Vec3{1, 1, 1});
+    box.add(Vec3{0, 0, 0});
+    box.add(Vec3{1, 1, 1});
     return box;
 }
 
@@ -118,7 +119,8 @@ TEST_CASE("bounds lie between two corners", "[stage]") {
 
 TEST_CASE("unit, up, parts and materials are asserted like the rest", "[stage]") {
     Scene scene;
-    scene.unit = Unit::mm, scene.up = UpAxis::z;
+    scene.unit = Unit::mm;
+    scene.up = UpAxis::z;
     scene.parts.resize(2);
     const Properties p = inspect(scene);
     CHECK(judged(entry("unit", Value::scalar("mm")), p).passed);

@@ -96,7 +96,8 @@ TEST_CASE("write stages a file, reads it back, and passes the scene on as it was
     part.name = "cube";
     part.mesh = shapes::cube();
     part.transform.m[0][3] = 2;
-    b.scene.unit = Unit::m, b.scene.up = UpAxis::z;
+    b.scene.unit = Unit::m;
+    b.scene.up = UpAxis::z;
     b.run("write", options({{"path", "out/c.ply"}, {"unit", "mm"}, {"up", "y"}, {"ascii", "true"}}));
     CHECK_FALSE(fs::exists(b.dir / "out/c.ply"));
     b.state.outputs.commit();
@@ -121,7 +122,8 @@ TEST_CASE("write stages a file, reads it back, and passes the scene on as it was
 
 TEST_CASE("write takes as many Draco bits as keep vertices apart", "[stages]") {
     Bench b;
-    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    b.scene.unit = Unit::m;
+    b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = shapes::icosphere(2);
     Mesh crumb = shapes::icosphere(2); // finer than a step of 14 bits
     for (Vec3& p : crumb.positions) p = p * 1e-4 + Vec3{0.9, 0.9, 0.9};
@@ -189,7 +191,8 @@ Mesh touching_cubes() {
 
 TEST_CASE("write says of seams that come apart that they do", "[stages]") {
     Bench b;
-    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    b.scene.unit = Unit::m;
+    b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = shapes::uv_cube(); // closed, 24 wedges on 8 vertices
     const std::string ply = told_of(b, Value::scalar("c.ply"));
     CHECK(ply == "ply has one set of attributes per vertex, so seams were cut and 16 vertices were added: "
@@ -202,7 +205,8 @@ TEST_CASE("write says of seams that come apart that they do", "[stages]") {
 
 TEST_CASE("write says of vertices that the format makes one that it does", "[stages]") {
     Bench b;
-    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    b.scene.unit = Unit::m;
+    b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = touching_cubes();
     CHECK(told_of(b, Value::scalar("c.stl")) ==
           "stl has no shared vertices, so corners at the same place are one when it is read (2 fewer): write "
@@ -220,7 +224,8 @@ TEST_CASE("write says of vertices that the format makes one that it does", "[sta
 
 TEST_CASE("write names Draco's bits, and 32-bit floats that move points onto lines", "[stages]") {
     Bench b;
-    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    b.scene.unit = Unit::m;
+    b.scene.up = UpAxis::y;
     Mesh& mesh = b.scene.parts.emplace_back().mesh;
     mesh = shapes::icosphere(3);
     std::vector<Value::Entry> given{{"path", {}, Value::scalar("b.glb")},
@@ -238,7 +243,8 @@ TEST_CASE("write names Draco's bits, and 32-bit floats that move points onto lin
 
 TEST_CASE("write gives the file normals, and leaves the scene its own", "[stages]") {
     Bench b;
-    b.scene.unit = Unit::m, b.scene.up = UpAxis::y;
+    b.scene.unit = Unit::m;
+    b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = shapes::cube();
     b.scene.parts[0].name = "cube";
     for (const auto& [normals, feature_angle, wedges] :

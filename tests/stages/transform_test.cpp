@@ -60,7 +60,10 @@ TEST_CASE("transform bakes no part that an animation moves", "[stages]") {
         "nodes":[{"children":[1]},{"mesh":0},{"mesh":0}],
         "animations":[{"samplers":[{}],"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}}]}]})";
     scene.documents.push_back(std::make_shared<Document>(document));
-    for (int i = 0; i < 2; ++i) scene.parts[i].document = 0, scene.parts[i].node = 1 + i;
+    for (int i = 0; i < 2; ++i) {
+        scene.parts[i].document = 0;
+        scene.parts[i].node = 1 + i;
+    }
     const auto run = run_stage("transform", "{translate: [1, 2, 3], bake: true}", scene);
     CHECK(run.scene.parts[0].transform.m[1][3] == 2);
     CHECK(run.scene.parts[1].transform.identity());
@@ -166,7 +169,8 @@ TEST_CASE("all pieces of a skinned part keep its skin", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     append(scene.parts[0].mesh, shapes::cube());
     scene.parts[0].skinned = true;
-    scene.parts[0].document = 0, scene.parts[0].node = 3;
+    scene.parts[0].document = 0;
+    scene.parts[0].node = 3;
     const auto run = run_stage("separate", "", scene);
     REQUIRE(run.scene.parts.size() == 2);
     for (const Part& part : run.scene.parts) CHECK((part.skinned && part.document == 0 && part.node == 3));
@@ -232,8 +236,10 @@ TEST_CASE("separate refuses a group that is not there, and too many parts", "[st
         CHECK(run_stage("separate", "group", scene).scene.parts.size() == 3);
     }
     Mesh soup;
-    for (Index i = 0; i < 9; ++i)
-        soup.positions.push_back({double(i), double(i * i), 0}), soup.corners.push_back(i);
+    for (Index i = 0; i < 9; ++i) {
+        soup.positions.push_back({double(i), double(i * i), 0});
+        soup.corners.push_back(i);
+    }
     CHECK(failure([&] { run_stage("separate", "{max_parts: 2}", scene_of(soup)); }) ==
           "stage [E-PARTS] separate: there would be 3 parts or more, and max_parts is 2 | remove small "
           "components "

@@ -167,7 +167,8 @@ TEST_CASE("the order and the numbers of faces and vertices do not matter", "[sta
     for (const auto& property : property_table()) {
         CAPTURE(property.name);
         Assertion assertion{.property = std::string(property.name)};
-        assertion.bound.min = 40, assertion.bound.max = 41; // what most faces are beyond
+        assertion.bound.min = 40;
+        assertion.bound.max = 41; // what most faces are beyond
         const auto keys = location_keys(scene, assertion);
         CHECK(keys == location_keys(other, assertion));
         with_locations += !keys.empty();
@@ -237,7 +238,8 @@ TEST_CASE("names that no pattern matches are known one by one", "[stages]") {
     Gate gate("limits: {names: [body]}");
     Scene scene = scene_of(shapes::cube());
     scene.parts.push_back(scene.parts[0]);
-    scene.parts[0].name = "a", scene.parts[1].name = "b";
+    scene.parts[0].name = "a";
+    scene.parts[1].name = "b";
     gate.learn(scene);
     scene.parts.pop_back();
     CHECK(Gate::all_passed(gate.judge(scene)));
@@ -324,7 +326,8 @@ TEST_CASE("a baseline of very many locations is bounded, and still tells new one
     CHECK_FALSE(known.judge(with(199999, 5)).waived);               // and by one that is in its range
     CHECK_FALSE(known.judge(with(100, ~std::uint64_t{0})).waived);
     auto fewer = keys;
-    fewer.erase(fewer.begin() + 100), fewer.pop_back();
+    fewer.erase(fewer.begin() + 100);
+    fewer.pop_back();
     CHECK(known.judge(failing(fewer)).waived);
     auto more = keys;
     more.push_back(hashed(3, 1));

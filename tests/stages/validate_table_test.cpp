@@ -97,14 +97,18 @@ Mesh with_joints(std::uint16_t joint) {
 Mesh mapped_grid() {
     Mesh mesh = shapes::grid(1, 1);
     std::vector<float> uvs;
-    for (const Vec3& p : mesh.positions) uvs.push_back(float(p.x)), uvs.push_back(float(p.y));
+    for (const Vec3& p : mesh.positions) {
+        uvs.push_back(float(p.x));
+        uvs.push_back(float(p.y));
+    }
     mesh.attributes.push_back({"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::move(uvs)});
     return mesh;
 }
 
 Scene in_unit(Unit unit, UpAxis up) {
     Scene scene = scene_of(shapes::cube());
-    scene.unit = unit, scene.up = up;
+    scene.unit = unit;
+    scene.up = up;
     return scene;
 }
 

@@ -158,7 +158,8 @@ TEST_CASE("validate judges each part or component when asked", "[stages]") {
     CHECK(judged("{euler: 2, per: component}", mesh) == "part.1 euler: 2, found 1");
     Scene scene = scene_of(shapes::cube());
     scene.parts.push_back(scene.parts[0]);
-    scene.parts[1].name = "open", scene.parts[1].mesh = shapes::grid(1, 1);
+    scene.parts[1].name = "open";
+    scene.parts[1].mesh = shapes::grid(1, 1);
     CHECK(failures(run_stage("validate", "{closed: true, per: part}", scene)) ==
           "open closed: true, found false");
 }
@@ -243,7 +244,8 @@ std::vector<std::byte> png(std::uint8_t width, std::uint8_t height) {
     std::vector<std::byte> bytes(24);
     const std::uint8_t start[] = {0x89, 0x50, 0x4e, 0x47};
     for (std::size_t i = 0; i < 4; ++i) bytes[i] = std::byte{start[i]};
-    bytes[19] = std::byte{width}, bytes[23] = std::byte{height};
+    bytes[19] = std::byte{width};
+    bytes[23] = std::byte{height};
     return bytes;
 }
 
@@ -287,7 +289,8 @@ TEST_CASE("validate says what counts towards a limit that fails, the most first"
 TEST_CASE("validate says which parts have most of what is too much", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     scene.parts.push_back(scene.parts[0]);
-    scene.parts[1].name = "ball", scene.parts[1].mesh = shapes::icosphere(1);
+    scene.parts[1].name = "ball";
+    scene.parts[1].mesh = shapes::icosphere(1);
     const auto run =
         run_stage("validate", "{faces: {max: 50}, vertices: {max: 60}, joint_count: {max: 3}}", scene);
     CHECK(run.state->record.checks.at(0).evidence.dump() ==

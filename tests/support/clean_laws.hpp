@@ -36,8 +36,10 @@ inline std::vector<Shape> sound_faces(const Mesh& mesh) {
     std::set<Index> open;
     for (Index e = 0; e < edges.size(); ++e)
         if (edges.corners_of(e).size() != 2)
-            for (const Index c : edges.corners_of(e))
-                open.insert(mesh.vertex(c)), open.insert(mesh.vertex(next_corner(mesh, faces[c], c)));
+            for (const Index c : edges.corners_of(e)) {
+                open.insert(mesh.vertex(c));
+                open.insert(mesh.vertex(next_corner(mesh, faces[c], c)));
+            }
     std::map<std::array<double, 3>, std::set<Index>> at_place;
     for (Index c = 0; c < mesh.corner_count(); ++c) {
         const Vec3 p = mesh.point(c) + Vec3{};

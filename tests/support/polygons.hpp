@@ -13,7 +13,8 @@ inline std::vector<Vec2> square(double x, double y, double side) {
     return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
 }
 inline std::vector<Vec2> reversed(std::vector<Vec2> ring) {
-    return std::reverse(ring.begin(), ring.end()), ring;
+    std::reverse(ring.begin(), ring.end());
+    return ring;
 }
 inline std::vector<Vec2> moved(std::vector<Vec2> ring, Vec2 by) {
     for (auto& p : ring) p = p + by;

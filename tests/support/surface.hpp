@@ -33,7 +33,8 @@ inline Counts count(const Mesh& m) {
                         z = m.vertex(begin + (k + n - 1) % n);
             face.insert(a);
             auto& e = edges[{std::min(a, b), std::max(a, b)}];
-            ++e.first, e.second += a < b ? 1 : -1;
+            ++e.first;
+            e.second += a < b ? 1 : -1;
             links[a].emplace_back(z, b);
         }
         counts.duplicates += !faces.insert(face).second;
@@ -41,15 +42,21 @@ inline Counts count(const Mesh& m) {
             counts.flat +=
                 length(cross(m.point(begin + 1) - m.point(begin), m.point(begin + 2) - m.point(begin))) == 0;
     }
-    for (const auto& [e, c] : edges)
-        counts.open += c.first == 1, counts.crowded += c.first > 2, counts.unbalanced += c.second != 0;
+    for (const auto& [e, c] : edges) {
+        counts.open += c.first == 1;
+        counts.crowded += c.first > 2;
+        counts.unbalanced += c.second != 0;
+    }
     for (auto& [v, link] : links) { // merge the link's edges until nothing joins: what is left are the fans
         std::map<Index, Index> root;
         const auto find = [&](Index x) {
             while (root[x] != x) x = root[x];
             return x;
         };
-        for (const auto& [a, b] : link) root.emplace(a, a), root.emplace(b, b);
+        for (const auto& [a, b] : link) {
+            root.emplace(a, a);
+            root.emplace(b, b);
+        }
         for (const auto& [a, b] : link) root[find(a)] = find(b);
         std::set<Index> fans;
         for (const auto& [x, _] : root) fans.insert(find(x));
@@ -90,7 +97,8 @@ bool same_for_any_threads(Make&& make) {
 /// positions.
 inline void add_coordinates(Mesh& m) {
     Attribute a;
-    a.name = "coordinates", a.components = 3;
+    a.name = "coordinates";
+    a.components = 3;
     std::vector<double> data;
     for (Index w = 0; w < m.wedge_count(); ++w)
         for (std::size_t i = 0; i < 3; ++i) data.push_back(m.positions[m.vertex_of_wedge(w)][i]);

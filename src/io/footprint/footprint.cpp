@@ -79,7 +79,10 @@ class Dxf {
                   : type == "POLYLINE"   ? Entity::polyline
                   : type == "CIRCLE"     ? Entity::circle
                                          : Entity::other;
-        corners_.clear(), closed_ = false, radius_ = 0, looks_ = {0, 0, 1};
+        corners_.clear();
+        closed_ = false;
+        radius_ = 0;
+        looks_ = {0, 0, 1};
         if (entity_ == Entity::circle) corners_.push_back({});
     }
 
@@ -240,7 +243,8 @@ class Wkt {
             auto& ring = rings_.emplace_back();
             list([&] {
                 Vec2 p;
-                p.x = number(), p.y = number();
+                p.x = number();
+                p.y = number();
                 int numbers = 2;
                 for (; skip(), at_ < end_ && *at_ != ',' && *at_ != ')'; ++numbers) number(); // Z and M
                 if (numbers_ == 0) numbers_ = numbers;
@@ -272,7 +276,9 @@ class Wkt {
     }
     bool take(char c) {
         skip();
-        return at_ < end_ && *at_ == c ? ++at_, true : false;
+        if (at_ == end_ || *at_ != c) return false;
+        ++at_;
+        return true;
     }
     void expect(char c) {
         if (!take(c)) fail(fmt::format("expected '{}'", c));

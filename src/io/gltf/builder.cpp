@@ -84,8 +84,10 @@ void Builder::drop_released() {
 
     if (has_unknown_extensions(json_)) {
         // Somebody may name accessors and views by number: the dead ones stay as placeholders without data.
-        for (const std::size_t v : views)
-            json_["bufferViews"][v] = {{"buffer", 0}, {"byteLength", 1}}, new_views_[v] = Bytes(1);
+        for (const std::size_t v : views) {
+            json_["bufferViews"][v] = {{"buffer", 0}, {"byteLength", 1}};
+            new_views_[v] = Bytes(1);
+        }
         return;
     }
     erase_items(json_["accessors"], accessors,

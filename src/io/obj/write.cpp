@@ -57,8 +57,10 @@ void put_values(Bytes& bytes, const char* word, const Pool& pool) {
                 [&](std::size_t begin, std::size_t end, std::string& out) {
                     for (std::size_t i = begin; i < end; ++i) {
                         out += word;
-                        for (std::size_t c = 0; c < pool.components; ++c)
-                            out += ' ', put_number(out, pool.values[i * pool.components + c]);
+                        for (std::size_t c = 0; c < pool.components; ++c) {
+                            out += ' ';
+                            put_number(out, pool.values[i * pool.components + c]);
+                        }
                         out += '\n';
                     }
                 });
@@ -107,7 +109,10 @@ void put_faces(Bytes& bytes, const Mesh& mesh, Index begin, Index end, const Poo
                 if (uv.components == 0 && normal.components == 0) continue;
                 out += '/';
                 if (uv.components) put_number(out, o.uv + uv.of_wedge[w]);
-                if (normal.components) out += '/', put_number(out, o.normal + normal.of_wedge[w]);
+                if (normal.components) {
+                    out += '/';
+                    put_number(out, o.normal + normal.of_wedge[w]);
+                }
             }
             out += '\n';
         }

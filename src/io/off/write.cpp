@@ -72,8 +72,10 @@ void put_rows(Bytes& bytes, const Rows& rows, const Attribute* colour, const Att
                     put_number(out, static_cast<float>(p[c]));
             }
             const Index w = wedges[i] == none ? 0 : wedges[i];
-            for (int c = 0; normal && c < 3; ++c)
-                out += ' ', put_number(out, static_cast<float>(normal->value(w, c)));
+            for (int c = 0; normal && c < 3; ++c) {
+                out += ' ';
+                put_number(out, static_cast<float>(normal->value(w, c)));
+            }
             if (colour) put_colour(out, *colour, w);
             out += '\n';
         }
@@ -96,8 +98,10 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     append_text(bytes, world->face_count(), [&](std::size_t begin, std::size_t end, std::string& out) {
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
             put_number(out, static_cast<std::int64_t>(world->face_size(f)));
-            for (const Index w : world->face_wedges(f))
-                out += ' ', put_number(out, static_cast<std::int64_t>(rows.of(w)));
+            for (const Index w : world->face_wedges(f)) {
+                out += ' ';
+                put_number(out, static_cast<std::int64_t>(rows.of(w)));
+            }
             if (face_colour) put_colour(out, *face_colour, f);
             out += '\n';
         }

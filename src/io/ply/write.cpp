@@ -210,19 +210,26 @@ void put_columns(std::string& out, const std::vector<Out>& columns, std::size_t 
 
 void write_ascii(Bytes& bytes, const Layout& l) {
     append_text(bytes, l.rows(), [&](std::size_t begin, std::size_t end, std::string& out) {
-        for (std::size_t i = begin; i < end; ++i) put_columns(out, l.vertex, i, true), out += '\n';
+        for (std::size_t i = begin; i < end; ++i) {
+            put_columns(out, l.vertex, i, true);
+            out += '\n';
+        }
     });
     append_text(bytes, l.mesh.face_count(), [&](std::size_t begin, std::size_t end, std::string& out) {
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
             put_number(out, static_cast<std::int64_t>(l.mesh.face_size(f)));
-            for (const Index w : l.mesh.face_wedges(f))
-                out += ' ', put_number(out, static_cast<std::int64_t>(l.row(w)));
+            for (const Index w : l.mesh.face_wedges(f)) {
+                out += ' ';
+                put_number(out, static_cast<std::int64_t>(l.row(w)));
+            }
             if (l.corner_uvs) {
                 out += ' ';
                 put_number(out, 2 * static_cast<std::int64_t>(l.mesh.face_size(f)));
                 for (const Index w : l.mesh.face_wedges(f))
-                    for (std::size_t c = 0; c < 2; ++c)
-                        out += ' ', put_number(out, std::get<0>(*l.uv)[2 * w + c]);
+                    for (std::size_t c = 0; c < 2; ++c) {
+                        out += ' ';
+                        put_number(out, std::get<0>(*l.uv)[2 * w + c]);
+                    }
             }
             put_columns(out, l.face, f, false);
             out += '\n';

@@ -37,7 +37,8 @@ void declare_box(Declare<BoxOption>& d) {
                     BoxCorners c;
                     if (!OptionType<BoxCorners>::parse(value, c, problems)) return false;
                     const auto& n = c.numbers;
-                    out.min = {n[0], n[1], n[2]}, out.max = {n[3], n[4], n[5]};
+                    out.min = {n[0], n[1], n[2]};
+                    out.max = {n[3], n[4], n[5]};
                     return true;
                 });
 }

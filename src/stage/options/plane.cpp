@@ -42,9 +42,15 @@ bool parse_short(const Value& value, PlaneOption& out, Problems& problems) {
     out.normal.emplace();
     (*out.normal)[axis] = 1;
     const std::string text = given.substr(2);
-    if (is_centre(text)) return out.through.kind = PlanePlace::Kind::centre, true;
-    if (const auto percent = percentage(text))
-        return out.through.kind = PlanePlace::Kind::extent, out.through.percent = *percent, true;
+    if (is_centre(text)) {
+        out.through.kind = PlanePlace::Kind::centre;
+        return true;
+    }
+    if (const auto percent = percentage(text)) {
+        out.through.kind = PlanePlace::Kind::extent;
+        out.through.percent = *percent;
+        return true;
+    }
     Problems unheard; // of the part behind the equals sign, which has no place of its own
     out.through.kind = PlanePlace::Kind::level;
     if (OptionType<Length>::parse(Value::scalar(text, value.mark), out.through.level, unheard)) return true;
@@ -83,15 +89,20 @@ struct Reach {
                     if (!used[v]) continue;
                     const Vec3 p = map.identity() ? mesh.positions[v] : map.point(mesh.positions[v]);
                     r.box.add(p);
-                    r.low = std::min(r.low, dot(n, p)), r.high = std::max(r.high, dot(n, p));
+                    r.low = std::min(r.low, dot(n, p));
+                    r.high = std::max(r.high, dot(n, p));
                 }
                 return r;
             },
-            [](Reach a, const Reach& b) { return a.join(b), a; });
+            [](Reach a, const Reach& b) {
+                a.join(b);
+                return a;
+            });
         join(all);
     }
     void join(const Reach& b) {
-        low = std::min(low, b.low), high = std::max(high, b.high);
+        low = std::min(low, b.low);
+        high = std::max(high, b.high);
         box.add(b.box);
     }
 };
@@ -102,7 +113,10 @@ Reach reach_of(const Scene& scene, const Part* local, const Vec3& normal) {
         reach.add(local->mesh, {}, normal);
     else
         for (const Part& part : scene.parts) reach.add(part.mesh, effective(part), normal);
-    if (reach.box.empty()) reach.box.add(Vec3{}), reach.low = reach.high = 0;
+    if (reach.box.empty()) {
+        reach.box.add(Vec3{});
+        reach.low = reach.high = 0;
+    }
     return reach;
 }
 
@@ -110,10 +124,16 @@ Reach reach_of(const Scene& scene, const Part* local, const Vec3& normal) {
 
 bool OptionType<PlanePlace>::parse(const Value& value, PlanePlace& out, Problems& problems) {
     if (value.deferred) return true;
-    if (value.is_scalar() && is_centre(value.text)) return out.kind = PlanePlace::Kind::centre, true;
+    if (value.is_scalar() && is_centre(value.text)) {
+        out.kind = PlanePlace::Kind::centre;
+        return true;
+    }
     if (value.is_scalar())
-        if (const auto percent = percentage(value.text))
-            return out.kind = PlanePlace::Kind::extent, out.percent = *percent, true;
+        if (const auto percent = percentage(value.text)) {
+            out.kind = PlanePlace::Kind::extent;
+            out.percent = *percent;
+            return true;
+        }
     out.kind = PlanePlace::Kind::point;
     Problems unheard;
     if (OptionType<Vec3>::parse(value, out.point, unheard)) return true;

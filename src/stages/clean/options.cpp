@@ -109,9 +109,15 @@ CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Pa
         return l ? context.resolve(*l, scene, option, &part) / stretch : 0;
     };
     CleanSettings s;
-    s.weld = o.weld, s.stitch = o.stitch, s.t_junctions = o.t_junctions;
-    s.degenerate = o.degenerate, s.duplicates = o.duplicates, s.non_manifold = o.non_manifold;
-    s.isolated = o.isolated, s.inner_components = o.inner_components,
+    s.weld = o.weld;
+    s.stitch = o.stitch;
+    s.t_junctions = o.t_junctions;
+    s.degenerate = o.degenerate;
+    s.duplicates = o.duplicates;
+    s.non_manifold = o.non_manifold;
+    s.isolated = o.isolated;
+    s.inner_components = o.inner_components;
+
     s.self_intersections = o.self_intersections;
     s.tolerance = local(o.tolerance, "tolerance");
     if (o.holes)

@@ -80,10 +80,14 @@ void declare_report(DeclareFields<CropReport>& d) {
 
 Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& report) {
     PartsToCrop how;
-    how.settings.axis = axis_of(o, scene), how.settings.by = o.by, how.settings.inside_by = o.inside_by;
+    how.settings.axis = axis_of(o, scene);
+    how.settings.by = o.by;
+    how.settings.inside_by = o.inside_by;
     how.settings.keep = o.keep == CropKeep::outside ? polygon::Keep::outside : polygon::Keep::inside;
-    how.settings.cap = o.cap, how.settings.snap = o.snap == Snap::automatic;
-    how.both = o.keep == CropKeep::both, how.cap_material = o.cap_material;
+    how.settings.cap = o.cap;
+    how.settings.snap = o.snap == Snap::automatic;
+    how.both = o.keep == CropKeep::both;
+    how.cap_material = o.cap_material;
     report = crop_parts(scene, resolve_footprint(o.footprint, context), how, context);
     return scene;
 }

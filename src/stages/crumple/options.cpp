@@ -81,11 +81,14 @@ void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& probl
 
 CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene) {
     CrumpleSettings s;
-    s.direction = o.direction, s.boundary = o.boundary;
-    s.seed = static_cast<std::uint64_t>(o.seed), s.truncate = o.truncate;
+    s.direction = o.direction;
+    s.boundary = o.boundary;
+    s.seed = static_cast<std::uint64_t>(o.seed);
+    s.truncate = o.truncate;
     const double whole = diagonal(scene.bounds());
     s.frequency = whole > 0 ? o.frequency / whole : 0;
-    s.octaves = static_cast<int>(o.octaves), s.roughness = o.roughness;
+    s.octaves = static_cast<int>(o.octaves);
+    s.roughness = o.roughness;
     return s;
 }
 

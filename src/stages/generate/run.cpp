@@ -56,11 +56,13 @@ GenerateSettings resolved(const GenerateOptions& o, const Made& made, Context& c
     s.rings = o.rings.value_or(rows ? 1 : 24);
     if (o.shape == Shape::sphere && !o.segments && !o.rings) {
         const SphereBands bands = sphere_bands(o.faces.value_or(4000));
-        s.segments = bands.segments, s.rings = bands.rings;
+        s.segments = bands.segments;
+        s.rings = bands.rings;
     }
     s.cells = o.cells.value_or(o.shape == Shape::gaussian ? 40 : 10);
     s.subdivisions = o.subdivisions.value_or(o.shape == Shape::menger ? 2 : 3);
-    s.caps = o.caps, s.quads = o.quads;
+    s.caps = o.caps;
+    s.quads = o.quads;
     return s;
 }
 

@@ -85,10 +85,15 @@ void declare_relax(Declare<RelaxOptions>& d) {
 
 RelaxSettings relax_settings(const RelaxOptions& o) {
     RelaxSettings s;
-    s.iterations = o.iterations.value_or(o.until ? most_until : 1), s.method = o.method, s.lambda = o.lambda;
-    s.neighbours = o.neighbours, s.boundary = o.boundary;
+    s.iterations = o.iterations.value_or(o.until ? most_until : 1);
+    s.method = o.method;
+    s.lambda = o.lambda;
+    s.neighbours = o.neighbours;
+    s.boundary = o.boundary;
     if (o.feature_angle) s.feature_angle = o.feature_angle->radians;
-    s.pass_band = o.pass_band, s.alpha = o.alpha, s.beta = o.beta;
+    s.pass_band = o.pass_band;
+    s.alpha = o.alpha;
+    s.beta = o.beta;
     return s;
 }
 

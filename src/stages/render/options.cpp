@@ -79,9 +79,14 @@ void verify_render(const RenderOptions& o, const Value& given, Problems& problem
 
 PictureSettings picture_settings(const RenderOptions& o, const Scene& scene, const Context& context) {
     PictureSettings s;
-    s.width = static_cast<int>(o.width), s.height = static_cast<int>(o.height);
-    s.viewpoint = o.view, s.from = o.from, s.paint = o.colours, s.attribute = o.attribute;
-    s.edges = o.edges, s.point = o.point;
+    s.width = static_cast<int>(o.width);
+    s.height = static_cast<int>(o.height);
+    s.viewpoint = o.view;
+    s.from = o.from;
+    s.paint = o.colours;
+    s.attribute = o.attribute;
+    s.edges = o.edges;
+    s.point = o.point;
     const float grey = o.ground == Ground::white ? 1.0f : o.ground == Ground::grey ? 0.7f : 0.0f;
     if (o.ground != Ground::none) s.ground = {grey, grey, grey};
     s.shows = [&](const Part& part) { return context.selects(part, scene); };

@@ -113,7 +113,8 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
     try {
         SplitSettings s;
         s.method = method;
-        s.max_edge = o.max_edge ? 1 : 0, s.min_angle = o.min_angle && !o.max_edge && !o.max_faces ? 1 : 0;
+        s.max_edge = o.max_edge ? 1 : 0;
+        s.min_angle = o.min_angle && !o.max_edge && !o.max_faces ? 1 : 0;
         check_split_targets(s);
     } catch (const Error& e) {
         const auto& d = e.diagnostics().front();

@@ -20,9 +20,12 @@ Transform rotation(const TransformRotation& r) {
     Transform t;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) t.m[i][j] = (i == j ? c : 0) + (1 - c) * u[i] * u[j];
-    t.m[0][1] -= s * u.z, t.m[1][0] += s * u.z;
-    t.m[0][2] += s * u.y, t.m[2][0] -= s * u.y;
-    t.m[1][2] -= s * u.x, t.m[2][1] += s * u.x;
+    t.m[0][1] -= s * u.z;
+    t.m[1][0] += s * u.z;
+    t.m[0][2] += s * u.y;
+    t.m[2][0] -= s * u.y;
+    t.m[1][2] -= s * u.x;
+    t.m[2][1] += s * u.x;
     return t;
 }
 

@@ -70,7 +70,8 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);
         back.transform = lent[k].transform;
-        back.skinned = lent[k].skinned, back.changed = lent[k].changed;
+        back.skinned = lent[k].skinned;
+        back.changed = lent[k].changed;
         if (lent[k].mesh) back.mesh = std::move(*lent[k].mesh);
     }
     return scene;

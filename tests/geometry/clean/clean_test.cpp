@@ -21,14 +21,17 @@ CleanSettings nothing() {
 /// Every triangle with vertices of its own.
 Mesh apart(const Mesh& mesh) {
     Mesh soup;
-    for (Index c = 0; c < mesh.corner_count(); ++c)
-        soup.corners.push_back(c), soup.positions.push_back(mesh.point(c));
+    for (Index c = 0; c < mesh.corner_count(); ++c) {
+        soup.corners.push_back(c);
+        soup.positions.push_back(mesh.point(c));
+    }
     return soup;
 }
 
 Mesh triangles(std::vector<Vec3> positions, std::vector<Index> corners) {
     Mesh mesh;
-    mesh.positions = std::move(positions), mesh.corners = std::move(corners);
+    mesh.positions = std::move(positions);
+    mesh.corners = std::move(corners);
     return mesh;
 }
 
@@ -78,7 +81,8 @@ TEST_CASE("clean welds near ends of open edges only", "[geometry]") {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v)
         mesh.positions[v].x += 1e-4 * static_cast<double>(v % 3);
     CleanSettings s;
-    s.weld = Nearness::near, s.tolerance = 1e-3;
+    s.weld = Nearness::near;
+    s.tolerance = 1e-3;
     CHECK(is_sound_solid(cleaned(mesh, s).mesh));
     Mesh thin = shapes::cube(); // opposite walls nearer than the length stay apart
     for (Vec3& p : thin.positions) p.z *= 1e-4;
@@ -98,7 +102,8 @@ TEST_CASE("clean stitches open edges whose ends are near", "[geometry]") {
     mesh.positions.push_back(mesh.positions[mesh.corners[0]] + Vec3{0.01, 0.01, 0});
     mesh.corners[0] = stray;
     CleanSettings s = nothing();
-    s.stitch = Nearness::near, s.tolerance = 0.05;
+    s.stitch = Nearness::near;
+    s.tolerance = 0.05;
     const auto r = cleaned(mesh, s);
     CHECK(r.counts.stitched_edges == 2);
     CHECK(is_sound_solid(r.mesh));
@@ -189,7 +194,8 @@ TEST_CASE("clean puts a point on an edge that its ends hold together", "[geometr
         for (Vec3& p : cube.positions) p += Vec3{x, y, z};
         append(mesh, cube);
     };
-    cube_at(0, 0, 1), cube_at(1, 1, 1);
+    cube_at(0, 0, 1);
+    cube_at(1, 1, 1);
     for (double z : {0.0, 2.0})
         for (double x : {0.0, 1.0})
             for (double y : {0.0, 1.0}) cube_at(x, y, z);
@@ -217,7 +223,8 @@ TEST_CASE("clean resolves T-vertices beside the edge when they are near", "[geom
     CleanSettings s = nothing();
     s.t_junctions = Nearness::exact;
     CHECK(cleaned(mesh, s).counts.total() == 0);
-    s.t_junctions = Nearness::near, s.tolerance = 1e-3;
+    s.t_junctions = Nearness::near;
+    s.tolerance = 1e-3;
     CHECK(inspect(cleaned(mesh, s).mesh).boundary_edges == 4);
 }
 
@@ -242,7 +249,8 @@ TEST_CASE("clean fills planar holes with planar patches, and says which are not"
     CleanSettings s;
     s.holes = HoleSettings{HoleFill::planar, 0, 0};
     Mesh open = shapes::quad_cube();
-    open.face_offsets.pop_back(), open.corners.resize(20);
+    open.face_offsets.pop_back();
+    open.corners.resize(20);
     auto r = cleaned(open, s);
     CHECK(is_sound_solid(r.mesh));
     CHECK(test::volume(r.mesh) == Approx(1));
@@ -319,9 +327,12 @@ TEST_CASE("clean removes isolated vertices", "[geometry]") {
 
 TEST_CASE("clean takes an empty mesh and one of points", "[geometry]") {
     CleanSettings s;
-    s.holes = HoleSettings{}, s.components = ComponentSettings{2, 0, 0, 0};
-    s.inner_components = true, s.self_intersections = Untangle::all;
-    s.weld = s.stitch = s.t_junctions = Nearness::near, s.tolerance = 1;
+    s.holes = HoleSettings{};
+    s.components = ComponentSettings{2, 0, 0, 0};
+    s.inner_components = true;
+    s.self_intersections = Untangle::all;
+    s.weld = s.stitch = s.t_junctions = Nearness::near;
+    s.tolerance = 1;
     CHECK(cleaned({}, s).counts.total() == 0);
     Mesh points;
     points.positions = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}};
@@ -335,7 +346,9 @@ TEST_CASE("clean drops shells inside others, and keeps those that touch or stand
         for (Vec3& p : other.positions) p = p * scale + offset;
         append(mesh, other);
     };
-    add(0.3, {0.2, 0, 0}), add(0.3, {3, 0, 0}), add(0.3, {0.9, 0, 0});
+    add(0.3, {0.2, 0, 0});
+    add(0.3, {3, 0, 0});
+    add(0.3, {0.9, 0, 0});
     CleanSettings s;
     s.inner_components = true;
     const auto r = cleaned(mesh, s);

@@ -87,7 +87,9 @@ TEST_CASE("clean does not cut a tube that passes through another", "[geometry]")
 
 TEST_CASE("clean does not take a mesh away for its intersections", "[geometry]") {
     CleanSettings s = untangling();
-    s.holes = HoleSettings{}, s.inner_components = true, s.stitch = Nearness::exact;
+    s.holes = HoleSettings{};
+    s.inner_components = true;
+    s.stitch = Nearness::exact;
     for (const Mesh& mesh : {shapes::fan3(), shapes::crossing(), shapes::hourglass(),
                              random_triangles(60, 0.3, 7), shapes::folded_quad()}) {
         const auto r = clean(mesh, s);

@@ -236,7 +236,8 @@ TEST_CASE("clean carries texture coordinates to where solids are cut", "[geometr
     std::vector<double> uv, heat;
     for (const Vec3& p : mesh.positions) {
         const auto at = linear(p);
-        uv.insert(uv.end(), at.begin(), at.end()), heat.push_back(p.x);
+        uv.insert(uv.end(), at.begin(), at.end());
+        heat.push_back(p.x);
     }
     mesh.attributes.push_back({"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, AttributeData(uv)});
     mesh.attributes.push_back({"heat", Domain::vertex, Role::generic, 1, false, AttributeData(heat)});

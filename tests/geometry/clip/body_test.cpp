@@ -23,13 +23,17 @@ ClipSettings at_box(const BoxOption& box, Keep keep = Keep::both) {
 
 BoxOption corners(const Vec3& min, const Vec3& max) {
     BoxOption box;
-    box.min = min, box.max = max;
+    box.min = min;
+    box.max = max;
     return box;
 }
 
 BoxOption turned() {
     BoxOption box;
-    box.centre = {0.2, 0.1, 0}, box.size = {0.9, 1.1, 0.7}, box.axis = {1, 2, 3},
+    box.centre = {0.2, 0.1, 0};
+    box.size = {0.9, 1.1, 0.7};
+    box.axis = {1, 2, 3};
+
     box.angle = Angle::degrees(33);
     return box;
 }

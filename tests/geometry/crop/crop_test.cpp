@@ -21,7 +21,8 @@ const Rings with_hole{{{0.5, 0.5}, {5.5, 0.5}, {5.5, 3.25}, {3, 1.5}, {0.5, 3.25
 CropResult cropped(const Mesh& mesh, const Rings& rings, CropBy by = CropBy::cut,
                    polygon::Keep keep = polygon::Keep::inside) {
     CropSettings settings;
-    settings.by = by, settings.keep = keep;
+    settings.by = by;
+    settings.keep = keep;
     CropResult r = crop(mesh, Footprint(rings), settings);
     CHECK(broken_invariants(r.mesh).empty());
     return r;
@@ -78,9 +79,11 @@ TEST_CASE("outlines along edges and through vertices cut nothing that they need 
 
 TEST_CASE("stars and islands on a rough surface", "[geometry]") {
     Mesh hill = shapes::grid(24, 20);
-    for (Vec3& p : hill.positions)
-        p.x = p.x / 4, p.y = p.y / 4,
+    for (Vec3& p : hill.positions) {
+        p.x = p.x / 4;
+        p.y = p.y / 4;
         p.z = uniform(hashed(5, static_cast<std::uint64_t>(p.x * 64 + p.y * 4096)));
+    }
     const Rings rings{star(7, {3, 2.5}, 2.3), star(5, {3, 2.5}, 0.7), {{0.1, 0.1}, {0.9, 0.15}, {0.2, 0.8}}};
     const CropResult in = cropped(hill, rings),
                      out = cropped(hill, rings, CropBy::cut, polygon::Keep::outside);
@@ -153,7 +156,8 @@ TEST_CASE("crops along other axes and of moved parts", "[geometry]") {
     const Rings square{{{0.25, 0.25}, {0.75, 0.25}, {0.75, 0.75}, {0.25, 0.75}}};
     CHECK(test::area(crop(shapes::cube(), Footprint(square), settings).mesh) == Approx(0.5));
     settings.axis = 1;
-    settings.to_world.m[0][3] = 0.5, settings.to_world.m[2][3] = -0.5;
+    settings.to_world.m[0][3] = 0.5;
+    settings.to_world.m[2][3] = -0.5;
     CHECK(test::area(crop(shapes::cube(), Footprint(square), settings).mesh) ==
           Approx(2 * 0.25 * 0.25 + 0.25 * 2));
 }
@@ -202,7 +206,8 @@ namespace {
 CropResult walled(const Mesh& mesh, const Rings& rings, polygon::Keep keep = polygon::Keep::inside,
                   const Transform& to_world = {}) {
     CropSettings settings;
-    settings.keep = keep, settings.to_world = to_world;
+    settings.keep = keep;
+    settings.to_world = to_world;
     settings.cap = settings.cap_numbers = true;
     settings.cap_primitive = Primitive{3, {}, {}};
     CropResult r = crop(mesh, Footprint(rings), settings);
@@ -421,8 +426,12 @@ TEST_CASE("an edge that passes a corner of the outline is cut there once", "[geo
 
 TEST_CASE("walls of moved, turned and mirrored parts stand in the world", "[geometry]") {
     Transform mirrored; // x -> 2 - x, y and z swapped
-    mirrored.m[0][0] = -1, mirrored.m[0][3] = 2;
-    mirrored.m[1][1] = 0, mirrored.m[1][2] = 1, mirrored.m[2][2] = 0, mirrored.m[2][1] = 1;
+    mirrored.m[0][0] = -1;
+    mirrored.m[0][3] = 2;
+    mirrored.m[1][1] = 0;
+    mirrored.m[1][2] = 1;
+    mirrored.m[2][2] = 0;
+    mirrored.m[2][1] = 1;
     const Rings corner{{{1.5, 0.5}, {3, 0.5}, {3, 3}, {1.5, 3}}};
     const CropResult r = walled(shapes::cube(), corner, polygon::Keep::inside, mirrored);
     CHECK(inspect(r.mesh).closed);

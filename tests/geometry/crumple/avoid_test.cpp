@@ -20,7 +20,8 @@ namespace {
 
 CrumpleSettings by(double amplitude, std::uint64_t seed = 1) {
     CrumpleSettings s;
-    s.amplitude = amplitude, s.seed = seed;
+    s.amplitude = amplitude;
+    s.seed = seed;
     return s;
 }
 
@@ -33,7 +34,9 @@ Mesh apart(Mesh mesh, const CrumpleSettings& s, AvoidResult* result = nullptr, b
 
 Mesh sponge() {
     GenerateSettings s;
-    s.shape = Shape::menger, s.subdivisions = 2, s.size = 1;
+    s.shape = Shape::menger;
+    s.subdivisions = 2;
+    s.size = 1;
     return generate(s);
 }
 
@@ -58,7 +61,9 @@ TEST_CASE("a crumpled sponge has no faces that meet, in float32 too", "[geometry
 
 TEST_CASE("a crumpled sponge of level 3 has no faces that meet", "[geometry]") {
     GenerateSettings s;
-    s.shape = Shape::menger, s.subdivisions = 3, s.size = 1;
+    s.shape = Shape::menger;
+    s.subdivisions = 3;
+    s.size = 1;
     AvoidResult r;
     const Mesh after = apart(generate(s), by(0.015), &r);
     CHECK(r.found > 1000);
@@ -195,7 +200,8 @@ TEST_CASE("correlated noise: deviation 1 everywhere, near places alike, far ones
     for (int i = 0; i < n; ++i) {
         const Vec3 p{i * 0.617, i * 0.331 - 50, i * 0.173};
         const double a = noise.at(3, p);
-        sum += a, squares += a * a;
+        sum += a;
+        squares += a * a;
         near += a * noise.at(3, p + Vec3{0.02, 0.01, -0.01});
         far += a * noise.at(3, p + Vec3{5.5, 0, 0});
     }
@@ -213,7 +219,8 @@ TEST_CASE("correlated noise: deviation 1 everywhere, near places alike, far ones
 TEST_CASE("crumpling with a frequency bends the sheet, vertices side by side move alike", "[geometry]") {
     const Mesh mesh = grid_split(shapes::grid(1, 1), 40).mesh;
     CrumpleSettings s = by(0.1);
-    s.direction = CrumpleSettings::Direction::normal, s.frequency = 3;
+    s.direction = CrumpleSettings::Direction::normal;
+    s.frequency = 3;
     const auto step = [&](const Mesh& m) {
         double most = 0;
         for (Index c = 0; c < m.corner_count(); c += 3)
@@ -231,7 +238,8 @@ TEST_CASE("crumpling by a mask moves what it says", "[geometry]") {
     const Mesh mesh = shapes::grid(3, 3);
     CrumpleSettings s = by(0.1);
     const Mesh all = crumple(mesh, s).mesh;
-    s.mask.assign(16, 0), s.mask[5] = 0.5;
+    s.mask.assign(16, 0);
+    s.mask[5] = 0.5;
     const CrumpleResult r = crumple(mesh, s);
     CHECK(r.moved == 1);
     CHECK(length(r.mesh.positions[5] - mesh.positions[5]) ==

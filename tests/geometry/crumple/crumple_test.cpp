@@ -16,7 +16,9 @@ TEST_CASE("Gaussian amounts have mean 0, deviation 1, and a cut that heaps nothi
     constexpr int n = 200000;
     for (std::uint64_t key = 0; key < n; ++key) {
         const double g = gaussian(key, 3);
-        sum += g, squares += g * g, most = std::max(most, std::abs(g));
+        sum += g;
+        squares += g * g;
+        most = std::max(most, std::abs(g));
     }
     // The deviation of a normal distribution cut at 3 is 0.98658; four standard errors are allowed.
     CHECK(std::abs(sum / n) < 4 / std::sqrt(double(n)));
@@ -79,8 +81,10 @@ TEST_CASE("vertices at one place move together, welded or not, whatever their or
 TEST_CASE("along the normal, unwelded faces stay together too", "[geometry]") {
     const Mesh whole = shapes::cube();
     Mesh loose;
-    for (Index c = 0; c < whole.corner_count(); ++c)
-        loose.corners.push_back(c), loose.positions.push_back(whole.point(c));
+    for (Index c = 0; c < whole.corner_count(); ++c) {
+        loose.corners.push_back(c);
+        loose.positions.push_back(whole.point(c));
+    }
     const CrumpleSettings s{.amplitude = 0.02, .direction = Direction::normal};
     const Mesh b = crumple(loose, s).mesh;
     for (Index c = 0; c < 36; ++c)
@@ -91,8 +95,10 @@ TEST_CASE("along the normal, unwelded faces stay together too", "[geometry]") {
 TEST_CASE("a mask and a fixed boundary tear no unwelded copies apart", "[geometry]") {
     const Mesh whole = shapes::grid(6, 6);
     Mesh loose; // every face by itself
-    for (Index c = 0; c < whole.corner_count(); ++c)
-        loose.corners.push_back(c), loose.positions.push_back(whole.point(c));
+    for (Index c = 0; c < whole.corner_count(); ++c) {
+        loose.corners.push_back(c);
+        loose.positions.push_back(whole.point(c));
+    }
     CrumpleSettings s{.amplitude = 0.1, .boundary = Boundary::fixed};
     const auto same = [&](const Mesh& a, const Mesh& b) {
         for (Index c = 0; c < whole.corner_count(); ++c) CHECK(a.point(c) == b.point(c));
@@ -102,7 +108,8 @@ TEST_CASE("a mask and a fixed boundary tear no unwelded copies apart", "[geometr
     CHECK(a.moved == 25);
     s.boundary = Boundary::free;
     s.mask.assign(loose.vertex_count(), 1);
-    s.mask[0] = 0.25, s.mask[9] = 0; // one copy of each place
+    s.mask[0] = 0.25;
+    s.mask[9] = 0; // one copy of each place
     const Mesh masked = crumple(loose, s).mesh;
     CHECK(masked.positions[9] == loose.positions[9]);
     for (Index c = 0; c < loose.vertex_count(); ++c)

@@ -115,10 +115,12 @@ TEST_CASE("points are measured as points: all of them, to the nearest, by any nu
           "[geometry]") {
     const auto cloud = [](std::uint64_t seed, std::size_t count) {
         Scene scene;
-        for (std::size_t i = 0; i < count; ++i)
-            scene.parts.resize(1), scene.parts[0].mesh.positions.push_back(
-                                       {uniform(hashed(seed, 3 * i)), uniform(hashed(seed, 3 * i + 1)),
-                                        uniform(hashed(seed, 3 * i + 2))});
+        for (std::size_t i = 0; i < count; ++i) {
+            scene.parts.resize(1);
+            scene.parts[0].mesh.positions.push_back({uniform(hashed(seed, 3 * i)),
+                                                     uniform(hashed(seed, 3 * i + 1)),
+                                                     uniform(hashed(seed, 3 * i + 2))});
+        }
         return unreferenced_points_of(scene);
     };
     const Surface a = cloud(1, 400), b = cloud(2, 300);
@@ -135,7 +137,10 @@ TEST_CASE("points are measured as points: all of them, to the nearest, by any nu
     for (const auto& [way, all] :
          {std::pair(d.forward, nearest(a, b)), std::pair(d.backward, nearest(b, a))}) {
         double sum = 0, squares = 0;
-        for (const double x : all) sum += x, squares += x * x;
+        for (const double x : all) {
+            sum += x;
+            squares += x * x;
+        }
         CHECK(way.maximum == *std::max_element(all.begin(), all.end()));
         CHECK(way.mean == Approx(sum / static_cast<double>(all.size())).epsilon(1e-12));
         CHECK(way.rms == Approx(std::sqrt(squares / static_cast<double>(all.size()))).epsilon(1e-12));

@@ -76,7 +76,9 @@ TEST_CASE("a sphere of the note's 4000 faces", "[geometry]") {
     CHECK(sphere_bands(4000).segments == 80);
     CHECK(sphere_bands(4000).rings == 26);
     GenerateSettings s = of(Shape::sphere);
-    s.segments = 80, s.rings = 26, s.radius = 3;
+    s.segments = 80;
+    s.rings = 26;
+    s.radius = 3;
     const Mesh mesh = generate(s);
     CHECK(mesh.face_count() == 4000);
     for (const Vec3& p : mesh.positions) CHECK(length(p) == Approx(3).epsilon(1e-14));
@@ -84,11 +86,15 @@ TEST_CASE("a sphere of the note's 4000 faces", "[geometry]") {
 
 TEST_CASE("cylinder and cone: their volumes, and open without caps", "[geometry]") {
     GenerateSettings s = of(Shape::cylinder);
-    s.radius = 2, s.height = 5, s.segments = 1000, s.rings = 4;
+    s.radius = 2;
+    s.height = 5;
+    s.segments = 1000;
+    s.rings = 4;
     CHECK(*inspect(generate(s)).volume == Approx(exact_pi * 4 * 5).epsilon(1e-4));
     s.shape = Shape::cone;
     CHECK(*inspect(generate(s)).volume == Approx(exact_pi * 4 * 5 / 3).epsilon(1e-4));
-    s.segments = 12, s.caps = false;
+    s.segments = 12;
+    s.caps = false;
     CHECK(inspect(generate(s)).boundary_loops == 1);
     s.shape = Shape::cylinder;
     CHECK(inspect(generate(s)).boundary_loops == 2);
@@ -96,7 +102,10 @@ TEST_CASE("cylinder and cone: their volumes, and open without caps", "[geometry]
 
 TEST_CASE("a gaussian has its height, its spread and its square", "[geometry]") {
     GenerateSettings s = of(Shape::gaussian);
-    s.size = 4, s.height = 3, s.spread = 0.5, s.cells = 8;
+    s.size = 4;
+    s.height = 3;
+    s.spread = 0.5;
+    s.cells = 8;
     const Mesh mesh = generate(s);
     CHECK(mesh.vertex_count() == 81);
     CHECK(mesh.positions[40] == Vec3{0, 0, 3});
@@ -112,7 +121,8 @@ TEST_CASE("the Menger sponge has only its outer surface", "[geometry]") {
     const std::size_t faces[] = {72, 1056, 18048};
     const double volumes[] = {20.0 / 27, 400.0 / 729, 8000.0 / 19683};
     for (int level = 1; level <= 3; ++level) {
-        s.subdivisions = level, s.size = 1;
+        s.subdivisions = level;
+        s.size = 1;
         const Mesh mesh = generate(s);
         CHECK(mesh.face_count() == faces[level - 1]);
         const Properties p = inspect(mesh);
@@ -127,7 +137,8 @@ TEST_CASE("the Menger sponge has only its outer surface", "[geometry]") {
 TEST_CASE("noise moves every vertex, the same for the same seed", "[geometry]") {
     GenerateSettings s = of(Shape::gaussian);
     const Mesh smooth = generate(s);
-    s.noise = 0.01, s.seed = 5;
+    s.noise = 0.01;
+    s.seed = 5;
     const Mesh noisy = generate(s);
     CHECK(test::same(noisy, generate(s)));
     double sum = 0;
@@ -156,7 +167,8 @@ TEST_CASE("shapes out of range are refused", "[geometry]") {
     s = of(Shape::sphere);
     s.rings = 1;
     CHECK(test::failure([&] { generate(s); }) == "usage [E-RANGE] generate: rings is at least 2, not 1");
-    s.rings = 1 << 20, s.segments = 1 << 20;
+    s.rings = 1 << 20;
+    s.segments = 1 << 20;
     CHECK(test::failure([&] { generate(s); }) == "limit [E-LIMIT] generate: the shape would have about "
                                                  "2.2e+12 faces, at most 7.16e+08 are possible | ask for "
                                                  "fewer faces, cells or subdivisions");

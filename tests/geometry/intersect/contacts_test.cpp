@@ -63,28 +63,35 @@ Mesh of_boxes(std::initializer_list<Vec3> at) {
 
 TEST_CASE("two sheets at one edge touch or pass through each other", "[geometry]") {
     Mesh beside, through;
-    add_sheet(beside, 0, 1, east, north), add_sheet(beside, 0, 1, west, south);
+    add_sheet(beside, 0, 1, east, north);
+    add_sheet(beside, 0, 1, west, south);
     CHECK(counts(beside) == Counts{0, 4});
-    add_sheet(through, 0, 1, east, west), add_sheet(through, 0, 1, north, south);
+    add_sheet(through, 0, 1, east, west);
+    add_sheet(through, 0, 1, north, south);
     CHECK(counts(through) == Counts{4, 0});
     CHECK(find_self_intersections(through, apart).pairs == Pairs{{0, 2}, {0, 3}, {1, 2}, {1, 3}});
     Mesh nested; // both on one side: an angle inside another
-    add_sheet(nested, 0, 1, east, north), add_sheet(nested, 0, 1, {3, 1, 0.5}, {1, 3, 0.5});
+    add_sheet(nested, 0, 1, east, north);
+    add_sheet(nested, 0, 1, {3, 1, 0.5}, {1, 3, 0.5});
     CHECK(counts(nested) == Counts{0, 4});
     Mesh askew;
-    add_sheet(askew, 0, 1, east, north), add_sheet(askew, 0, 1, {3, 1, 0.5}, {-1, 3, 0.5});
+    add_sheet(askew, 0, 1, east, north);
+    add_sheet(askew, 0, 1, {3, 1, 0.5}, {-1, 3, 0.5});
     CHECK(counts(askew) == Counts{4, 0});
 }
 
 TEST_CASE("edges that overlap in part are edges together, those end to end are not", "[geometry]") {
     Mesh part;
-    add_sheet(part, 0, 1, east, west), add_sheet(part, 0.5, 2, north, south);
+    add_sheet(part, 0, 1, east, west);
+    add_sheet(part, 0.5, 2, north, south);
     CHECK(counts(part) == Counts{4, 0});
     Mesh beside;
-    add_sheet(beside, 0, 1, east, north), add_sheet(beside, 0.5, 2, west, south);
+    add_sheet(beside, 0, 1, east, north);
+    add_sheet(beside, 0.5, 2, west, south);
     CHECK(counts(beside) == Counts{0, 4});
     Mesh ends;
-    add_sheet(ends, 0, 1, east, west), add_sheet(ends, 1, 2, {0, 1, 1.5}, {0, -1, 1.5});
+    add_sheet(ends, 0, 1, east, west);
+    add_sheet(ends, 1, 2, {0, 1, 1.5}, {0, -1, 1.5});
     CHECK(counts(ends) == Counts{0, 4});
 }
 
@@ -188,7 +195,8 @@ TEST_CASE("what runs into and what touches are all pairs, and local touching agr
                 CHECK(oracle::insides_meet(corners(mesh, f), corners(mesh, g)));
             for (const auto& [f, g] : found.touching_pairs)
                 CHECK_FALSE(oracle::insides_meet(corners(mesh, f), corners(mesh, g)));
-            real += found.count, touching += found.touching;
+            real += found.count;
+            touching += found.touching;
         }
     CHECK(real > 1000);
     CHECK(touching > 1000);

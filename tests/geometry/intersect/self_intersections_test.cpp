@@ -108,8 +108,10 @@ TEST_CASE("the faces of all pairs but the exempt ones are flagged", "[geometry]"
 TEST_CASE("the first of very many pairs are listed", "[geometry]") {
     Mesh heap; // of triangles around one point, each through all others
     for (int i = 0; i < 120; ++i)
-        for (const Vec3& p : {Vec3{1, 0, 0.001 * i}, Vec3{-1, 1, -0.002 * i}, Vec3{-1, -1, 0.0005 * i * i}})
-            heap.corners.push_back(static_cast<Index>(heap.positions.size())), heap.positions.push_back(p);
+        for (const Vec3& p : {Vec3{1, 0, 0.001 * i}, Vec3{-1, 1, -0.002 * i}, Vec3{-1, -1, 0.0005 * i * i}}) {
+            heap.corners.push_back(static_cast<Index>(heap.positions.size()));
+            heap.positions.push_back(p);
+        }
     const auto all = find_self_intersections(heap, everything);
     REQUIRE(all.pairs.size() > 5000);
     const auto some = find_self_intersections(heap, {.limit = 100});

@@ -44,8 +44,10 @@ void check_scaled(double is, double was, int power) {
 
 void check_scaled(const Statistics& is, const Statistics& was, int power) {
     CHECK(is.count == was.count);
-    check_scaled(is.minimum, was.minimum, power), check_scaled(is.maximum, was.maximum, power);
-    check_scaled(is.mean, was.mean, power), check_scaled(is.median, was.median, power);
+    check_scaled(is.minimum, was.minimum, power);
+    check_scaled(is.maximum, was.maximum, power);
+    check_scaled(is.mean, was.mean, power);
+    check_scaled(is.median, was.median, power);
     check_scaled(is.deviation, was.deviation, power);
 }
 
@@ -195,12 +197,14 @@ TEST_CASE("deviation scales exactly", "[geometry]") {
 TEST_CASE("the diagonal of a box is right where its square is none", "[geometry]") {
     for (const int k : powers) {
         Box box;
-        box.add(Vec3{}), box.add(Vec3{std::ldexp(2, k), std::ldexp(3, k), std::ldexp(6, k)});
+        box.add(Vec3{});
+        box.add(Vec3{std::ldexp(2, k), std::ldexp(3, k), std::ldexp(6, k)});
         check_scaled(diagonal(box), 7, k);
     }
     constexpr double most = 1.7976931348623157e308;
     Box all;
-    all.add(Vec3{-most, 0, 0}), all.add(Vec3{most, 0, 0});
+    all.add(Vec3{-most, 0, 0});
+    all.add(Vec3{most, 0, 0});
     CHECK(diagonal(all) == HUGE_VAL);
     CHECK(diagonal(Box{}) == 0);
 }

@@ -72,7 +72,8 @@ TEST_CASE("concave polygons count their inside only", "[geometry]") {
     check_close(r.solid->centroid, {5.0 / 6, 5.0 / 6, 0.5});
     const SolidMass cube = *measure_mass(shapes::cube()).solid;
     SolidMass right = cube, up = cube;
-    right.centroid.x += 1, up.centroid.y += 1;
+    right.centroid.x += 1;
+    up.centroid.y += 1;
     const SolidMass sum = joined(joined(cube, right), up);
     CHECK(sum.volume == Approx(3).epsilon(1e-14));
     check_close(sum.centroid, r.solid->centroid);

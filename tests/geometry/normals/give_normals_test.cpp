@@ -87,7 +87,8 @@ TEST_CASE("seams of other attributes stay, with one normal on both sides", "[geo
     std::vector<float> uvs;
     for (Index c = 0; c < m.corner_count(); ++c) {
         vertices.push_back(m.vertex(c));
-        uvs.push_back(static_cast<float>(c)), uvs.push_back(0.5f);
+        uvs.push_back(static_cast<float>(c));
+        uvs.push_back(0.5f);
     }
     for (Index c = 0; c < m.corner_count(); ++c) m.corners[c] = c;
     m.wedge_vertex = vertices;

@@ -62,7 +62,8 @@ Mesh prism(int sides, double turn_of_normals) {
     for (Index w = 0; w < m.wedge_count(); ++w) {
         const double x = n.value(w, 0), y = n.value(w, 1), c = cosine(turn_of_normals),
                      s = sine(turn_of_normals);
-        n.set_value(w, 0, c * x - s * y), n.set_value(w, 1, s * x + c * y);
+        n.set_value(w, 0, c * x - s * y);
+        n.set_value(w, 1, s * x + c * y);
     }
     return m;
 }

@@ -22,7 +22,8 @@ constexpr Method every_method[] = {Method::laplacian, Method::taubin, Method::co
 
 RelaxSettings by(Method method, std::int64_t iterations = 1) {
     RelaxSettings s;
-    s.method = method, s.iterations = iterations;
+    s.method = method;
+    s.iterations = iterations;
     return s;
 }
 
@@ -86,7 +87,8 @@ TEST_CASE("implicit solves the equation that it states", "[geometry]") {
     for (Index f = 0; f < mesh.face_count(); ++f)
         for (Index k = 0; k < 3; ++k) { // each edge of a closed mesh once in each direction
             const Index a = mesh.corners[3 * f + k], b = mesh.corners[3 * f + (k + 1) % 3];
-            sums[a] += after.positions[b], ++counts[a];
+            sums[a] += after.positions[b];
+            ++counts[a];
         }
     for (std::size_t v = 0; v < sums.size(); ++v) {
         const Vec3& p = after.positions[v];
@@ -114,7 +116,8 @@ TEST_CASE("a boundary slides along itself with every method", "[geometry]") {
     for (auto& p : mesh.positions) p.x = p.x * p.x / 8; // uneven along x
     for (const Method method : every_method) {
         RelaxSettings s = by(method, 4);
-        s.boundary = Boundary::slide, s.feature_angle = 1;
+        s.boundary = Boundary::slide;
+        s.feature_angle = 1;
         const RelaxResult r = relax(mesh, s);
         CAPTURE(static_cast<int>(method));
         CHECK(r.mesh.bounds().min.y == Approx(0).margin(1e-9));
@@ -219,7 +222,9 @@ TEST_CASE("relax: factors that a method cannot take are refused", "[geometry]") 
 
 TEST_CASE("area and volume in the world, mirrored or not", "[geometry]") {
     Transform t;
-    t.m[0][0] = -2, t.m[1][1] = 3, t.m[2][3] = 5;
+    t.m[0][0] = -2;
+    t.m[1][1] = 3;
+    t.m[2][3] = 5;
     const SurfaceSize size = surface_size(shapes::quad_cube(), t);
     CHECK(size.area == Approx(2 * (2 * 3 + 3 + 2)));
     CHECK(*size.volume == Approx(6));
@@ -231,12 +236,14 @@ TEST_CASE("area and volume in the world, mirrored or not", "[geometry]") {
 TEST_CASE("a mask by material, group and attribute", "[geometry]") {
     Scene scene;
     scene.materials.resize(2);
-    scene.materials[0].name = "skin", scene.materials[1].name = "hair";
+    scene.materials[0].name = "skin";
+    scene.materials[1].name = "hair";
     Part part;
     part.name = "head";
     part.mesh = shapes::grid(2, 1); // faces 0, 1 left, 2, 3 right
     part.mesh.primitives.resize(2);
-    part.mesh.primitives[0].material = 0, part.mesh.primitives[1].material = 1;
+    part.mesh.primitives[0].material = 0;
+    part.mesh.primitives[1].material = 1;
     const std::vector<std::uint32_t> halves{0, 0, 1, 1};
     part.mesh.attributes.push_back({"primitive", Domain::face, Role::index, 1, false, halves});
     part.mesh.attributes.push_back({"group", Domain::face, Role::index, 1, false, halves});
@@ -256,7 +263,8 @@ TEST_CASE("a mask by material, group and attribute", "[geometry]") {
 TEST_CASE("slide rounds the corners of the outline, and feature_angle holds them", "[geometry]") {
     const Mesh square = shapes::grid(6, 6);
     RelaxSettings s;
-    s.iterations = 5, s.boundary = RelaxSettings::Boundary::slide;
+    s.iterations = 5;
+    s.boundary = RelaxSettings::Boundary::slide;
     CHECK(test::area(relax(square, s).mesh) < 36);
     s.feature_angle = 30 * 3.14159265358979 / 180;
     const Mesh held = relax(square, s).mesh;

@@ -74,7 +74,9 @@ Scene square(bool turned = false) {
 PictureSettings seen_from(const Vec3& from, Shading shading = Shading::sides) {
     PictureSettings s;
     s.width = s.height = 100;
-    s.from = from, s.shading = shading, s.edges = EdgeLines::no;
+    s.from = from;
+    s.shading = shading;
+    s.edges = EdgeLines::no;
     return s;
 }
 
@@ -88,9 +90,12 @@ std::pair<int, int> size_of(const Picture& picture) {
     int left = picture.width, right = -1, top = picture.height, bottom = -1;
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x)
-            if (at(picture, x, y).a > 127)
-                left = std::min(left, x), right = std::max(right, x), top = std::min(top, y),
+            if (at(picture, x, y).a > 127) {
+                left = std::min(left, x);
+                right = std::max(right, x);
+                top = std::min(top, y);
                 bottom = std::max(bottom, y);
+            }
     return {right - left + 1, bottom - top + 1};
 }
 

@@ -156,7 +156,10 @@ TEST_CASE("each section of a stack is the section at its height", "[geometry]") 
 
 TEST_CASE("parts are cut where they stand, mirrored ones too", "[geometry]") {
     Transform to_world;
-    to_world.m[0][0] = -2, to_world.m[1][1] = 3, to_world.m[2][2] = 0.5, to_world.m[2][3] = 10;
+    to_world.m[0][0] = -2;
+    to_world.m[1][1] = 3;
+    to_world.m[2][2] = 0.5;
+    to_world.m[2][3] = 10;
     const auto s = section(shapes::cube(), {across_z(10.25), {0}, to_world}).at(0);
     CHECK(s.area == 6);
     REQUIRE(s.contours.size() == 1);
@@ -171,7 +174,10 @@ TEST_CASE("concave faces are cut several times", "[geometry]") {
         for (const Vec2& p : u) prism.positions.push_back({p.x, p.y, z});
     const auto n = static_cast<Index>(u.size());
     std::vector<Index> bottom, top;
-    for (Index i = 0; i < n; ++i) bottom.push_back(n - 1 - i), top.push_back(n + i);
+    for (Index i = 0; i < n; ++i) {
+        bottom.push_back(n - 1 - i);
+        top.push_back(n + i);
+    }
     add_face(prism, bottom);
     add_face(prism, top);
     for (Index i = 0; i < n; ++i) add_face(prism, std::vector<Index>{i, (i + 1) % n, n + (i + 1) % n, n + i});
@@ -197,7 +203,8 @@ TEST_CASE("a section where a clip was sees the cap as one face in the plane", "[
     const Plane plane{{0.3, -0.7, 0.61}, {0.11, 0.07, 0.05}, 0};
     ClipSettings settings;
     settings.planes = {plane};
-    settings.keep = Keep::both, settings.cap = true;
+    settings.keep = Keep::both;
+    settings.cap = true;
     const Mesh sphere = shapes::icosphere(3);
     const ClipResult sides = clip(sphere, settings);
     REQUIRE_FALSE(sides.memory.entries.at(0).points.empty()); // rounded beside the plane

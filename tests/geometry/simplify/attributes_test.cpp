@@ -16,7 +16,9 @@ namespace {
 void add(Mesh& m, const char* name, Role role, int components,
          const std::function<void(const Vec3&, double*)>& at) {
     Attribute a;
-    a.name = name, a.role = role, a.components = components;
+    a.name = name;
+    a.role = role;
+    a.components = components;
     std::vector<double> data(static_cast<std::size_t>(components) * m.wedge_count());
     for (Index w = 0; w < m.wedge_count(); ++w)
         at(m.positions[m.vertex_of_wedge(w)], &data[static_cast<std::size_t>(components) * w]);
@@ -81,8 +83,10 @@ TEST_CASE("what is painted on a flat sheet is seen by the weights", "[geometry]"
 
 TEST_CASE("a warped texture does not slide", "[geometry]") {
     Mesh m = shapes::grid(40, 40);
-    add(m, "TEXCOORD_0", Role::uv, 2,
-        [](const Vec3& p, double* c) { c[0] = p.x / 40 + 0.05 * bump(p), c[1] = p.y / 40 - 0.05 * bump(p); });
+    add(m, "TEXCOORD_0", Role::uv, 2, [](const Vec3& p, double* c) {
+        c[0] = p.x / 40 + 0.05 * bump(p);
+        c[1] = p.y / 40 - 0.05 * bump(p);
+    });
     const auto on = simplify(m, {.ratio = 0.05});
     const auto without = simplify(m, {.weights = {.uv = 0}, .ratio = 0.05});
     CHECK(off(m, on.mesh, "TEXCOORD_0") < 0.5 * off(m, without.mesh, "TEXCOORD_0"));
@@ -90,10 +94,14 @@ TEST_CASE("a warped texture does not slide", "[geometry]") {
 
 TEST_CASE("skin weights hold the faces of a bend together", "[geometry]") {
     Mesh m = shapes::grid(40, 40);
-    add(m, "WEIGHTS_0", Role::weights, 4,
-        [](const Vec3& p, double* c) { c[0] = std::clamp((p.x - 15) / 10, 0.0, 1.0), c[1] = 1 - c[0]; });
+    add(m, "WEIGHTS_0", Role::weights, 4, [](const Vec3& p, double* c) {
+        c[0] = std::clamp((p.x - 15) / 10, 0.0, 1.0);
+        c[1] = 1 - c[0];
+    });
     Attribute joints;
-    joints.name = "JOINTS_0", joints.role = Role::joints, joints.components = 4;
+    joints.name = "JOINTS_0";
+    joints.role = Role::joints;
+    joints.components = 4;
     std::vector<std::uint8_t> data;
     for (Index w = 0; w < m.wedge_count(); ++w) data.insert(data.end(), {3, 7, 0, 0});
     joints.data = std::move(data);
@@ -125,8 +133,11 @@ TEST_CASE("attributes that are linear over the surface change nothing", "[geomet
     Mesh m = shapes::grid(24, 24);
     for (auto& p : m.positions) p.z = 0.02 * p.x * p.x + 0.01 * p.y * p.y;
     Mesh painted = m;
-    add(painted, "COLOR_0", Role::colour, 3,
-        [](const Vec3& p, double* c) { c[0] = p.x / 64, c[1] = p.y / 64, c[2] = p.z / 64; });
+    add(painted, "COLOR_0", Role::colour, 3, [](const Vec3& p, double* c) {
+        c[0] = p.x / 64;
+        c[1] = p.y / 64;
+        c[2] = p.z / 64;
+    });
     const auto plain = simplify(m, {.ratio = 0.2}),
                with = simplify(painted, {.weights = {.colour = 1e-3}, .ratio = 0.2});
     CHECK(with.faces_after == plain.faces_after);
@@ -135,8 +146,15 @@ TEST_CASE("attributes that are linear over the surface change nothing", "[geomet
 
 TEST_CASE("weighed attributes give the same bytes for any number of threads", "[geometry]") {
     Mesh m = shapes::icosphere(6);
-    add(m, "TEXCOORD_0", Role::uv, 2, [](const Vec3& p, double* c) { c[0] = p.x * p.y, c[1] = p.z; });
-    add(m, "NORMAL", Role::normal, 3, [](const Vec3& p, double* c) { c[0] = p.x, c[1] = p.y, c[2] = p.z; });
+    add(m, "TEXCOORD_0", Role::uv, 2, [](const Vec3& p, double* c) {
+        c[0] = p.x * p.y;
+        c[1] = p.z;
+    });
+    add(m, "NORMAL", Role::normal, 3, [](const Vec3& p, double* c) {
+        c[0] = p.x;
+        c[1] = p.y;
+        c[2] = p.z;
+    });
     const auto make = [&] { return simplify(m, {.ratio = 0.1}).mesh; };
     CHECK(broken_invariants(make()).empty());
     CHECK(test::same_for_any_threads(make));

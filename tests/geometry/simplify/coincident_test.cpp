@@ -104,9 +104,10 @@ TEST_CASE("a slit within a surface stays a hole, a seam from border to border st
     const auto at = [](const Vec3& p) { return p.y == 6 && p.x > 4 && p.x < 8; };
     std::map<Index, Index> twin;
     for (Index v = 0; v < 169; ++v)
-        if (at(slit.positions[v]))
-            twin[v] = static_cast<Index>(slit.positions.size()),
+        if (at(slit.positions[v])) {
+            twin[v] = static_cast<Index>(slit.positions.size());
             slit.positions.push_back(Vec3(slit.positions[v]));
+        }
     for (Index f = 0; f < slit.face_count(); ++f) {
         double y = 0;
         for (Index k = 0; k < 3; ++k) y += slit.point(3 * f + k).y / 3;

@@ -46,11 +46,14 @@ Mesh seamed_grid(Index n) {
         }
     }
     Attribute uv;
-    uv.name = "TEXCOORD_0", uv.role = Role::uv, uv.components = 2;
+    uv.name = "TEXCOORD_0";
+    uv.role = Role::uv;
+    uv.components = 2;
     std::vector<double> data;
     for (Index w = 0; w < m.wedge_count(); ++w) {
         const Vec3& p = m.positions[m.wedge_vertex[w]];
-        data.push_back(p.x + (w >= m.positions.size() ? 100 : 0)), data.push_back(p.y);
+        data.push_back(p.x + (w >= m.positions.size() ? 100 : 0));
+        data.push_back(p.y);
     }
     uv.data = std::move(data);
     m.attributes.push_back(std::move(uv));
@@ -239,7 +242,9 @@ TEST_CASE("borders of primitives stay where they are", "[geometry]") {
     m.primitives.resize(2);
     m.primitives[1].material = 1;
     Attribute a;
-    a.name = primitive_attribute, a.domain = Domain::face, a.role = Role::index;
+    a.name = primitive_attribute;
+    a.domain = Domain::face;
+    a.role = Role::index;
     std::vector<std::uint32_t> of(m.face_count());
     for (Index f = 0; f < m.face_count(); ++f) {
         const double x = (m.point(3 * f).x + m.point(3 * f + 1).x + m.point(3 * f + 2).x) / 3;

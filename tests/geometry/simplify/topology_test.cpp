@@ -27,8 +27,11 @@ Mesh with_crumbs() {
     Mesh crumb = shapes::icosphere(1), last = shapes::tetrahedron(), lone;
     for (auto& p : crumb.positions) p = p * 0.01 + Vec3{2, 0, 0};
     for (auto& p : last.positions) p = p * 0.01 + Vec3{0, 2, 0};
-    lone.positions = {{0, 0, 2}, {0.01, 0, 2}, {0, 0.01, 2}}, lone.corners = {0, 1, 2};
-    append(m, crumb), append(m, last), append(m, lone);
+    lone.positions = {{0, 0, 2}, {0.01, 0, 2}, {0, 0.01, 2}};
+    lone.corners = {0, 1, 2};
+    append(m, crumb);
+    append(m, last);
+    append(m, lone);
     return m;
 }
 
@@ -187,7 +190,8 @@ TEST_CASE("cluster and levels refuse what they cannot do", "[geometry]") {
           "usage [E-RANGE] simplify: constrained keeps the topology");
     CHECK(refusal({.weights = {.uv = -1}, .faces = 5}).find("weights are at least 0") != std::string::npos);
     SimplifySettings levels;
-    levels.method = Method::cluster, levels.levels = {0.5};
+    levels.method = Method::cluster;
+    levels.levels = {0.5};
     CHECK(test::failure([&] { simplify_levels(shapes::cube(), levels); }) ==
           "usage [E-RANGE] simplify: levels are not for constrained and cluster");
 }

@@ -39,7 +39,8 @@ std::vector<Box> random_boxes(std::size_t count, double size, std::uint64_t seed
             p[k] = between(0, 1, seed, 6 * i + k);
             q[k] = p[k] + between(0, size, seed, 6 * i + 3 + k);
         }
-        boxes[i].add(p), boxes[i].add(q);
+        boxes[i].add(p);
+        boxes[i].add(q);
     }
     return boxes;
 }

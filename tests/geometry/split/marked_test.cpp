@@ -86,7 +86,8 @@ TEST_CASE("halve: neighbours take the points on their edges", "[geometry]") {
 
 TEST_CASE("bisect at the widest angle: at the foot of its bisector", "[geometry]") {
     SplitSettings s;
-    s.method = SplitMethod::bisect, s.cut = SplitSettings::Cut::widest_angle;
+    s.method = SplitMethod::bisect;
+    s.cut = SplitSettings::Cut::widest_angle;
     const Mesh mesh = split(polygon({{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}), s).mesh;
     REQUIRE(mesh.face_count() == 2);
     CHECK(mesh.positions[3].x == Approx(12.0 / 7)); // both halves of the right angle are 45 degrees
@@ -95,7 +96,9 @@ TEST_CASE("bisect at the widest angle: at the foot of its bisector", "[geometry]
 
 TEST_CASE("bisect at the widest angle: one foot for all faces at an edge", "[geometry]") {
     SplitSettings s;
-    s.method = SplitMethod::bisect, s.cut = SplitSettings::Cut::widest_angle, s.passes = 3;
+    s.method = SplitMethod::bisect;
+    s.cut = SplitSettings::Cut::widest_angle;
+    s.passes = 3;
     const Mesh mesh = rough(), finer = split(mesh, s).mesh;
     CHECK(test::sound(finer, 2));
     CHECK(test::volume(finer) == Approx(test::volume(mesh)).epsilon(1e-12));
@@ -198,7 +201,8 @@ TEST_CASE("targets that a method cannot reach are refused", "[geometry]") {
         test::failure([&] { split(shapes::cube(), s); }) ==
         "usage [E-CONFLICT] split: centroid cannot reach the target max_edge | use bisect, midpoint, quads, "
         "loop, butterfly or catmull-clark");
-    s.max_edge = 0, s.min_angle = 1;
+    s.max_edge = 0;
+    s.min_angle = 1;
     CHECK(test::failure([&] { split(shapes::cube(), s); }) ==
           "usage [E-CONFLICT] split: centroid cannot reach the target min_angle | use bisect or notch");
     s = by(SplitMethod::bisect);
@@ -211,6 +215,7 @@ TEST_CASE("targets give the same for any number of threads", "[geometry]") {
     SplitSettings s = by(SplitMethod::bisect);
     s.max_faces = 20000;
     CHECK(test::same_for_any_threads([&] { return split(mesh, s).mesh; }));
-    s.max_faces = 0, s.max_edge = 0.05;
+    s.max_faces = 0;
+    s.max_edge = 0.05;
     CHECK(test::same_for_any_threads([&] { return split(mesh, s).mesh; }));
 }

@@ -15,7 +15,8 @@ namespace {
 
 SplitSettings by(SplitMethod method, int passes = 1) {
     SplitSettings s;
-    s.method = method, s.passes = passes;
+    s.method = method;
+    s.passes = passes;
     return s;
 }
 
@@ -118,9 +119,11 @@ TEST_CASE("a line of feature edges is a smooth curve: the rim of a cylinder", "[
         const Index j = (i + 1) % n;
         const Index side[] = {i, j, j + n, i + n};
         add_face(prism, side);
-        bottom.insert(bottom.begin(), i), top.push_back(i + n);
+        bottom.insert(bottom.begin(), i);
+        top.push_back(i + n);
     }
-    add_face(prism, bottom), add_face(prism, top);
+    add_face(prism, bottom);
+    add_face(prism, top);
     SplitSettings s = by(SplitMethod::catmull_clark, 2);
     s.feature_angle = 1.2; // the caps meet the sides at 90 degrees, the sides each other at 45
     const Mesh finer = split(prism, s).mesh;

@@ -188,7 +188,9 @@ TEST_CASE("the estimate knows how far the centre of a large polygon is, and the 
         s.method = method;
         CHECK(test::failure([&] { split(regular(10000), s); }).starts_with("limit [E-LIMIT]"));
     }
-    s.method = SplitMethod::bisect, s.passes = 2, s.max_edge = 1e-9;
+    s.method = SplitMethod::bisect;
+    s.passes = 2;
+    s.max_edge = 1e-9;
     CHECK(split_corner_estimate(shapes::cube(), s) == 3 * 16 * 12);
     CHECK(split(shapes::cube(), s).mesh.face_count() <= 16 * 12);
 }
@@ -205,25 +207,29 @@ TEST_CASE("why a split ended", "[geometry]") {
         CHECK(stop(s) == Stop::target);
         s.max_faces = 20;
         CHECK(stop(s) == Stop::budget);
-        s.max_edge = 0, s.max_faces = 12;
+        s.max_edge = 0;
+        s.max_faces = 12;
         CHECK(stop(s) == Stop::budget);
     }
     SplitSettings s{SplitMethod::bisect, 9};
     s.min_angle = 0.1;
     CHECK(stop(s) == Stop::target);
-    s.min_angle = 0, s.max_faces = 99;
+    s.min_angle = 0;
+    s.max_faces = 99;
     CHECK(stop(s, faces({{}, {}, {}}, {{0, 1, 2}})) == Stop::nothing);
 }
 
 TEST_CASE("cuts at the widest angle take no target", "[geometry]") {
     SplitSettings s{SplitMethod::bisect, 9};
-    s.cut = SplitSettings::Cut::widest_angle, s.max_edge = 0.5;
+    s.cut = SplitSettings::Cut::widest_angle;
+    s.max_edge = 0.5;
     const Mesh needle = faces({{0, 0, 0}, {10, 0, 0}, {0.2, 0.1, 0}}, {{0, 1, 2}});
     CHECK(
         test::failure([&] { split(needle, s); }) ==
         "usage [E-CONFLICT] split: the cut at the widest angle reaches no target | cut in the middle of the "
         "longest edge, or give passes and no target");
-    s.cut = SplitSettings::Cut::longest_edge, s.passes = 100;
+    s.cut = SplitSettings::Cut::longest_edge;
+    s.passes = 100;
     const SplitResult r = split(needle, s);
     CHECK(facet_shape(r.mesh).longest_edge <= 0.5);
     CHECK(r.stop == SplitResult::Stop::target);

@@ -24,7 +24,8 @@ ThickenResult thickened(const Mesh& mesh, double thickness, ThickenSide side) {
 
 Mesh open_box() {
     Mesh mesh = shapes::quad_cube();
-    mesh.face_offsets.pop_back(), mesh.corners.resize(20);
+    mesh.face_offsets.pop_back();
+    mesh.corners.resize(20);
     return mesh;
 }
 
@@ -76,7 +77,9 @@ TEST_CASE("thicken keeps the thickness of walls at corners", "[geometry]") {
 TEST_CASE("thicken means the world's lengths where a node stretches", "[geometry]") {
     for (const double way : {1.0, -1.0}) {
         Transform t;
-        t.m[0][0] = 3 * way, t.m[1][1] = 2, t.m[2][3] = 5;
+        t.m[0][0] = 3 * way;
+        t.m[1][1] = 2;
+        t.m[2][3] = 5;
         const auto r = thicken(shapes::cube(), {.thickness = 0.25, .to_world = t});
         const double local = 6 - 2.5 * 1.5 * 0.5; // in the world
         CHECK(test::volume(r.mesh) * 6 == Approx(local));

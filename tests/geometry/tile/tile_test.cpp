@@ -131,8 +131,10 @@ TEST_CASE("a mesh within one cell stays as it is, also with its faces on the bor
 
 TEST_CASE("tiles of a turned part stand in the world", "[geometry]") {
     TileSettings settings = grid_of({{0, 0.3, 0}, {1, 0.3, 0}});
-    settings.to_world.m[0][0] = 0.8, settings.to_world.m[0][1] = -0.6;
-    settings.to_world.m[1][0] = 0.6, settings.to_world.m[1][1] = 0.8;
+    settings.to_world.m[0][0] = 0.8;
+    settings.to_world.m[0][1] = -0.6;
+    settings.to_world.m[1][0] = 0.6;
+    settings.to_world.m[1][1] = 0.8;
     settings.to_world.m[0][3] = 5;
     double volume = 0;
     for (const Tile& t : tile(shapes::icosphere(2), settings).tiles) {

@@ -89,7 +89,10 @@ TEST_CASE("coincident corners keep their own vertices, so what is around them st
     for (const double z : {0.0, 1.0})
         for (const Vec2& p : ring) slab.positions.push_back({p.x, p.y, z});
     std::vector<Index> top, bottom;
-    for (Index i = 0; i < n; ++i) top.push_back(n + i), bottom.push_back(n - 1 - i);
+    for (Index i = 0; i < n; ++i) {
+        top.push_back(n + i);
+        bottom.push_back(n - 1 - i);
+    }
     add_face(slab, top);
     add_face(slab, bottom);
     for (Index i = 0; i < n; ++i) add_face(slab, std::vector<Index>{i, (i + 1) % n, n + (i + 1) % n, n + i});

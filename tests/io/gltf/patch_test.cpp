@@ -34,7 +34,10 @@ const char* const rich =
 
 TEST_CASE("an untouched document keeps all but its buffers", "[io]") {
     Json before = Json::parse(rich), after = written_json(test::read_text(rich));
-    for (Json* json : {&before, &after}) json->erase("buffers"), json->erase("bufferViews");
+    for (Json* json : {&before, &after}) {
+        json->erase("buffers");
+        json->erase("bufferViews");
+    }
     CHECK(after == before);
 }
 
@@ -71,7 +74,10 @@ TEST_CASE("an animated node that moved gets a node above it, and plays as before
     document["scenes"][0]["nodes"] = {0};
     Scene scene = test::read_text(document.dump());
     Transform turn; // a quarter turn about z, twice as large
-    turn.m[0][0] = turn.m[1][1] = 0, turn.m[0][1] = -2, turn.m[1][0] = 2, turn.m[2][2] = 2;
+    turn.m[0][0] = turn.m[1][1] = 0;
+    turn.m[0][1] = -2;
+    turn.m[1][0] = 2;
+    turn.m[2][2] = 2;
     scene.parts[0].transform = turn * scene.parts[0].transform;
     const io::Written written = test::written(scene, "glb");
     CHECK(written.warnings.empty());
@@ -148,7 +154,10 @@ TEST_CASE("instances share a mesh until they differ", "[io]") {
     Scene scene = test::read_text(document.dump());
     REQUIRE(scene.parts.size() == 2);
     CHECK(written_json(scene)["meshes"].size() == 1);
-    for (auto& part : scene.parts) part.mesh = shapes::tetrahedron(), part.changed = true;
+    for (auto& part : scene.parts) {
+        part.mesh = shapes::tetrahedron();
+        part.changed = true;
+    }
     CHECK(written_json(scene)["meshes"].size() == 1);
     scene.parts[1].mesh = shapes::cube();
     const io::Written written = test::written(scene, "glb");
@@ -215,7 +224,10 @@ TEST_CASE("a second document brings its textures", "[io]") {
         for (auto& p : part.mesh.primitives) p.material += static_cast<Index>(scene.materials.size());
         scene.parts.push_back(part);
     }
-    for (auto& material : other.materials) material.document = 1, scene.materials.push_back(material);
+    for (auto& material : other.materials) {
+        material.document = 1;
+        scene.materials.push_back(material);
+    }
     scene.documents.push_back(other.documents[0]);
     const Json after = written_json(scene);
     CHECK(after["meshes"].size() == 2);
@@ -245,7 +257,8 @@ TEST_CASE("levels of detail stand in for their node, wherever it is", "[io]") {
  "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
     Part coarse = scene.parts.at(0);
     for (const char* name : {"bust.lod2", "bust.lod1", "bust.lod", "other.lod1"}) {
-        coarse.name = name, coarse.changed = true;
+        coarse.name = name;
+        coarse.changed = true;
         scene.parts.push_back(coarse);
     }
     io::WriteSettings settings;
