@@ -5,7 +5,7 @@
 # shells, a second Draco reader, and node for the glTF validator; --bench adds what the benchmarks use.
 set -eu
 
-build="g++ cmake ninja-build pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
+build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
     libcli11-dev libfmt-dev libgmp-dev libtbb-dev libeigen3-dev libopenmesh-dev libssl-dev zlib1g-dev"
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
