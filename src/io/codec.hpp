@@ -104,7 +104,7 @@ struct Codec {
     std::function<Scene(const Input&, const ReadSettings&, ReadLog&)> read;
     /// Throws Error stage when the scene cannot be held by the format at all. Empty: the format is not
     /// written.
-    std::function<Written(const Scene&, const WriteSettings&)> write;
+    std::function<Written(const Scene&, const WriteSettings&)> write = {};
     /// Reads only the header: throws as read when it is malformed, and gives the names of the parts, where
     /// they are known before the rest is read. Empty: the format has no header.
     std::function<std::vector<std::string>(const Input&)> peek = {};
