@@ -22,7 +22,7 @@ struct Settings {
     std::vector<PathText> paths;
 };
 
-Declaration declared() {
+Declaration declared_options() {
     Declare<Settings> d;
     d.option("iterations", &Settings::iterations, "How many times.").at_least(1).primary();
     d.option("factor", &Settings::factor, "How far.").above(0).at_most(1);
@@ -47,7 +47,7 @@ Value map(std::initializer_list<std::pair<const char*, Value>> entries) {
 std::string complaints(const Value& value) {
     Problems problems;
     Settings s;
-    const bool good = declared().parse(value, &s, "relax", problems, {"name"});
+    const bool good = declared_options().parse(value, &s, "relax", problems, {"name"});
     std::string text;
     for (const auto& d : problems.all())
         text += d.id + " " + d.message + (d.hint.empty() ? "" : " (" + d.hint + ")") + "\n";
@@ -60,15 +60,15 @@ std::string complaints(const Value& value) {
 TEST_CASE("a bare value sets the primary option, nothing takes the defaults", "[options]") {
     Problems problems;
     Settings s;
-    CHECK(declared().parse(Value::scalar("7"), &s, "relax", problems));
+    CHECK(declared_options().parse(Value::scalar("7"), &s, "relax", problems));
     CHECK(s.iterations == 7);
     CHECK(s.factor == 0.5);
-    CHECK(declared().parse({}, &s, "relax", problems));
+    CHECK(declared_options().parse({}, &s, "relax", problems));
     CHECK_FALSE(problems.any_errors());
 }
 
 TEST_CASE("defaults are the members' initialisers", "[options]") {
-    const auto d = declared();
+    const auto d = declared_options();
     CHECK(d.find("iterations")->default_text == "1");
     CHECK(d.find("factor")->default_text == "0.5");
     CHECK(d.find("method")->default_text == "better");
@@ -106,10 +106,10 @@ TEST_CASE("open ends of a range are exclusive", "[options]") {
 TEST_CASE("a list option takes one value or several", "[options]") {
     Problems problems;
     Settings s;
-    CHECK(declared().parse(map({{"paths", Value::scalar("a.ply")}}), &s, "load", problems));
+    CHECK(declared_options().parse(map({{"paths", Value::scalar("a.ply")}}), &s, "load", problems));
     CHECK(s.paths.size() == 1);
     const Value two = Value::list({Value::scalar("a"), Value::scalar("b")});
-    CHECK(declared().parse(map({{"paths", two}}), &s, "load", problems));
+    CHECK(declared_options().parse(map({{"paths", two}}), &s, "load", problems));
     CHECK(s.paths.size() == 2);
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("a deferred value is good for any option", "[options]") {
 }
 
 TEST_CASE("the schema lists every option once and is closed", "[options]") {
-    const Json schema = declared().schema();
+    const Json schema = declared_options().schema();
     const Json& object = schema["anyOf"][0];
     CHECK(object["additionalProperties"] == false);
     CHECK(object["properties"].size() == 7);

@@ -46,7 +46,7 @@ void declare_row(DeclareFields<Row>& d) {
     d.field("pairs", &Row::pairs, "Pairs that meet.").only_when("asked for").null_when("not looked for");
 }
 
-Fields declared(bool tallied = false) {
+Fields declared_fields(bool tallied = false) {
     return fields_of<Result>([&](DeclareFields<Result>& d) {
         auto parts = d.list("parts", &Result::parts, "Each part.", declare_row);
         if (tallied) parts.tallied("nothing to do");
@@ -67,7 +67,7 @@ Result result() {
 
 TEST_CASE("fields: what is empty is null, or not there", "[options]") {
     const Result r = result();
-    const Json json = declared().json(&r);
+    const Json json = declared_fields().json(&r);
     CHECK(json.dump() ==
           R"({"parts":[{"part":"a","welded_vertices":1200,"filled_holes":0,"size":{"area":6.0,"volume":1.0},)"
           R"("stopped_by":"target","last_move":0.25,"pairs":null},)"
@@ -76,7 +76,7 @@ TEST_CASE("fields: what is empty is null, or not there", "[options]") {
 }
 
 TEST_CASE("fields: the schema requires what is always there and allows nothing else", "[options]") {
-    const Json schema = declared().schema();
+    const Json schema = declared_fields().schema();
     CHECK(schema["additionalProperties"] == false);
     CHECK(schema["required"] == Json::array({"parts", "centroid", "kinds"}));
     const Json& row = schema["properties"]["parts"]["items"];
@@ -92,11 +92,12 @@ TEST_CASE("fields: the schema requires what is always there and allows nothing e
 
 TEST_CASE("fields: lines for the terminal", "[options]") {
     const Result r = result();
-    CHECK(declared().lines(&r) == std::vector<std::string>{"a: area 6, volume 1", "b: area 0.5"});
-    CHECK(declared(true).lines(&r) == std::vector<std::string>{"welded vertices 1,234, filled holes 2"});
+    CHECK(declared_fields().lines(&r) == std::vector<std::string>{"a: area 6, volume 1", "b: area 0.5"});
+    CHECK(declared_fields(true).lines(&r) ==
+          std::vector<std::string>{"welded vertices 1,234, filled holes 2"});
     const Result none;
-    CHECK(declared(true).lines(&none) == std::vector<std::string>{"nothing to do"});
-    Fields told = declared();
+    CHECK(declared_fields(true).lines(&none) == std::vector<std::string>{"nothing to do"});
+    Fields told = declared_fields();
     told.tell = [](const void* record) {
         return std::vector<std::string>{std::to_string(static_cast<const Result*>(record)->parts.size())};
     };

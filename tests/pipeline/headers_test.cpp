@@ -10,9 +10,9 @@ namespace {
 constexpr const char* triangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 /// A directory with inputs, and what their headers say of a pipeline in it.
-struct Ground {
+struct Folder {
     test::TemporaryDirectory directory;
-    Ground() {
+    Folder() {
         test::put(directory / "good.off", triangle);
         test::put(directory / "broken.ply", "ply\nformat ascii 1.0\nelement vertex many\nend_header\n");
         test::put(directory / "noise.xyz", "\x01\x02 nothing known");
@@ -42,7 +42,7 @@ using Texts = std::vector<std::string>;
 } // namespace
 
 TEST_CASE("headers tell formats, units and the names of parts", "[pipeline]") {
-    Ground ground;
+    Folder ground;
     const auto plan = ground.plan("  - load: [body.gltf, good.off]\n");
     const auto headers = read_headers(plan);
     REQUIRE(headers.inputs.size() == 2);
@@ -58,7 +58,7 @@ TEST_CASE("headers tell formats, units and the names of parts", "[pipeline]") {
 }
 
 TEST_CASE("lengths with a unit are resolved where the scene's is known", "[pipeline]") {
-    Ground ground;
+    Folder ground;
     const auto plan = ground.plan("  - load: {path: good.off, unit: mm}\n  - crumple: {amplitude: 0.1in}\n");
     const auto headers = read_headers(plan);
     CHECK(describe(plan, headers).find("crumple: {amplitude: 0.1in}  (amplitude: 0.1in is 2.54 mm)\n") !=
@@ -74,7 +74,7 @@ TEST_CASE("lengths with a unit are resolved where the scene's is known", "[pipel
 }
 
 TEST_CASE("inputs that no stage could load are found before anything runs", "[pipeline]") {
-    Ground ground;
+    Folder ground;
     const auto errors = ground.errors("  - load: [broken.ply, noise.xyz, good.off]\n");
     REQUIRE(errors.size() == 2);
     CHECK(errors[0].find("6: ") == 0);
@@ -84,7 +84,7 @@ TEST_CASE("inputs that no stage could load are found before anything runs", "[pi
 }
 
 TEST_CASE("a physical length on a scene without a unit is found before anything runs", "[pipeline]") {
-    Ground ground;
+    Folder ground;
     const char* later = "  - crumple: {amplitude: 2mm}\n  - branch:\n      a: [{crumple: 0.1in}]\n";
     const auto errors = ground.errors(std::string("  - load: good.off\n") + later);
     REQUIRE(errors.size() == 2);
@@ -96,7 +96,7 @@ TEST_CASE("a physical length on a scene without a unit is found before anything 
 }
 
 TEST_CASE("headers of missing files, streams and compressed files wait for the run", "[pipeline]") {
-    Ground ground;
+    Folder ground;
     test::put(ground.directory / "scan.ply.gz", "\x1f\x8b not gzip at all");
     CHECK(read_headers(ground.plan("  - load: [absent.ply, \"-\", scan.ply.gz]\n")).inputs.empty());
     CHECK(ground.errors("  - load: [absent.ply, \"-\", scan.ply.gz]\n  - crumple: 2mm\n").empty());

@@ -42,7 +42,7 @@ Plane some_plane(std::uint64_t key, const Mesh& mesh, const Box& box) {
     return plane;
 }
 
-struct Counts {
+struct ClipCounts {
     std::size_t files = 0, meshes = 0, cuts = 0, caps = 0, manifold = 0, through_vertices = 0, pinched = 0,
                 tangled = 0, rows = 0, read_back = 0, sums = 0;
 };
@@ -101,7 +101,7 @@ bool tangled(const Mesh& mesh, const Plane& plane) {
 }
 
 bool edge_manifold_too(const ClipResult& r, const Properties& front, const Properties& back, bool tangled,
-                       Counts& counts) {
+                       ClipCounts& counts) {
     if (tangled && r.on_plane == 0) {
         ++counts.tangled;
         return true;
@@ -117,7 +117,7 @@ bool edge_manifold_too(const ClipResult& r, const Properties& front, const Prope
 
 /// Whether a side is closed when it was written and read again: as PLY, which keeps the faces, and as STL,
 /// which rounds to float32 and is welded.
-bool closed_read_again(const Mesh& mesh, Counts& counts) {
+bool closed_read_again(const Mesh& mesh, ClipCounts& counts) {
     ++counts.read_back;
     Scene scene;
     scene.parts.emplace_back().mesh = mesh;
@@ -134,7 +134,7 @@ bool closed_read_again(const Mesh& mesh, Counts& counts) {
     return true;
 }
 
-void check_planes(const Mesh& mesh, const Properties& whole, std::uint64_t key, Counts& counts) {
+void check_planes(const Mesh& mesh, const Properties& whole, std::uint64_t key, ClipCounts& counts) {
     ClipSettings settings;
     settings.planes = {some_plane(key, mesh, whole.bounds)};
     settings.keep = Keep::both;
@@ -160,7 +160,7 @@ void check_planes(const Mesh& mesh, const Properties& whole, std::uint64_t key, 
     if (key < 3 && r.front.face_count() > 0) CHECK(closed_read_again(r.front, counts));
 }
 
-void check_row(const Mesh& mesh, const Properties& whole, std::uint64_t key, Counts& counts) {
+void check_row(const Mesh& mesh, const Properties& whole, std::uint64_t key, ClipCounts& counts) {
     ClipSettings settings;
     for (std::uint64_t k = 0; k < 4; ++k)
         settings.planes.push_back(some_plane(key * 4 + k, mesh, whole.bounds));
@@ -175,7 +175,7 @@ void check_row(const Mesh& mesh, const Properties& whole, std::uint64_t key, Cou
     CHECK(broken_invariants(r.front).empty());
 }
 
-void check_laws(const Mesh& mesh, std::uint64_t planes, Counts& counts) {
+void check_clip_laws(const Mesh& mesh, std::uint64_t planes, ClipCounts& counts) {
     const Properties whole = inspect(mesh);
     if (!whole.closed || mesh.face_count() == 0) return;
     ++counts.meshes;
@@ -188,9 +188,9 @@ void check_laws(const Mesh& mesh, std::uint64_t planes, Counts& counts) {
 TEST_CASE("closed meshes of the corpus stay closed and their sides add up", "[property]") {
     const auto folder = test::corpus();
     if (!folder) return;
-    Counts counts;
+    ClipCounts counts;
     counts.files = test::check_corpus(
-        *folder, [&](const Mesh& mesh, std::uint64_t planes) { check_laws(mesh, planes, counts); });
+        *folder, [&](const Mesh& mesh, std::uint64_t planes) { check_clip_laws(mesh, planes, counts); });
     std::cout << counts.files << " files, " << counts.meshes << " closed meshes, " << counts.cuts << " cuts, "
               << counts.caps << " with caps; edge-manifold meshes: " << counts.manifold
               << " cuts through no vertex stay so, of " << counts.through_vertices

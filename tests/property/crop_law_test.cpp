@@ -21,7 +21,9 @@ namespace {
 
 using Rings = std::vector<std::vector<Vec2>>;
 
-double number(std::uint64_t key, std::uint64_t which) { return uniform(hashed(hashed(41, key), which)); }
+double outline_number(std::uint64_t key, std::uint64_t which) {
+    return uniform(hashed(hashed(41, key), which));
+}
 
 std::vector<Vec2> star(const Vec2& centre, const Vec2& radius, int points, double turn) {
     std::vector<Vec2> ring;
@@ -40,20 +42,21 @@ Rings some_outline(std::uint64_t key, const Mesh& mesh, const Box& box, std::siz
     const auto vertex = [&](std::uint64_t which) {
         return seen_along(axis, mesh.positions[hashed(hashed(43, key), which) % mesh.vertex_count()]);
     };
-    const Vec2 centre = at(0.3 + 0.4 * number(key, 0), 0.3 + 0.4 * number(key, 1));
+    const Vec2 centre = at(0.3 + 0.4 * outline_number(key, 0), 0.3 + 0.4 * outline_number(key, 1));
     if (key % 3 == 2) {
         const Vec2 p = vertex(0), q = vertex(1);
         if (p.x != q.x && p.y != q.y)
             return {
                 {p, {p.x + (q.x - p.x) / 3, p.y}, {q.x, p.y}, q, {p.x + (q.x - p.x) * 0.7, q.y}, {p.x, q.y}}};
     }
-    Rings rings{star(centre, extent * 0.4, 3 + static_cast<int>(key % 5), number(key, 2)),
-                star(centre, extent * 0.12, 3, number(key, 3)), star(at(0.05, 0.05), extent * 0.02, 4, 0)};
+    Rings rings{star(centre, extent * 0.4, 3 + static_cast<int>(key % 5), outline_number(key, 2)),
+                star(centre, extent * 0.12, 3, outline_number(key, 3)),
+                star(at(0.05, 0.05), extent * 0.02, 4, 0)};
     if (key % 3 == 1) rings = {{vertex(0), vertex(1), vertex(2)}};
     return rings;
 }
 
-struct Counts {
+struct CropCounts {
     std::size_t files = 0, meshes = 0, crops = 0, caps = 0, refused = 0, skipped = 0, matched = 0;
 };
 
@@ -90,7 +93,7 @@ bool walls_match(const CropResult& in, const CropResult& out) {
     return walls(in, true) == walls(out, false);
 }
 
-void check_crop(const Mesh& mesh, const Properties& whole, std::uint64_t key, Counts& counts) {
+void check_crop(const Mesh& mesh, const Properties& whole, std::uint64_t key, CropCounts& counts) {
     const std::size_t axis = key / 3 % 3;
     CAPTURE(key, mesh.face_count());
     std::optional<Footprint> footprint;
@@ -127,14 +130,14 @@ void check_crop(const Mesh& mesh, const Properties& whole, std::uint64_t key, Co
           8 * 2.2e-16 * reach * (whole.area + front.area + back.area) + bent);
 }
 
-void check_laws(const Mesh& mesh, std::uint64_t outlines, Counts& counts) {
+void check_crop_laws(const Mesh& mesh, std::uint64_t outlines, CropCounts& counts) {
     const Properties whole = inspect(mesh);
     if (!whole.closed || mesh.face_count() == 0) return;
     ++counts.meshes;
     for (std::uint64_t key = 0; key < outlines; ++key) check_crop(mesh, whole, key, counts);
 }
 
-void print(const Counts& c) {
+void print(const CropCounts& c) {
     std::cout << c.files << " files, " << c.meshes << " closed meshes, " << c.crops << " crops each way, "
               << c.caps << " with walls, all closed, " << c.matched << " with the same walls on both sides, "
               << c.skipped << " outlines that are none\n";
@@ -143,9 +146,9 @@ void print(const Counts& c) {
 } // namespace
 
 TEST_CASE("closed meshes that are cropped with walls stay closed and their sides add up", "[property]") {
-    Counts counts;
+    CropCounts counts;
     for (const Mesh& mesh : {shapes::cube(), shapes::uv_cube(), shapes::icosphere(3), shapes::torus(24, 12)})
-        check_laws(mesh, 30, counts);
+        check_crop_laws(mesh, 30, counts);
     CHECK(counts.caps > 50);
     CHECK(counts.matched == counts.crops);
 }
@@ -153,8 +156,8 @@ TEST_CASE("closed meshes that are cropped with walls stay closed and their sides
 TEST_CASE("closed meshes of the corpus that are cropped with walls stay closed", "[property]") {
     const auto folder = test::corpus();
     if (!folder) return;
-    Counts counts;
+    CropCounts counts;
     counts.files = test::check_corpus(
-        *folder, [&](const Mesh& mesh, std::uint64_t outlines) { check_laws(mesh, outlines, counts); });
+        *folder, [&](const Mesh& mesh, std::uint64_t outlines) { check_crop_laws(mesh, outlines, counts); });
     print(counts);
 }

@@ -27,13 +27,13 @@ std::vector<std::int64_t> counts(const Properties& p) {
             p.vertex_manifold, p.oriented};
 }
 
-std::vector<Mesh> closed_meshes(std::uint64_t seed) {
+std::vector<Mesh> noisy_closed_meshes(std::uint64_t seed) {
     return {noisy_icosphere(3, 0.2, seed), noisy_torus(24, 15, 0.02, seed), shapes::quad_cube(),
             with_noise(shapes::uv_cube(), 0.1, seed)};
 }
 
 std::vector<Mesh> all_meshes(std::uint64_t seed) {
-    auto all = closed_meshes(seed);
+    auto all = noisy_closed_meshes(seed);
     for (Mesh mesh : {shapes::bowtie(), shapes::fan3(), shapes::hourglass(), shapes::moebius(9),
                       shapes::grid(5, 4), random_triangles(60, 0.3, seed), shapes::open_cone(40)})
         all.push_back(std::move(mesh));
@@ -68,7 +68,7 @@ Mesh shuffled(const Mesh& mesh, std::uint64_t seed) {
 
 TEST_CASE("law: closed meshes have Euler number 2 (components - genus), and no boundary", "[property]") {
     for (std::uint64_t seed = 1; seed <= 5; ++seed)
-        for (const Mesh& mesh : closed_meshes(seed)) {
+        for (const Mesh& mesh : noisy_closed_meshes(seed)) {
             const Properties p = inspect(mesh);
             CHECK((p.closed && p.edge_manifold && p.vertex_manifold && p.oriented));
             CHECK(p.euler == 2 * (p.components - p.genus.value()));
@@ -97,7 +97,7 @@ TEST_CASE("law: appending adds all counts, and joins truths", "[property]") {
 TEST_CASE("law: a scene counts as its parts appended", "[property]") {
     Scene scene;
     Mesh all;
-    for (const Mesh& mesh : closed_meshes(3)) {
+    for (const Mesh& mesh : noisy_closed_meshes(3)) {
         scene.parts.push_back({.name = "part", .mesh = mesh});
         append(all, mesh);
     }
@@ -118,7 +118,7 @@ TEST_CASE("law: numbering does not matter", "[property]") {
 
 TEST_CASE("law: welding a torn mesh brings it back", "[property]") {
     for (std::uint64_t seed = 1; seed <= 3; ++seed)
-        for (const Mesh& mesh : closed_meshes(seed)) {
+        for (const Mesh& mesh : noisy_closed_meshes(seed)) {
             const Mesh whole = triangulated(mesh);
             Mesh soup = torn_apart(whole);
             CHECK_FALSE(inspect(soup).closed);
@@ -153,7 +153,7 @@ TEST_CASE("law: a mirrored, turned or moved mesh keeps its counts; its volume sc
     t.m[2][1] = 0.5;
     t.m[2][2] = 0;
     t.m[0][3] = 8;
-    for (const Mesh& mesh : closed_meshes(2)) {
+    for (const Mesh& mesh : noisy_closed_meshes(2)) {
         Mesh moved = mesh;
         apply(moved, t);
         CHECK(counts(inspect(moved)) == counts(inspect(mesh)));

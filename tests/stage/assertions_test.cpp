@@ -9,7 +9,7 @@ namespace {
 
 Value entry(const char* key, Value value) { return Value::map({{key, {}, std::move(value)}}); }
 
-std::string complaint(const Value& value) {
+std::string limits_complaint(const Value& value) {
     Problems problems;
     Assertions out;
     CHECK_FALSE(parse_assertions(value, out, "ensure", problems));
@@ -25,7 +25,7 @@ Box unit_box() {
 }
 
 /// In a scene of metres whose diagonal is that of the unit cube.
-report::Check judged(const Value& value, const Properties& properties) {
+report::Check judged_limits(const Value& value, const Properties& properties) {
     Problems problems;
     Assertions out;
     CHECK(parse_assertions(value, out, "ensure", problems));
@@ -47,12 +47,13 @@ Value numbers(std::initializer_list<const char*> texts) {
 } // namespace
 
 TEST_CASE("assertions name a property and a bound of its kind", "[stage]") {
-    CHECK(complaint(entry("closd", Value::scalar("true"))) ==
+    CHECK(limits_complaint(entry("closd", Value::scalar("true"))) ==
           "E-KEY ensure knows no property 'closd' (did you mean 'closed'?)");
-    CHECK(complaint(entry("closed", Value::scalar("3"))) == "E-TYPE 'closed' is true or false, found '3'");
-    CHECK(complaint(entry("faces", Value::scalar("true"))) ==
+    CHECK(limits_complaint(entry("closed", Value::scalar("3"))) ==
+          "E-TYPE 'closed' is true or false, found '3'");
+    CHECK(limits_complaint(entry("faces", Value::scalar("true"))) ==
           "E-TYPE 'faces' is a number (2) or a range ({min: 1, max: 5}), found 'true'");
-    CHECK(complaint(Value::scalar("closed")) ==
+    CHECK(limits_complaint(Value::scalar("closed")) ==
           "E-TYPE ensure takes a map of properties ({closed: true}), found 'closed'");
 }
 
@@ -60,27 +61,29 @@ TEST_CASE("a bound holds or says what was expected and found", "[stage]") {
     Properties p;
     p.faces = 12;
     p.closed = false;
-    CHECK(judged(entry("faces", Value::scalar("12")), p).passed);
-    const auto few = judged(entry("faces", entry("max", Value::scalar("10"))), p);
+    CHECK(judged_limits(entry("faces", Value::scalar("12")), p).passed);
+    const auto few = judged_limits(entry("faces", entry("max", Value::scalar("10"))), p);
     CHECK_FALSE(few.passed);
     CHECK(few.expected == "at most 10");
     CHECK(few.found == 12);
-    const auto closed = judged(entry("closed", Value::scalar("true")), p);
+    const auto closed = judged_limits(entry("closed", Value::scalar("true")), p);
     CHECK_FALSE(closed.passed);
     CHECK(closed.found == false);
-    CHECK(judged(entry("closed", Value::scalar("false")), p).passed);
+    CHECK(judged_limits(entry("closed", Value::scalar("false")), p).passed);
 }
 
 TEST_CASE("a property that does not apply never holds", "[stage]") {
-    CHECK_FALSE(judged(entry("volume", entry("min", Value::scalar("0"))), {}).passed);
-    CHECK(judged(entry("volume", entry("min", Value::scalar("0"))), {}).found.is_null());
-    CHECK(judged(entry("self_intersections", Value::scalar("0")), {}).found_words == "not computed");
+    CHECK_FALSE(judged_limits(entry("volume", entry("min", Value::scalar("0"))), {}).passed);
+    CHECK(judged_limits(entry("volume", entry("min", Value::scalar("0"))), {}).found.is_null());
+    CHECK(judged_limits(entry("self_intersections", Value::scalar("0")), {}).found_words == "not computed");
 }
 
 TEST_CASE("lengths are written with units and percentages, and resolved", "[stage]") {
     Properties p;
     p.requested.emplace_back(property_named("longest_edge"), 0.25);
-    const auto longest = [&](Value bound) { return judged(entry("longest_edge", std::move(bound)), p); };
+    const auto longest = [&](Value bound) {
+        return judged_limits(entry("longest_edge", std::move(bound)), p);
+    };
     CHECK(longest(entry("max", Value::scalar("25cm"))).passed);
     const auto failed = longest(entry("max", Value::scalar("20cm")));
     CHECK_FALSE(failed.passed);
@@ -89,10 +92,10 @@ TEST_CASE("lengths are written with units and percentages, and resolved", "[stag
     CHECK(longest(entry("max", Value::scalar("0.2"))).expected == "at most 0.2");
     CHECK(longest(entry("min", Value::scalar("10%"))).expected == "at least 10% (0.173205)");
     CHECK(longest(Value::scalar("250mm")).passed);
-    CHECK(complaint(entry("longest_edge", Value::scalar("true"))) ==
+    CHECK(limits_complaint(entry("longest_edge", Value::scalar("true"))) ==
           "E-TYPE 'longest_edge' is a length (2mm) or a range ({min: 1mm, max: 5%}), found 'true'");
-    CHECK(complaint(entry("max_extent", Value::map({{"min", {}, Value::scalar("2mm")},
-                                                    {"max", {}, Value::scalar("1mm")}}))) ==
+    CHECK(limits_complaint(entry("max_extent", Value::map({{"min", {}, Value::scalar("2mm")},
+                                                           {"max", {}, Value::scalar("1mm")}}))) ==
           "E-RANGE no length is at least min and at most max (exchange min and max)");
 }
 
@@ -100,7 +103,7 @@ TEST_CASE("bounds lie between two corners", "[stage]") {
     Properties p;
     p.bounds = unit_box();
     const auto within = [&](const char* key, Value corner) {
-        return judged(entry("bounds", entry(key, std::move(corner))), p);
+        return judged_limits(entry("bounds", entry(key, std::move(corner))), p);
     };
     CHECK(within("max", numbers({"1", "100cm", "1"})).passed);
     const auto low = within("max", numbers({"1", "1", "99cm"}));
@@ -109,11 +112,12 @@ TEST_CASE("bounds lie between two corners", "[stage]") {
     CHECK(low.found.dump() == R"({"min":[0.0,0.0,0.0],"max":[1.0,1.0,1.0]})");
     CHECK(within("min", numbers({"0", "0", "0"})).passed);
     CHECK_FALSE(within("min", numbers({"0", "0.1", "0"})).passed);
-    CHECK(judged(entry("bounds", entry("max", Value::scalar("1,1,1"))), p).passed); // as a one-liner has it
-    CHECK(judged(entry("bounds", entry("max", numbers({"1", "1", "1"}))), {}).found.is_null());
-    CHECK(complaint(entry("bounds", Value::scalar("5"))) ==
+    CHECK(judged_limits(entry("bounds", entry("max", Value::scalar("1,1,1"))), p)
+              .passed); // as a one-liner has it
+    CHECK(judged_limits(entry("bounds", entry("max", numbers({"1", "1", "1"}))), {}).found.is_null());
+    CHECK(limits_complaint(entry("bounds", Value::scalar("5"))) ==
           "E-TYPE 'bounds' is a box ({min: [0, 0, 0], max: [20cm, 20cm, 5cm]}), found '5'");
-    CHECK(complaint(entry("bounds", entry("max", numbers({"1", "1"})))).substr(0, 30) ==
+    CHECK(limits_complaint(entry("bounds", entry("max", numbers({"1", "1"})))).substr(0, 30) ==
           "E-TYPE expected three lengths ");
 }
 
@@ -123,14 +127,14 @@ TEST_CASE("unit, up, parts and materials are asserted like the rest", "[stage]")
     scene.up = UpAxis::z;
     scene.parts.resize(2);
     const Properties p = inspect(scene);
-    CHECK(judged(entry("unit", Value::scalar("mm")), p).passed);
-    const auto inches = judged(entry("unit", Value::scalar("in")), p);
+    CHECK(judged_limits(entry("unit", Value::scalar("mm")), p).passed);
+    const auto inches = judged_limits(entry("unit", Value::scalar("in")), p);
     CHECK_FALSE(inches.passed);
     CHECK((inches.expected == "in" && inches.found == "mm"));
-    CHECK(judged(entry("up", Value::scalar("z")), p).passed);
-    CHECK(judged(entry("parts", Value::scalar("2")), p).passed);
-    CHECK(judged(entry("materials", entry("max", Value::scalar("0"))), p).passed);
-    CHECK(complaint(entry("unit", Value::scalar("mn"))) ==
+    CHECK(judged_limits(entry("up", Value::scalar("z")), p).passed);
+    CHECK(judged_limits(entry("parts", Value::scalar("2")), p).passed);
+    CHECK(judged_limits(entry("materials", entry("max", Value::scalar("0"))), p).passed);
+    CHECK(limits_complaint(entry("unit", Value::scalar("mn"))) ==
           "E-CHOICE 'unit' is one of unknown, um, mm, cm, m, km, in, ft, found 'mn' (did you mean 'mm'?)");
 }
 

@@ -24,7 +24,7 @@ Value map(std::initializer_list<std::pair<const char*, Value>> entries) {
     return m;
 }
 
-std::string refusal(const Value& given) {
+std::string clip_refusal(const Value& given) {
     return test::failure([&] { run_stage("clip", given, scene_of(shapes::cube())); });
 }
 
@@ -62,7 +62,7 @@ TEST_CASE("a length with a unit needs a scene with one", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     scene.unit = Unit::m;
     CHECK(volume_after(given, scene) == Approx(0.75));
-    CHECK(refusal(given).starts_with("usage [E-UNIT]"));
+    CHECK(clip_refusal(given).starts_with("usage [E-UNIT]"));
 }
 
 TEST_CASE("planes stand in the world unless space is local", "[stages]") {
@@ -208,27 +208,28 @@ TEST_CASE("clip says when everything or nothing stays, and names open contours",
 
 TEST_CASE("clip refuses what is no plane", "[stages]") {
     CHECK(
-        refusal(map({{"plane", map({{"normal", numbers({"0", "0", "0"})}})}})) ==
+        clip_refusal(map({{"plane", map({{"normal", numbers({"0", "0", "0"})}})}})) ==
         "usage [E-PLANE] the plane's normal is zero, so it has no direction | for example normal: [0, 0, 1]");
     CHECK(
-        refusal(numbers({"0", "0", "0", "1"})) ==
+        clip_refusal(numbers({"0", "0", "0", "1"})) ==
         "usage [E-PLANE] the plane's normal is zero, so it has no direction | for example normal: [0, 0, 1]");
-    CHECK(refusal(map({{"plane", map({{"through", text("centre")}})}})) ==
+    CHECK(clip_refusal(map({{"plane", map({{"through", text("centre")}})}})) ==
           "usage [E-PLANE] a plane needs a normal or coefficients | for example normal: [0, 0, 1]");
-    CHECK(refusal(text("w=3")) ==
+    CHECK(clip_refusal(text("w=3")) ==
           "usage [E-TYPE] expected a plane ({normal: [0, 0, 1], through: centre}, z=0.2, x=10%, "
           "[A, B, C, D]), found 'w=3'");
-    CHECK(refusal(map({{"planes", Value::list({})}})) ==
+    CHECK(clip_refusal(map({{"planes", Value::list({})}})) ==
           "usage [E-PLANE] 'planes' is empty | for example planes: [z=0, x=centre]");
-    CHECK(refusal(map({{"cap", text("true")}})) ==
+    CHECK(clip_refusal(map({{"cap", text("true")}})) ==
           "usage [E-MISSING] clip: one of plane, planes, box is needed");
     const char* hint =
         " | for example {min: [0, 0, 0], max: [1, 1, 1]} or {centre: [0, 0, 0], size: [1, 1, 1]}";
-    CHECK(refusal(map({{"box", map({{"min", numbers({"0", "0", "0"})}})}})) ==
+    CHECK(clip_refusal(map({{"box", map({{"min", numbers({"0", "0", "0"})}})}})) ==
           std::string("usage [E-BOX] a box needs min and max, or centre and size") + hint);
-    CHECK(refusal(map({{"box", text("0,0,0,1,0,1")}})) ==
+    CHECK(clip_refusal(map({{"box", text("0,0,0,1,0,1")}})) ==
           "usage [E-BOX] the box has no extent along y: 0 | max must be greater than min in all three");
-    CHECK(refusal(map({{"box", text("1,2")}})).starts_with("usage [E-TYPE] expected a box ({min: [0, 0, 0]"));
+    CHECK(clip_refusal(map({{"box", text("1,2")}}))
+              .starts_with("usage [E-TYPE] expected a box ({min: [0, 0, 0]"));
 }
 
 TEST_CASE("split takes a method or a grid", "[stages]") {

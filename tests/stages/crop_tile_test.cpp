@@ -13,7 +13,7 @@ using test::scene_of;
 
 namespace {
 
-std::string refusal(const char* stage, const std::string& options) {
+std::string stage_refusal(const char* stage, const std::string& options) {
     std::string text = test::failure([&] { run_stage(stage, options, scene_of(shapes::grid(4, 3))); });
     const auto place = text.find("test.yaml:"); // checked by the tests of the document
     if (place != std::string::npos) text.erase(place, text.find(": ", place) + 2 - place);
@@ -47,16 +47,16 @@ TEST_CASE("tile makes a part of every cell", "[stages]") {
 }
 
 TEST_CASE("tile refuses what makes no grid", "[stages]") {
-    CHECK(refusal("tile", "0") == "usage [E-TILE] tile: 'size' must be above 0, found 0");
+    CHECK(stage_refusal("tile", "0") == "usage [E-TILE] tile: 'size' must be above 0, found 0");
     CHECK(
-        refusal("tile", "{size: 1, axes: xx}") ==
+        stage_refusal("tile", "{size: 1, axes: xx}") ==
         "usage [E-TILE] tile: 'axes' takes each of x, y, z at most once, found 'xx' | for example axes: xy");
-    CHECK(refusal("tile", "{size: [1, 2, 3]}") ==
+    CHECK(stage_refusal("tile", "{size: [1, 2, 3]}") ==
           "usage [E-TILE] tile: 3 sizes for 2 axes | give one size, or one for each axis");
-    CHECK(refusal("tile", "{size: 1, origin: [1]}") ==
+    CHECK(stage_refusal("tile", "{size: 1, origin: [1]}") ==
           "usage [E-TILE] tile: 1 origins for 2 axes | give one for each axis");
     CHECK(
-        refusal("tile", "{size: 0.1, origin: [1e15, 0]}") ==
+        stage_refusal("tile", "{size: 0.1, origin: [1e15, 0]}") ==
         "limit [E-TILE] a part lies 1e+16 tiles from the grid's origin along one axis, and at most 1e+09 are "
         "counted | choose a nearer origin, or a larger size");
     Mesh point = shapes::cube();
@@ -82,7 +82,8 @@ TEST_CASE("crop takes footprints in place, as WKT and from files", "[stages]") {
     CHECK(area("{footprint: \"POLYGON ((0.5 0.5, 3.5 0.5, 3.5 2.5))\", keep: outside}") == Approx(9));
     CHECK(area("{footprint: [[0.5, 0.5], [3.5, 0.5], [3.5, 2.5]], by: whole}") == 0.5 * 1);
     CHECK(area("'[[0.5, 0.5], [3.5, 0.5], [3.5, 2.5]]'") == Approx(3)); // as on the command line
-    CHECK(refusal("crop", "'[[0.5, 0.5], [3.5'").starts_with("usage [E-TYPE] expected a footprint (a file"));
+    CHECK(stage_refusal("crop", "'[[0.5, 0.5], [3.5'")
+              .starts_with("usage [E-TYPE] expected a footprint (a file"));
     const test::TemporaryDirectory folder;
     const auto file = folder.path() / "outline.geojson";
     std::ofstream(file)
@@ -105,7 +106,7 @@ TEST_CASE("crop stands walls on the outline on request", "[stages]") {
     REQUIRE(open.record.warnings.size() == 1);
     CHECK(open.record.warnings[0].id == "W-CAP-OPEN");
     CHECK(open.scene.materials.empty());
-    CHECK(refusal("crop", "{footprint: [[0, 0], [1, 0], [1, 1]], cap: true, by: whole}") ==
+    CHECK(stage_refusal("crop", "{footprint: [[0, 0], [1, 0], [1, 1]], cap: true, by: whole}") ==
           "usage [E-CONFLICT] crop: cap needs a cut at the outline, and with whole faces there is none | "
           "leave out cap, or use by: cut");
 }
@@ -161,11 +162,11 @@ TEST_CASE("crop says when nothing or all is kept", "[stages]") {
 }
 
 TEST_CASE("crop refuses footprints before it runs", "[stages]") {
-    CHECK(refusal("crop", "[[0, 0], [2, 2], [2, 0], [0, 2]]")
+    CHECK(stage_refusal("crop", "[[0, 0], [2, 2], [2, 0], [0, 2]]")
               .starts_with("usage [E-FOOTPRINT] crop: the footprint intersects itself near (1, 1)"));
-    CHECK(refusal("crop", "[[0, 0], [1, 0]]")
+    CHECK(stage_refusal("crop", "[[0, 0], [1, 0]]")
               .starts_with("usage [E-FOOTPRINT] crop: ring 1 of the footprint has 2"));
-    CHECK(refusal("crop", "[[0, 0], [1]]").starts_with("usage [E-TYPE] expected a footprint"));
-    CHECK(refusal("crop", "\"POLYGON ((0 0, 1\"").starts_with("usage [E-WKT]"));
-    CHECK(refusal("crop", "missing.geojson").starts_with("missing [E-FILE]"));
+    CHECK(stage_refusal("crop", "[[0, 0], [1]]").starts_with("usage [E-TYPE] expected a footprint"));
+    CHECK(stage_refusal("crop", "\"POLYGON ((0 0, 1\"").starts_with("usage [E-WKT]"));
+    CHECK(stage_refusal("crop", "missing.geojson").starts_with("missing [E-FILE]"));
 }

@@ -11,7 +11,7 @@ using test::scene_of;
 
 namespace {
 
-std::string refusal(const std::string& options) {
+std::string measure_refusal(const std::string& options) {
     try {
         run_stage("measure", options, scene_of(shapes::cube()));
     } catch (const Error& e) {
@@ -84,8 +84,8 @@ TEST_CASE("measure writes all as JSON and the faces as a table", "[stages]") {
 }
 
 TEST_CASE("measure refuses what it cannot use", "[stages]") {
-    CHECK(refusal("{density: 0}").find("E-RANGE") != std::string::npos);
-    CHECK(refusal("{path: a.xls}").find("measure cannot write 'a.xls'") != std::string::npos);
+    CHECK(measure_refusal("{density: 0}").find("E-RANGE") != std::string::npos);
+    CHECK(measure_refusal("{path: a.xls}").find("measure cannot write 'a.xls'") != std::string::npos);
 }
 
 TEST_CASE("measure says the main numbers on the terminal", "[stages]") {

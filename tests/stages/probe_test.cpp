@@ -14,7 +14,7 @@ Json probed(const std::string& options, Scene scene) {
     return run_stage("probe", options, std::move(scene)).record.result;
 }
 
-std::string refusal(const std::string& options, Scene scene = scene_of(shapes::cube())) {
+std::string probe_refusal(const std::string& options, Scene scene = scene_of(shapes::cube())) {
     try {
         run_stage("probe", options, std::move(scene));
     } catch (const Error& e) {
@@ -58,7 +58,7 @@ TEST_CASE("the vertices of one part are asked of the others", "[stages]") {
     scene.parts[1].transform = {{{0.01, 0, 0, 0.5}, {0, 0.01, 0, 0.5}, {0, 0, 0.01, 0.5}}};
     const Json r = probed("{points_of: tool}", scene);
     CHECK((r["count"] == 4 && r["inside"] == 4));
-    CHECK(refusal("{points_of: nothing}", scene) == "E-PART 'points_of' names no part of the scene");
+    CHECK(probe_refusal("{points_of: nothing}", scene) == "E-PART 'points_of' names no part of the scene");
 }
 
 TEST_CASE("segments and rays have hits in order, with part and face", "[stages]") {
@@ -87,7 +87,7 @@ TEST_CASE("a face alone tells the note's cases", "[stages]") {
     CHECK(r["meetings"] ==
           Json({{"hit", 1}, {"outside facet", 1}, {"parallel", 1}, {"outside segment", 1}, {"in plane", 1}}));
     CHECK(r["answers"][0]["plane"]["t"] == 0.5);
-    CHECK(refusal("{face: 6, rays: [0, 0, 0, 1, 0, 0]}", scene_of(shapes::quad_cube())) ==
+    CHECK(probe_refusal("{face: 6, rays: [0, 0, 0, 1, 0, 0]}", scene_of(shapes::quad_cube())) ==
           "E-FACE there is no face 6; the last one is 5");
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("rays along an attribute measure walls", "[stages]") {
     CHECK(r["count"] == 8);
     CHECK(r["hit"] == 8); // the sum of normals at a corner is its diagonal, which ends in the corner opposite
     CHECK(r["answers"][0]["hits"][0]["t"].get<double>() == Approx(std::sqrt(3.0)));
-    CHECK(refusal("{along: flow}") ==
+    CHECK(probe_refusal("{along: flow}") ==
           "E-ATTRIBUTE part 'part' has no attribute 'flow' of three numbers at vertices");
 }
 
@@ -136,8 +136,9 @@ TEST_CASE("several rows stand in one line too, and none loses its rest", "[stage
     CHECK(count("\"[0,0,1]\"") == 1);
     for (const char* rows :
          {"\"0,0,0,1,1,1\"", "\"0,0\"", "\"0,0,0;1\"", "\"0,0,x\"", "\"0,0,0;\"", "\"0,,0\""})
-        CHECK(refusal(rows).starts_with("E-TYPE expected rows of 3 numbers"));
-    CHECK(refusal("{rays: [[0, 0, 0, 0, 0, 1], [0, 0, 1, 0, 0, 0]]}") == "E-RAY ray 1 has no direction");
+        CHECK(probe_refusal(rows).starts_with("E-TYPE expected rows of 3 numbers"));
+    CHECK(probe_refusal("{rays: [[0, 0, 0, 0, 0, 1], [0, 0, 1, 0, 0, 0]]}") ==
+          "E-RAY ray 1 has no direction");
 }
 
 TEST_CASE("probes are read from a table and answers written as one", "[stages]") {
@@ -160,15 +161,17 @@ TEST_CASE("probes are read from a table and answers written as one", "[stages]")
 }
 
 TEST_CASE("probe refuses what it cannot use", "[stages]") {
-    CHECK(refusal("{}") == "E-MISSING probe: one of points, points_of, segments, rays, along is needed");
-    CHECK(refusal("[1, 2]") == "E-TYPE expected rows of 3 numbers or a .csv file, found a list of 2");
-    CHECK(refusal("[1, 2, x]") == "E-TYPE expected rows of 3 numbers or a .csv file, found 'x'");
-    CHECK(refusal("{points: [0, 0, 0], face: 1}") == "E-CONFLICT 'face' goes with segments or rays");
-    CHECK(refusal("{points: [0, 0, 0], path: a.txt}") == "E-FORMAT probe cannot write 'a.txt'");
-    CHECK(refusal("{points: [0, 0, 0], reverse: true}") == "E-CONFLICT 'reverse' goes with along");
-    CHECK(refusal("{points: [0, 0, 0], hits: first}") == "E-CONFLICT 'hits' goes with segments or rays");
-    CHECK(refusal("{points_of: part}") == "E-PART 'points_of' leaves no part as the surface");
-    CHECK(refusal("none.csv").starts_with("E-FILE"));
+    CHECK(probe_refusal("{}") ==
+          "E-MISSING probe: one of points, points_of, segments, rays, along is needed");
+    CHECK(probe_refusal("[1, 2]") == "E-TYPE expected rows of 3 numbers or a .csv file, found a list of 2");
+    CHECK(probe_refusal("[1, 2, x]") == "E-TYPE expected rows of 3 numbers or a .csv file, found 'x'");
+    CHECK(probe_refusal("{points: [0, 0, 0], face: 1}") == "E-CONFLICT 'face' goes with segments or rays");
+    CHECK(probe_refusal("{points: [0, 0, 0], path: a.txt}") == "E-FORMAT probe cannot write 'a.txt'");
+    CHECK(probe_refusal("{points: [0, 0, 0], reverse: true}") == "E-CONFLICT 'reverse' goes with along");
+    CHECK(probe_refusal("{points: [0, 0, 0], hits: first}") ==
+          "E-CONFLICT 'hits' goes with segments or rays");
+    CHECK(probe_refusal("{points_of: part}") == "E-PART 'points_of' leaves no part as the surface");
+    CHECK(probe_refusal("none.csv").starts_with("E-FILE"));
 }
 
 TEST_CASE("probe says the first answers on the terminal", "[stages]") {

@@ -7,6 +7,7 @@
 #include "mesh/shapes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace facetmill::testing {
@@ -14,6 +15,24 @@ namespace facetmill::testing {
 /// A number in (low, high) for a seed and a key.
 inline double between(double low, double high, std::uint64_t seed, std::uint64_t key) {
     return low + (high - low) * uniform(hashed(seed, key));
+}
+
+/// A point in the cube from -size to size, for a seed and a key.
+inline Vec3 random_point(double size, std::uint64_t seed, std::uint64_t key) {
+    return {between(-size, size, seed, 3 * key), between(-size, size, seed, 3 * key + 1),
+            between(-size, size, seed, 3 * key + 2)};
+}
+
+inline Mesh moved(Mesh mesh, const Vec3& by) {
+    for (Vec3& p : mesh.positions) p += by;
+    return mesh;
+}
+
+/// Every coordinate rounded down to a multiple of step: vertices and faces fall together.
+inline Mesh snapped(Mesh mesh, double step) {
+    for (Vec3& p : mesh.positions)
+        for (std::size_t i = 0; i < 3; ++i) p[i] = std::floor(p[i] / step) * step;
+    return mesh;
 }
 
 /// Moves every vertex along its direction from the origin by up to amount, relative to its distance.

@@ -23,11 +23,6 @@ std::size_t intersections(const Mesh& mesh) {
     return inspect(mesh, {.self_intersections = true}).self_intersections.value();
 }
 
-Mesh moved(Mesh mesh, const Vec3& by) {
-    for (Vec3& p : mesh.positions) p += by;
-    return mesh;
-}
-
 /// One vertex pushed through the far side: two small places that intersect.
 Mesh pierced() {
     Mesh mesh = shapes::icosphere(3);

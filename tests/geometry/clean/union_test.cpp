@@ -25,11 +25,6 @@ CleanSettings uniting() {
     return s;
 }
 
-Mesh moved(Mesh mesh, const Vec3& by) {
-    for (Vec3& p : mesh.positions) p += by;
-    return mesh;
-}
-
 /// From min to max.
 Mesh box(const Vec3& min, const Vec3& max) {
     Mesh mesh = shapes::cube();

@@ -6,6 +6,7 @@
 #include "stage/options/box.hpp"
 #include "support/catch.hpp"
 #include "support/measure.hpp"
+#include "support/meshes.hpp"
 
 using namespace facetmill;
 
@@ -36,11 +37,6 @@ BoxOption turned() {
 
     box.angle = Angle::degrees(33);
     return box;
-}
-
-Mesh moved(Mesh mesh, const Vec3& by) {
-    for (auto& p : mesh.positions) p += by;
-    return mesh;
 }
 
 Mesh both(Mesh a, const Mesh& b) {
@@ -85,10 +81,10 @@ TEST_CASE("a turned box leaves closed meshes closed on both sides", "[geometry]"
     const std::vector<std::pair<std::string, Mesh>> meshes{
         {"sphere", sphere},
         {"torus", shapes::torus(30, 20)},
-        {"seams", moved(shapes::uv_cube(), {-0.4, -0.5, -0.6})},
+        {"seams", testing::moved(shapes::uv_cube(), {-0.4, -0.5, -0.6})},
         {"hollow", both(sphere, inside_out(core))},
-        {"crossing", both(shapes::torus(10, 7), moved(shapes::torus(10, 7), {0.5, 0.1, 0.2}))},
-        {"crossing seams", both(shapes::uv_cube(), moved(shapes::uv_cube(), {0.25, 0.25, 0.125}))}};
+        {"crossing", both(shapes::torus(10, 7), testing::moved(shapes::torus(10, 7), {0.5, 0.1, 0.2}))},
+        {"crossing seams", both(shapes::uv_cube(), testing::moved(shapes::uv_cube(), {0.25, 0.25, 0.125}))}};
     for (const auto& [name, mesh] : meshes) {
         CAPTURE(name);
         const ClipResult r = clip(mesh, at_box(turned()));
@@ -103,7 +99,7 @@ TEST_CASE("a turned box leaves closed meshes closed on both sides", "[geometry]"
 }
 
 TEST_CASE("caps around a box look into it, with numbers and normals of their own", "[geometry]") {
-    const Mesh body = moved(shapes::uv_cube(), {-0.4, -0.5, -0.6});
+    const Mesh body = testing::moved(shapes::uv_cube(), {-0.4, -0.5, -0.6});
     const ClipResult r = clip(body, at_box(corners({-0.2, -0.2, -0.2}, {0.2, 0.2, 5})));
     const Attribute *normals = r.back.find("NORMAL", Domain::wedge),
                     *cut = r.back.find("cut_id", Domain::face);

@@ -11,15 +11,6 @@
 
 using namespace facetmill;
 
-namespace {
-
-Mesh moved(Mesh mesh, const Vec3& by) {
-    for (auto& p : mesh.positions) p += by;
-    return mesh;
-}
-
-} // namespace
-
 TEST_CASE("a surface does not deviate from itself", "[geometry]") {
     const Mesh mesh = testing::noisy_icosphere(3, 0.1, 1);
     const auto d = deviation(mesh, mesh, {.samples = 2000, .certify = true});
@@ -31,7 +22,7 @@ TEST_CASE("a surface does not deviate from itself", "[geometry]") {
 }
 
 TEST_CASE("a lifted sheet is apart by the lift, both ways", "[geometry]") {
-    const auto d = deviation(shapes::grid(4, 3), moved(shapes::grid(4, 3), {0, 0, 0.25}));
+    const auto d = deviation(shapes::grid(4, 3), testing::moved(shapes::grid(4, 3), {0, 0, 0.25}));
     for (const auto* way : {&d.forward, &d.backward}) {
         CHECK(way->maximum == Approx(0.25));
         CHECK(way->rms == Approx(0.25));

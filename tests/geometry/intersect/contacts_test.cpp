@@ -42,17 +42,6 @@ std::array<Vec3, 3> corners(const Mesh& mesh, Index f) {
     return {mesh.point(3 * f), mesh.point(3 * f + 1), mesh.point(3 * f + 2)};
 }
 
-Mesh snapped(Mesh mesh, double step) {
-    for (auto& p : mesh.positions)
-        for (std::size_t i = 0; i < 3; ++i) p[i] = std::floor(p[i] / step) * step;
-    return mesh;
-}
-
-Mesh moved(Mesh mesh, const Vec3& by) {
-    for (Vec3& p : mesh.positions) p += by;
-    return mesh;
-}
-
 Mesh of_boxes(std::initializer_list<Vec3> at) {
     Mesh mesh;
     for (const Vec3& p : at) append(mesh, moved(shapes::cube(), p));

@@ -16,12 +16,6 @@ constexpr SelfIntersectionSettings everything{.limit = SIZE_MAX};
 
 /// Vertices snapped to a coarse grid: many coplanar, touching and equal positions, some triangles without
 /// area.
-Mesh snapped(Mesh mesh, double step) {
-    for (auto& p : mesh.positions)
-        for (std::size_t i = 0; i < 3; ++i) p[i] = std::floor(p[i] / step) * step;
-    return mesh;
-}
-
 } // namespace
 
 TEST_CASE("sound shapes have no self-intersections", "[geometry]") {

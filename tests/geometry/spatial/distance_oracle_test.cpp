@@ -8,14 +8,8 @@
 #include "oracle/cgal_oracle.hpp"
 
 using namespace facetmill;
-using testing::between;
 
 namespace {
-
-Vec3 random_point(double size, std::uint64_t key) {
-    return {between(-size, size, 8, 3 * key), between(-size, size, 8, 3 * key + 1),
-            between(-size, size, 8, 3 * key + 2)};
-}
 
 std::vector<Mesh> meshes() {
     return {testing::noisy_icosphere(4, 0.1, 1), testing::noisy_torus(40, 24, 0.05, 2),
@@ -31,9 +25,9 @@ TEST_CASE("closest points are as far as CGAL's", "[geometry]") {
         const oracle::Tree other(mesh);
         std::vector<Vec3> points = mesh.positions; // on the surface, near it, anywhere, far away
         for (std::uint64_t k = 0; k < 500; ++k) {
-            points.push_back(mesh.positions[k % mesh.vertex_count()] + random_point(0.01, k));
-            points.push_back(random_point(2, k));
-            points.push_back(random_point(200, k));
+            points.push_back(mesh.positions[k % mesh.vertex_count()] + testing::random_point(0.01, 8, k));
+            points.push_back(testing::random_point(2, 8, k));
+            points.push_back(testing::random_point(200, 8, k));
         }
         const auto found = closest_points(tree, points);
         for (std::size_t i = 0; i < points.size(); ++i)
@@ -49,7 +43,7 @@ TEST_CASE("segments meet what they meet in CGAL's tree", "[geometry]") {
         const FaceTree tree(surface_of(mesh));
         const oracle::Tree other(mesh);
         for (std::uint64_t k = 0; k < 1500; ++k) { // random ones: through no edge and no vertex
-            const Line line{random_point(1.5, 2 * k), random_point(1.5, 2 * k + 1)};
+            const Line line{testing::random_point(1.5, 8, 2 * k), testing::random_point(1.5, 8, 2 * k + 1)};
             const auto found = all_hits(tree, line);
             REQUIRE(found.size() == other.met_by(line.from, line.to));
             REQUIRE(first_hit(tree, line).has_value() == !found.empty());

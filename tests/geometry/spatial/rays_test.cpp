@@ -20,12 +20,6 @@ std::vector<double> parameters(const std::vector<Hit>& hits) {
     return t;
 }
 
-Vec3 random_point(double size, std::uint64_t key) {
-    using testing::between;
-    return {between(-size, size, 6, 3 * key), between(-size, size, 6, 3 * key + 1),
-            between(-size, size, 6, 3 * key + 2)};
-}
-
 int sum_of_ways(const std::vector<Hit>& hits) {
     int sum = 0;
     for (const auto& h : hits) sum += h.way;
@@ -86,7 +80,8 @@ TEST_CASE("the tree meets what trying every triangle meets", "[geometry]") {
     const FaceTree tree = tree_of(mesh);
     for (std::uint64_t k = 0; k < 300; ++k) {
         const bool ray = k % 2;
-        const Line line{random_point(k % 3 ? 1.5 : 200, 2 * k), random_point(1.5, 2 * k + 1), ray};
+        const Line line{testing::random_point(k % 3 ? 1.5 : 200, 6, 2 * k),
+                        testing::random_point(1.5, 6, 2 * k + 1), ray};
         std::size_t expected = 0;
         for (const auto& t : tree.triangles) {
             const int way = passes(line.from, line.to, t.a, t.b, t.c);
@@ -106,7 +101,7 @@ TEST_CASE("lists of hits are those of single lines, whatever the number of threa
     const FaceTree tree = tree_of(shapes::torus(40, 20));
     std::vector<Line> lines;
     for (std::uint64_t k = 0; k < 2000; ++k)
-        lines.push_back({random_point(2, 2 * k), random_point(2, 2 * k + 1)});
+        lines.push_back({testing::random_point(2, 6, 2 * k), testing::random_point(2, 6, 2 * k + 1)});
     // Lines that are none, among the others and all of a piece at the end.
     const double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 40; ++i) lines[37 * i].to = i % 2 ? lines[37 * i].from : Vec3{infinity, 0, 0};
@@ -129,12 +124,13 @@ TEST_CASE("the winding number is 1 inside, 0 outside, and adds up", "[geometry]"
     const Mesh ball = testing::noisy_icosphere(3, 0.1, 7);
     const FaceTree tree = tree_of(ball);
     for (std::uint64_t k = 0; k < 300; ++k) {
-        const Vec3 p = random_point(1.3, k);
+        const Vec3 p = testing::random_point(1.3, 6, k);
         const double r = length(p);
         if (r < 0.89) CHECK(winding(tree, p) == 1);
         if (r > 1.11) CHECK(winding(tree, p) == 0);
         // A ray in any other direction says the same.
-        CHECK(winding(tree, p) == sum_of_ways(all_hits(tree, {p, p + random_point(1, 1000 + k), true})));
+        CHECK(winding(tree, p) ==
+              sum_of_ways(all_hits(tree, {p, p + testing::random_point(1, 6, 1000 + k), true})));
     }
     Mesh twice = ball;
     append(twice, ball);
@@ -155,7 +151,7 @@ TEST_CASE("many points, each asked from the one before, get what each gets alone
     for (int x = -2; x <= 10; ++x)
         for (int y = -2; y <= 10; ++y)
             for (int z = -2; z <= 18; ++z) points.push_back({x * 0.125, y * 0.125, z * 0.125});
-    for (std::uint64_t k = 0; k < 2000; ++k) points.push_back(random_point(2.5, k));
+    for (std::uint64_t k = 0; k < 2000; ++k) points.push_back(testing::random_point(2.5, 6, k));
     const auto answers = probe_points(tree, points);
     std::set<int> numbers;
     for (std::size_t i = 0; i < points.size(); ++i) {

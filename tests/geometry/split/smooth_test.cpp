@@ -13,7 +13,7 @@ using namespace facetmill;
 
 namespace {
 
-SplitSettings by(SplitMethod method, int passes = 1) {
+SplitSettings passes_of(SplitMethod method, int passes = 1) {
     SplitSettings s;
     s.method = method;
     s.passes = passes;
@@ -43,7 +43,7 @@ std::vector<std::vector<Index>> faces_on(const Mesh& mesh, const Mesh& to) {
 }
 
 bool agrees_with_openmesh(const Mesh& mesh, SplitMethod method, int passes) {
-    const Mesh mine = split(mesh, by(method, passes)).mesh,
+    const Mesh mine = split(mesh, passes_of(method, passes)).mesh,
                theirs = test::openmesh_subdivided(mesh, method, passes);
     const auto faces = faces_on(mine, theirs);
     return !faces.empty() && faces == faces_on(theirs, theirs);
@@ -81,12 +81,12 @@ TEST_CASE("smooth methods keep closedness and Euler's number, for vertices of an
     for (const auto method :
          {SplitMethod::loop, SplitMethod::sqrt3, SplitMethod::butterfly, SplitMethod::catmull_clark}) {
         for (const Mesh& mesh : {shapes::uv_cube(), shapes::torus(9, 6)}) {
-            const Mesh finer = split(mesh, by(method, 2)).mesh;
+            const Mesh finer = split(mesh, passes_of(method, 2)).mesh;
             CHECK(broken_invariants(finer).empty());
             CHECK(test::sound(finer, test::count(mesh).euler));
         }
         // OpenMesh's weights end at 50 faces around a vertex.
-        const Mesh cone = split(shapes::open_cone(70), by(method)).mesh;
+        const Mesh cone = split(shapes::open_cone(70), passes_of(method)).mesh;
         CHECK(test::count(cone).euler == 1);
         for (const Vec3& p : cone.positions) CHECK((std::abs(p.x) <= 1 && std::abs(p.z) <= 1.01));
     }
@@ -94,7 +94,7 @@ TEST_CASE("smooth methods keep closedness and Euler's number, for vertices of an
 
 TEST_CASE("a cube with feature edges stays a cube, without them it becomes round", "[geometry]") {
     for (const auto method : {SplitMethod::loop, SplitMethod::butterfly, SplitMethod::catmull_clark}) {
-        SplitSettings s = by(method, 3);
+        SplitSettings s = passes_of(method, 3);
         s.feature_angle = 0.5;
         CAPTURE(to_string(method));
         CHECK(*inspect(split(shapes::cube(), s).mesh).volume == Approx(1).epsilon(1e-12));
@@ -124,7 +124,7 @@ TEST_CASE("a line of feature edges is a smooth curve: the rim of a cylinder", "[
     }
     add_face(prism, bottom);
     add_face(prism, top);
-    SplitSettings s = by(SplitMethod::catmull_clark, 2);
+    SplitSettings s = passes_of(SplitMethod::catmull_clark, 2);
     s.feature_angle = 1.2; // the caps meet the sides at 90 degrees, the sides each other at 45
     const Mesh finer = split(prism, s).mesh;
     std::size_t on_rims = 0;
@@ -136,7 +136,7 @@ TEST_CASE("a line of feature edges is a smooth curve: the rim of a cylinder", "[
 
 TEST_CASE("smooth methods interpolate wedges along seams and recompute normals", "[geometry]") {
     for (const auto method : {SplitMethod::loop, SplitMethod::sqrt3, SplitMethod::catmull_clark}) {
-        const SplitResult r = split(shapes::uv_cube(), by(method));
+        const SplitResult r = split(shapes::uv_cube(), passes_of(method));
         const Attribute* uv = r.mesh.find("TEXCOORD_0", Domain::wedge);
         REQUIRE(uv);
         for (std::size_t w = 0; w < r.mesh.wedge_count(); ++w)
@@ -148,16 +148,16 @@ TEST_CASE("smooth methods interpolate wedges along seams and recompute normals",
 }
 
 TEST_CASE("smooth methods refuse what is not manifold, with the place", "[geometry]") {
-    CHECK(test::failure([] { split(shapes::fan3(), by(SplitMethod::loop)); }) ==
+    CHECK(test::failure([] { split(shapes::fan3(), passes_of(SplitMethod::loop)); }) ==
           "stage [E-MANIFOLD] split: loop needs a manifold, oriented mesh; the edge of vertices 0 and 1 has "
           "3 faces | clean repairs non-manifold edges and vertices; midpoint splits them as they are");
-    CHECK(test::failure([] { split(shapes::hourglass(), by(SplitMethod::sqrt3)); }) ==
+    CHECK(test::failure([] { split(shapes::hourglass(), passes_of(SplitMethod::sqrt3)); }) ==
           "stage [E-MANIFOLD] split: sqrt3 needs a manifold, oriented mesh; 2 fans of faces meet only at "
           "vertex 0 | clean repairs non-manifold edges and vertices; midpoint splits them as they are");
     CHECK(test::failure([] {
-              split(shapes::moebius(9), by(SplitMethod::catmull_clark));
+              split(shapes::moebius(9), passes_of(SplitMethod::catmull_clark));
           }).find("oriented inconsistently") != std::string::npos);
-    CHECK(test::failure([] { split(shapes::quad_cube(), by(SplitMethod::loop)); }) ==
+    CHECK(test::failure([] { split(shapes::quad_cube(), passes_of(SplitMethod::loop)); }) ==
           "stage [E-POLYGON] split: loop takes faces of at most 3 corners, face 0 has 4 | use triangulate "
           "first to make triangles of every face");
 }
@@ -165,7 +165,7 @@ TEST_CASE("smooth methods refuse what is not manifold, with the place", "[geomet
 TEST_CASE("smooth methods give the same for any number of threads", "[geometry]") {
     const Mesh mesh = bumpy(shapes::icosphere(5));
     for (const auto method : {SplitMethod::loop, SplitMethod::sqrt3, SplitMethod::butterfly})
-        CHECK(test::same_for_any_threads([&] { return split(mesh, by(method)).mesh; }));
+        CHECK(test::same_for_any_threads([&] { return split(mesh, passes_of(method)).mesh; }));
 }
 
 TEST_CASE("feature_angle: a right angle is not more than 90 degrees", "[geometry]") {
