@@ -125,7 +125,7 @@ void rebase(Value& path, const fs::path& prefix) {
 }
 
 void rebase_stage(const StageInfo& stage, Value& given, const fs::path& prefix) {
-    for (const auto& option : stage.options.options) {
+    for (const auto& option : stage.options->options) {
         if (option.type != "path" && option.type != "list") continue;
         Value* path = given.is_map()                       ? given.find(option.name)
                       : option.primary && !given.is_null() ? &given

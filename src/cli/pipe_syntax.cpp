@@ -203,7 +203,7 @@ class Parser {
         Value item = Value::map({{name, where, Value{}}}, where);
         item.entries[0].value.mark = where;
         std::vector<Value> bare;
-        const Option* primary = stage ? stage->options.primary() : nullptr;
+        const Option* primary = stage ? stage->options->primary() : nullptr;
         while (!at_end_of_step()) {
             if (is_option(all_[at_]))
                 option(item, stage);
@@ -221,7 +221,7 @@ class Parser {
 
     /// Gives a stage its bare values: alone, or as the primary option beside the others.
     void set_bare(Value& value, std::vector<Value> bare, const StageInfo* stage, const Mark& where) {
-        const Option* primary = stage ? stage->options.primary() : nullptr;
+        const Option* primary = stage ? stage->options->primary() : nullptr;
         Value one = bare[0];
         if (bare.size() > 1) {
             if (primary && !primary->repeatable && primary->type != "vector")
@@ -258,16 +258,16 @@ class Parser {
         std::string key = argument.substr(0, equals);
         Mark key_mark = mark();
         if (equals != argument.npos) key_mark.length = static_cast<int>(key.size()) + 2;
-        const Option* known = stage ? find_dotted(stage->options, key) : nullptr;
-        if (std::string name = with_underscores(key); !known && stage && find_dotted(stage->options, name)) {
+        const Option* known = stage ? find_dotted(*stage->options, key) : nullptr;
+        if (std::string name = with_underscores(key); !known && stage && find_dotted(*stage->options, name)) {
             key = std::move(name);
-            known = find_dotted(stage->options, key);
+            known = find_dotted(*stage->options, key);
         } // as other programs spell them
         const bool negated =
-            !known && key.starts_with("no-") && stage && find_dotted(stage->options, key.substr(3));
+            !known && key.starts_with("no-") && stage && find_dotted(*stage->options, key.substr(3));
         if (negated) {
             key = key.substr(3);
-            known = find_dotted(stage->options, key);
+            known = find_dotted(*stage->options, key);
         }
         const bool common = !known && is_common(key.substr(0, key.find('.')));
         Value value;
@@ -285,7 +285,7 @@ class Parser {
             const Mark where = item.entries[0].value.mark;
             item.entries[0].value = Value::map({}, where);
         }
-        if (!common && stage) key = spelled_out(item.entries[0].value, key, stage->options);
+        if (!common && stage) key = spelled_out(item.entries[0].value, key, *stage->options);
         add(common ? item : item.entries[0].value, key, std::move(value), key_mark, known);
     }
 

@@ -149,4 +149,13 @@ std::string roff(std::string_view text) {
     return out;
 }
 
+std::string joined_lines(std::string_view text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool paragraph = (i > 0 && text[i - 1] == '\n') || (i + 1 < text.size() && text[i + 1] == '\n');
+        out += text[i] == '\n' && !paragraph ? ' ' : text[i];
+    }
+    return out;
+}
+
 } // namespace facetmill::docs

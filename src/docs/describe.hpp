@@ -38,6 +38,9 @@ std::vector<std::string> spelling_helps(const std::vector<OptionRow>& rows);
 /// a line stand alone; line breaks in the text are kept.
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width = 100);
 
+/// The lines of each paragraph joined: help is written as raw strings of short lines.
+std::string joined_lines(std::string_view text);
+
 /// A text as roff shows it: no requests, no escapes, hyphens that can be copied.
 std::string roff(std::string_view text);
 

@@ -50,7 +50,7 @@ Json step_schema(const std::string& key, Json value, Json beside = Json::object(
 }
 
 Json stage_step(const StageInfo& stage) {
-    Json value = or_expression(stage.options.schema());
+    Json value = or_expression(stage.options->schema());
     value["anyOf"].push_back({{"type", "null"}});
     value["description"] = stage.about;
     return step_schema(stage.name, std::move(value));
@@ -139,7 +139,7 @@ Json report_schema() {
     Json forms = Json::array();
     for (const auto& stage : stages()) {
         const std::string name = "result." + stage.name;
-        definitions[name] = stage.result.schema();
+        definitions[name] = stage.result->schema();
         definitions[name]["properties"]["deviation"] = contract_result_schema();
         // A stage that was skipped or has failed leaves no scene, and no result.
         const Json done = {{"stage", {{"const", stage.name}}}, {"after", {{"type", "object"}}}};

@@ -36,13 +36,13 @@ std::string field_entry(const FieldRow& row) {
 
 std::string section(const StageInfo& s) {
     std::string text = fmt::format(".SH {}\n{}\n", roff(upper(s.name)), roff(s.about));
-    if (!s.details.empty()) text += fmt::format(".PP\n{}\n", roff(s.details));
-    if (!s.options.shorthand_help.empty())
-        text += fmt::format(".PP\nA bare value: {}\n", roff(s.options.shorthand_help));
-    for (const auto& row : rows(s.options)) text += option_entry(row);
-    for (const auto& rule : rules(s.options)) text += fmt::format(".PP\nGiven: {}.\n", roff(rule));
-    if (!s.result.all.empty()) text += ".PP\nResult, in the report:\n";
-    for (const auto& row : rows(s.result)) text += field_entry(row);
+    if (!std::string_view(s.details).empty()) text += fmt::format(".PP\n{}\n", roff(joined_lines(s.details)));
+    if (!s.options->shorthand_help.empty())
+        text += fmt::format(".PP\nA bare value: {}\n", roff(s.options->shorthand_help));
+    for (const auto& row : rows(*s.options)) text += option_entry(row);
+    for (const auto& rule : rules(*s.options)) text += fmt::format(".PP\nGiven: {}.\n", roff(rule));
+    if (!s.result->all.empty()) text += ".PP\nResult, in the report:\n";
+    for (const auto& row : rows(*s.result)) text += field_entry(row);
     if (!s.examples.empty()) text += ".PP\nExamples:\n.PP\n.nf\n.RS\n";
     for (const auto& example : s.examples) text += fmt::format("\\- {}\n", roff(example));
     if (!s.examples.empty()) text += ".RE\n.fi\n";

@@ -53,16 +53,16 @@ std::string stages_markdown() {
                        stages_markdown_table();
     for (const auto& s : stages()) {
         text += fmt::format("\n## {}\n\n{}\n", s.name, s.about);
-        if (!s.details.empty()) text += fmt::format("\n{}\n", s.details);
-        if (!s.options.shorthand_help.empty())
-            text += fmt::format("\nA bare value: {}\n", s.options.shorthand_help);
-        const auto options = rows(s.options);
+        if (!std::string_view(s.details).empty()) text += fmt::format("\n{}\n", joined_lines(s.details));
+        if (!s.options->shorthand_help.empty())
+            text += fmt::format("\nA bare value: {}\n", s.options->shorthand_help);
+        const auto options = rows(*s.options);
         if (!options.empty()) text += "\n| option | type | default | |\n|---|---|---|---|\n";
         for (const auto& row : options) text += option_row(row);
-        for (const auto& rule : rules(s.options)) text += fmt::format("\nGiven: {}.\n", rule);
+        for (const auto& rule : rules(*s.options)) text += fmt::format("\nGiven: {}.\n", rule);
         for (const auto& help : spelling_helps(options)) text += fmt::format("\n{}\n", help);
-        if (!s.result.all.empty()) text += "\n| result | type | |\n|---|---|---|\n";
-        for (const auto& row : rows(s.result)) text += field_row(row);
+        if (!s.result->all.empty()) text += "\n| result | type | |\n|---|---|---|\n";
+        for (const auto& row : rows(*s.result)) text += field_row(row);
         if (s.examples.empty()) continue;
         text += "\n```yaml\n";
         for (const auto& example : s.examples) text += fmt::format("- {}\n", example);

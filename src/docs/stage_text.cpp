@@ -44,20 +44,20 @@ std::string field_text(const FieldRow& row) {
 
 std::string stage_page(const StageInfo& stage) {
     std::string text = fmt::format("{}: {}\n", stage.name, stage.about);
-    if (!stage.details.empty()) text += "\n" + wrapped(stage.details, 2);
-    const auto options = rows(stage.options);
-    if (!stage.options.shorthand_help.empty())
-        text += "\n" + wrapped("A bare value: " + stage.options.shorthand_help, 2);
+    if (!std::string_view(stage.details).empty()) text += "\n" + wrapped(joined_lines(stage.details), 2);
+    const auto options = rows(*stage.options);
+    if (!stage.options->shorthand_help.empty())
+        text += "\n" + wrapped("A bare value: " + stage.options->shorthand_help, 2);
     text += options.empty() ? "\nOptions: none\n" : "\nOptions\n";
     for (const auto& row : options) text += option_text(row);
-    for (const auto& rule : rules(stage.options)) text += fmt::format("  Given: {}.\n", rule);
+    for (const auto& rule : rules(*stage.options)) text += fmt::format("  Given: {}.\n", rule);
     text += fmt::format("\nAlso, as for every stage: {} (see facetmill-pipeline(5)).\n", common_names());
     if (const auto helps = spelling_helps(options); !helps.empty()) {
         text += "\n";
         for (const auto& help : helps) text += wrapped(help, 0);
     }
-    if (!stage.result.all.empty()) text += "\nResult, in the report\n";
-    for (const auto& row : rows(stage.result)) text += field_text(row);
+    if (!stage.result->all.empty()) text += "\nResult, in the report\n";
+    for (const auto& row : rows(*stage.result)) text += field_text(row);
     if (!stage.examples.empty()) text += "\nExamples\n";
     for (const auto& example : stage.examples) text += fmt::format("  - {}\n", example);
     return text;
@@ -67,7 +67,7 @@ Json stages_json() {
     Json all = Json::array();
     for (const auto& s : stages()) {
         Json options = Json::array();
-        for (const auto& row : rows(s.options)) {
+        for (const auto& row : rows(*s.options)) {
             Json option = {{"name", row.name}, {"type", row.type}, {"help", row.help}};
             if (!row.default_text.empty()) option["default"] = row.default_text;
             if (row.required) option["required"] = true;
@@ -77,13 +77,13 @@ Json stages_json() {
             options.push_back(std::move(option));
         }
         Json result = Json::array();
-        for (const auto& row : rows(s.result))
+        for (const auto& row : rows(*s.result))
             result.push_back({{"name", row.name}, {"type", row.type}, {"help", row.help}});
         all.push_back({{"name", s.name},
                        {"about", s.about},
-                       {"details", s.details},
+                       {"details", joined_lines(s.details)},
                        {"options", options},
-                       {"rules", rules(s.options)},
+                       {"rules", rules(*s.options)},
                        {"result", result},
                        {"examples", s.examples}});
     }

@@ -97,13 +97,13 @@ bool is_excluded(const Declaration& declaration, const std::string& name, const 
 Json options_json(const Step& step) {
     Json out = Json::object();
     const bool is_map = step.given.is_map();
-    const Option* primary = step.stage->options.primary();
-    for (const auto& option : step.stage->options.options) {
+    const Option* primary = step.stage->options->primary();
+    for (const auto& option : step.stage->options->options) {
         const Value* given = is_map ? step.given.find(option.name) : nullptr;
         if (!is_map && !step.given.is_null() && &option == primary) given = &step.given;
         if (given)
             out[option.name] = value_json(*given);
-        else if (!option.default_text.empty() && !is_excluded(step.stage->options, option.name, step.given))
+        else if (!option.default_text.empty() && !is_excluded(*step.stage->options, option.name, step.given))
             out[option.name] = value_json(Value::scalar(option.default_text, {}));
     }
     if (is_map) // names of properties and the like, which are no declared options

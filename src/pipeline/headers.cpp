@@ -95,7 +95,7 @@ class Walk {
 
     void resolve_lengths(const Step& step, Unit unit) {
         std::vector<std::pair<std::string, const Value*>> found;
-        find_physical(step.stage->options, step.given, found);
+        find_physical(*step.stage->options, step.given, found);
         for (const auto& [option, value] : found) {
             Problems ignored; // it was found because it can be read
             Length length;
@@ -117,7 +117,7 @@ class Walk {
                       fmt::format("the scene has no unit, so it cannot be written in {}", wanted->text),
                       "give the unit of the file (load: {unit: mm})", wanted->mark));
         std::vector<std::pair<std::string, const Value*>> found;
-        find_physical(step.stage->options, step.given, found);
+        find_physical(*step.stage->options, step.given, found);
         for (const auto& [option, value] : found) no_unit(option, value->text, value->mark);
         if (step.when) assertions(step.when->predicates);
     }

@@ -56,7 +56,7 @@ Overrides::Overrides(const PlanSettings& settings, Problems& problems)
 
 void Overrides::apply(const std::vector<std::string>& names, const StageInfo& stage, Value& given,
                       Problems& problems) {
-    if (update_baselines_ && stage.options.find("update_baseline") && given.find("baseline")) {
+    if (update_baselines_ && stage.options->find("update_baseline") && given.find("baseline")) {
         const Mark where = command_line_mark("--update-baseline", "");
         given.set("update_baseline", Value::scalar("true", where), where);
         any_baseline_ = true;
@@ -64,7 +64,7 @@ void Overrides::apply(const std::vector<std::string>& names, const StageInfo& st
     for (auto& change : all_) {
         if (std::find(names.begin(), names.end(), change.target) == names.end()) continue;
         change.used = true;
-        const Declaration* declaration = &stage.options;
+        const Declaration* declaration = &*stage.options;
         Value* value = &given;
         for (std::size_t i = 0; i < change.path.size(); ++i) {
             if (!value->is_map() && !value->is_null()) {

@@ -61,7 +61,7 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
             continue;
         }
         const StageInfo* info = stage_named(stage->key);
-        const bool is_option = info && info->options.find(entry.key);
+        const bool is_option = info && info->options->find(entry.key);
         known &= !is_option;
         problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is no key of an item", entry.key),
                      is_option
@@ -79,11 +79,11 @@ Value with_safe_paths(const Value& value, Value given, const StageInfo& stage, c
     const auto make_safe = [&](const Value& before, Value& after) {
         if (after.is_scalar() && is_name_from_file(before, scope)) after.text = safe_name(after.text);
     };
-    const Option* primary = stage.options.primary();
+    const Option* primary = stage.options->primary();
     if (value.is_scalar() && primary && primary->type == OptionType<PathText>::name) make_safe(value, given);
     if (!value.is_map() || !given.is_map()) return given;
     for (auto& entry : given.entries) {
-        const Option* option = stage.options.find(entry.key);
+        const Option* option = stage.options->find(entry.key);
         const Value* before = value.find(entry.key);
         if (option && before && option->type == OptionType<PathText>::name) make_safe(*before, entry.value);
     }
@@ -209,7 +209,7 @@ void Planner::plan_stage(Step& step, const Value::Entry& entry, const Scope& sco
     if (slash != std::string::npos) names.push_back(step.name.substr(slash + 1));
     overrides_.apply(names, *step.stage, step.given, problems_);
     step.options = step.stage->make_options();
-    const bool good = step.stage->options.parse(step.given, step.options.get(), entry.key, problems_);
+    const bool good = step.stage->options->parse(step.given, step.options.get(), entry.key, problems_);
     if (good && step.stage->verify && !is_deferred(step.given))
         step.stage->verify(step.options.get(), step.given, problems_);
 }

@@ -9,20 +9,9 @@ std::vector<StageInfo>& registry() {
     static std::vector<StageInfo> all;
     return all;
 }
-
-/// Joins the lines of each paragraph: help is written as raw strings of short lines.
-std::string joined_lines(const std::string& text) {
-    std::string out;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool paragraph = (i > 0 && text[i - 1] == '\n') || (i + 1 < text.size() && text[i + 1] == '\n');
-        out += text[i] == '\n' && !paragraph ? ' ' : text[i];
-    }
-    return out;
-}
 } // namespace
 
 RegisterStage::RegisterStage(StageInfo info) {
-    info.details = joined_lines(info.details);
     auto& all = registry();
     const auto at =
         std::lower_bound(all.begin(), all.end(), info.name,

@@ -14,6 +14,7 @@
 //   Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& report) { ... }
 //   const RegisterStage relax = make_stage<RelaxOptions>({...}, declare, declare_report, run);
 
+#include "base/lazy.hpp"
 #include "io/codec.hpp"
 #include "options/declaration.hpp"
 #include "options/fields.hpp"
@@ -28,17 +29,18 @@ struct StageFiles {
 };
 
 struct StageInfo {
-    std::string name;    ///< the verb users write
-    std::string about;   ///< one line
-    std::string details; ///< a paragraph or more: what it guarantees, what it does to attributes, its source
+    std::string name;  ///< the verb users write
+    std::string about; ///< one line
+    /// Paragraphs of short lines: what it guarantees, what it does to attributes, its source.
+    const char* details = "";
     std::vector<std::string> examples; ///< as list items of a pipeline, without the dash: "relax: 3"
     bool checks = false; ///< it only judges: several in a row all run before a failure ends the branch
     bool loads = false;  ///< it adds to the scene rather than working on it (may come first)
     MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options say otherwise
 
-    // Filled by make_stage.
-    Declaration options = {};
-    Fields result = {};                                       ///< of what the stage reports; empty: nothing
+    // Filled by make_stage. Declarations are made when they are first asked for.
+    Lazy<Declaration> options = {};
+    Lazy<Fields> result = {};                                 ///< of what the stage reports; empty: nothing
     std::function<std::shared_ptr<void>()> make_options = {}; ///< a default options struct
     std::function<Scene(Scene, const void* options, Context&)> run = {};
     std::function<StageFiles(const void* options)> files = {}; ///< may be empty
@@ -73,9 +75,11 @@ struct StageHooks {
 
 template <class Options, class DeclareFunction>
 void add_options(StageInfo& info, DeclareFunction declare, StageHooks<Options> hooks) {
-    Declare<Options> d;
-    declare(d);
-    info.options = std::move(d.declaration);
+    info.options = Lazy<Declaration>([declare] {
+        Declare<Options> d;
+        declare(d);
+        return std::move(d.declaration);
+    });
     info.make_options = [] { return std::make_shared<Options>(); };
     if (hooks.files)
         info.files = [f = hooks.files](const void* options) {
@@ -111,11 +115,11 @@ template <class Options, class Report, class DeclareFunction>
 StageInfo make_stage(StageInfo info, DeclareFunction declare, void (*declare_report)(DeclareFields<Report>&),
                      Scene (*run)(Scene, const Options&, Context&, Report&), StageHooks<Options> hooks = {}) {
     add_options(info, declare, std::move(hooks));
-    info.result = fields_of<Report>(declare_report);
+    info.result = Lazy<Fields>([declare_report] { return fields_of<Report>(declare_report); });
     info.run = [run, fields = info.result](Scene scene, const void* options, Context& context) {
         Report report;
         Scene out = run(std::move(scene), *static_cast<const Options*>(options), context, report);
-        context.report(fields, &report);
+        context.report(*fields, &report);
         return out;
     };
     return info;

@@ -56,12 +56,12 @@ void check_default(const StageInfo& stage, const Option& option) {
 TEST_CASE("every option has help, a sound name and described choices", "[docs]") {
     REQUIRE(shipped().size() >= 9);
     for (const auto& stage : shipped())
-        for (const auto& option : stage.options.options) check_option(stage.name, stage.options, option);
+        for (const auto& option : stage.options->options) check_option(stage.name, *stage.options, option);
 }
 
 TEST_CASE("every default reads back and lies in its range", "[docs]") {
     for (const auto& stage : shipped())
-        for (const auto& option : stage.options.options) check_default(stage, option);
+        for (const auto& option : stage.options->options) check_default(stage, option);
 }
 
 TEST_CASE("every stage says what it does and shows how", "[docs]") {
@@ -69,7 +69,7 @@ TEST_CASE("every stage says what it does and shows how", "[docs]") {
         INFO(stage.name);
         CHECK_FALSE(stage.about.empty());
         CHECK(stage.about.back() == '.');
-        CHECK_FALSE(stage.details.empty());
+        CHECK_FALSE(std::string_view(stage.details).empty());
         CHECK_FALSE(stage.examples.empty());
     }
 }
@@ -95,7 +95,7 @@ TEST_CASE("every example of every stage is a legal step", "[docs]") {
 TEST_CASE("numbers with a dimension say how they are spelled", "[docs]") {
     for (const auto& stage : shipped()) {
         const std::string page = docs::stage_page(stage);
-        for (const auto& row : docs::rows(stage.options)) {
+        for (const auto& row : docs::rows(*stage.options)) {
             const std::string help = docs::spelling_help(row.dimension);
             INFO(stage.name << ": " << row.name);
             if (!help.empty()) CHECK(page.find(help.substr(0, 30)) != std::string::npos);

@@ -29,7 +29,7 @@ struct Bench {
         const StageInfo& info = *stage_named(stage);
         const auto options = info.make_options();
         Problems problems;
-        info.options.parse(given, options.get(), stage, problems);
+        info.options->parse(given, options.get(), stage, problems);
         if (info.verify) info.verify(options.get(), given, problems);
         problems.throw_if_any(ErrorKind::usage);
         const PartFilter all;

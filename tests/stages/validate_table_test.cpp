@@ -335,7 +335,7 @@ TEST_CASE("every property names the stage that mends it, and is in the manual an
         CHECK((hint.starts_with("no stage") ||
                std::any_of(stages().begin(), stages().end(),
                            [&](const StageInfo& stage) { return hint.starts_with(stage.name); })));
-        const Option* option = validate->options.find(name);
+        const Option* option = validate->options->find(name);
         REQUIRE(option);
         CHECK(option->help.starts_with(std::string(property.help)));
         CHECK(assertions["properties"].contains(name));

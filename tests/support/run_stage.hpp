@@ -31,7 +31,7 @@ inline const StageInfo& stage_for_test(const std::string& name) {
 /// The stage's options as the value gives them; what is wrong with it goes to problems.
 inline auto options_of(const StageInfo& stage, const Value& value, Problems& problems) {
     auto options = stage.make_options();
-    stage.options.parse(value, options.get(), stage.name, problems);
+    stage.options->parse(value, options.get(), stage.name, problems);
     if (stage.verify && !problems.any_errors()) stage.verify(options.get(), value, problems);
     return options;
 }

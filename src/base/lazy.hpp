@@ -1,0 +1,36 @@
+#pragma once
+// A value that is made when it is first asked for: what only some runs need costs the others nothing at start.
+
+#include <functional>
+#include <memory>
+#include <mutex>
+
+namespace facetmill {
+
+/// Copies share the value. Asking is safe from several threads; make() runs once. Empty: a default T.
+template <class T>
+class Lazy {
+  public:
+    Lazy() = default;
+    explicit Lazy(std::function<T()> make) : state_(std::make_shared<State>()) {
+        state_->make = std::move(make);
+    }
+
+    const T& operator*() const {
+        static const T empty{};
+        if (!state_) return empty;
+        std::call_once(state_->once, [this] { state_->value = state_->make(); });
+        return state_->value;
+    }
+    const T* operator->() const { return &**this; }
+
+  private:
+    struct State {
+        std::once_flag once;
+        std::function<T()> make;
+        T value{};
+    };
+    std::shared_ptr<State> state_;
+};
+
+} // namespace facetmill
