@@ -1,5 +1,6 @@
 #pragma once
-// A value that is made when it is first asked for: what only some runs need costs the others nothing at start.
+// A value that is made when it is first asked for: what only some runs need costs the others nothing at
+// start.
 
 #include <functional>
 #include <memory>
