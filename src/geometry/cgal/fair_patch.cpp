@@ -15,14 +15,14 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
-using Surface = CGAL::Surface_mesh<Point>;
+using Halfedges = CGAL::Surface_mesh<Point>;
 
-bool add_faces(Surface& surface, const std::vector<std::array<Index, 3>>& triangles,
-               std::vector<Surface::Face_index>* faces) {
+bool add_faces(Halfedges& surface, const std::vector<std::array<Index, 3>>& triangles,
+               std::vector<Halfedges::Face_index>* faces) {
     for (const auto& t : triangles) {
-        const auto f = surface.add_face(Surface::Vertex_index(t[0]), Surface::Vertex_index(t[1]),
-                                        Surface::Vertex_index(t[2]));
-        if (f == Surface::null_face()) return false;
+        const auto f = surface.add_face(Halfedges::Vertex_index(t[0]), Halfedges::Vertex_index(t[1]),
+                                        Halfedges::Vertex_index(t[2]));
+        if (f == Halfedges::null_face()) return false;
         if (faces) faces->push_back(f);
     }
     return true;
@@ -35,20 +35,20 @@ Point point_of(const Vec3& p) { return {p.x, p.y, p.z}; }
 HolePatch fair_patch(const std::vector<Vec3>& outline, const std::vector<std::array<Index, 3>>& triangles,
                      const HolePatch& around) {
     const HolePatch plain{triangles, {}};
-    Surface surface;
+    Halfedges surface;
     for (const Vec3& p : outline) surface.add_vertex(point_of(p));
     for (const Vec3& p : around.points) surface.add_vertex(point_of(p));
     const std::size_t before = surface.number_of_vertices();
-    std::vector<Surface::Face_index> faces, new_faces;
+    std::vector<Halfedges::Face_index> faces, new_faces;
     if (!add_faces(surface, around.triangles, nullptr) || !add_faces(surface, plain.triangles, &faces))
         return plain;
-    std::vector<Surface::Vertex_index> new_vertices;
+    std::vector<Halfedges::Vertex_index> new_vertices;
     pmp::refine(surface, faces, std::back_inserter(new_faces), std::back_inserter(new_vertices));
     if (!new_vertices.empty() && !pmp::fair(surface, new_vertices, pmp::parameters::fairing_continuity(1)))
         return plain;
     HolePatch patch;
     for (std::size_t v = before; v < surface.number_of_vertices(); ++v) {
-        const Point& p = surface.point(Surface::Vertex_index(static_cast<Index>(v)));
+        const Point& p = surface.point(Halfedges::Vertex_index(static_cast<Index>(v)));
         const Vec3 at{p.x(), p.y(), p.z()};
         if (!is_finite(at)) return plain;
         patch.points.push_back(at);
