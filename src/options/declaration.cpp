@@ -24,6 +24,18 @@ std::string Range::to_string() const {
     return {};
 }
 
+Option start_option(std::string name, const char* type, std::string help) {
+    Option o;
+    o.name = std::move(name);
+    o.type = type;
+    o.help = std::move(help);
+    return o;
+}
+
+#define FACETMILL_HERE(T) template Option typed_option<T>(std::string, std::size_t, const T&, std::string);
+FACETMILL_COMMON_OPTION_TYPES(FACETMILL_HERE)
+#undef FACETMILL_HERE
+
 const Option* Declaration::find(std::string_view name) const {
     const auto it =
         std::find_if(options.begin(), options.end(), [&](const auto& o) { return o.name == name; });

@@ -1,12 +1,17 @@
 #pragma once
 // The one declaration of an option. A stage writes
 //
-//   struct RelaxOptions { std::int64_t iterations = 1; double factor = 1; Method method = Method::laplacian;
-//   }; void declare(Declare<RelaxOptions>& d) {
+//   struct RelaxOptions {
+//       std::int64_t iterations = 1;
+//       double lambda = 1;
+//       Method method = Method::laplacian;
+//   };
+//   void declare(Declare<RelaxOptions>& d) {
 //       d.option("iterations", &RelaxOptions::iterations, "How many times ...").at_least(1).primary();
-//       d.option("factor", &RelaxOptions::factor, "How far ...").between(0, 1);
-//       d.choice("method", &RelaxOptions::method, {{"laplacian", Method::laplacian, "the note's"}, ...},
-//       "Which ..."); d.group("plane", &RelaxOptions::plane, "The plane ...", [](Declare<Plane>& p) { ... });
+//       d.option("lambda", &RelaxOptions::lambda, "How far ...").between(0, 1);
+//       d.choice("method", &RelaxOptions::method, {{"laplacian", Method::laplacian, "The mean ..."}, ...},
+//                "Which ...");
+//       d.group("plane", &RelaxOptions::plane, "The plane ...", [](Declare<Plane>& p) { ... });
 //       d.at_most_one({"ratio", "faces"});
 //   }
 //
@@ -15,6 +20,7 @@
 
 #include "options/types.hpp"
 
+#include <cstddef>
 #include <functional>
 #include <set>
 
@@ -137,6 +143,60 @@ Json choice_schema(const std::vector<Choice>& choices);
 /// Which of the option's choices the value spells (0 for a deferred value); none after adding a problem.
 std::optional<std::size_t> choice_index(const Option& option, const Value& value, Problems& problems);
 
+/// How many bytes into an S its member is: all that is kept of a member, so that what reads it is compiled
+/// once a type rather than once a member.
+template <class S, class T>
+std::size_t offset_of(T S::*member) {
+    alignas(S) static constexpr std::byte place[sizeof(S)]{};
+    const auto* at = reinterpret_cast<const std::byte*>(&(reinterpret_cast<const S*>(place)->*member));
+    return static_cast<std::size_t>(at - place);
+}
+
+/// The T at the offset in a record.
+template <class T>
+T& member_at(void* record, std::size_t offset) {
+    return *reinterpret_cast<T*>(static_cast<std::byte*>(record) + offset);
+}
+template <class T>
+const T& member_at(const void* record, std::size_t offset) {
+    return *reinterpret_cast<const T*>(static_cast<const std::byte*>(record) + offset);
+}
+
+Option start_option(std::string name, const char* type, std::string help);
+
+/// An option whose value is the T at the offset, which is now the default.
+template <class T>
+Option typed_option(std::string name, std::size_t offset, const T& now, std::string help) {
+    using Type = OptionType<T>;
+    Option o = start_option(std::move(name), Type::name, std::move(help));
+    o.dimension = Type::dimension;
+    o.default_text = Type::print(now);
+    o.schema = Type::schema();
+    o.repeatable = std::string_view(Type::name) == "list";
+    o.parse = [offset](const Option&, const Value& v, void* target, Problems& problems) {
+        return Type::parse(v, member_at<T>(target, offset), problems);
+    };
+    o.magnitude = [offset](const void* target) { return Type::magnitude(member_at<T>(target, offset)); };
+    return o;
+}
+
+// The types that most options have are compiled once, in declaration.cpp.
+#define FACETMILL_COMMON_OPTION_TYPES(X)                                                                     \
+    X(bool)                                                                                                  \
+    X(double)                                                                                                \
+    X(std::int64_t)                                                                                          \
+    X(std::string)                                                                                           \
+    X(std::optional<double>)                                                                                 \
+    X(std::optional<std::int64_t>)                                                                           \
+    X(std::optional<std::string>)                                                                            \
+    X(std::optional<Length>)                                                                                 \
+    X(std::optional<Vec3>)                                                                                   \
+    X(std::vector<double>)
+#define FACETMILL_ELSEWHERE(T)                                                                               \
+    extern template Option typed_option<T>(std::string, std::size_t, const T&, std::string);
+FACETMILL_COMMON_OPTION_TYPES(FACETMILL_ELSEWHERE)
+#undef FACETMILL_ELSEWHERE
+
 /// Fills a Declaration for the options struct S.
 template <class S>
 class Declare {
@@ -145,35 +205,24 @@ class Declare {
 
     template <class T>
     OptionRef<S> option(std::string name, T S::*member, std::string help) {
-        using Type = OptionType<T>;
-        Option o = start(std::move(name), Type::name, std::move(help));
-        o.dimension = Type::dimension;
-        o.default_text = Type::print(S{}.*member);
-        o.schema = Type::schema();
-        o.repeatable = std::string_view(Type::name) == "list";
-        o.parse = [member](const Option&, const Value& v, void* target, Problems& problems) {
-            return Type::parse(v, static_cast<S*>(target)->*member, problems);
-        };
-        o.magnitude = [member](const void* target) {
-            return Type::magnitude(static_cast<const S*>(target)->*member);
-        };
-        return push(std::move(o));
+        return push(typed_option<T>(std::move(name), offset_of(member), defaults_.*member, std::move(help)));
     }
 
     template <class E>
     OptionRef<S> choice(std::string name, E S::*member, std::vector<NamedChoice<E>> choices,
                         std::string help) {
-        Option o = start(std::move(name), "choice", std::move(help));
+        Option o = start_option(std::move(name), "choice", std::move(help));
         std::vector<E> values;
         for (auto& c : choices) {
-            if (c.value == S{}.*member) o.default_text = c.name;
+            if (c.value == defaults_.*member) o.default_text = c.name;
             o.choices.push_back({c.name, c.help});
             values.push_back(c.value);
         }
         o.schema = choice_schema(o.choices);
-        o.parse = [member, values](const Option& self, const Value& v, void* target, Problems& problems) {
+        o.parse = [at = offset_of(member), values](const Option& self, const Value& v, void* target,
+                                                   Problems& problems) {
             const auto index = choice_index(self, v, problems);
-            if (index) static_cast<S*>(target)->*member = values[*index];
+            if (index) member_at<E>(target, at) = values[*index];
             return index.has_value();
         };
         return push(std::move(o));
@@ -185,11 +234,12 @@ class Declare {
         using G = typename Inner<M>::type;
         Declare<G> nested;
         fill(nested);
-        Option o = start(std::move(name), "group", std::move(help));
+        Option o = start_option(std::move(name), "group", std::move(help));
         o.fields = std::make_shared<const Declaration>(std::move(nested.declaration));
         o.schema = o.fields->schema();
-        o.parse = [member](const Option& self, const Value& v, void* target, Problems& problems) {
-            M& slot = static_cast<S*>(target)->*member;
+        o.parse = [at = offset_of(member)](const Option& self, const Value& v, void* target,
+                                           Problems& problems) {
+            M& slot = member_at<M>(target, at);
             if constexpr (Inner<M>::optional)
                 return self.fields->parse(v, &slot.emplace(), self.name, problems);
             else
@@ -226,13 +276,6 @@ class Declare {
         static constexpr bool optional = true;
     };
 
-    Option start(std::string name, const char* type, std::string help) {
-        Option o;
-        o.name = std::move(name);
-        o.type = type;
-        o.help = std::move(help);
-        return o;
-    }
     OptionRef<S> push(Option o) {
         declaration.options.push_back(std::move(o));
         return {declaration, declaration.options.size() - 1};
@@ -240,6 +283,8 @@ class Declare {
     void rule(Exclusion::Rule r, std::vector<std::string> names) {
         declaration.exclusions.push_back({r, std::move(names)});
     }
+
+    const S defaults_{};
 };
 
 } // namespace facetmill

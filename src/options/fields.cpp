@@ -52,6 +52,26 @@ void add_phrases(const Fields& fields, const void* record, std::string& line) {
 
 } // namespace
 
+namespace fields {
+
+Field& start(Fields& fields, std::string name, const char* type, Json schema, std::string help,
+             int optionals) {
+    Field& f = fields.all.emplace_back();
+    f.name = std::move(name);
+    f.type = type;
+    f.help = std::move(help);
+    f.schema = std::move(schema);
+    f.optionals = optionals;
+    if (optionals > 0) f.null_when = "there is none";
+    return f;
+}
+
+#define FACETMILL_HERE(T) template FieldRef typed_field<T>(Fields&, std::string, std::size_t, std::string);
+FACETMILL_COMMON_FIELD_TYPES(FACETMILL_HERE)
+#undef FACETMILL_HERE
+
+} // namespace fields
+
 Json Fields::json(const void* record) const {
     Json object = Json::object();
     for (const Field& field : all) field.put(field, record, object);

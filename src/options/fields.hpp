@@ -215,6 +215,87 @@ class FieldRef {
     std::function<std::optional<fields::Told>(const void*)> value_;
 };
 
+namespace fields {
+
+template <class T>
+inline constexpr bool is_count = std::unsigned_integral<T> && !std::same_as<T, bool>;
+
+inline constexpr auto to_json = []<class T>(const T& value) { return FieldType<T>::json(value); };
+
+/// Adds a field to those of a record. optionals: how many are around its value.
+Field& start(Fields& fields, std::string name, const char* type, Json schema, std::string help,
+             int optionals);
+
+template <class T, class ToJson>
+Json inner_json(const T& value, const ToJson& json) {
+    if constexpr (is_optional<T>)
+        return value ? Json(json(*value)) : Json(nullptr);
+    else
+        return json(value);
+}
+
+/// Sets the key of the field; of an empty value to null, or not at all. json: of a value that is not empty.
+template <class T, class ToJson>
+void put_value(const Field& field, const T& value, const ToJson& json, Json& object) {
+    if constexpr (is_optional<T>) {
+        if (value)
+            object[field.name] = inner_json(*value, json);
+        else if (field.only_when.empty())
+            object[field.name] = nullptr;
+    } else {
+        object[field.name] = json(value);
+    }
+}
+
+/// What a phrase on the terminal can say of the value; none when it is empty, or no number and no text.
+template <class T>
+std::optional<Told> told_value(const T& value) {
+    if constexpr (is_optional<T>)
+        return value ? told_value(*value) : std::nullopt;
+    else if constexpr (std::unsigned_integral<T>)
+        return static_cast<std::uint64_t>(value);
+    else if constexpr (std::integral<T>)
+        return static_cast<std::int64_t>(value);
+    else if constexpr (std::same_as<T, double>)
+        return value;
+    else if constexpr (std::convertible_to<T, std::string>)
+        return std::string(value);
+    else
+        return {};
+}
+
+/// A field whose value is the T at the offset.
+template <class T>
+FieldRef typed_field(Fields& fields, std::string name, std::size_t offset, std::string help) {
+    using Type = FieldType<typename Inner<T>::type>;
+    Field& f = start(fields, std::move(name), Type::name, Type::schema(), std::move(help), optionals<T>);
+    f.put = [offset](const Field& self, const void* record, Json& object) {
+        put_value(self, member_at<T>(record, offset), to_json, object);
+    };
+    if constexpr (is_count<T>)
+        f.count = [offset](const void* record) { return std::uint64_t{member_at<T>(record, offset)}; };
+    return {fields, fields.all.size() - 1,
+            [offset](const void* record) { return told_value(member_at<T>(record, offset)); }};
+}
+
+// The types that most fields have are compiled once, in fields.cpp.
+#define FACETMILL_COMMON_FIELD_TYPES(X)                                                                      \
+    X(bool)                                                                                                  \
+    X(double)                                                                                                \
+    X(std::size_t)                                                                                           \
+    X(std::string)                                                                                           \
+    X(Vec3)                                                                                                  \
+    X(std::optional<double>)                                                                                 \
+    X(std::optional<std::size_t>)                                                                            \
+    X(std::optional<std::string>)                                                                            \
+    X(std::vector<std::string>)
+#define FACETMILL_ELSEWHERE(T)                                                                               \
+    extern template FieldRef typed_field<T>(Fields&, std::string, std::size_t, std::string);
+FACETMILL_COMMON_FIELD_TYPES(FACETMILL_ELSEWHERE)
+#undef FACETMILL_ELSEWHERE
+
+} // namespace fields
+
 /// Fills Fields for the record R. Getters are members of R or functions of it; what they return may be
 /// optional: null, or no key with only_when, where there is none.
 template <class R>
@@ -225,15 +306,23 @@ class DeclareFields {
     template <class Get>
     FieldRef field(std::string name, Get get, std::string help) {
         using T = Value<Get>;
-        using Type = FieldType<typename facetmill::fields::Inner<T>::type>;
-        Field& f = start<T>(std::move(name), Type::name, Type::schema(), std::move(help));
-        f.put = putting(get, [](const auto& value) { return to_json(value); });
-        const auto value = told_by(get);
-        if constexpr (std::unsigned_integral<T> && !std::same_as<T, bool>)
-            f.count = [get](const void* record) {
-                return static_cast<std::uint64_t>(std::invoke(get, as_record(record)));
-            };
-        return {fields, fields.all.size() - 1, value};
+        if constexpr (std::is_convertible_v<Get, T R::*>) {
+            T R::*member = get;
+            return facetmill::fields::typed_field<T>(fields, std::move(name), offset_of(member),
+                                                     std::move(help));
+        } else {
+            using Type = FieldType<typename facetmill::fields::Inner<T>::type>;
+            Field& f = start<T>(std::move(name), Type::name, Type::schema(), std::move(help));
+            f.put = putting(get, facetmill::fields::to_json);
+            if constexpr (facetmill::fields::is_count<T>)
+                f.count = [get](const void* record) {
+                    return static_cast<std::uint64_t>(std::invoke(get, as_record(record)));
+                };
+            return {fields, fields.all.size() - 1, [get](const void* record) {
+                        const auto& value = std::invoke(get, as_record(record));
+                        return facetmill::fields::told_value(value);
+                    }};
+        }
     }
 
     /// A word out of few: value and name of each, and what it means.
@@ -353,11 +442,6 @@ class DeclareFields {
 
     static const R& as_record(const void* record) { return *static_cast<const R*>(record); }
 
-    template <class T>
-    static Json to_json(const T& value) {
-        return FieldType<T>::json(value);
-    }
-
     template <class T, class Fill>
     static std::shared_ptr<const Fields> nested(Fill fill) {
         DeclareFields<T> inner;
@@ -367,15 +451,8 @@ class DeclareFields {
 
     template <class T>
     Field& start(std::string name, const char* type, Json schema, std::string help) {
-        Field f;
-        f.name = std::move(name);
-        f.type = type;
-        f.help = std::move(help);
-        f.schema = std::move(schema);
-        f.optionals = facetmill::fields::optionals<T>;
-        if (f.optionals > 0) f.null_when = "there is none";
-        fields.all.push_back(std::move(f));
-        return fields.all.back();
+        return facetmill::fields::start(fields, std::move(name), type, std::move(schema), std::move(help),
+                                        facetmill::fields::optionals<T>);
     }
 
     /// json: of a value that is not an empty optional.
@@ -383,49 +460,8 @@ class DeclareFields {
     static auto putting(Get get, ToJson json) {
         return [get, json](const Field& self, const void* record, Json& object) {
             const auto& value = std::invoke(get, as_record(record));
-            if constexpr (facetmill::fields::is_optional<Value<Get>>) {
-                if (value)
-                    object[self.name] = inner_json(*value, json);
-                else if (self.only_when.empty())
-                    object[self.name] = nullptr;
-            } else {
-                object[self.name] = json(value);
-            }
+            facetmill::fields::put_value(self, value, json, object);
         };
-    }
-    template <class T, class ToJson>
-    static Json inner_json(const T& value, const ToJson& json) {
-        if constexpr (facetmill::fields::is_optional<T>)
-            return value ? Json(json(*value)) : Json(nullptr);
-        else
-            return json(value);
-    }
-
-    template <class Get>
-    static std::function<std::optional<facetmill::fields::Told>(const void*)> told_by(Get get) {
-        using T = typename facetmill::fields::Inner<Value<Get>>::type;
-        return [get](const void* record) -> std::optional<facetmill::fields::Told> {
-            const auto& given = std::invoke(get, as_record(record));
-            const T* value = innermost(given);
-            if (!value) return {};
-            if constexpr (std::unsigned_integral<T>)
-                return static_cast<std::uint64_t>(*value);
-            else if constexpr (std::integral<T>)
-                return static_cast<std::int64_t>(*value);
-            else if constexpr (std::same_as<T, double>)
-                return *value;
-            else if constexpr (std::convertible_to<T, std::string>)
-                return std::string(*value);
-            else
-                return {};
-        };
-    }
-    template <class T>
-    static auto innermost(const T& value) {
-        if constexpr (facetmill::fields::is_optional<T>)
-            return value ? innermost(*value) : nullptr;
-        else
-            return &value;
     }
 };
 
