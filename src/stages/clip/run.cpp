@@ -1,11 +1,26 @@
+#include "stage/both_sides.hpp"
+#include "stage/options/cap.hpp"
 #include "stage/options/snap.hpp"
 #include "stage/stage.hpp"
+#include "stages/clip/cutter.hpp"
 #include "stages/clip/help.hpp"
-#include "stages/clip/parts.hpp"
+
+#include <fmt/format.h>
 
 namespace facetmill {
 
 namespace {
+
+struct PartsToClip {
+    ClipSettings settings; ///< the same for all; planes, memory and the caps' primitive are set part by part
+    std::string cap_material;
+    const char *front = ".front", *back = ".back"; ///< added to the names of both sides
+};
+
+struct ClipReport {
+    std::optional<std::vector<Plane>> planes; ///< in the world
+    std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0, on_plane = 0, snapped = 0, remembered = 0;
+};
 
 struct ClipOptions : CutterOption {
     Keep keep = Keep::front;
@@ -55,6 +70,50 @@ void declare_report(DeclareFields<ClipReport>& d) {
     d.field("on_plane", &ClipReport::on_plane, "Vertices that lie on a plane.");
     d.field("snapped", &ClipReport::snapped, "Those that do so within the rounding of float32.");
     d.field("remembered", &ClipReport::remembered, "Those that an earlier clip placed there.");
+}
+
+/// What users should know of a clip: open contours, everything kept, nothing kept.
+void warn(const Part& part, const ClipResult& r, bool had_faces, Context& context) {
+    warn_of_open("clip", part, r.open, context);
+    if (!r.changed && had_faces)
+        context.warn("W-CLIP-ALL",
+                     fmt::format("clip: no plane cuts part '{}'; all of it was kept", part.name),
+                     "check the position and direction of the plane; info prints the bounds");
+    if (had_faces && r.front.face_count() + r.back.face_count() == 0)
+        context.warn("W-CLIP-NOTHING", fmt::format("clip: nothing of part '{}' was kept", part.name),
+                     "check the position and direction of the plane; keep: back keeps the other side");
+}
+
+/// Clips the parts selected by the cutter's planes; with Keep::both the back of each comes behind it. Warns
+/// of open contours (W-CAP-OPEN), of parts that no plane met (W-CLIP-ALL) and of which nothing is left
+/// (W-CLIP-NOTHING).
+ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how, Context& context) {
+    ClipSettings settings = how.settings;
+    if (settings.cap) set_cap(settings, scene, how.cap_material);
+    BothSides sides(scene);
+    ClipReport report;
+    if (!cutter.world().empty()) report.planes = cutter.world();
+    context.for_each_part(scene, [&](Part& part) {
+        const bool had_faces = part.mesh.face_count() > 0;
+        settings.planes = cutter.planes_for(part);
+        settings.memory = part.cuts ? *part.cuts : CutMemory{};
+        ClipResult r = clip(std::move(part.mesh), settings);
+        warn(part, r, had_faces, context);
+        context.attribute_changes(part, r.changes);
+        report.cut_faces += r.cut_faces;
+        report.cap_faces += r.cap_faces;
+        report.open_contours += r.open.size();
+        report.on_plane += r.on_plane;
+        report.snapped += r.snapped;
+        report.remembered += r.remembered;
+        if (!r.memory.entries.empty()) part.cuts = std::make_shared<const CutMemory>(std::move(r.memory));
+        part.mesh = {};
+        if (settings.keep == Keep::both) sides.part_in_two(part, how.front, how.back, std::move(r.back));
+        part.mesh = std::move(settings.keep == Keep::back ? r.back : r.front);
+    });
+    if (report.cap_faces > 0) add_material(scene, how.cap_material);
+    sides.insert();
+    return report;
 }
 
 Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& report) {

@@ -1,8 +1,10 @@
+#include "geometry/tile/tile.hpp"
+#include "mesh/placement.hpp"
 #include "options/mark_at.hpp"
+#include "stage/context.hpp"
 #include "stage/options/cap.hpp"
 #include "stage/stage.hpp"
 #include "stages/tile/help.hpp"
-#include "stages/tile/parts.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,6 +12,17 @@
 namespace facetmill {
 
 namespace {
+
+struct ReportedTile {
+    std::string part;
+    std::array<std::optional<std::int64_t>, 3> cell{}; ///< by axis, of those that are cut
+    std::size_t faces = 0;
+};
+
+struct TileReport {
+    std::vector<ReportedTile> tiles;
+    std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0;
+};
 
 struct TileOptions {
     std::vector<Length> size;
@@ -84,6 +97,72 @@ void declare_report(DeclareFields<TileReport>& d) {
     d.field("cap_faces", &TileReport::cap_faces, "Faces of caps.");
     d.field("open_contours", &TileReport::open_contours,
             "Contours that were not capped because they are open.");
+}
+
+/// "body.x0.y-1"
+std::string name_of(const Part& part, const Tile& tile, const std::vector<TileAxis>& axes) {
+    std::string name = part.name;
+    for (const TileAxis& a : axes) name += fmt::format(".{}{}", "xyz"[a.axis], tile.cell[a.axis]);
+    return name;
+}
+
+class TileRun {
+  public:
+    TileRun(const TileSettings& settings, Context& context) : context_(context), settings_(settings) {}
+
+    Scene run(Scene scene, const std::string& cap_material, TileReport& report) {
+        if (settings_.clip.cap) set_cap(settings_.clip, scene, cap_material);
+        std::vector<Part> parts;
+        std::vector<const Part*> cut;
+        context_.for_each_part(scene, [&](Part& part) { cut.push_back(&part); });
+        for (Part& part : scene.parts) {
+            if (std::find(cut.begin(), cut.end(), &part) == cut.end())
+                parts.push_back(std::move(part));
+            else
+                cut_part(part, parts, report);
+        }
+        scene.parts = std::move(parts);
+        if (report.cap_faces > 0) add_material(scene, cap_material);
+        return scene;
+    }
+
+  private:
+    void cut_part(Part& part, std::vector<Part>& parts, TileReport& report) {
+        settings_.to_world = effective(part);
+        settings_.clip.memory = part.cuts ? *part.cuts : CutMemory{};
+        TileResult r = tile(std::move(part.mesh), settings_);
+        part.mesh = {};
+        warn_of_open("tile", part, r.open, context_);
+        context_.attribute_changes(part, r.changes);
+        report.cut_faces += r.cut_faces;
+        report.cap_faces += r.cap_faces;
+        report.open_contours += r.open.size();
+        if (r.tiles.empty())
+            context_.warn("W-TILE-NOTHING",
+                          fmt::format("tile: part '{}' has no faces and gives no tile", part.name));
+        const auto cuts = std::make_shared<const CutMemory>(std::move(r.memory));
+        for (Tile& t : r.tiles) {
+            Part& piece = parts.emplace_back(part);
+            piece.name = name_of(part, t, settings_.axes);
+            piece.mesh = std::move(t.mesh);
+            piece.cuts = cuts;
+            auto& entry = report.tiles.emplace_back();
+            entry.part = piece.name;
+            for (const TileAxis& a : settings_.axes) entry.cell[a.axis] = t.cell[a.axis];
+            entry.faces = piece.mesh.face_count();
+        }
+    }
+
+    Context& context_;
+    TileSettings settings_;
+};
+
+/// The scene with each part selected replaced by its tiles, named after part and cell ("body.x0.y-1").
+/// settings: the same for all; transform, memory and the caps' primitive are set part by part. Warns of open
+/// contours (W-CAP-OPEN) and of parts without faces (W-TILE-NOTHING).
+Scene tile_parts(Scene scene, const TileSettings& settings, const std::string& cap_material, Context& context,
+                 TileReport& report) {
+    return TileRun(settings, context).run(std::move(scene), cap_material, report);
 }
 
 Scene run(Scene scene, const TileOptions& o, Context& context, TileReport& report) {
