@@ -170,11 +170,18 @@ void check_split_targets(const SplitSettings& s) {
         refuse("max_edge", "bisect, midpoint, quads, loop, butterfly or catmull-clark");
     if (s.min_angle > 0 && s.method != SplitMethod::bisect && s.method != SplitMethod::notch)
         refuse("min_angle", "bisect or notch");
-    if (s.cut == SplitSettings::Cut::widest_angle && (s.max_edge > 0 || s.min_angle > 0 || s.max_faces > 0))
-        throw Error(ErrorKind::usage, "E-CONFLICT", "split: the cut at the widest angle reaches no target",
-                    "cut in the middle of the longest edge, or give passes and no target");
+    const char* target = s.max_edge > 0    ? "max_edge"
+                         : s.min_angle > 0 ? "min_angle"
+                         : s.max_faces > 0 ? "max_faces"
+                                           : nullptr;
+    if (s.cut == SplitSettings::Cut::widest_angle && target)
+        throw Error(ErrorKind::usage, "E-CONFLICT",
+                    fmt::format("split: 'cut: widest-angle' does not go with the target '{}', which its cuts "
+                                "may never reach",
+                                target),
+                    "leave out cut, or give passes and no target");
     if (s.min_angle > 0 && (s.max_edge > 0 || s.max_faces > 0))
-        throw Error(ErrorKind::usage, "E-CONFLICT", "split: min_angle goes with no other target",
+        throw Error(ErrorKind::usage, "E-CONFLICT", "split: 'min_angle' goes with no other target",
                     "use two split stages");
 }
 

@@ -93,32 +93,24 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
     if (o.cut != Cut::longest_edge && method != SplitMethod::bisect)
         problems.add(mark_at(given, "cut"), "E-CONFLICT",
                      fmt::format("split: 'cut' goes with the method bisect, not with {}", to_string(method)));
-    if (o.cut != Cut::longest_edge && o.has_target())
-        problems.add(
-            mark_at(given, "cut"), "E-CONFLICT",
-            fmt::format("split: 'cut: widest-angle' does not go with the target '{}', which its cuts "
-                        "may never reach",
-                        o.max_edge    ? "max_edge"
-                        : o.min_angle ? "min_angle"
-                                      : "max_faces"),
-            "leave out cut, or give passes and no target");
     if (o.feature_angle && (!is_smooth(method) || method == SplitMethod::sqrt3))
         problems.add(
             mark_at(given, "feature_angle"), "E-CONFLICT",
             fmt::format("split: 'feature_angle' goes with loop, butterfly and catmull-clark, not with {}",
                         to_string(method)));
-    if (o.min_angle && (o.max_edge || o.max_faces))
-        problems.add(mark_at(given, "min_angle"), "E-CONFLICT",
-                     "split: 'min_angle' goes with no other target", "use two split stages");
     try {
         SplitSettings s;
         s.method = method;
+        // Whether there is a target, not which: its length is known in the scene only.
+        s.cut = o.cut;
         s.max_edge = o.max_edge ? 1 : 0;
-        s.min_angle = o.min_angle && !o.max_edge && !o.max_faces ? 1 : 0;
+        s.min_angle = o.min_angle ? 1 : 0;
+        s.max_faces = o.max_faces ? 1 : 0;
         check_split_targets(s);
     } catch (const Error& e) {
         const auto& d = e.diagnostics().front();
-        problems.add(mark_at(given, o.max_edge ? "max_edge" : "min_angle"), d.id, d.message, d.hint);
+        const char* at = o.cut != Cut::longest_edge ? "cut" : o.min_angle ? "min_angle" : "max_edge";
+        problems.add(mark_at(given, at), d.id, d.message, d.hint);
     }
 }
 

@@ -224,10 +224,10 @@ TEST_CASE("cuts at the widest angle take no target", "[geometry]") {
     s.cut = SplitSettings::Cut::widest_angle;
     s.max_edge = 0.5;
     const Mesh needle = faces({{0, 0, 0}, {10, 0, 0}, {0.2, 0.1, 0}}, {{0, 1, 2}});
-    CHECK(
-        test::failure([&] { split(needle, s); }) ==
-        "usage [E-CONFLICT] split: the cut at the widest angle reaches no target | cut in the middle of the "
-        "longest edge, or give passes and no target");
+    CHECK(test::failure([&] { split(needle, s); }) ==
+          "usage [E-CONFLICT] split: 'cut: widest-angle' does not go with the target 'max_edge', which its "
+          "cuts may "
+          "never reach | leave out cut, or give passes and no target");
     s.cut = SplitSettings::Cut::longest_edge;
     s.passes = 100;
     const SplitResult r = split(needle, s);
