@@ -2,14 +2,14 @@
 # deps.sh [--list] [--all] [--bench]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
-# shells, a second Draco reader, and node for the glTF validator; --bench adds what the benchmarks use.
+# shells, a second Draco reader, node for the glTF validator, and clang for the style; --bench adds what the benchmarks use.
 set -eu
 
 build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
     libcli11-dev libfmt-dev libgmp-dev libtbb-dev libeigen3-dev libopenmesh-dev libssl-dev zlib1g-dev"
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
-optional="ccache zsh fish draco nodejs npm mandoc"
+optional="ccache zsh fish draco nodejs npm mandoc clang clang-format"
 
 list=no wanted="$build $test"
 for argument in "$@"; do

@@ -173,7 +173,9 @@ std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings,
             drop(a, fmt::format("glTF has no elements of {} numbers", a.components));
             continue;
         }
-        const auto taken = [&](const Column& c) { return c.semantic == semantic && c.target == target; };
+        const auto taken = [&semantic = semantic, target = target](const Column& c) {
+            return c.semantic == semantic && c.target == target;
+        };
         if (std::any_of(columns.begin(), columns.end(), taken)) {
             drop(a, "another attribute has its name already");
             continue;

@@ -54,7 +54,7 @@ Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits
     if (profile == Profile::none && (!given.all.empty() || limits.any())) return given;
     for (const auto& [name, bound] : rows_of(profile)) {
         const bool known = std::any_of(given.all.begin(), given.all.end(),
-                                       [&](const Assertion& a) { return a.property == name; });
+                                       [&name = name](const Assertion& a) { return a.property == name; });
         // Attributes that a web mesh may lack are judged only when they are there.
         if (!known) given.all.push_back({name, bound, where, profile == Profile::web});
     }

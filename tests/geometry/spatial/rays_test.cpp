@@ -183,7 +183,7 @@ TEST_CASE("points in line with edges and corners of a cube are told exactly", "[
     for (int x = -1; x <= 5; ++x)
         for (int y = -1; y <= 5; ++y)
             for (int z = -1; z <= 5; ++z) {
-                const Vec3 p = Vec3(x * 1.0, y * 1.0, z * 1.0) * 0.25;
+                const Vec3 p = Vec3{x * 1.0, y * 1.0, z * 1.0} * 0.25;
                 const int low = std::min({x, y, z}), high = std::max({x, y, z});
                 const bool out = low < 0 || high > 4, in = low > 0 && high < 4;
                 const auto a = probe_points(tree, std::vector<Vec3>{p})[0];
