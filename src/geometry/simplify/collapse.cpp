@@ -11,9 +11,6 @@ namespace facetmill::simplification {
 namespace {
 
 constexpr double least_cosine = 0.5; // no face turns by more than 60 degrees
-// A face whose height is below this share of its longest edge counts as flat: far above what rounding can do,
-// far below what anyone wants.
-constexpr double least_height = 1e-5;
 constexpr std::uint8_t outside = 64; // the territory: no reason that is kept
 
 /// The live faces at a vertex; false when there are too many.
@@ -327,12 +324,40 @@ class Collapse {
             if (k.has(other)) continue;
             const Vec3 &x = s_.at[k.next], &y = s_.at[k.before], along = y - x;
             const Vec3 old = cross(x - from, along), now = cross(x - to, along);
-            const double was = dot(old, old), is = dot(now, now), turn = dot(old, now);
-            if (!(was > 0)) continue; // degenerate before: nothing to keep
-            if (!(turn > 0 && turn * turn >= least_cosine * least_cosine * was * is)) return false;
-            const double longest = std::max({dot(x - to, x - to), dot(y - to, y - to), dot(along, along)});
-            const double least = least_height * longest;
-            if (is < least * least && is < was) return false;
+            const double was = dot(old, old), is = dot(now, now);
+            const double least = least_area(x, y, to);
+            const bool flat = is < least * least;
+            if (is <= 4 * was && is_near(old, now) && !(flat && is < was)) continue;
+            if (!(was >= 0)) continue; // not finite
+            const double before = least_area(x, y, from);
+            if (was < before * before ? !flat && !faces_as_across(k, now)
+                                      : !is_near(old, now) || (flat && is < was))
+                return false;
+        }
+        return true;
+    }
+
+    /// Twice the area below which a triangle counts as flat.
+    static double least_area(const Vec3& x, const Vec3& y, const Vec3& z) {
+        return least_height * std::max({dot(x - z, x - z), dot(y - z, y - z), dot(y - x, y - x)});
+    }
+
+    /// Whether two normals are near enough.
+    static bool is_near(const Vec3& old, const Vec3& now) {
+        const double turn = dot(old, now);
+        return turn > 0 && turn * turn >= least_cosine * least_cosine * dot(old, old) * dot(now, now);
+    }
+
+    /// A face that was flat has no side to keep: when it gets an area, it is to face as its neighbour across
+    /// the edge that does not move, if that one has a side.
+    bool faces_as_across(const Spoke& k, const Vec3& now) const {
+        for (Index c = s_.first[k.before]; c != none; c = s_.next[c]) {
+            if (!s_.live(c / 3) || s_.tri[after(c)] != k.next) continue;
+            const Vec3 &x = s_.at[k.before], &y = s_.at[k.next],
+                       &z = s_.at[s_.tri[simplification::before(c)]];
+            const Vec3 across = cross(y - x, z - x);
+            const double least = least_area(x, y, z);
+            return dot(across, across) < least * least || is_near(across, now);
         }
         return true;
     }
@@ -406,7 +431,8 @@ Attempt collapse(State& s, Index c, Around& around, Pricer& pricer, Tally& tally
     s.at[a] = p.at;
     s.moved[a] |= !stays;
     s.touched[a] = s.touched[b] = s.pass;
-    if (s.quadrics) (*s.quadrics)[a] = p.joined;
+    if (s.quadrics) (*s.quadrics)[a] = rounded<float>(p.joined);
+    if (s.fine) (*s.fine)[a] = rounded<double>(p.joined);
     if (s.attributes && !s.has_seams()) join(*s.attributes, a, b);
     tally.largest = std::max(tally.largest, p.error);
     edit.price(pricer);

@@ -9,71 +9,27 @@ namespace facetmill::simplification {
 
 namespace {
 
-// Weights of the planes that stand on feature edges, per squared length of the edge, relative to faces per
-// area.
-constexpr double boundary_weight = 10, feature_weight = 1;
 // How strongly the new vertex is drawn to the middle of the edge, relative to the quadric's weight: decides
 // only where the planes leave the vertex free, as in flat and straight regions. Above what rounding leaves of
-// the quadrics; the cost is worked out in single precision too, the place is not.
-constexpr double pull = 2e-7;
+// the quadrics; the cost is worked out in single precision too, the place is not. Of fine quadrics: planes
+// that float32 coordinates turn by some 1e-5 radians are one.
+constexpr double pull = 2e-7, fine_pull = 1e-10;
 constexpr float pull_of_cost = 1e-6f;
-// Short edges go first where errors are equal: as if each vertex were displaced by a thousandth of the edge.
-constexpr float shortness = 1e-6f;
+// Short edges go first where errors are equal: as if each vertex were displaced by a thousandth of the edge,
+// or, with fine quadrics, by 1e-5 of it: what is left of a plane in float32 coordinates.
+constexpr float shortness = 1e-6f, fine_shortness = 1e-10f;
 // A best place farther off the edge's middle than so many times half its length (squared) is not trusted.
 constexpr float most_off = 16;
 // The order is that of the sum of squared distances over the area^(3/4): between the sum, which lets small
 // parts go far off, and the mean, which spends faces on them. Over scans the maximum is a third below the
 // sum's, and the root mean square a few percent above.
 
-/// A of the quadric of a face, weighed by its area, at its corners.
-struct FaceQuadric {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-};
-
-FaceQuadric quadric_of(const State& s, Index f) {
-    const Vec3& p = s.at[s.tri[3 * f]];
-    const Vec3 n = cross(s.at[s.tri[3 * f + 1]] - p, s.at[s.tri[3 * f + 2]] - p); // twice the area long
-    const double twice = length(n);
-    if (!(twice > 0)) return {};
-    const Vec3 w = n * (0.5 / twice);
-    const auto f32 = [](double x) { return static_cast<float>(x); };
-    return {f32(w.x * n.x), f32(w.x * n.y), f32(w.x * n.z), f32(w.y * n.y), f32(w.y * n.z), f32(w.z * n.z)};
-}
-
-/// Adds the plane through the edge of corner c, which is at the vertex, upright on its face.
-void add_upright(Quadric& q, const State& s, Index c) {
-    if (!(s.flags[c] & feature_edge)) return;
-    const Vec3& from = s.at[s.tri[c]];
-    const Vec3 along = s.at[s.tri[after(c)]] - from;
-    const Vec3 side = normalised(cross(along, cross(along, s.at[s.tri[before(c)]] - from)));
-    const double weight = (s.flags[c] & boundary_edge ? boundary_weight : feature_weight) * dot(along, along);
-    const Vec3 w = side * weight;
-    q += {w.x * side.x, w.x * side.y, w.x * side.z, w.y * side.y, w.y * side.z, w.z * side.z, {}, 0, 0};
-}
-
-/// Of the planes through the vertex v, as seen from it.
-Quadric quadric_at(const State& s, Index v, const std::vector<FaceQuadric>& faces) {
-    Quadric q;
-    for (Index c = s.first[v]; c != none; c = s.next[c]) {
-        const FaceQuadric& f = faces[c / 3];
-        q.xx += f.xx;
-        q.xy += f.xy;
-        q.xz += f.xz;
-        q.yy += f.yy;
-        q.yz += f.yz;
-        q.zz += f.zz;
-        if (!s.has_features) continue;
-        add_upright(q, s, c);
-        add_upright(q, s, before(c));
-    }
-    return q;
-}
-
 /// Chooses where two ends that are both free to move should meet, as seen from the middle; half: from there
 /// to the second end.
-Vec3 choose_place(Placement& p, const Quadric& q, const Vec3& half, bool endpoints) {
+Vec3 choose_place(Placement& p, const Quadric& q, const Vec3& half, const State& s) {
+    const bool endpoints = s.rules.endpoints;
     if (!endpoints) {
-        const Vec3 best = q.weight > 0 ? q.least({}, pull * q.weight) : Vec3{};
+        const Vec3 best = q.weight > 0 ? q.least({}, (s.fine ? fine_pull : pull) * q.weight) : Vec3{};
         // Far off the edge the system was near singular: its ends and middle are safer.
         if (dot(best, best) <= most_off * dot(half, half)) return best;
     }
@@ -121,7 +77,8 @@ struct Meeting {
     Meeting(const State& s, Index corner, std::uint8_t flags)
         : u(s.tri[corner]), v(s.tri[after(corner)]), half((s.at[v] - s.at[u]) * 0.5) {
         if (!s.quadrics) return;
-        shape = seen_from((*s.quadrics)[u], half) + seen_from((*s.quadrics)[v], -half);
+        shape = s.fine ? seen_from((*s.fine)[u], half) + seen_from((*s.fine)[v], -half)
+                       : seen_from((*s.quadrics)[u], half) + seen_from((*s.quadrics)[v], -half);
         all = shape;
         if (s.attributes) add_attributes(all, s, corner, flags & feature_edge, s.at[u] + half);
     }
@@ -133,7 +90,7 @@ struct Meeting {
         p.keep_second = kv > ku;
         if (p.keep_first) return -half;
         if (p.keep_second) return half;
-        return s.quadrics ? choose_place(p, all, half, s.rules.endpoints) : Vec3{};
+        return s.quadrics ? choose_place(p, all, half, s) : Vec3{};
     }
 };
 
@@ -236,8 +193,8 @@ Four root(Four x) {
 
 Four larger(Four x, Four y) { return x > y ? x : y; }
 
-/// The costs of four edges.
-Four costs_of(const State& s, const PricedEdge* e) {
+/// The costs of four edges; and which of them are below what single precision can tell.
+Four costs_of(const State& s, const PricedEdge* e, Mask& unsure) {
     Vec3s half;
     Mask held;
     for (int i = 0; i < 4; ++i) {
@@ -259,19 +216,12 @@ Four costs_of(const State& s, const PricedEdge* e) {
         value = dot(best, best) <= quarter * most_off ? q(best) : (q.c < at_end ? q.c : at_end);
     }
     value = held == 1 ? at_first : held == 2 ? at_second : value;
-    return (larger(value, Four{}) + quarter * (4 * shortness)) * root(root(weight));
+    unsure = value < quarter * static_cast<float>(4 * doubtful);
+    return (larger(value, Four{}) + quarter * (4 * (s.fine ? fine_shortness : shortness))) *
+           root(root(weight));
 }
 
 } // namespace
-
-std::vector<NearQuadric> vertex_quadrics(const State& s) {
-    std::vector<FaceQuadric> faces(s.face_slots());
-    parallel_for(faces.size(), [&](std::size_t f) { faces[f] = quadric_of(s, static_cast<Index>(f)); });
-    std::vector<NearQuadric> quadrics(s.vertex_slots());
-    parallel_for(s.vertex_slots(),
-                 [&](std::size_t v) { quadrics[v] = rounded(quadric_at(s, static_cast<Index>(v), faces)); });
-    return quadrics;
-}
 
 Placement place(const State& s, Index corner, std::uint8_t flags) {
     const Meeting edge(s, corner, flags);
@@ -279,7 +229,7 @@ Placement place(const State& s, Index corner, std::uint8_t flags) {
     const Vec3 to = edge.choose(s, p);
     if (s.quadrics) {
         p.error = edge.shape.weight > 0 ? edge.shape(to) / edge.shape.weight : 0;
-        p.joined = rounded(seen_from(edge.shape, to));
+        p.joined = seen_from(edge.shape, to);
     } else {
         p.error = dot(edge.half, edge.half);
     }
@@ -294,14 +244,20 @@ float cost_of(const State& s, Index corner, std::uint8_t flags) {
     Placement p;
     const double value = edge.all(edge.choose(s, p)), weight = edge.shape.weight;
     const double root = std::sqrt(weight), share = root * std::sqrt(root);
-    return static_cast<float>(share > 0 ? (value + shortness * weight * squared) / share : value);
+    return static_cast<float>(
+        share > 0 ? (value + (s.fine ? fine_shortness : shortness) * weight * squared) / share : value);
 }
 
 void Pricer::finish() {
     if (count_ == 0) return;
     for (std::size_t i = count_; i < 4; ++i) waiting_[i] = waiting_[0];
-    const Four cost = costs_of(s_, waiting_.data());
-    for (std::size_t i = 0; i < count_; ++i) set(waiting_[i].corner, cost[static_cast<int>(i)]);
+    Mask unsure;
+    const Four cost = costs_of(s_, waiting_.data(), unsure);
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Index corner = waiting_[i].corner;
+        const auto at = static_cast<int>(i);
+        set(corner, s_.fine && unsure[at] ? cost_of(s_, corner, s_.flags[corner]) : cost[at]);
+    }
     count_ = 0;
 }
 

@@ -6,8 +6,18 @@
 
 namespace facetmill::simplification {
 
-/// Of every vertex, from the faces' planes and from the planes that hold feature edges.
+/// A face whose height is below this share of its longest edge counts as flat: far above what rounding can
+/// do, far below what anyone wants.
+inline constexpr double least_height = 1e-5;
+
+/// Squared errors below this share of an edge's squared length are too small for single precision, by a
+/// factor of ten or more.
+inline constexpr double doubtful = 4e-6;
+
+/// Of every vertex, from the faces' planes and from the planes that hold feature edges and sharp folds.
 std::vector<NearQuadric> vertex_quadrics(const State& s);
+/// The quadrics and, where much of the surface is flat or nearly so, the fine ones.
+void set_quadrics(State& s);
 
 /// Whether an edge between vertices of these kinds may be collapsed.
 inline bool may_go(Kind u, Kind v, std::uint8_t flags) {
@@ -21,7 +31,7 @@ struct Placement {
     Vec3 at;
     double error = 0; ///< squared distance, as far as the quadric or the edge's length tells
     bool keep_first = false, keep_second = false; ///< the new vertex is this end as it is
-    NearQuadric joined{};                         ///< of the planes of both ends, about `at`
+    Quadric joined{};                             ///< of the planes of both ends, about `at`
 };
 /// Where the ends of the edge of a corner should meet. flags: the corner's.
 Placement place(const State& s, Index corner, std::uint8_t flags);

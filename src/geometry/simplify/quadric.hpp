@@ -54,13 +54,17 @@ struct Quadric {
 inline Quadric operator+(Quadric a, const Quadric& b) { return a += b; }
 
 /// The quadric of a vertex, kept about the place where the vertex is: Q(y) = y.A y - 2 b.y + c for points at
-/// y from the vertex; the weight is A's trace, since all planes have unit normals. Single precision is
-/// enough: near the vertex nothing cancels, and what rounding leaves is below what tells edges of equal error
-/// apart
-/// (`shortness` times the squared length). A sum of planes through the vertex has b = 0 and c = 0.
-struct NearQuadric {
-    float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, bx = 0, by = 0, bz = 0, c = 0;
+/// y from the vertex; the weight is A's trace, since all planes have unit normals. A sum of planes through
+/// the vertex has b = 0 and c = 0.
+template <class Real>
+struct QuadricAbout {
+    Real xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0, bx = 0, by = 0, bz = 0, c = 0;
 };
+/// In single precision: near the vertex nothing cancels, and errors are right down to about 1e-7 of the
+/// squared length of an edge, which is enough for surfaces that are curved everywhere.
+using NearQuadric = QuadricAbout<float>;
+/// For surfaces with flat and nearly flat parts, where the smallest errors decide what goes first.
+using FineQuadric = QuadricAbout<double>;
 
 /// q as seen from a place at h from its own: q'(y) = q(y + h).
 inline Quadric seen_from(const Quadric& q, const Vec3& h) {
@@ -70,14 +74,16 @@ inline Quadric seen_from(const Quadric& q, const Vec3& h) {
     moved.c = q.c + dot(h, ah - q.b * 2);
     return moved;
 }
-inline Quadric seen_from(const NearQuadric& q, const Vec3& h) {
+template <class Real>
+Quadric seen_from(const QuadricAbout<Real>& q, const Vec3& h) {
     const double xx = q.xx, yy = q.yy, zz = q.zz;
     return seen_from(Quadric{xx, q.xy, q.xz, yy, q.yz, zz, {q.bx, q.by, q.bz}, q.c, xx + yy + zz}, h);
 }
 
-/// In single precision; the value at the place itself is not negative.
-inline NearQuadric rounded(const Quadric& q) {
-    const auto f = [](double x) { return static_cast<float>(x); };
+/// Rounded to the numbers that are kept; the value at the place itself is not negative.
+template <class Real>
+QuadricAbout<Real> rounded(const Quadric& q) {
+    const auto f = [](double x) { return static_cast<Real>(x); };
     return {f(q.xx), f(q.xy),  f(q.xz),  f(q.yy),  f(q.yz),
             f(q.zz), f(q.b.x), f(q.b.y), f(q.b.z), f(std::max(0.0, q.c))};
 }

@@ -155,7 +155,7 @@ class Subject {
         State s = laid_out();
         if (borders_) s.side_of_wedge = &borders_->sides();
         if (settings_.method == Method::quadric || settings_.method == Method::quadric_endpoints) {
-            s.quadrics = vertex_quadrics(s);
+            set_quadrics(s);
             s.attributes = attribute_error(s, mesh(), settings_.weights,
                                            seams_.shading != NormalSeams::Shading::faceted);
         }

@@ -170,6 +170,7 @@ void compact(State& s) {
     keep(s.touched, vertices);
     keep(s.dirty, vertices);
     if (s.quadrics) keep(*s.quadrics, vertices);
+    if (s.fine) keep(*s.fine, vertices);
     if (s.limits) keep(*s.limits, vertices);
     build_lists(s);
 }

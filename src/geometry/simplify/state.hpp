@@ -119,6 +119,7 @@ struct State : Shape {
     std::uint32_t pass = 1; ///< the last one, in touched and dirty
 
     std::optional<std::vector<NearQuadric>> quadrics; ///< [vertices] none: edges cost their length
+    std::optional<std::vector<FineQuadric>> fine;     ///< [vertices] the same; where much is nearly flat
     std::optional<AttributeError> attributes;         ///< none: they weigh nothing
     std::optional<std::vector<float>> limits; ///< [vertices] squared error that a collapse there stays below
     std::optional<FollowedPoints> followed;   ///< with max_error

@@ -10,7 +10,8 @@ inline constexpr const char* details =
     R"(Edges are collapsed, the cheapest first, until a target is met. With several targets the first one
 met ends the work; the report names it and gives the ratio achieved and what keeps the remaining
 edges from collapsing. Polygons are triangulated first. The method quadric measures the
-area-weighted squared distance to the planes of all faces that a vertex represents; shortest-edge
+area-weighted squared distance to the planes of all faces that a vertex represents; edges where two
+faces turn back on each other by more than 90 degrees are held as boundaries are. shortest-edge
 always collapses the shortest edge. Collapses run in passes with a common cost threshold, so they
 follow the order of cost except at vertices that the same pass has already changed.
 

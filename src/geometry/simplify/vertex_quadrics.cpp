@@ -1,0 +1,173 @@
+// The quadrics that vertices start with: of the planes of their faces, and of planes upright on them that
+// hold what the faces do not, boundaries, features and sharp folds.
+
+#include "base/parallel.hpp"
+#include "geometry/simplify/cost.hpp"
+
+namespace facetmill::simplification {
+
+namespace {
+
+// Weights of the upright planes, per squared length of the edge, relative to faces per area.
+constexpr double boundary_weight = 10, feature_weight = 1;
+// Edges of a sample of about so many faces tell whether fine quadrics are worth their time.
+constexpr std::size_t flat_sample = 1 << 12;
+constexpr double flat_share = 1.0 / 16; // of those edges
+// Squared errors below this share of an edge's squared length are lost in the rounding of single precision.
+constexpr double invisible = 1e-7;
+
+/// The normal of a face, as long as the root of its area; 0 for a flat one, whose normal says nothing.
+Vec3 root_normal(const State& s, Index f) {
+    const Vec3 &p = s.at[s.tri[3 * f]], &q = s.at[s.tri[3 * f + 1]], &r = s.at[s.tri[3 * f + 2]];
+    const Vec3 n = cross(q - p, r - p); // twice the area long
+    const double twice = length(n);
+    const double longest = std::max({dot(q - p, q - p), dot(r - q, r - q), dot(p - r, p - r)});
+    return twice > least_height * longest ? n / std::sqrt(2 * twice) : Vec3{};
+}
+
+/// Adds the plane of a face.
+void add_plane(Quadric& q, const Vec3& w) {
+    q.xx += w.x * w.x;
+    q.xy += w.x * w.y;
+    q.xz += w.x * w.z;
+    q.yy += w.y * w.y;
+    q.yz += w.y * w.z;
+    q.zz += w.z * w.z;
+}
+
+/// Adds the plane through the edge of corner c, which is at the vertex, upright on its face. weight: per
+/// squared length of the edge.
+void add_upright(Quadric& q, const State& s, Index c, double weight) {
+    const Vec3& from = s.at[s.tri[c]];
+    const Vec3 along = s.at[s.tri[after(c)]] - from;
+    const Vec3 side = normalised(cross(along, cross(along, s.at[s.tri[before(c)]] - from)));
+    add_plane(q, side * std::sqrt(weight * dot(along, along)));
+}
+
+void add_feature(Quadric& q, const State& s, Index c) {
+    if (s.flags[c] & feature_edge)
+        add_upright(q, s, c, s.flags[c] & boundary_edge ? boundary_weight : feature_weight);
+}
+
+/// Whether a face may be turned against another by more than 90 degrees: none is when all are within 45
+/// degrees of one direction.
+bool may_fold(const Vec3& w, const Vec3& mean) {
+    const double along = dot(w, mean), size = dot(w, w);
+    return size > 0 && !(along > 0 && 2 * along * along >= size * dot(mean, mean));
+}
+
+/// A face at a vertex: it runs from the neighbour `in` through the vertex to the neighbour `out`.
+struct FoldSpoke {
+    Index in, out, corner;
+};
+
+/// The face that follows at the edge to `out`, those without area passed over; none at a boundary.
+const FoldSpoke* next_with_area(const std::vector<FoldSpoke>& spokes, Index out,
+                                const std::vector<Vec3>& normals) {
+    for (std::size_t steps = 0; steps < spokes.size(); ++steps) {
+        const auto at = std::lower_bound(spokes.begin(), spokes.end(), out,
+                                         [](const FoldSpoke& k, Index in) { return k.in < in; });
+        if (at == spokes.end() || at->in != out) return nullptr;
+        const Vec3& w = normals[at->corner / 3];
+        if (dot(w, w) > 0) return &*at;
+        out = at->out;
+    }
+    return nullptr;
+}
+
+/// Where neighbouring faces at v turn back on each other, their planes hold the fold hardly (at a full turn
+/// not at all), though the surface ends there. It is held as the boundary of a sheet then, by as much as the
+/// planes leave free: the cosine of the angle between the faces.
+void add_folds(Quadric& q, const State& s, Index v, const std::vector<Vec3>& normals) {
+    std::vector<FoldSpoke> spokes;
+    for (Index c = s.first[v]; c != none; c = s.next[c])
+        spokes.push_back({s.tri[before(c)], s.tri[after(c)], c});
+    std::sort(spokes.begin(), spokes.end(), [](const FoldSpoke& a, const FoldSpoke& b) {
+        return a.in != b.in ? a.in < b.in : a.corner < b.corner;
+    });
+    for (const FoldSpoke& k : spokes) {
+        const Vec3& w = normals[k.corner / 3];
+        const double size = dot(w, w);
+        if (!(size > 0)) continue;
+        const FoldSpoke* then = next_with_area(spokes, k.out, normals);
+        if (!then) continue;
+        const Vec3& other = normals[then->corner / 3];
+        const double turn = dot(w, other);
+        if (turn >= 0) continue;
+        const double weight = boundary_weight / 2 * -turn / std::sqrt(size * dot(other, other));
+        add_upright(q, s, k.corner, weight);
+        add_upright(q, s, before(then->corner), weight);
+    }
+}
+
+/// Of the planes through the vertex v, as seen from it.
+Quadric quadric_at(const State& s, Index v, const std::vector<Vec3>& normals) {
+    std::array<Vec3, 12> few; // nearly all vertices have no more faces
+    std::size_t size = 0;
+    Quadric q;
+    Vec3 mean;
+    for (Index c = s.first[v]; c != none; c = s.next[c]) {
+        const Vec3& w = normals[c / 3];
+        if (size < few.size()) few[size] = w;
+        ++size;
+        add_plane(q, w);
+        mean += w;
+        if (!s.has_features) continue;
+        add_feature(q, s, c);
+        add_feature(q, s, before(c));
+    }
+    bool folds = size > few.size();
+    for (std::size_t i = 0; i < size && !folds; ++i) folds = may_fold(few[i], mean);
+    if (folds) add_folds(q, s, v, normals);
+    return q;
+}
+
+template <class Real>
+std::vector<QuadricAbout<Real>> all_quadrics(const State& s) {
+    std::vector<Vec3> normals(s.face_slots());
+    parallel_for(normals.size(), [&](std::size_t f) { normals[f] = root_normal(s, static_cast<Index>(f)); });
+    std::vector<QuadricAbout<Real>> quadrics(s.vertex_slots());
+    parallel_for(quadrics.size(), [&](std::size_t v) {
+        quadrics[v] = rounded<Real>(quadric_at(s, static_cast<Index>(v), normals));
+    });
+    return quadrics;
+}
+
+/// Whether single precision cannot tell the errors of a good part of the edges.
+bool is_mostly_flat(const State& s) {
+    struct Count {
+        std::size_t flat = 0, all = 0;
+    };
+    const std::size_t stride = s.face_slots() / flat_sample + 1;
+    const auto look = [&](Index c, Count& count) {
+        if (!may_go(s.kind[s.tri[c]], s.kind[s.tri[after(c)]], s.flags[c])) return;
+        const Vec3 along = s.at[s.tri[after(c)]] - s.at[s.tri[c]];
+        ++count.all;
+        count.flat += place(s, c, s.flags[c]).error < invisible * dot(along, along);
+    };
+    const Count found = parallel_reduce(
+        s.face_slots() / stride, Count{},
+        [&](std::size_t begin, std::size_t end) {
+            Count count;
+            for (std::size_t i = begin; i < end; ++i)
+                for (Index k = 0; k < 3; ++k) look(static_cast<Index>(3 * i * stride) + k, count);
+            return count;
+        },
+        [](Count a, const Count& b) {
+            a.flat += b.flat;
+            a.all += b.all;
+            return a;
+        });
+    return static_cast<double>(found.flat) > flat_share * static_cast<double>(found.all);
+}
+
+} // namespace
+
+std::vector<NearQuadric> vertex_quadrics(const State& s) { return all_quadrics<float>(s); }
+
+void set_quadrics(State& s) {
+    s.quadrics = vertex_quadrics(s);
+    if (is_mostly_flat(s)) s.fine = all_quadrics<double>(s);
+}
+
+} // namespace facetmill::simplification
