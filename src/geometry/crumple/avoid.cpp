@@ -5,6 +5,7 @@
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/intersect/self_intersections.hpp"
+#include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -45,6 +46,10 @@ CrumplePlaces::CrumplePlaces(std::span<const CrumpleSheet> sheets) {
 
 constexpr std::uint8_t last_level = 9; ///< no move at all
 constexpr int patient_rounds = 8;      ///< after these, the places around are lowered too
+constexpr int widening_rounds = 16;    ///< after these, twice as far around in every round
+// Of the longest edge of a face: where moves draw two of its corners apart by more, it is nearly sure to meet
+// others, so many that looking for them all would take most of the time.
+constexpr double most_stretch = 8;
 
 double share_of(std::uint8_t level) { return level == last_level ? 0 : 1.0 / (1 << level); }
 
@@ -102,6 +107,27 @@ class TestSheet {
         return pairs;
     }
 
+    /// [faces] 1 for those that the moves, by the shares at the levels, draw out too far.
+    std::vector<std::uint8_t> overstretched(const std::vector<std::uint8_t>& levels) const {
+        std::vector<std::uint8_t> faces(mesh_.face_count());
+        const auto moved = [&](Index v) { return sheet_.moves.moves[v] * share_of(levels[places_[v]]); };
+        parallel_for(faces.size(), [&](std::size_t i) {
+            const auto f = static_cast<Index>(i);
+            double longest = 0, farthest = 0; // squared
+            for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c) {
+                const Index u = mesh_.corners[c], v = mesh_.corners[next_corner(mesh_, f, c)];
+                const Vec3 edge = before_[v] - before_[u], apart = moved(v) - moved(u);
+                longest = std::max(longest, dot(edge, edge));
+                farthest = std::max(farthest, dot(apart, apart));
+            }
+            faces[f] = farthest > most_stretch * most_stretch * longest;
+        });
+        return faces;
+    }
+
+    /// Looks at these faces only; the others count as not touched.
+    void touch_only(std::vector<std::uint8_t> faces) { touched_ = std::move(faces); }
+
     /// [faces] Those of all new pairs among faces that were touched.
     std::vector<std::uint8_t> in_trouble() const {
         auto faces = self_intersecting_faces(mesh_, touched_, exempt_);
@@ -111,20 +137,18 @@ class TestSheet {
         return faces;
     }
 
-    /// Marks the places of the faces; with around, of all faces that touch these. Whether there are any.
-    bool mark(const std::vector<std::uint8_t>& faces, bool around, std::vector<std::uint8_t>& marked) const {
+    /// Marks the places of the faces, and of all that so many rings of faces around them touch. Whether there
+    /// are any.
+    bool mark(const std::vector<std::uint8_t>& faces, std::size_t rings,
+              std::vector<std::uint8_t>& marked) const {
+        if (std::find(faces.begin(), faces.end(), 1) == faces.end()) return false;
         std::vector<std::uint8_t> mine(mesh_.positions.size());
         const auto mark_face = [&](Index f) {
             for (const Index v : mesh_.face_wedges(f)) mine[v] = 1;
         };
-        bool any = false;
         for (Index f = 0; f < faces.size(); ++f)
-            if (faces[f]) {
-                mark_face(f);
-                any = true;
-            }
-        if (!any) return false;
-        if (around) {
+            if (faces[f]) mark_face(f);
+        for (std::size_t ring = 0; ring < rings; ++ring) {
             const std::vector<std::uint8_t> inner = mine;
             for (Index f = 0; f < mesh_.face_count(); ++f)
                 for (const Index v : mesh_.face_wedges(f))
@@ -132,6 +156,7 @@ class TestSheet {
                         mark_face(f);
                         break;
                     }
+            if (mine == inner) break;
         }
         for (std::size_t v = 0; v < mine.size(); ++v)
             if (mine[v]) marked[places_[v]] = 1;
@@ -202,16 +227,85 @@ bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& l
     return any;
 }
 
-/// What the full moves would make.
-void look(const std::vector<TestSheet>& tests, AvoidResult& result) {
-    for (std::size_t s = 0; s < tests.size(); ++s) {
+/// The rings of faces around those in trouble that are lowered with them.
+std::size_t rings_in(int round) {
+    if (round < patient_rounds) return 0;
+    return std::size_t{1} << std::clamp(round - widening_rounds, 0, 32);
+}
+
+/// Finds new pairs that the full moves would make: all, or where some faces are overstretched, those of a few
+/// such faces, if there are any.
+void look(std::vector<TestSheet>& tests, const std::vector<std::uint8_t>& levels, AvoidResult& result) {
+    constexpr std::size_t few = 64;
+    const auto look_at = [&](std::size_t s) {
         const auto pairs = tests[s].new_pairs();
         if (result.found == 0 && !pairs.empty()) {
             result.first = pairs.front();
             result.first_sheet = s;
         }
         result.found += pairs.size();
+    };
+    for (std::size_t s = 0; s < tests.size(); ++s) {
+        std::vector<std::uint8_t> faces = tests[s].overstretched(levels);
+        std::size_t count = 0;
+        for (std::uint8_t& f : faces) f = f && ++count <= few;
+        if (count == 0) continue;
+        tests[s].touch_only(std::move(faces));
+        look_at(s);
+        result.at_least = result.found > 0;
+        if (result.at_least) return;
+        tests[s].touch_only(std::vector<std::uint8_t>(tests[s].mesh().face_count(), 1));
     }
+    for (std::size_t s = 0; s < tests.size(); ++s) look_at(s);
+}
+
+/// [sheets][faces]
+using FacesOfSheets = std::vector<std::vector<std::uint8_t>>;
+
+void add(const std::vector<std::uint8_t>& faces, std::vector<std::uint8_t>& to) {
+    to.resize(faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f) to[f] |= faces[f];
+}
+
+/// Lowers the places of overstretched faces until there are none, and adds those that there were to `found`.
+void slacken(const std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, FacesOfSheets& found) {
+    for (bool any = true; any;) {
+        std::vector<std::uint8_t> marked(levels.size());
+        any = false;
+        for (std::size_t s = 0; s < tests.size(); ++s) {
+            const auto faces = tests[s].overstretched(levels);
+            any |= tests[s].mark(faces, 0, marked);
+            add(faces, found[s]);
+        }
+        any = any && lower(marked, levels);
+    }
+}
+
+/// Lowers places until no new faces meet, and adds those of the first round to `found`. Returns the rounds.
+int separate(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, FacesOfSheets& found) {
+    for (int round = 0;; ++round) {
+        std::vector<std::uint8_t> marked(levels.size());
+        bool more = false;
+        for (std::size_t s = 0; s < tests.size(); ++s) {
+            const auto faces = tests[s].in_trouble();
+            if (round == 0) add(faces, found[s]);
+            more |= tests[s].mark(faces, rings_in(round), marked);
+        }
+        if (!more) return round;
+        if (!lower(marked, levels)) // where nothing moves, all pairs were there before
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
+        for (auto& test : tests) test.place(levels, marked);
+    }
+}
+
+/// Moves as far as faces do not come to meet.
+void avoid(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, AvoidResult& result) {
+    FacesOfSheets found(tests.size());
+    slacken(tests, levels, found);
+    for (TestSheet& test : tests) test.place(levels, {});
+    result.rounds = separate(tests, levels, found);
+    for (const auto& faces : found)
+        result.found += static_cast<std::size_t>(std::count(faces.begin(), faces.end(), 1));
 }
 
 } // namespace
@@ -247,20 +341,13 @@ AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look, std::size
     for (std::size_t s = 0; s < sheets.size(); ++s) {
         tests.emplace_back(sheets[s], places.of_vertex[s], most_pairs);
         result.exempt += tests.back().exempt();
-        tests.back().place(levels, {});
     }
-    look(tests, result);
-    result.left = only_look ? result.found : 0;
-    while (!only_look && result.found > 0) {
-        std::vector<std::uint8_t> marked(levels.size());
-        bool more = false;
-        for (const TestSheet& test : tests)
-            more |= test.mark(test.in_trouble(), result.rounds >= patient_rounds, marked);
-        if (!more) break;
-        ++result.rounds;
-        if (!lower(marked, levels)) // where nothing moves, all pairs were there before
-            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
-        for (auto& test : tests) test.place(levels, marked);
+    if (only_look) {
+        for (TestSheet& test : tests) test.place(levels, {});
+        look(tests, levels, result);
+        result.left = result.found;
+    } else {
+        avoid(tests, levels, result);
     }
     for (std::size_t s = 0; s < sheets.size(); ++s) {
         auto& positions = sheets[s].mesh->positions;

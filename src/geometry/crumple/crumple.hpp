@@ -102,9 +102,12 @@ void hold_together(std::span<CrumpleSheet> sheets);
 
 struct AvoidResult {
     std::size_t exempt = 0; ///< pairs of faces that met before
-    std::size_t found = 0;  ///< new pairs that the full moves would make (most_pairs at most), and faces that
-                            ///< lose their area
-    std::size_t left = 0;   ///< new pairs in the result: 0, but with `only_look`
+    /// With `only_look`, new pairs of faces that the full moves would make (most_pairs at most), and faces
+    /// that lose their area. Else the faces of such pairs, those without area and those that are stretched
+    /// too far.
+    std::size_t found = 0;
+    bool at_least = false;           ///< with `only_look`: there may be more than were found
+    std::size_t left = 0;            ///< new pairs in the result: 0, but with `only_look`
     std::pair<Index, Index> first{}; ///< of the pairs found, faces of sheet first_sheet
     std::size_t first_sheet = 0;
     int rounds = 0; ///< of lowering
@@ -115,14 +118,17 @@ struct AvoidResult {
 /// Moves the vertices of all sheets, as far as faces of a sheet do not come to meet: every place has a share
 /// 1, 1/2 ... 1/256, 0 of its move. In each round all new pairs of faces that meet (find_self_intersections,
 /// folded neighbours included) and all faces that have lost their area are found, and every place of them
-/// takes the next lower share, all at once, until there are none. After eight rounds the places around those
-/// are lowered too. Shares only fall and places without a move are where they were, so it ends. Pairs that
-/// met before the move are exempt. Sharing is by place: unwelded copies of a vertex are one.
+/// takes the next lower share, all at once, until there are none. Before the first round, places take lower
+/// shares until no two corners of a face are drawn apart by more than eight times its longest edge: it would
+/// meet a great many others. After eight rounds the places around those are lowered too, after sixteen twice
+/// as far around in each round, so that the rounds are at most some forty. Shares only fall and places
+/// without a move are where they were, so it ends. Pairs that met before the move are exempt. Sharing is by
+/// place: unwelded copies of a vertex are one.
 ///
 /// Positions are rounded to float32 in part space, before and after: what is decided, exactly, is what files
 /// hold. Polygons stand for their triangles as triangulated() cuts them. With only_look nothing is lowered.
-/// The same for any number of threads. Every round lowers a place at least, so there are at most nine for
-/// each place.
+/// The same for any number of threads. A round takes about as long as finding the self-intersections of the
+/// faces that it lowered.
 ///
 /// Only faces of one sheet are kept apart. Throws limit (E-LIMIT) when more than most_pairs pairs of a sheet
 /// meet before: they could not all be exempt.

@@ -20,11 +20,13 @@ a position shared by several parts has a normal in each of them, so the parts ma
 and frequency is relative to the scene, so files are crumpled alike only when their diagonals are
 equal.
 
-With self_intersections: avoid, each position has a share of its move: 1, 1/2 ... 1/256, or 0. In
-every round all pairs of faces that newly intersect, fold over or lose their area are found exactly,
-and their vertices take the next lower share, all at once, until there are no such pairs; after
-eight rounds the vertices around them do so as well. Pairs that intersected before are exempt. The
-report says how many pairs there would have been and how many vertices got which share. Only faces
+With self_intersections: avoid, each position has a share of its move: 1, 1/2 ... 1/256, or 0. First
+the shares are lowered until no face is drawn out by more than eight times its longest edge. Then, in every
+round, all pairs of faces that newly intersect, fold over or lose their area are found exactly, and
+their vertices take the next lower share, all at once, until there are no such pairs; after eight
+rounds the vertices around them do so as well, and after sixteen twice as far around in each round.
+Pairs that intersected before are exempt. The report says how many faces were concerned and how many
+vertices got which share. Only faces
 of the same part are kept apart (W-CRUMPLE-PARTS warns when other parts are near). If the search
 needs more memory than there is, it is refused before it starts.
 

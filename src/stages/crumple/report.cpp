@@ -37,8 +37,8 @@ void declare_avoided(DeclareFields<AvoidResult>& d) {
         "kept_apart", [](const AvoidResult&) { return "faces of the same part"; }, "What was kept apart.");
     d.field("before", &AvoidResult::exempt, "Pairs of faces that intersected before.");
     d.field("found", &AvoidResult::found,
-            "New intersecting pairs that the full displacements would cause, and faces that would lose their "
-            "area.");
+            "Faces that the full displacements would make intersect others, lose their area, or draw out by "
+            "more than eight times its longest edge.");
     d.field("rounds", &AvoidResult::rounds, "The number of rounds in which shares were lowered.");
     const auto self = [](const AvoidResult& r) -> const AvoidResult& { return r; };
     d.object("vertices_by_share", self, "The number of vertices for each share of the displacement.",
@@ -73,11 +73,11 @@ void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> pa
     const Vec3 p = place_of(work, r.first.first);
     throw Error(
         ErrorKind::stage, "E-INTERSECTS",
-        fmt::format(
-            "crumple: {} pairs of {} would intersect, first {} of part '{}', near ({:.6g}, {:.6g}, {:.6g})",
-            r.found, grid > 1 ? "subdivided faces" : "faces",
-            a == b ? fmt::format("in face {} itself", a) : fmt::format("faces {} and {}", a, b),
-            work.part->name, p.x, p.y, p.z),
+        fmt::format("crumple: {}{} pairs of {} would intersect, first {} of part '{}', near ({:.6g}, {:.6g}, "
+                    "{:.6g})",
+                    r.at_least ? "at least " : "", r.found, grid > 1 ? "subdivided faces" : "faces",
+                    a == b ? fmt::format("in face {} itself", a) : fmt::format("faces {} and {}", a, b),
+                    work.part->name, p.x, p.y, p.z),
         "use self_intersections: avoid, or a smaller amplitude");
 }
 
