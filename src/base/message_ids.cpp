@@ -517,8 +517,9 @@ const std::vector<MessageId>& message_ids() {
          "Close it first with `clean`."},
         {"W-RELAX-STOPPED",
          {},
-         "relax did not converge: `until` was not reached within its iterations.",
-         "Give more iterations, or a larger `until`."},
+         "relax did not converge: `until` was not reached within its iterations, or before a third of the "
+         "surface's area was gone.",
+         "Give more iterations, or a larger `until`; `method: hc` or `taubin` where the surface shrinks."},
         {"W-ROUNDED",
          {},
          "A written file is less sound than the scene when it is read back, because of rounding or a limit "

@@ -166,10 +166,10 @@ TEST_CASE("a mask that selects nothing is warned of", "[stages]") {
 TEST_CASE("relax: until has many iterations, and says when they were not enough", "[stages]") {
     const auto r = run_stage("relax", options({{"until", "0.01%"}}), scene_of(shapes::icosphere(2)));
     const auto& part = r.record.result["parts"][0];
-    CHECK(part["iterations"] > 10);
+    CHECK(part["iterations"] > 2);
     CHECK(part["settled"] == true);
-    // It settles only when next to nothing is left, which is said.
-    CHECK(r.warnings() == std::vector<std::string>{"W-SURFACE-LOST"});
+    CHECK(part["after"]["volume"].get<double>() > 0.97 * part["before"]["volume"].get<double>());
+    CHECK(r.warnings().empty());
     const auto few = run_stage("relax", options({{"until", "0.01%"}, {"iterations", "2"}}),
                                scene_of(shapes::icosphere(2)));
     CHECK(few.record.result["parts"][0]["iterations"] == 2);
@@ -178,6 +178,19 @@ TEST_CASE("relax: until has many iterations, and says when they were not enough"
     for (auto& p : point.positions) p = {};
     CHECK(run_stage("relax", options({{"until", "1%"}}), scene_of(point))
               .record.result["parts"][0]["iterations"] == 1);
+}
+
+TEST_CASE("relax: a method that shrinks stops before the surface is a point", "[stages]") {
+    for (const char* method : {"laplacian", "cotangent", "implicit"}) {
+        const auto r = run_stage("relax", options({{"until", "0.001%"}, {"method", method}}),
+                                 scene_of(shapes::icosphere(3)));
+        const auto& part = r.record.result["parts"][0];
+        CAPTURE(method, part["iterations"]);
+        CHECK(r.warnings() == std::vector<std::string>{"W-RELAX-STOPPED"});
+        CHECK(part["settled"] == false);
+        CHECK(part["iterations"] > 1);
+        CHECK(part["after"]["area"].get<double>() > 0.6 * part["before"]["area"].get<double>());
+    }
 }
 
 TEST_CASE("crumple: an amplitude beyond the edges is warned of, with a hint", "[stages]") {

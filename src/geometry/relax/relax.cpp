@@ -5,6 +5,7 @@
 #include "base/parallel.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/relax/steps.hpp"
+#include "mesh/face.hpp"
 
 #include <fmt/format.h>
 
@@ -30,11 +31,30 @@ void check_lambda(const Settings& s) {
         need(f > 0 && f <= 1, "lambda", "0 < x <= 1", to_string(f));
 }
 
+// Of the area that is left by the first iteration: with less, it is shrinking that goes on, not smoothing.
+constexpr double least_area_left = 2.0 / 3;
+
+/// Twice the area of the mesh with its vertices at `places`, in world units.
+double twice_area(const Mesh& mesh, const std::vector<Vec3>& places, const Transform& to_world) {
+    return parallel_reduce(
+        mesh.face_count(), 0.0,
+        [&](std::size_t begin, std::size_t end) {
+            double sum = 0;
+            for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                const Vec3& first = places[mesh.vertex(mesh.face_begin(f))];
+                sum += length(area_vector_at(
+                    mesh, f, [&](Index c) { return to_world.vector(places[mesh.vertex(c)] - first); }));
+            }
+            return sum;
+        },
+        [](double a, double b) { return a + b; });
+}
+
 /// The places after at most so many iterations.
 struct Run {
     std::vector<Vec3> places;
     std::int64_t iterations = 0;
-    bool settled = false;
+    bool settled = false, shrank = false;
     double last_move = 0;
 };
 
@@ -45,14 +65,22 @@ Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
     const RelaxStep step = relax_step(mesh, near, settings, start);
     run.places.resize(start.size());
     std::vector<Vec3> last(iterations > 1 ? start.size() : 0);
-    while (run.iterations < iterations && !run.settled) {
+    double first_area = 0;
+    while (run.iterations < iterations && !run.settled && !run.shrank) {
         if (run.iterations > 0) run.places.swap(last);
         const std::vector<Vec3>& from = run.iterations > 0 ? last : start;
         step(from, run.places);
         ++run.iterations;
         if (until <= 0) continue;
         run.last_move = move_size(from, run.places, settings.to_world).largest;
-        run.settled = run.last_move <= until;
+        const double area = twice_area(mesh, run.places, settings.to_world);
+        if (run.iterations == 1) first_area = area;
+        run.shrank = area < first_area * least_area_left;
+        run.settled = run.last_move <= until && !run.shrank;
+    }
+    if (run.shrank) { // the one before the last
+        run.places.swap(last);
+        --run.iterations;
     }
     return run;
 }
@@ -128,6 +156,7 @@ RelaxResult relax(Mesh mesh, const Settings& settings) {
     const MoveSize moves = move_size(mesh.positions, done.places, settings.to_world);
     result.iterations = done.iterations;
     result.settled = done.settled;
+    result.shrank = done.shrank;
     result.last_move = done.last_move;
     result.largest_move = moves.largest;
     result.moved = moves.count;

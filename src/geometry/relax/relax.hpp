@@ -36,7 +36,10 @@ struct RelaxSettings {
     double alpha = 0;              ///< hc: 0 to 1: how much the first surface counts
     double beta = 0.5;             ///< hc: 0 to 1: the vertex's own share of what is pushed back
     std::vector<double> mask = {}; ///< [vertices] 0 to 1: share of the move; empty: all of it
-    double until = 0;        ///< stop when no vertex moved farther in an iteration, world units; 0: never
+    /// Stop when no vertex moved farther in an iteration, world units; 0: never. Where the surface shrinks
+    /// all the while, stop before a third of its area is gone (of that after the first iteration, which may
+    /// take noise away): the end would be a point.
+    double until = 0;
     Transform to_world = {}; ///< part space -> world, where angles and moves are measured
 };
 
@@ -45,6 +48,7 @@ struct RelaxResult {
     AttributeChanges changes;
     std::int64_t iterations = 0; ///< done
     bool settled = false;        ///< stopped by `until`
+    bool shrank = false;         ///< stopped because of the area, with `until`
     double largest_move = 0;     ///< the farthest that a vertex came from its place, in world units
     double last_move = 0;        ///< the farthest in the last iteration; only when `until` was given
     std::size_t moved = 0;       ///< vertices that are elsewhere than before

@@ -11,6 +11,8 @@ inline constexpr const char* details =
 neighbours Pj, for all vertices simultaneously; so neither their order nor the number of threads
 matters. A closed surface shrinks a little with every iteration of laplacian, cotangent and
 implicit; taubin and hc nearly keep its volume. The report gives area and volume before and after.
+With until and no method, hc is used (alpha 0.1), which comes to rest near the original surface; a
+method that shrinks is stopped before a third of the area is gone (W-RELAX-STOPPED), and not when only a point is left.
 Open, non-manifold and degenerate input is accepted as it is: faces without area have no weight, and
 a vertex without neighbours stays in place.
 

@@ -12,16 +12,19 @@ using Neighbours = RelaxSettings::Neighbours;
 
 /// How many iterations there are at most, with until.
 constexpr std::int64_t most_until = 1000;
+/// What hc pulls back with until: without any, it shrinks too in the end.
+constexpr double alpha_until = 0.1;
 
 void declare_methods(Declare<RelaxOptions>& d) {
-    d.choice<Method>(
+    d.choice<std::optional<Method>>(
         "method", &RelaxOptions::method,
         {{"laplacian", Method::laplacian, "to the mean of the neighbours: smooths fast, shrinks the surface"},
          {"taubin", Method::taubin, "alternating steps inward and outward: removes noise, hardly shrinks"},
          {"cotangent", Method::cotangent, "neighbours weighted by cotangents: faces keep their shapes"},
          {"implicit", Method::implicit, "one linear system per iteration: stable for any lambda"},
          {"hc", Method::hc, "to the mean and partly back: nearly keeps the volume"}},
-        "How vertices move.");
+        "How vertices move: laplacian unless given, but with until hc, which settles at a smooth surface of "
+        "nearly the same volume.");
     d.option("lambda", &RelaxOptions::lambda,
              "How far each vertex moves towards the mean of its neighbours; 1 is all the way (a ratio, "
              "without unit; 1 unless given, 0.5 for taubin, which needs less than 0.7; implicit takes any "
@@ -35,7 +38,8 @@ void declare_methods(Declare<RelaxOptions>& d) {
         .below(1);
     d.option(
          "alpha", &RelaxOptions::alpha,
-         "hc: how strongly vertices are pulled back towards the original surface (a ratio, without unit).")
+         "hc: how strongly vertices are pulled back towards the original surface (a ratio, without unit; 0 "
+         "unless given, 0.1 with until).")
         .between(0, 1);
     d.option("beta", &RelaxOptions::beta,
              "hc: how much of the step back comes from the vertex's own difference; the rest comes from its "
@@ -64,9 +68,13 @@ void declare_limits(Declare<RelaxOptions>& d) {
              "end, meet or turn by more than this angle; with slide the boundary is such a line. Edges with "
              "three or more faces are features as well.")
         .between(0, 180);
-    d.option("until", &RelaxOptions::until,
-             "Stops when no vertex has moved farther than this in an iteration (a length, such as 0.01%); "
-             "iterations is then the maximum, 1000 unless given. A warning says when that was not enough.")
+    d.option(
+         "until", &RelaxOptions::until,
+         "Stops when no vertex has moved farther than this in an iteration (a length, such as 0.01%); "
+         "iterations is then the maximum, 1000 unless given. A warning says when that was not enough, or "
+         "when the work ended before because the surface shrank on and on: laplacian, cotangent and "
+         "implicit have no end before a closed surface is a point, so they stop before a third of its area "
+         "is gone.")
         .above(0);
     d.group("mask", &RelaxOptions::mask, mask_help, declare_mask);
 }
@@ -86,33 +94,34 @@ void declare_relax(Declare<RelaxOptions>& d) {
 RelaxSettings relax_settings(const RelaxOptions& o) {
     RelaxSettings s;
     s.iterations = o.iterations.value_or(o.until ? most_until : 1);
-    s.method = o.method;
+    s.method = o.method.value_or(o.until ? Method::hc : Method::laplacian);
     s.lambda = o.lambda;
     s.neighbours = o.neighbours;
     s.boundary = o.boundary;
     if (o.feature_angle) s.feature_angle = o.feature_angle->radians;
     s.pass_band = o.pass_band;
-    s.alpha = o.alpha;
+    s.alpha = o.alpha.value_or(o.until ? alpha_until : s.alpha);
     s.beta = o.beta;
     return s;
 }
 
 void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems) {
+    const RelaxSettings settings = relax_settings(o);
     try {
-        check_relax_settings(relax_settings(o));
+        check_relax_settings(settings);
     } catch (const Error& e) {
         const auto& d = e.diagnostics().front();
         problems.add(mark_at(given, "lambda"), d.id, d.message, d.hint);
     }
     const auto belongs = [&](const char* name, Method method, const char* to) {
-        if (given.is_map() && given.find(name) && o.method != method)
+        if (given.is_map() && given.find(name) && settings.method != method)
             problems.add(mark_at(given, name), "E-CONFLICT",
                          std::string("relax: '") + name + "' goes with the method " + to + " only");
     };
     belongs("pass_band", Method::taubin, "taubin");
     belongs("alpha", Method::hc, "hc");
     belongs("beta", Method::hc, "hc");
-    if (given.is_map() && given.find("neighbours") && o.method == Method::cotangent)
+    if (given.is_map() && given.find("neighbours") && settings.method == Method::cotangent)
         problems.add(
             mark_at(given, "neighbours"), "E-CONFLICT",
             "relax: 'neighbours' does not go with the method cotangent, which weights those by angles");

@@ -7,15 +7,15 @@
 namespace facetmill {
 
 struct RelaxOptions {
-    std::optional<std::int64_t> iterations; ///< none: 1, or 1000 with until
-    RelaxSettings::Method method = RelaxSettings::Method::laplacian;
+    std::optional<std::int64_t> iterations;      ///< none: 1, or 1000 with until
+    std::optional<RelaxSettings::Method> method; ///< none: laplacian, or hc with until
     std::optional<double> lambda;
     RelaxSettings::Neighbours neighbours = RelaxSettings::Neighbours::faces;
     RelaxSettings::Boundary boundary = RelaxSettings::Boundary::fixed;
     std::optional<Angle> feature_angle;
     std::optional<Length> until;
     double pass_band = RelaxSettings{}.pass_band;
-    double alpha = RelaxSettings{}.alpha;
+    std::optional<double> alpha; ///< none: 0, or 0.1 with until, so that there is a place to come to rest at
     double beta = RelaxSettings{}.beta;
     std::optional<MaskSettings> mask;
 };

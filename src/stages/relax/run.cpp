@@ -43,7 +43,7 @@ void declare_part(DeclareFields<RelaxedPart>& d) {
     const auto last = [](const RelaxedPart& p) {
         return p.until ? std::optional(p.last_move) : std::nullopt;
     };
-    d.field("last_move", last, "The largest move in the last iteration.")
+    d.field("last_move", last, "The largest move in the last iteration that was tried.")
         .unit("scene units")
         .only_when("until is given");
     const auto settled = [](const RelaxedPart& p) {
@@ -70,7 +70,15 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         const SurfaceSize after = surface_size(part.mesh, settings.to_world, before.volume.has_value());
-        if (o.until && !r.settled && r.iterations > 0)
+        if (r.shrank)
+            context.warn(
+                "W-RELAX-STOPPED",
+                fmt::format("part '{}' shrinks on and on: stopped after {} iterations, before a third of its "
+                            "area was gone; the next would have moved a vertex by {:.4g}, more than until "
+                            "{:.4g}",
+                            part.name, r.iterations, r.last_move, settings.until),
+                "use method: hc or taubin, which keep the volume, or give iterations without until");
+        else if (o.until && !r.settled && r.iterations > 0)
             context.warn("W-RELAX-STOPPED",
                          fmt::format("part '{}' did not converge: the last of {} iterations moved a vertex "
                                      "by {:.4g}, more than until {:.4g}",

@@ -144,12 +144,12 @@ TEST_CASE("a mask keeps vertices, or shortens their moves", "[geometry]") {
 
 TEST_CASE("until stops early and says so", "[geometry]") {
     RelaxSettings s = by(Method::laplacian, 1000);
-    s.until = 0.002;
+    s.until = 0.0035; // a smooth sphere of these faces shrinks by 0.0028 in an iteration
     const RelaxResult r = relax(noisy_sphere(), s);
     CHECK(r.settled);
     CHECK(r.iterations > 1);
     CHECK(r.iterations < 500);
-    CHECK(r.last_move <= 0.002);
+    CHECK(r.last_move <= 0.0035);
     s.iterations = 1;
     CHECK_FALSE(relax(noisy_sphere(), s).settled);
 }
