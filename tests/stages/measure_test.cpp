@@ -5,6 +5,9 @@
 #include "support/run_stage.hpp"
 #include "support/temporary.hpp"
 
+#include <map>
+#include <sstream>
+
 using namespace facetmill;
 using test::run_stage;
 using test::scene_of;
@@ -28,6 +31,7 @@ TEST_CASE("measure reports the mass of a cube where the world has it", "[stages]
     const auto r = run_stage("measure", "{density: 3}", std::move(scene)).record.result;
     const Json& total = r["total"];
     CHECK(total["shell"]["area"] == 10);
+    CHECK(total["shell"]["principal"]["moments"][0].get<double>() > 0);
     CHECK(total["solid"]["volume"].get<double>() == Approx(2));
     CHECK(total["solid"]["mass"].get<double>() == Approx(6));
     CHECK(total["solid"]["centroid"][0].get<double>() == Approx(6));
@@ -79,8 +83,52 @@ TEST_CASE("measure writes all as JSON and the faces as a table", "[stages]") {
     r.state->outputs.commit();
     CHECK(Json::parse(test::get(json)) == r.record.result);
     const std::string table = test::get(csv);
-    CHECK(table.starts_with("part,face,corners,area,x,y,z,nx,ny,nz,off_plane\npart,0,4,1,"));
+    CHECK(table.starts_with(
+        "part,face,corners,area,x,y,z,nx,ny,nz,off_plane,kind,planar,signed_area,ix_centroid,iy_centroid,ixy_"
+        "centroid,"
+        "ix_origin,iy_origin,ixy_origin,largest,smallest,major_x,major_y,major_z\npart,0,4,1,"));
     CHECK(std::count(table.begin(), table.end(), '\n') == 7);
+}
+
+TEST_CASE("the table of faces tells the kind, the signed area and the second moments", "[stages]") {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}, {2, 2, 1}, {2, 0, 1}, {0, 1, 1}};
+    add_face(mesh, std::vector<Index>{0, 2, 1});    // clockwise
+    add_face(mesh, std::vector<Index>{3, 4, 5, 6}); // crosses itself
+    test::TemporaryDirectory directory;
+    const auto csv = (directory / "a.csv").string();
+    const auto r = run_stage("measure", "{path: " + csv + "}", scene_of(mesh));
+    r.state->outputs.commit();
+    std::istringstream table(test::get(csv));
+    std::string line;
+    std::vector<std::map<std::string, std::string>> rows;
+    std::vector<std::string> names;
+    while (std::getline(table, line)) {
+        std::istringstream cells(line + ",");
+        std::vector<std::string> row;
+        for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+        if (names.empty()) {
+            names = row;
+            continue;
+        }
+        REQUIRE(row.size() == names.size());
+        auto& named = rows.emplace_back();
+        for (std::size_t i = 0; i < row.size(); ++i) named[names[i]] = row[i];
+    }
+    REQUIRE(rows.size() == 2);
+    CHECK(rows[0]["kind"] == "triangle");
+    CHECK(rows[0]["planar"] == "true");
+    CHECK(rows[0]["area"] == "3");
+    CHECK(rows[0]["signed_area"] == "-3");
+    CHECK(std::stod(rows[0]["ix_origin"]) == Approx(2));
+    CHECK(std::stod(rows[0]["ixy_origin"]) == Approx(1.5));
+    CHECK(std::stod(rows[0]["ix_centroid"]) == Approx(24.0 / 36));
+    CHECK(rows[1]["kind"] == "self_intersecting");
+    CHECK(rows[1]["ix_origin"].empty());
+    CHECK(rows[1]["major_x"].empty());
+    const Json& faces = r.record.result["parts"][0]["faces"];
+    CHECK(faces["kinds"]["self_intersecting"] == 1);
+    CHECK(faces["signed_area"][2].get<double>() == Approx(-3 - 1)); // the second has 2 clockwise, 1 not: -1
 }
 
 TEST_CASE("measure refuses what it cannot use", "[stages]") {

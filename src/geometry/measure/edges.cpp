@@ -107,6 +107,7 @@ FaceResult faces_of(const Mesh& mesh) {
         if (end - begin == 3 && r.areas[i] > 0)
             ratios[i] = aspect_ratio(mesh.point(begin), mesh.point(begin + 1), mesh.point(begin + 2));
     });
+    for (const Vec3& a : areas) r.signed_area += a;
     r.area = statistics(r.areas);
     r.angle = statistics(std::move(angles));
     r.aspect_ratio = statistics(std::move(ratios));
@@ -189,6 +190,7 @@ FaceResult measure_faces(const Mesh& mesh) {
     FaceResult r = faces_of(scale(mesh));
     unscale(r.area, 2 * scale.powers[0]);
     unscale(r.areas, 2 * scale.powers[0]);
+    for (std::size_t i = 0; i < 3; ++i) r.signed_area[i] = unscaled(r.signed_area[i], 2 * scale.powers[0]);
     r.kinds.deviation = unscaled(r.kinds.deviation, scale.powers[0]);
     return r;
 }

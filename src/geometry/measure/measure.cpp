@@ -12,25 +12,28 @@ namespace facetmill {
 
 namespace {
 
+void add(Symmetric& s, const Symmetric& t) {
+    s.xx += t.xx;
+    s.xy += t.xy;
+    s.xz += t.xz;
+    s.yy += t.yy;
+    s.yz += t.yz;
+    s.zz += t.zz;
+}
+
 /// Sums over triangles as seen from a point near them, the common factors left out.
 struct Sums {
     double area = 0, volume = 0; ///< twice, six times
     Vec3 shell, solid;           ///< six times area times centroid; 24 times volume times centroid
-    Symmetric spread;            ///< 120 times
+    Symmetric sheet, spread;     ///< of the shell 24 times, of the solid 120 times
 
     void add(const Sums& b) {
         area += b.area;
         volume += b.volume;
         shell += b.shell;
         solid += b.solid;
-        auto& s = spread;
-        const auto& t = b.spread;
-        s.xx += t.xx;
-        s.xy += t.xy;
-        s.xz += t.xz;
-        s.yy += t.yy;
-        s.yz += t.yz;
-        s.zz += t.zz;
+        facetmill::add(sheet, b.sheet);
+        facetmill::add(spread, b.spread);
     }
 };
 
@@ -61,7 +64,9 @@ void add_face(Sums& sums, const Mesh& mesh, Index f, const Vec3& from, std::vect
     sums.area += area;
     for (std::size_t i = 1; i + 1 < p.size(); ++i) {
         const double part = p.size() == 3 ? area : dot(cross(p[i] - p[0], p[i + 1] - p[0]), normal);
-        sums.shell += (p[0] + p[i] + p[i + 1]) * part;
+        const Vec3 sum = p[0] + p[i] + p[i + 1];
+        sums.shell += sum * part;
+        for (const Vec3& v : {p[0], p[i], p[i + 1], sum}) add_square(sums.sheet, v, part);
         add_tetrahedron(sums, p[0], p[i], p[i + 1]);
     }
 }
@@ -117,7 +122,12 @@ MassResult mass_of(const Mesh& mesh, bool closed) {
     const Sums sums = sums_of(mesh, from);
     MassResult result;
     result.shell.area = sums.area / 2;
-    if (sums.area > 0) result.shell.centroid = from + sums.shell / (3 * sums.area);
+    if (sums.area > 0) {
+        const Vec3 centroid = sums.shell / (3 * sums.area);
+        result.shell.centroid = from + centroid;
+        result.shell.spread = sums.sheet * (1.0 / 24);
+        add_square(result.shell.spread, centroid, -result.shell.area);
+    }
     if (mesh.face_count() == 0 || !closed) return result;
     SolidMass& solid = result.solid.emplace();
     const double area = result.shell.area, ball = area * std::sqrt(area / (36 * pi));
@@ -130,20 +140,26 @@ MassResult mass_of(const Mesh& mesh, bool closed) {
     return result;
 }
 
-/// What was measured in scaled coordinates, as it is in the given ones.
+// What was measured in scaled coordinates, as it is in the given ones.
+
+/// measure: the power of the area or volume that the moments were summed over.
+Symmetric taken_back(const Symmetric& s, const PowerScale& scale, int measure) {
+    const auto moment = [&](double x, std::size_t i, std::size_t j) {
+        return unscaled(x, measure + scale.powers[i] + scale.powers[j]);
+    };
+    return {moment(s.xx, 0, 0), moment(s.xy, 0, 1), moment(s.xz, 0, 2),
+            moment(s.yy, 1, 1), moment(s.yz, 1, 2), moment(s.zz, 2, 2)};
+}
+
 ShellMass taken_back(const ShellMass& shell, const PowerScale& scale) {
-    return {unscaled(shell.area, 2 * scale.powers[0]), scale.inverse()(shell.centroid)};
+    const int area = 2 * scale.powers[0]; // every axis alike
+    return {unscaled(shell.area, area), scale.inverse()(shell.centroid),
+            taken_back(shell.spread, scale, area)};
 }
 
 SolidMass taken_back(const SolidMass& solid, const PowerScale& scale) {
-    const auto moment = [&](double x, std::size_t i, std::size_t j) {
-        return unscaled(x, scale.volume() + scale.powers[i] + scale.powers[j]);
-    };
-    const Symmetric& s = solid.spread;
-    return {unscaled(solid.volume, scale.volume()),
-            scale.inverse()(solid.centroid),
-            {moment(s.xx, 0, 0), moment(s.xy, 0, 1), moment(s.xz, 0, 2), moment(s.yy, 1, 1),
-             moment(s.yz, 1, 2), moment(s.zz, 2, 2)}};
+    return {unscaled(solid.volume, scale.volume()), scale.inverse()(solid.centroid),
+            taken_back(solid.spread, scale, scale.volume())};
 }
 
 Vec3 with_largest_positive(const Vec3& v) {
@@ -178,16 +194,19 @@ Eigen3 eigen(const Symmetric& matrix) {
     return e;
 }
 
-Symmetric SolidMass::inertia() const {
-    const auto& s = spread;
+Symmetric inertia_of(const Symmetric& s) {
     return {s.yy + s.zz, -s.xy, -s.xz, s.xx + s.zz, -s.yz, s.xx + s.yy};
 }
 
 ShellMass joined(const ShellMass& a, const ShellMass& b) {
     if (a.area == 0) return b;
     if (b.area == 0) return a;
-    const double area = a.area + b.area;
-    return {area, area > 0 ? (a.centroid * a.area + b.centroid * b.area) / area : Vec3{}};
+    ShellMass sum{a.area + b.area, {}, a.spread};
+    const Vec3 apart = b.centroid - a.centroid; // from a, as below
+    sum.centroid = a.centroid + apart * (b.area / sum.area);
+    add(sum.spread, b.spread);
+    add_square(sum.spread, apart, a.area * (b.area / sum.area));
+    return sum;
 }
 
 SolidMass joined(const SolidMass& a, const SolidMass& b) {
@@ -198,14 +217,8 @@ SolidMass joined(const SolidMass& a, const SolidMass& b) {
     // From a, so that solids far from the origin lose nothing.
     const Vec3 apart = b.centroid - a.centroid;
     sum.centroid = a.centroid + apart * (b.volume / sum.volume);
-    auto& s = sum.spread;
-    s.xx += b.spread.xx;
-    s.xy += b.spread.xy;
-    s.xz += b.spread.xz;
-    s.yy += b.spread.yy;
-    s.yz += b.spread.yz;
-    s.zz += b.spread.zz;
-    add_square(s, apart, a.volume * (b.volume / sum.volume));
+    add(sum.spread, b.spread);
+    add_square(sum.spread, apart, a.volume * (b.volume / sum.volume));
     return sum;
 }
 

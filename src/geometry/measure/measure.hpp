@@ -3,6 +3,7 @@
 // polygon" (2000) and "Centroid of a surface" (the area-weighted centroid of a shell); the solid after D.
 // Eberly, "Polyhedral mass properties (revisited)" (2002), by tetrahedra from the middle of the box.
 
+#include "geometry/section/section.hpp"
 #include "geometry/triangulate/triangulate.hpp"
 
 #include <cstddef>
@@ -41,10 +42,15 @@ struct Eigen3 {
 /// By Jacobi's rotations.
 Eigen3 eigen(const Symmetric& m);
 
+/// The inertia tensor of mass that is spread like that: the integral of |r|^2 I - r r^T.
+Symmetric inertia_of(const Symmetric& spread);
+
 /// Of a surface without thickness.
 struct ShellMass {
     double area = 0;
     Vec3 centroid; ///< of the area; the origin when there is none
+    /// The integral of (p - centroid) (p - centroid)^T over the surface.
+    Symmetric spread;
 };
 
 /// Of the inside of a closed surface, filled with density 1. All negative for a surface that is inside out.
@@ -53,9 +59,6 @@ struct SolidMass {
     Vec3 centroid;
     /// The integral of (p - centroid) (p - centroid)^T over the inside.
     Symmetric spread;
-
-    /// About the centroid: the integral of |r|^2 I - r r^T.
-    Symmetric inertia() const;
 };
 
 /// Of several together.
@@ -88,11 +91,33 @@ struct EdgeSettings {
 };
 EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
 
+/// One polygon in space, as the notes measure polygons in the plane. Its frame is that of its plane
+/// (frame_of), the normal turned so that its longest component is positive: a polygon in a plane z = constant
+/// has the axes x and y, and is seen from above.
+struct PolygonResult {
+    polygon::Kind kind = polygon::Kind::degenerate;
+    bool planar = true;
+    double off_plane = 0;   ///< the largest distance of a corner from the plane
+    double area = 0;        ///< the length of polygon::area_vector
+    double signed_area = 0; ///< positive when the corners run anticlockwise, seen in the frame
+    Vec3 centroid;          ///< the first corner when there is no area
+    Vec3 normal;            ///< unit, that of the corners' order; zero when there is no area
+    SectionFrame frame;
+    /// Second moments of area in the frame, of the projection along the normal when the polygon is not
+    /// planar. None for a polygon that is degenerate or crosses itself.
+    std::optional<polygon::Moments> moments;
+};
+/// At least three corners.
+PolygonResult measure_polygon(std::span<const Vec3> corners);
+
 /// Inner angles at the corners of faces, and areas.
 struct FaceResult {
     Statistics area, angle;  ///< angle: 0 to 2 pi, beyond pi at concave corners
     Statistics aspect_ratio; ///< of triangles with an area (mesh/aspect_ratio.hpp)
     FaceKinds kinds;
+    /// The sum of the area vectors: the signed areas of the projections along x, y and z. Zero for what is
+    /// closed.
+    Vec3 signed_area;
     std::vector<double> areas; ///< per face
 };
 FaceResult measure_faces(const Mesh& mesh);

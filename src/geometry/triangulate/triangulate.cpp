@@ -106,13 +106,22 @@ FaceKinds joined(FaceKinds a, const FaceKinds& b) {
     return a;
 }
 
-double perimeter(const std::vector<Vec3>& p) {
+double perimeter(std::span<const Vec3> p) {
     double sum = 0;
     for (std::size_t i = 0; i < p.size(); ++i) sum += length(p[(i + 1) % p.size()] - p[i]);
     return sum;
 }
 
 } // namespace
+
+Kind face_kind(std::span<const Vec3> corners) {
+    if (corners.size() != 3) return polygon::classify(polygon::flattened(corners));
+    return collinear(corners[0], corners[1], corners[2]) ? Kind::degenerate : Kind::triangle;
+}
+
+bool is_planar(std::span<const Vec3> corners, double deviation, double planar) {
+    return !(deviation > planar * perimeter(corners));
+}
 
 FaceKinds face_kinds(const Mesh& mesh, double planar) {
     return parallel_reduce(
@@ -123,14 +132,9 @@ FaceKinds face_kinds(const Mesh& mesh, double planar) {
             for (std::size_t i = begin; i < end; ++i) {
                 const auto f = static_cast<Index>(i);
                 gather(mesh, f, corners);
-                Kind kind = Kind::triangle;
-                if (corners.size() == 3)
-                    kind = collinear(corners[0], corners[1], corners[2]) ? Kind::degenerate : Kind::triangle;
-                else
-                    kind = polygon::classify(polygon::flattened(corners));
-                ++kinds.of_kind[static_cast<std::size_t>(kind)];
+                ++kinds.of_kind[static_cast<std::size_t>(face_kind(corners))];
                 const double deviation = polygon::plane_deviation(corners);
-                kinds.non_planar += deviation > planar * perimeter(corners);
+                kinds.non_planar += !is_planar(corners, deviation, planar);
                 if (kinds.worst == none || deviation > kinds.deviation) {
                     kinds.deviation = deviation;
                     kinds.worst = f;

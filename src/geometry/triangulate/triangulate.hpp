@@ -6,6 +6,7 @@
 #include "mesh/scene.hpp"
 
 #include <array>
+#include <span>
 
 namespace facetmill {
 
@@ -19,6 +20,12 @@ struct FaceKinds {
 
     std::size_t count(polygon::Kind kind) const { return of_kind[static_cast<std::size_t>(kind)]; }
 };
+
+/// What kind of polygon these corners are.
+polygon::Kind face_kind(std::span<const Vec3> corners);
+/// Whether corners that are at most so far from their plane (polygon::plane_deviation) lie in it: no farther
+/// than planar times the perimeter.
+bool is_planar(std::span<const Vec3> corners, double deviation, double planar = 1e-6);
 
 /// Counts the faces by kind. A face is not planar when a corner is farther from its plane than planar times
 /// the face's perimeter; the default is what float32 coordinates can tell. Parallel.

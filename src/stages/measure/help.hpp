@@ -4,13 +4,17 @@
 namespace facetmill::help::measure {
 
 inline constexpr const char* about =
-    R"(Measures areas, volume, centroids, inertia, edges, angles and curvature.)";
+    R"(Measures areas, second moments, volume, centroids, inertia, edges, angles and curvature.)";
 
 inline constexpr const char* details =
     R"(The report gives the results for every part and in total, in world space and scene units; angles are
 in degrees. The area of a polygon in space is half the length of the sum of the cross products
 around it; this holds for concave faces, and for non-planar faces it is the area of their projection
-along the mean normal. shell is the surface without thickness; its centroid is weighted by area.
+along the mean normal. shell is the surface without thickness; its centroid is weighted by area, and
+its inertia about the centroid is that of a sheet: for a planar polygon the principal moments are the
+smallest and the largest second moment of area and their sum. The table of faces has the kind, the
+signed area and the second moments of every polygon, in the plane's own axes as section has them: for
+a polygon in a plane z = constant they are x and y. A polygon that intersects itself has no moments.
 solid is the inside of a closed surface, filled with the density: volume, mass, centroid, inertia
 about the centroid, principal moments (ascending) with their axes, and radii of gyration. It is null
 for open surfaces, and in the total when any part is open.
@@ -24,8 +28,8 @@ Euler number, whatever its shape.
 
 The mesh passes on unchanged except for the attributes asked for.
 
-Sources: P. Bourke, 'Calculating the area of a 3D polygon' (2000), 'Polygon types' (1993) and
-'Centroid of a 3D shell described by 3 vertex facets'; D. Eberly, 'Polyhedral mass properties'
+Sources: P. Bourke, 'Calculating the area of a 3D polygon' (2000), 'Polygon types' (1993), 'Calculating the
+area and centroid of a polygon' (1988) and 'Centroid of a 3D shell described by 3 vertex facets'; D. Eberly, 'Polyhedral mass properties'
 (2002); M. Meyer et al., 'Discrete differential-geometry operators for triangulated 2-manifolds'
 (2003).)";
 

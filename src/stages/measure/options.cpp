@@ -1,5 +1,7 @@
 #include "stages/measure/options.hpp"
 
+#include "stages/measure/face_table.hpp"
+
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -20,8 +22,8 @@ void declare_measure(Declare<MeasureOptions>& d) {
         "(per square scene unit and per scene unit; 0 where there is none).");
     d.option("path", &MeasureOptions::path,
              "The file to write, or a list of files; the suffix decides the format. .json gets all results, "
-             ".csv one line per face (part, face, corners, area, centroid, unit normal, largest distance of "
-             "a corner from its plane); - is JSON on standard output.");
+             ".csv one line per face; - is JSON on standard output. The columns of the table: " +
+                 face_table_help() + ".");
 }
 
 void verify_measure(const MeasureOptions& o, const Value& given, Problems& problems) {

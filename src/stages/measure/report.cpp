@@ -5,7 +5,6 @@
 #include "geometry/measure/statistics_fields.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
-#include "io/csv.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -22,38 +21,55 @@ std::optional<Vec3> known_point(bool known, const Vec3& p) {
     return known && is_finite(p) ? std::optional(p) : std::nullopt;
 }
 
-std::optional<MeasuredSolid::Principal> principal(const SolidMass& solid, double density) {
-    const Symmetric i = solid.inertia();
+/// amount: the area or volume that the inertia is of, with density 1.
+std::optional<PrincipalInertia> principal(const Symmetric& i, double amount, double density) {
     if (!is_finite({i.xx, i.yy, i.zz}) || !is_finite({i.xy, i.xz, i.yz})) return {};
     const Eigen3 e = eigen(i);
-    MeasuredSolid::Principal p;
+    PrincipalInertia p;
     p.axes = e.vectors;
     for (std::size_t k = 0; k < 3; ++k) {
         p.moments[k] = e.values[k] * density;
-        const double square = solid.volume != 0 ? e.values[k] / solid.volume : 0;
-        // A solid with a volume has moments: they vanish only below the range of numbers.
+        const double square = amount != 0 ? e.values[k] / amount : 0;
+        // What has an area or a volume has moments: they vanish only below the range of numbers.
         if (square > 0)
             p.radii[k] = std::sqrt(square);
-        else if (solid.volume == 0)
+        else if (amount == 0)
             p.radii[k] = 0;
     }
     return p;
 }
 
+std::array<Vec3, 3> rows_of(const Symmetric& m, double factor) {
+    return {Vec3{m.xx, m.xy, m.xz} * factor, Vec3{m.xy, m.yy, m.yz} * factor,
+            Vec3{m.xz, m.yz, m.zz} * factor};
+}
+
 // --- fields
+
+void declare_principal(DeclareFields<PrincipalInertia>& d) {
+    using P = PrincipalInertia;
+    d.field("moments", &P::moments, "The principal moments of inertia, ascending.");
+    d.field("axes", &P::axes, "Their directions, a right-handed frame.");
+    d.field("radii_of_gyration", &P::radii, "About them; null below the range of numbers.")
+        .unit("scene units");
+}
+
+constexpr const char* out_of_range = "they are beyond the range of numbers";
 
 void declare_shell(DeclareFields<ShellMass>& d) {
     d.field("area", &ShellMass::area, "Of the surface.").unit("square scene units");
     const auto centroid = [](const ShellMass& s) { return known_point(s.area > 0, s.centroid); };
     d.field("centroid", centroid, "Weighted by area.").null_when(unknown);
-}
-
-void declare_principal(DeclareFields<MeasuredSolid::Principal>& d) {
-    using P = MeasuredSolid::Principal;
-    d.field("moments", &P::moments, "The principal moments of inertia, ascending.");
-    d.field("axes", &P::axes, "Their directions, a right-handed frame.");
-    d.field("radii_of_gyration", &P::radii, "About them; null below the range of numbers.")
-        .unit("scene units");
+    const auto inertia = [](const ShellMass& s) { return rows_of(inertia_of(s.spread), 1); };
+    d.field("inertia", inertia,
+            "The inertia tensor about the centroid, three rows, of a mass of one per square scene unit.");
+    const auto of_shell = [](const ShellMass& s) { return principal(inertia_of(s.spread), s.area, 1); };
+    d.object("principal", of_shell,
+             "Principal moments and axes of the surface. Of a planar polygon: its smallest and its largest "
+             "second "
+             "moment of area, and their sum, the polar one, about the normal.",
+             declare_principal)
+        .null_when(out_of_range);
 }
 
 void declare_solid(DeclareFields<MeasuredSolid>& d) {
@@ -63,7 +79,7 @@ void declare_solid(DeclareFields<MeasuredSolid>& d) {
     d.field("centroid", &MeasuredSolid::centroid, "Of the inside.").null_when(unknown);
     d.field("inertia", &MeasuredSolid::inertia, "The inertia tensor about the centroid, three rows.");
     d.object("principal", &MeasuredSolid::principal, "Principal moments and axes.", declare_principal)
-        .null_when("they are beyond the range of numbers");
+        .null_when(out_of_range);
 }
 
 NamedCounts kinds_of(const FaceResult& faces) {
@@ -85,6 +101,11 @@ void declare_faces(DeclareFields<FaceResult>& d) {
     d.object("aspect_ratio", &FaceResult::aspect_ratio,
              "Of triangles: the longest edge over the inradius, normalised to 1 for an equilateral triangle.",
              statistics_fields());
+    d.field("signed_area", &FaceResult::signed_area,
+            "The sums of the signed areas of their projections along x, y and z: positive where they run "
+            "anticlockwise, "
+            "seen from the positive side of that axis. Zero for a closed surface.")
+        .unit("square scene units");
     d.counts("kinds", kinds_of, names, "The number of each kind that occurs.");
     d.field(
         "non_planar", [](const FaceResult& f) { return f.kinds.non_planar; },
@@ -177,13 +198,9 @@ std::vector<std::string> lines_of(const MeasureReport& report) {
 } // namespace
 
 MeasuredSolid measured(const SolidMass& solid, double density) {
-    const Symmetric i = solid.inertia();
-    return {solid.volume,
-            solid.volume * density,
-            known_point(solid.volume != 0, solid.centroid),
-            {Vec3{i.xx, i.xy, i.xz} * density, Vec3{i.xy, i.yy, i.yz} * density,
-             Vec3{i.xz, i.yz, i.zz} * density},
-            principal(solid, density)};
+    const Symmetric i = inertia_of(solid.spread);
+    return {solid.volume, solid.volume * density, known_point(solid.volume != 0, solid.centroid),
+            rows_of(i, density), principal(i, solid.volume, density)};
 }
 
 void declare_measure_report(DeclareFields<MeasureReport>& d) {
@@ -192,29 +209,6 @@ void declare_measure_report(DeclareFields<MeasureReport>& d) {
     d.object("total", &MeasureReport::total, "All parts together.", declare_total);
     d.list("parts", &MeasureReport::parts, "Each part.", declare_part);
     d.tell(lines_of);
-}
-
-std::string face_rows(const std::string& part, const Mesh& mesh) {
-    std::string csv;
-    std::vector<Vec3> corners;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        corners.clear();
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners.push_back(mesh.point(c));
-        const Vec3 area = polygon::area_vector(corners), normal = normalised(area);
-        // The fan's signed parts, about the first corner: right for concave faces too.
-        Vec3 moment;
-        for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-            const Vec3 a = corners[i] - corners[0], b = corners[i + 1] - corners[0];
-            moment += (a + b) * (dot(cross(a, b), normal) / 6);
-        }
-        const double size = length(area);
-        const Vec3 centroid = corners[0] + (size > 0 ? moment / size : Vec3{});
-        csv += fmt::format("{},{},{},{}", io::csv_text(part), f, corners.size(), io::csv_number(size));
-        for (const Vec3& v : {centroid, normal})
-            for (std::size_t i = 0; i < 3; ++i) csv += "," + io::csv_number(v[i]);
-        csv += "," + io::csv_number(polygon::plane_deviation(corners)) + "\n";
-    }
-    return csv;
 }
 
 } // namespace facetmill

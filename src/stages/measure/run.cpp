@@ -1,6 +1,7 @@
 #include "geometry/measure/measure.hpp"
 
 #include "mesh/placement.hpp"
+#include "stages/measure/face_table.hpp"
 #include "stages/measure/help.hpp"
 #include "stages/measure/options.hpp"
 #include "stages/measure/report.hpp"
@@ -22,7 +23,7 @@ struct Measures {
     std::vector<MeasuredPart> parts;
     ShellMass shell;
     std::optional<SolidMass> solid = SolidMass{};
-    std::string csv = face_rows_head;
+    std::string csv = face_table_head();
 };
 
 std::optional<MeasuredSolid> measured(const std::optional<SolidMass>& solid, double density) {
@@ -36,7 +37,7 @@ void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures
     CurvatureResult curvature = measure_curvature(mesh);
     all.shell = joined(all.shell, mass.shell);
     all.solid = all.solid && mass.solid ? std::optional(joined(*all.solid, *mass.solid)) : std::nullopt;
-    if (list_faces) all.csv += face_rows(part.name, mesh);
+    if (list_faces) all.csv += face_table_rows(part.name, mesh);
     if (mass.solid && mass.solid->volume < 0)
         context.warn("W-INSIDE-OUT",
                      fmt::format("part '{}' is inside out: its volume and inertia are negative", part.name),

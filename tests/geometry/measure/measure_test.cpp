@@ -44,7 +44,7 @@ TEST_CASE("a box has the mass of the textbook, wherever it stands", "[geometry]"
         check_close(r.shell.centroid, {1001, -1998.5, 3002}, 1e-11);
         CHECK(r.solid->volume == Approx(24).epsilon(1e-14));
         check_close(r.solid->centroid, {1001, -1998.5, 3002}, 1e-11);
-        const auto i = r.solid->inertia(); // V/12 (b^2 + c^2)
+        const auto i = inertia_of(r.solid->spread); // V/12 (b^2 + c^2)
         CHECK(i.xx == Approx(50).epsilon(1e-13));
         CHECK(i.yy == Approx(40).epsilon(1e-13));
         CHECK(i.zz == Approx(26).epsilon(1e-13));
@@ -161,6 +161,128 @@ TEST_CASE("curvature of a sphere is one, and the missing angles sum to Euler's n
     CHECK(measure_curvature(shapes::quad_cube()).total == Approx(4 * pi).epsilon(1e-13));
 }
 
+namespace {
+
+/// The corners in a plane of normal (1, 2, 2) / 3, at a distance from the origin.
+std::vector<Vec3> tilted(const std::vector<Vec2>& flat, double away) {
+    const Vec3 u = Vec3{2, 1, -2} / 3, v = Vec3{-2, 2, -1} / 3, n = Vec3{1, 2, 2} / 3;
+    std::vector<Vec3> corners;
+    for (const Vec2& p : flat) corners.push_back(n * away + u * p.x + v * p.y);
+    return corners;
+}
+
+std::vector<Vec3> level(const std::vector<Vec2>& flat, double z, double size = 1) {
+    std::vector<Vec3> corners;
+    for (const Vec2& p : flat) corners.push_back({p.x * size, p.y * size, z * size});
+    return corners;
+}
+
+void check_moments(const polygon::SecondMoments& m, double x, double y, double xy) {
+    CHECK(m.x == Approx(x).epsilon(1e-13));
+    CHECK(m.y == Approx(y).epsilon(1e-13));
+    CHECK(m.xy == Approx(xy).epsilon(1e-13).margin(1e-13));
+}
+
+} // namespace
+
+TEST_CASE("second moments of a rectangle, a right triangle and an L are those of the textbook",
+          "[geometry]") {
+    const auto rectangle =
+        measure_polygon(level({{10, 20}, {12, 20}, {12, 23}, {10, 23}}, 5)); // b = 2, h = 3
+    check_moments(rectangle.moments->about_centroid, 4.5, 2, 0);             // b h^3 / 12
+    check_moments(rectangle.moments->about_origin, 4.5 + 6 * 21.5 * 21.5, 2 + 6 * 121, 6 * 11 * 21.5);
+    CHECK(rectangle.moments->axes.largest == Approx(4.5));
+    check_close(rectangle.frame.direction(rectangle.moments->axes.major), {1, 0, 0});
+    const auto triangle = measure_polygon(level({{0, 0}, {3, 0}, {0, 2}}, -1));
+    check_moments(triangle.moments->about_origin, 2, 4.5, 1.5);                  // b h^3 / 12, b^2 h^2 / 24
+    check_moments(triangle.moments->about_centroid, 24.0 / 36, 1.5, -36.0 / 72); // b h^3 / 36, -b^2 h^2 / 72
+    const auto bent = measure_polygon(level({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, 0));
+    check_moments(bent.moments->about_origin, 3, 3, 1.75); // three unit squares
+    CHECK(bent.kind == polygon::Kind::concave);
+    check_close(bent.centroid, {5.0 / 6, 5.0 / 6, 0});
+}
+
+TEST_CASE("the signed area of a polygon has the sense of its corners, its moments do not", "[geometry]") {
+    const std::vector<Vec2> ring{{1, 1}, {4, 1}, {4, 3}, {1, 2}};
+    std::vector<Vec2> back(ring.rbegin(), ring.rend());
+    const auto up = measure_polygon(level(ring, 0)), down = measure_polygon(level(back, 0));
+    CHECK(up.signed_area == Approx(4.5));
+    CHECK(down.signed_area == Approx(-4.5));
+    CHECK((up.area == Approx(4.5) && down.area == Approx(4.5)));
+    CHECK(down.moments->about_origin.xy == Approx(up.moments->about_origin.xy));
+    CHECK(up.normal == Vec3{0, 0, 1});
+    CHECK(down.normal == Vec3{0, 0, -1});
+}
+
+TEST_CASE("principal moments of a polygon are the same wherever its plane is", "[geometry]") {
+    const double h = std::sqrt(3.0) / 2;
+    const std::vector<Vec2> hexagon{{1, 0}, {0.5, h}, {-0.5, h}, {-1, 0}, {-0.5, -h}, {0.5, -h}};
+    const double each = 5 * std::sqrt(3.0) / 16; // of a regular hexagon of circumradius 1, about any axis
+    for (const auto& corners : {level(hexagon, 7), tilted(hexagon, 0), tilted(hexagon, 1e4)}) {
+        const auto r = measure_polygon(corners);
+        CHECK(r.kind == polygon::Kind::convex);
+        CHECK(r.planar);
+        CHECK(r.moments->axes.largest == Approx(each).epsilon(1e-10));
+        CHECK(r.moments->axes.smallest == Approx(each).epsilon(1e-10));
+    }
+    const auto strip = measure_polygon(tilted({{0, 0}, {4, 0}, {4, 1}, {0, 1}}, 3)); // long along u
+    CHECK(strip.moments->axes.largest == Approx(64.0 / 12));
+    CHECK(strip.moments->axes.smallest == Approx(4.0 / 12));
+    const Vec3 across = strip.frame.direction(strip.moments->axes.major); // its largest moment is about v
+    check_close(across * (across.y > 0 ? 1 : -1), Vec3{-2, 2, -1} / 3, 1e-13);
+}
+
+TEST_CASE("a polygon that crosses itself, or has no area, has no second moments", "[geometry]") {
+    const auto bow = measure_polygon(level({{0, 0}, {2, 2}, {2, 0}, {0, 1}}, 0));
+    CHECK(bow.kind == polygon::Kind::self_intersecting);
+    CHECK_FALSE(bow.moments);
+    const auto line = measure_polygon(level({{0, 0}, {1, 1}, {3, 3}}, 0));
+    CHECK(line.kind == polygon::Kind::degenerate);
+    CHECK((line.area == 0 && line.signed_area == 0));
+    CHECK_FALSE(line.moments);
+    const auto bent = measure_polygon(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 1, 0}});
+    CHECK_FALSE(bent.planar);
+    CHECK(bent.moments);
+}
+
+TEST_CASE("polygons far from 1 in size have moments as long as numbers hold them", "[geometry]") {
+    const std::vector<Vec2> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (const double size : {1e-60, 1e-40, 1e40, 1e60}) {
+        const auto r = measure_polygon(level(square, 1, size));
+        CHECK(r.kind == polygon::Kind::quad);
+        CHECK(r.moments->about_centroid.x / (size * size) / (size * size) == Approx(1.0 / 12));
+        CHECK(r.moments->about_origin.xy / (size * size) / (size * size) == Approx(0.25));
+        CHECK(r.signed_area / size / size == Approx(1));
+    }
+    CHECK(std::isinf(measure_polygon(level(square, 1, 1e90)).moments->about_centroid.x));
+}
+
+TEST_CASE("a shell has the moments of a sheet", "[geometry]") {
+    const auto moments = [](const ShellMass& shell) { return eigen(inertia_of(shell.spread)).values; };
+    const Mesh sheet = placed(shapes::grid(2, 3), {1, 1, 1}, {100, -50, 7});
+    const auto flat = moments(measure_mass(sheet).shell); // b = 2, h = 3: 2, 4.5 and the polar one
+    CHECK(flat[0] == Approx(2).epsilon(1e-12));
+    CHECK(flat[1] == Approx(4.5).epsilon(1e-12));
+    CHECK(flat[2] == Approx(6.5).epsilon(1e-12));
+    for (const Mesh& cube : {shapes::cube(), shapes::quad_cube()})
+        for (const double m : moments(measure_mass(cube).shell))
+            CHECK(m == Approx(5.0 / 3).epsilon(1e-13)); // 5/18 of mass times side squared
+    CHECK(moments(measure_mass(shapes::icosphere(5)).shell)[1] == Approx(8 * pi / 3).epsilon(0.01));
+    const auto left = measure_mass(shapes::grid(1, 3)).shell,
+               right = measure_mass(placed(shapes::grid(1, 3), {1, 1, 1}, {1, 0, 0})).shell;
+    CHECK(moments(joined(left, right))[0] == Approx(2).epsilon(1e-13));
+    const auto tiny = measure_mass(placed(shapes::grid(2, 3), {1e-40, 1e-40, 1e-40}, {})).shell;
+    CHECK(tiny.spread.yy * 1e80 * 1e80 == Approx(4.5));
+}
+
+TEST_CASE("signed areas of the faces add up to the projections", "[geometry]") {
+    const Vec3 of_l = measure_faces(l_prism()).signed_area;
+    CHECK(length(of_l) < 1e-14);
+    const Vec3 sheet = measure_faces(shapes::grid(4, 2)).signed_area;
+    CHECK((sheet.x == 0 && sheet.y == 0));
+    CHECK(std::abs(sheet.z) == measure_mass(shapes::grid(4, 2)).shell.area);
+}
+
 TEST_CASE("statistics leave out what is no number", "[geometry]") {
     const Statistics s = statistics({4, std::numeric_limits<double>::quiet_NaN(), 1, 2, 3, HUGE_VAL});
     CHECK(s.count == 4);
@@ -174,7 +296,7 @@ TEST_CASE("measures are the same for any number of threads", "[geometry]") {
     const auto many = measure_mass(mesh);
     const auto bent = measure_curvature(mesh);
     set_threads(1);
-    CHECK(measure_mass(mesh).solid->inertia().xy == many.solid->inertia().xy);
+    CHECK(inertia_of(measure_mass(mesh).solid->spread).xy == inertia_of(many.solid->spread).xy);
     CHECK(measure_curvature(mesh).total == bent.total);
     set_threads(0);
 }
