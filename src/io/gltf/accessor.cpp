@@ -1,5 +1,6 @@
 #include "io/gltf/accessor.hpp"
 
+#include "base/memory.hpp"
 #include "base/parallel.hpp"
 
 #include <cstring>
@@ -126,6 +127,11 @@ Span Source::range(const Place& owner) const {
                                offset + length, bytes.size(), buffer),
                    "E-BUFFER");
     return Span(bytes).subspan(offset, length);
+}
+
+void Source::need(double bytes) {
+    needed_ += bytes;
+    require_memory(needed_, "what the document makes of its buffers", "use a machine with more memory");
 }
 
 bool Source::without_bytes(std::size_t index) const {

@@ -42,11 +42,15 @@ class Source {
     bool without_bytes(std::size_t index) const;
     /// Bytes of a range of a buffer, checked. owner has "buffer", "byteOffset" and "byteLength".
     Span range(const Place& owner) const;
+    /// Accounts for memory that few bytes of the file ask for. Throws limit (E-MEMORY) when it is too much in
+    /// all.
+    void need(double bytes);
 
   private:
     const Json* json_;
     const std::vector<Bytes>* buffers_;
     std::map<std::size_t, Bytes> decompressed_;
+    double needed_ = 0;
 };
 
 /// What an accessor says of itself, checked for what can be checked without its bytes.
@@ -66,7 +70,8 @@ AttributeData decode(Source& source, const Accessor& accessor);
 /// The indices of a primitive, each below count. Throws malformed (E-INDEX).
 std::vector<Index> decode_indices(Source& source, const Place& reference, std::size_t count);
 
-/// Decompresses a buffer view's EXT_meshopt_compression object. Throws malformed (E-MESHOPT).
-Bytes decode_meshopt(const Source& source, const Place& extension);
+/// Decompresses a buffer view's EXT_meshopt_compression object. Throws malformed (E-MESHOPT), limit
+/// (E-MEMORY).
+Bytes decode_meshopt(Source& source, const Place& extension);
 
 } // namespace facetmill::io::gltf

@@ -1,5 +1,6 @@
 // A glTF file as a Scene and back: its document, its materials, and one part per node with triangles.
 
+#include "base/memory.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/mesh.hpp"
 #include "io/gltf/nodes.hpp"
@@ -78,15 +79,26 @@ void unmerge(Mesh& mesh) {
     mesh.wedge_vertex.clear();
 }
 
+double bytes_of(const Mesh& mesh) {
+    double bytes = static_cast<double>(mesh.vertex_count() * sizeof(Vec3) +
+                                       (mesh.corner_count() + mesh.wedge_vertex.size()) * sizeof(Index));
+    for (const Attribute& a : mesh.attributes)
+        std::visit([&](const auto& v) { bytes += static_cast<double>(v.size() * sizeof(v[0])); }, a.data);
+    return bytes;
+}
+
 void read_parts(Scene& scene, Source& source, const ReadSettings& settings, ReadLog& log) {
     const auto frames = node_frames(source.json(), [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
     });
     std::map<int, std::size_t> first_part; // of each mesh: instances copy it
     std::size_t vertices = 0;
+    double bytes = 0; // of copies: a node costs few bytes of JSON
     for (const auto& placement : placements(source.json(), frames)) {
         Part part;
         if (const auto known = first_part.find(placement.mesh); known != first_part.end()) {
+            bytes += bytes_of(scene.parts[known->second].mesh);
+            require_memory(bytes, "copying the meshes of nodes", "use a machine with more memory");
             part.mesh = scene.parts[known->second].mesh;
         } else {
             DecodedMesh decoded =

@@ -1,5 +1,7 @@
 #include "io/gltf/container.hpp"
 
+#include "base/memory.hpp"
+
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
@@ -112,7 +114,8 @@ bool read_file(std::vector<unsigned char>* out, std::string* error, const std::s
         *error = "cannot be opened";
         return false;
     }
-    // glTF allows files longer than byteLength; tinygltf does not.
+    // glTF allows files longer than byteLength; tinygltf does not. The file may be sparse: its size costs
+    // nothing.
     out->resize(std::min<std::size_t>(size, neighbour.bytes));
     file.read(reinterpret_cast<char*>(out->data()), static_cast<std::streamsize>(out->size()));
     return static_cast<bool>(file);
@@ -215,6 +218,10 @@ Bytes load_uri(const Place& buffer, const std::string& uri, std::size_t length, 
     if (!fs::is_regular_file(*path, ignored))
         throw Error(ErrorKind::missing, "E-FILE",
                     fmt::format("{}.uri: the file \"{}\" is missing", buffer.path(), path->string()));
+    const auto size = fs::file_size(*path, ignored);
+    if (!ignored)
+        require_memory(2.0 * static_cast<double>(std::min<std::uintmax_t>(size, length)),
+                       fmt::format("reading '{}'", path->string()), "use a machine with more memory");
     Bytes bytes = resolve_with_tinygltf(buffer, uri, {*path, length});
     log.files.push_back(*path);
     return bytes;
@@ -284,10 +291,15 @@ std::map<std::string, Bytes> load_images(const Json& document, const Input& inpu
         } else if (!fs::is_regular_file(*path, ignored)) {
             warn(fmt::format("{}: the file \"{}\" is missing", uri->path(), path->string()));
         } else {
+            const auto size = fs::file_size(*path, ignored);
+            if (!ignored)
+                require_memory(static_cast<double>(size), fmt::format("reading '{}'", path->string()),
+                               "use a machine with more memory");
             std::ifstream file(*path, std::ios::binary);
-            const std::string data(std::istreambuf_iterator<char>(file), {});
-            const auto bytes = std::as_bytes(std::span(data));
-            files[uri->text()].assign(bytes.begin(), bytes.end());
+            Bytes& bytes = files[uri->text()];
+            bytes.resize(ignored ? 0 : static_cast<std::size_t>(size));
+            file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+            bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
             log.files.push_back(*path);
         }
     }

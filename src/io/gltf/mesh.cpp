@@ -1,5 +1,6 @@
 #include "io/gltf/mesh.hpp"
 
+#include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "io/gltf/draco/draco.hpp"
 #include "io/gltf/nodes.hpp"
@@ -28,6 +29,13 @@ struct Merge {
     std::size_t wedges = 0;
     DecodedMesh out;
     std::vector<Index> face_primitive;
+    double bytes =
+        0; ///< of all blocks and corners: a few bytes of JSON may name the same accessor again and again
+
+    void need(double more) {
+        bytes += more;
+        require_memory(bytes, "reading " + mesh_place.path(), "use a machine with more memory");
+    }
 
     void warn(const char* id, const std::string& message) {
         out.warnings.push_back({Severity::warning, id, message, {}, ""});
@@ -88,6 +96,9 @@ void add_vertices(Merge& merge, Block& block) {
         throw Error(ErrorKind::limit, "E-LIMIT",
                     fmt::format("{}: more than {} vertices", merge.mesh_place.path(), merge.max_vertices));
     merge.wedges += block.count;
+    double bytes = sizeof(Vec3);
+    for (const auto& a : block.attributes) bytes += a.components * size_of(component_type_of(a.data));
+    merge.need(2 * bytes * static_cast<double>(block.count)); // once in the block, once in the mesh
     merge.blocks.push_back(std::move(block));
 }
 
@@ -235,6 +246,7 @@ void add_primitive(Merge& merge, const Place& primitive) {
     Mesh& mesh = merge.out.mesh;
     if (indices.size() > std::size_t{none} - 1 - mesh.corners.size())
         throw Error(ErrorKind::limit, "E-LIMIT", merge.mesh_place.path() + ": more than 4294967294 corners");
+    merge.need((sizeof(Index) + sizeof(Index) / 3.0) * static_cast<double>(indices.size()));
     const Index first = static_cast<Index>(merge.blocks[b].first);
     for (const Index i : indices) mesh.corners.push_back(first + i);
     merge.face_primitive.resize(mesh.corners.size() / 3, static_cast<Index>(mesh.primitives.size()));
@@ -328,7 +340,8 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
                 {},
                 0,
                 {},
-                {}};
+                {},
+                0};
     const Place primitives = merge.mesh_place.at("primitives");
     std::size_t skipped = 0;
     for (std::size_t i = 0; i < primitives.size(); ++i) {

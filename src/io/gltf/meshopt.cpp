@@ -43,11 +43,12 @@ void check(const Place& place, const Compressed& c) {
 
 } // namespace
 
-Bytes decode_meshopt(const Source& source, const Place& extension) {
+Bytes decode_meshopt(Source& source, const Place& extension) {
     const Compressed c{source.range(extension), extension.at("count").natural(),
                        extension.at("byteStride").natural(65536), extension.at("mode").text(),
                        extension.text_or("filter", "NONE")};
     check(extension, c);
+    source.need(static_cast<double>(c.count) * static_cast<double>(c.stride));
     Bytes out(c.count * c.stride);
     const auto* from = reinterpret_cast<const unsigned char*>(c.bytes.data());
     const int failed = c.mode == "ATTRIBUTES"

@@ -2,6 +2,7 @@
 
 #include "io/gltf/gltf.hpp"
 
+#include "base/memory.hpp"
 #include "base/parallel.hpp"
 
 #include <algorithm>
@@ -12,6 +13,9 @@
 #include <cstring>
 #include <draco/compression/decode.h>
 #include <draco/compression/expert_encode.h>
+#include <draco/compression/point_cloud/point_cloud_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
 #include <fmt/format.h>
 #include <new>
 #include <stdexcept>
@@ -90,12 +94,55 @@ DracoColumn column_of(const ::draco::Mesh& mesh, const ::draco::PointAttribute& 
     return column;
 }
 
+std::uint32_t decode_count(::draco::DecoderBuffer& buffer, bool variable) {
+    std::uint32_t count = 0;
+    if (!(variable ? ::draco::DecodeVarint(&count, &buffer) : buffer.Decode(&count)))
+        fail("it ends in its header");
+    return count;
+}
+
+/// Reads the numbers of faces and points that the data promises, and refuses what its bytes cannot hold or
+/// memory cannot: the library takes the memory before it finds the faces. The data is that of a mesh.
+void check_counts(::draco::DecoderBuffer buffer) {
+    ::draco::DracoHeader header;
+    const auto status = ::draco::PointCloudDecoder::DecodeHeader(&buffer, &header);
+    if (!status.ok()) fail(status.error_msg());
+    const auto version = DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor);
+    buffer.set_bitstream_version(version);
+    ::draco::GeometryMetadata ignored;
+    if (version >= DRACO_BITSTREAM_VERSION(1, 3) && (header.flags & METADATA_FLAG_MASK) &&
+        !::draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &ignored))
+        fail("its metadata is damaged");
+    const std::size_t bytes = static_cast<std::size_t>(buffer.remaining_size());
+    const bool sequential = header.encoder_method == ::draco::MESH_SEQUENTIAL_ENCODING;
+    std::uint32_t faces = 0, points = 0;
+    if (sequential) {
+        const bool variable = version >= DRACO_BITSTREAM_VERSION(2, 2);
+        faces = decode_count(buffer, variable);
+        points = decode_count(buffer, variable);
+    } else {
+        std::uint8_t traversal = 0;
+        if (!buffer.Decode(&traversal)) fail("it ends in its header");
+        if (version < DRACO_BITSTREAM_VERSION(2, 2))
+            decode_count(buffer, version >= DRACO_BITSTREAM_VERSION(2, 0));
+        const bool variable = version >= DRACO_BITSTREAM_VERSION(2, 0);
+        points = decode_count(buffer, variable);
+        faces = decode_count(buffer, variable);
+    }
+    // The entropy coding may give much for a byte, yet 65,536 faces or points in each are no mesh.
+    constexpr std::size_t most = 65536;
+    if (faces > most * bytes || points > most * bytes)
+        fail(fmt::format("{} bytes cannot hold {} faces and {} points", bytes, faces, points));
+    require_memory(150.0 * faces + 100.0 * points, "decoding Draco data", "use a machine with more memory");
+}
+
 std::unique_ptr<::draco::Mesh> decode(Span bytes) {
     ::draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto type = ::draco::Decoder::GetEncodedGeometryType(&buffer);
     if (!type.ok()) fail(type.status().error_msg());
     if (type.value() != ::draco::TRIANGULAR_MESH) fail("it is a point cloud, and a mesh was expected");
+    check_counts(buffer);
     ::draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (!decoded.ok()) fail(decoded.status().error_msg());
