@@ -265,3 +265,20 @@ TEST_CASE("simplify: area and volume before and after are reported", "[stages]")
                     .record.result["parts"][0]
                     .contains("size"));
 }
+
+TEST_CASE("parts share the samples of the deviation by area and number of triangles", "[stages]") {
+    Scene scene = scene_of(shapes::icosphere(3)); // 1280 triangles
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].name = "twice";
+    scene.parts[2].name = "still";
+    for (int i = 0; i < 3; ++i) scene.parts[1].transform.m[i][i] = 2;
+    for (std::size_t i = 1; i < 3; ++i) scene.parts[i].transform.m[0][3] = 10 * double(i);
+    const auto r = run_stage("simplify", "{ratio: 10%}", scene);
+    const auto samples = [&](std::size_t part) {
+        return r.record.result["parts"][part]["deviation"]["forward"]["samples"].get<double>();
+    };
+    CHECK(samples(0) == Approx(100000 * (1.0 / 6 + 1.0 / 12)).margin(1)); // a third, and one of 1 + 4 + 1
+    CHECK(samples(1) == Approx(100000 * (1.0 / 6 + 4.0 / 12)).margin(1));
+    CHECK(samples(2) == samples(0));
+}

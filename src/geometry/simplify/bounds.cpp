@@ -113,8 +113,8 @@ bool is_near(const State& s, Around& r, const Vec3& to) {
 }
 
 /// Whether a point of one surface (of those that the deviation samples) is farther than `bound` from another.
-bool any_beyond(const Surface& surface, const FaceTree& tree, double bound) {
-    const DeviationSettings settings;
+bool any_beyond(const Surface& surface, const FaceTree& tree, double bound,
+                const DeviationSettings& settings) {
     const auto samples = sample_area(surface, settings.samples, settings.seed);
     const std::size_t all = samples.size() + surface.positions.size();
     return parallel_reduce(
@@ -233,17 +233,19 @@ void hand_over_points(State& s, const Around& around) {
     }
 }
 
-Judge::Judge(const Mesh& from, double bound)
-    : surface_(surface_of(bare_used(from))), tree_(surface_), bound_(bound) {}
+Judge::Judge(const Mesh& from, double bound, std::size_t samples)
+    : surface_(surface_of(bare_used(from))), tree_(surface_), bound_(bound), settings_{.samples = samples} {}
 
 bool Judge::within(const Mesh& mesh) const {
     const Surface now = surface_of(mesh);
-    return !any_beyond(now, tree_, bound_) && !any_beyond(surface_, FaceTree(now), bound_);
+    return !any_beyond(now, tree_, bound_, settings_) &&
+           !any_beyond(surface_, FaceTree(now), bound_, settings_);
 }
 
 double Judge::deviation(const Mesh& mesh) const {
     const Surface now = surface_of(mesh);
-    return std::max(deviation_to(surface_, FaceTree(now)).maximum, deviation_to(now, tree_).maximum);
+    return std::max(deviation_to(surface_, FaceTree(now), settings_).maximum,
+                    deviation_to(now, tree_, settings_).maximum);
 }
 
 Origin::Origin(const Shape& now, std::size_t vertices) : shape(now), number(vertices, none) {
@@ -271,9 +273,9 @@ Shape rolled_back(const Origin& origin, Log& log, std::size_t steps) {
     return s;
 }
 
-Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error) {
+Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, std::size_t samples) {
     const Origin origin(s, from.vertex_count());
-    const Judge judge(from, max_error);
+    const Judge judge(from, max_error, samples);
     const double limit = guarded_share * max_error * s.frame.scale;
     s.followed = follow_points(s);
     s.followed->input = &judge.tree();

@@ -292,13 +292,14 @@ std::uint32_t coarsest_within(const State& s, const Judge& judge, double bound, 
 
 } // namespace
 
-Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<double> max_error) {
+Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<double> max_error,
+                  std::size_t samples) {
     s.quadrics = vertex_quadrics(s);
     Ended end;
     std::uint32_t n = finest_within(s, goal);
     std::optional<Judge> judge;
     if (max_error) {
-        judge.emplace(from, *max_error);
+        judge.emplace(from, *max_error, samples);
         const std::uint32_t bound = coarsest_within(s, *judge, *max_error, end);
         end.by_error = bound == 0 || bound > n;
         n = bound == 0 ? 0 : std::max(n, bound);

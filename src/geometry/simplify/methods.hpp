@@ -46,7 +46,7 @@ struct Ended {
 
 /// Passes as far as the goal and the measured deviation, in the units of `from`, allow. from: what the state
 /// was laid out of. The state must have a log.
-Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error);
+Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, std::size_t samples);
 
 /// The method constrained. vertices: of the mesh that the state was laid out of. The state must have a log.
 Ended run_constrained(State s, std::size_t vertices, const Goal& goal,
@@ -56,7 +56,8 @@ Ended run_constrained(State s, std::size_t vertices, const Goal& goal,
 ///
 /// After J. Rossignac and P. Borrel, 'Multi-resolution 3D approximations for rendering complex scenes'
 /// (1993), and P. Lindstrom, 'Out-of-core simplification of large polygonal models' (2000).
-Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<double> max_error);
+Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<double> max_error,
+                  std::size_t samples);
 
 // For max_error while collapsing, see FollowedPoints.
 
@@ -71,8 +72,8 @@ void hand_over_points(State& s, const Around& around);
 /// Judges shapes by their deviation from the mesh that came in, whose tree is built once.
 class Judge {
   public:
-    /// bound: in the mesh's units.
-    Judge(const Mesh& from, double bound);
+    /// bound: in the mesh's units. samples: of the area, each way.
+    Judge(const Mesh& from, double bound, std::size_t samples);
 
     const FaceTree& tree() const { return tree_; }
     /// Whether the deviation, as `deviation` would measure it, is within the bound; stops at the first sample
@@ -84,6 +85,7 @@ class Judge {
     Surface surface_;
     FaceTree tree_;
     double bound_;
+    DeviationSettings settings_;
 };
 
 /// What a state was before its first collapse.

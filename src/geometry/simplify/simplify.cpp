@@ -296,13 +296,13 @@ Ended run_to(State s, const CoincidentBorders* borders, const Goal& goal) {
 
 Ended run(State s, const Subject& subject, Goal goal, const SimplifySettings& settings) {
     if (settings.method == Method::cluster)
-        return run_cluster(std::move(s), subject.mesh(), goal, settings.max_error);
+        return run_cluster(std::move(s), subject.mesh(), goal, settings.max_error, settings.samples);
     if (settings.method == Method::constrained)
         return run_constrained(std::move(s), subject.mesh().vertex_count(), goal, settings.constraints);
     if (!settings.max_error) return run_to(std::move(s), subject.borders(), goal);
     if (goal.vertices > 0 && subject.borders()) // as if no border got shorter
         goal.vertices -= std::min(goal.vertices - 1, subject.borders()->doubled(s));
-    return run_within(std::move(s), subject.mesh(), goal, *settings.max_error);
+    return run_within(std::move(s), subject.mesh(), goal, *settings.max_error, settings.samples);
 }
 
 SimplifyResult result_of(const Subject& subject, const Targets& targets, const Ended& end) {

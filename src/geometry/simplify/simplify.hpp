@@ -70,8 +70,9 @@ struct SimplifySettings {
     std::optional<std::size_t> faces = {};    ///< at most so many triangles
     std::optional<std::size_t> vertices = {}; ///< at most so many vertices
     /// The deviation from the mesh that came in, measured both ways (geometry/deviation/deviation.hpp, its
-    /// samples and seed), stays within this. In the mesh's units.
+    /// seed), stays within this. In the mesh's units.
     std::optional<double> max_error = {};
+    std::size_t samples = 100000; ///< each way, that max_error is judged by
     /// Levels of detail: ratios, descending. No other target may be given then.
     std::vector<double> levels = {};
 };

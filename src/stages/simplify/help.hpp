@@ -34,8 +34,10 @@ that moved takes the attributes of the original surface at the nearest point of 
 replaces, so textures do not slide; faces keep theirs. Wedges that differ only in their normals are
 merged below the feature angle; a flat-shaded mesh gets the normals of its new faces.
 
-max_error limits the measured deviation (100,000 samples each way and all vertices, seed 1), which
-is reported under deviation, in scene units and as a percentage of the part's diagonal. Points of
+The deviation is measured at 100,000 samples each way and at all vertices, seed 1. Several parts
+share the samples: half go by area, half by the number of triangles. The report gives the number of
+each. max_error limits the deviation measured so, which is reported under deviation, in scene units
+and as a percentage of the part's diagonal. Points of
 the surface are tracked during simplification, and whatever exceeds the limit in the end is undone
 collapse by collapse. This takes many times as long as a ratio. cluster meets the limit by the size
 of its cells.

@@ -4,6 +4,7 @@
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
 #include "stages/simplify/report.hpp"
+#include "stages/simplify/samples.hpp"
 
 #include <fmt/format.h>
 
@@ -65,6 +66,7 @@ class Simplifier {
 
     Scene run() {
         find_sets();
+        share_samples();
         results_.resize(scene_.parts.size());
         before_.resize(scene_.parts.size());
         std::vector<Part> levels;
@@ -95,6 +97,20 @@ class Simplifier {
         contacts_ = find_contacts(placed);
         for (const Set& set : contacts_.sets)
             if (fits(set)) sets_.push_back(set);
+    }
+
+    /// Shares the samples out among the parts that are simplified.
+    void share_samples() {
+        samples_.assign(scene_.parts.size(), 0);
+        if (!measures() && !max_error_) return;
+        std::vector<std::size_t> selected;
+        for (std::size_t p = 0; p < scene_.parts.size(); ++p)
+            if (context_.selects(scene_.parts[p], scene_)) selected.push_back(p);
+        std::vector<SampledSize> sizes(selected.size(), {0, 1});
+        for (std::size_t i = 0; selected.size() > 1 && i < selected.size(); ++i)
+            sizes[i] = sampled_size(surface_of(scene_.parts[selected[i]]));
+        const auto shares = shared_samples(DeviationSettings{}.samples, sizes);
+        for (std::size_t i = 0; i < selected.size(); ++i) samples_[selected[i]] = shares[i];
     }
 
     bool fits(const Set& set) const {
@@ -136,6 +152,8 @@ class Simplifier {
         const Transform to_world = effective(scene_.parts[set.front()]);
         SimplifySettings settings =
             simplify_settings(o_, to_world, share_of(set, greatest_stretch(to_world)));
+        settings.samples = 0;
+        for (const std::size_t p : set) settings.samples += samples_[p];
         if (set.size() > 1) {
             std::vector<const Mesh*> meshes;
             for (const std::size_t p : set) meshes.push_back(&scene_.parts[p].mesh);
@@ -194,7 +212,8 @@ class Simplifier {
             if (measures()) entry.sizes = {size_of(before.properties), size_of(after)};
         }
         if (measures())
-            entry.deviation = deviation(before.surface, surface_of(part), {.certify = o_.certify});
+            entry.deviation = deviation(before.surface, surface_of(part),
+                                        {.samples = samples_[number], .certify = o_.certify});
         report_.parts.push_back(std::move(entry));
     }
 
@@ -208,6 +227,7 @@ class Simplifier {
     std::vector<Set> sets_;                            ///< of parts that are simplified as one
     std::vector<std::vector<SimplifyResult>> results_; ///< [parts][levels] those found and not yet taken
     std::vector<Before> before_;                       ///< [parts]
+    std::vector<std::size_t> samples_;                 ///< [parts] each way, of those selected
 };
 
 } // namespace
