@@ -95,8 +95,10 @@ class Simplifier {
         std::vector<PlacedMesh> placed;
         for (const Part& part : scene_.parts) placed.push_back({&part.mesh, effective(part)});
         contacts_ = find_contacts(placed);
+        set_of_.assign(scene_.parts.size(), nullptr);
         for (const Set& set : contacts_.sets)
-            if (fits(set)) sets_.push_back(set);
+            if (fits(set))
+                for (const std::size_t p : set) set_of_[p] = &set;
     }
 
     /// Shares the samples out among the parts that are simplified.
@@ -125,9 +127,7 @@ class Simplifier {
     }
 
     Set set_of(std::size_t part) const {
-        for (const Set& set : sets_)
-            if (std::find(set.begin(), set.end(), part) != set.end()) return set;
-        return {part};
+        return set_of_.empty() || !set_of_[part] ? Set{part} : *set_of_[part];
     }
 
     SimplifyShare share_of(const Set& set, double scale) const {
@@ -224,7 +224,7 @@ class Simplifier {
     std::size_t faces_ = 0, vertices_ = 0; ///< of all parts selected
     std::optional<double> max_error_, hausdorff_;
     Contacts contacts_;
-    std::vector<Set> sets_;                            ///< of parts that are simplified as one
+    std::vector<const Set*> set_of_;                   ///< [parts] of contacts_, when simplified as one
     std::vector<std::vector<SimplifyResult>> results_; ///< [parts][levels] those found and not yet taken
     std::vector<Before> before_;                       ///< [parts]
     std::vector<std::size_t> samples_;                 ///< [parts] each way, of those selected
