@@ -15,8 +15,9 @@ struct SampledSize {
 };
 SampledSize sampled_size(const Surface& surface);
 
-/// Samples of parts that are measured one by one, so that all together have `all`: half of them go by area, half
-/// by the number of triangles (all of them where there is no finite area), rounded up. A single part has all.
+/// Samples of parts that are measured one by one, so that all together have `all`: half of them go by area,
+/// half by the number of triangles (all of them where there is no finite area), rounded up. A single part has
+/// all.
 std::vector<std::size_t> shared_samples(std::size_t all, std::span<const SampledSize> parts);
 
 } // namespace facetmill
