@@ -583,7 +583,9 @@ const std::vector<MessageId>& message_ids() {
          "makes it an error."},
         {"W-THICKEN",
          {},
-         "The faces of a thickened part intersect, or it is smaller than its thickness.",
+         "The walls of a thickened part intersect, are turned over where they have no room, or lie within "
+         "each "
+         "other, or it is smaller than its thickness.",
          "Give a smaller thickness, or `clean` the result."},
         {"W-THICKEN-OPEN",
          {},

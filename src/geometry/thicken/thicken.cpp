@@ -8,9 +8,12 @@
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/closest_point.hpp"
+#include "geometry/spatial/rays.hpp"
+#include "geometry/thicken/moved_surface.hpp"
 #include "mesh/face.hpp"
 #include "mesh/lineage.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/transform.hpp"
 
@@ -205,24 +208,28 @@ std::size_t add_walls(const Mesh& mesh, Doubled& d, std::vector<std::pair<Index,
     return added;
 }
 
-/// Distances from the front's vertices and the middles of its faces to the back, in world.
-void measure(const Mesh& solid, const Mesh& surface, const Transform& to_world, ThickenResult& r) {
+/// Distances to the back from the front's vertices and the middles of its faces, in world; of the faces that
+/// have both.
+std::optional<ThickenResult::Wall> measure(const Mesh& solid, const Mesh& surface, const Transform& to_world,
+                                           const std::vector<std::uint8_t>& filled) {
     Mesh back;
     back.positions = solid.positions;
     back.wedge_vertex = solid.wedge_vertex;
     for (Vec3& p : back.positions) p = to_world.point(p);
-    back.corners.assign(solid.corners.begin() + static_cast<std::ptrdiff_t>(surface.corner_count()),
-                        solid.corners.begin() + static_cast<std::ptrdiff_t>(2 * surface.corner_count()));
-    back.face_offsets = surface.face_offsets;
-    const FaceTree tree(surface_of(back));
-    std::vector<Vec3> points(back.positions.begin(),
-                             back.positions.begin() + static_cast<std::ptrdiff_t>(surface.vertex_count()));
-    for (Index f = 0; f < surface.face_count(); ++f) {
-        Vec3 middle;
-        for (Index c = solid.face_begin(f); c < solid.face_end(f); ++c)
-            middle += to_world.point(solid.point(c));
-        points.push_back(middle / solid.face_size(f));
+    std::vector<std::uint8_t> looked(surface.vertex_count(), 1);
+    for (Index f = 0; f < surface.face_count(); ++f)
+        for (Index c = surface.face_begin(f); c < surface.face_end(f); ++c)
+            looked[surface.vertex(c)] = !filled[f];
+    std::vector<Vec3> points;
+    for (Index v = 0; v < surface.vertex_count(); ++v)
+        if (looked[v]) points.push_back(back.positions[v]);
+    const auto behind = static_cast<Index>(surface.face_count());
+    for (Index f = 0; f < behind; ++f) {
+        if (filled[f]) continue;
+        add_face(back, solid.face_wedges(behind + f));
+        points.push_back(to_world.point(corner_mean(solid, f)));
     }
+    const FaceTree tree(surface_of(back));
     double sum = 0, least = HUGE_VAL;
     std::size_t count = 0;
     for (const auto& c : closest_points(tree, points))
@@ -231,10 +238,8 @@ void measure(const Mesh& solid, const Mesh& surface, const Transform& to_world, 
             least = std::min(least, c.distance);
             ++count;
         }
-    if (count > 0) {
-        r.mean = sum / static_cast<double>(count);
-        r.thinnest = least;
-    }
+    if (count == 0) return {};
+    return ThickenResult::Wall{least, sum / static_cast<double>(count)};
 }
 
 /// The diagonal of the box around all vertices, in world.
@@ -254,6 +259,96 @@ std::size_t unbalanced_edges(const Mesh& mesh) {
         count += balance != 0;
     }
     return count;
+}
+
+/// What a move along the normals does to the faces of the surface, in world space.
+struct Moved {
+    std::vector<std::uint8_t> turned, vanished; ///< [faces], or empty for no move
+};
+
+/// The surface moved to the places that the solid has from vertex `first` on.
+Moved moved_to(const Mesh& solid, Index first, double distance, const Mesh& surface,
+               const Transform& to_world) {
+    if (distance == 0) return {};
+    Mesh from = bare(surface);
+    std::vector<Vec3> to(from.positions.size());
+    parallel_for(to.size(), [&](std::size_t v) {
+        from.positions[v] = to_world.point(from.positions[v]);
+        to[v] = to_world.point(solid.positions[first + v]);
+    });
+    Moved m;
+    m.turned = turned_faces(from, to);
+    const double along = to_world.determinant() < 0 ? -distance : distance; // mirrored faces look back
+    m.vanished = vanished_components(from, m.turned, along);
+    return m;
+}
+
+/// Counts the faces that are turned, and puts those that vanished among `gone`, which starts with the faces
+/// of the front or of the back.
+void judge(const Moved& moved, std::uint8_t* gone, const Mesh& surface, const Transform& to_world,
+           ThickenResult& r) {
+    for (Index f = 0; f < moved.turned.size(); ++f) {
+        gone[f] = moved.vanished[f];
+        if (!moved.turned[f] || moved.vanished[f]) continue;
+        if (r.turned++ == 0) r.first_turned = to_world.point(corner_mean(surface, f));
+    }
+}
+
+/// Closed components of the solid, none of which meets another, that are not where material ends: the surface
+/// winds around the points on both their sides other than once on the inner and not at all on the outer side.
+std::size_t buried_components(const Mesh& solid) {
+    const Components components = face_components(solid, false);
+    if (components.count < 2) return 0;
+    std::vector<Index> first(components.count, none);
+    for (Index f = static_cast<Index>(solid.face_count()); f-- > 0;) first[components.of_face[f]] = f;
+    std::vector<double> volume(components.count, 0);
+    const Vec3 middle = solid.bounds().centre();
+    for (Index f = 0; f < solid.face_count(); ++f)
+        volume[components.of_face[f]] +=
+            dot(area_vector(solid, f), solid.point(solid.face_begin(f)) - middle);
+    const FaceTree rays(surface_of(solid), FaceTree::Use::rays);
+    std::vector<std::uint8_t> buried(components.count, 0);
+    parallel_for(
+        buried.size(),
+        [&](std::size_t p) {
+            int around = 0;
+            visit_along_axis(rays, solid.point(solid.face_begin(first[p])), 0, true,
+                             [&](Index f, int way) { around += components.of_face[f] == p ? 0 : way; });
+            buried[p] = around != (volume[p] < 0 ? 1 : 0);
+        },
+        1);
+    return static_cast<std::size_t>(std::count(buried.begin(), buried.end(), 1));
+}
+
+/// How many components have flagged faces.
+std::size_t components_of(const Mesh& mesh, const std::vector<std::uint8_t>& flags) {
+    const Components components = face_components(mesh, false);
+    std::vector<std::uint8_t> has(components.count, 0);
+    for (Index f = 0; f < flags.size(); ++f)
+        if (flags[f]) has[components.of_face[f]] = 1;
+    return static_cast<std::size_t>(std::count(has.begin(), has.end(), 1));
+}
+
+/// Finds what is wrong with the solid, and takes away the sides of closed components that vanished: what is
+/// left of those is filled.
+void settle(Doubled& d, const Mesh& surface, const ThickenSettings& s, double out, ThickenResult& r) {
+    const std::size_t faces = surface.face_count();
+    std::vector<std::uint8_t> gone(d.mesh.face_count(), 0), filled(faces, 0);
+    judge(moved_to(d.mesh, 0, out, surface, s.to_world), gone.data(), surface, s.to_world, r);
+    const auto behind = static_cast<Index>(surface.vertex_count());
+    judge(moved_to(d.mesh, behind, out - s.thickness, surface, s.to_world), gone.data() + faces, surface,
+          s.to_world, r);
+    for (std::size_t f = 0; f < faces; ++f) filled[f] = gone[f] | gone[faces + f];
+    r.wall = measure(d.mesh, surface, s.to_world, filled);
+    const bool any = std::find(filled.begin(), filled.end(), 1) != filled.end();
+    if (any) {
+        r.filled = components_of(surface, filled);
+        d.mesh = keep_faces(d.mesh, faces_without(gone));
+    }
+    r.unbalanced = unbalanced_edges(d.mesh);
+    if (!s.self_intersections || (r.wall && s.thickness > size_of(surface, s.to_world))) return;
+    r.self_intersections = find_self_intersections(d.mesh, {.limit = 0}).count;
+    if (r.self_intersections == 0 && r.unbalanced == 0) r.buried = buried_components(d.mesh);
 }
 
 ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
@@ -284,10 +379,7 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
     if (!mesh.has_seams() && wall_normals.empty()) d.mesh.wedge_vertex = {};
     r.limited = ways.limited;
     r.still = ways.still;
-    if (mesh.face_count() > 0) measure(d.mesh, mesh, s.to_world, r);
-    r.unbalanced = unbalanced_edges(d.mesh);
-    if (s.self_intersections && s.thickness <= size_of(mesh, s.to_world))
-        r.self_intersections = find_self_intersections(d.mesh, {.limit = 0}).count;
+    settle(d, mesh, s, out, r);
     r.mesh = std::move(d.mesh);
     return r;
 }

@@ -24,24 +24,36 @@ struct ThickenSettings {
 struct ThickenResult {
     Mesh mesh;
     AttributeChanges changes;
-    std::size_t wall_faces = 0;    ///< along open edges
-    std::size_t limited = 0;       ///< vertices that miter_limit held back
-    std::size_t still = 0;         ///< vertices without a normal (or of no face): they did not move
-    double thinnest = 0, mean = 0; ///< from vertices and middles of faces of the front to the back, in world
+    std::size_t wall_faces = 0; ///< along open edges
+    std::size_t limited = 0;    ///< vertices that miter_limit held back
+    std::size_t still = 0;      ///< vertices without a normal (or of no face): they did not move
+    /// Distances in world from vertices and middles of faces of the front to the back.
+    struct Wall {
+        double thinnest = 0, mean = 0;
+    };
+    std::optional<Wall> wall; ///< none when nothing has both sides
     std::size_t unbalanced =
-        0; ///< edges of the result that are not closed: the surface was not oriented there
-    /// Pairs of faces. Not looked for when the thickness is more than the surface is large: nearly all meet.
+        0;                  ///< edges of the result that are not closed: the surface was not oriented there
+    std::size_t filled = 0; ///< closed components whose walls fill them: one side vanished, and is not there
+    std::size_t turned = 0; ///< faces of front and back that their move turned over (see turned_faces)
+    std::optional<Vec3>
+        first_turned; ///< the middle, in world, of the face of the surface that the first is of
+    /// Pairs of faces. Not looked for when the thickness is more than the surface is large, unless it is
+    /// filled: nearly all meet.
     std::optional<std::size_t> self_intersections;
+    std::size_t buried = 0; ///< closed components within the walls of others, when no faces intersect
 };
 
 /// Makes a solid of the surface: the front as it is (moved outward by the thickness, or half of it), a copy
 /// of it turned round at the thickness behind, and walls along open edges. A closed surface becomes a hollow
-/// solid with a cavity. A vertex moves so that the planes of its faces move by the distance each, as nearly
-/// as one point allows (least squares, weighted by the angles of the faces at the vertex); where that goes
-/// farther than miter_limit it is held back. Wedges of the back have normals turned; walls have their own
-/// when the mesh has normals. Requires a consistently oriented surface to be closed afterwards. Sheets that
-/// meet at an edge of more than two faces, or only at a vertex, are taken apart first, as clean does: each
-/// becomes a solid of its own. O(n log n).
+/// solid with a cavity; where no ball of that radius fits into a closed component there is no cavity, and the
+/// solid is what the other side bounds. A vertex moves so that the planes of its faces move by the distance
+/// each, as nearly as one point allows (least squares, weighted by the angles of the faces at the vertex);
+/// where that goes farther than miter_limit it is held back. A side that folds over is left as it is: the
+/// solid is right where turned, self_intersections and buried are 0, and thin where the wall is. Wedges of
+/// the back have normals turned; walls have their own when the mesh has normals. Requires a consistently
+/// oriented surface to be closed afterwards. Sheets that meet at an edge of more than two faces, or only at a
+/// vertex, are taken apart first, as clean does: each becomes a solid of its own. O(n log n).
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
 
 struct WiresSettings {

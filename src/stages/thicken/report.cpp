@@ -14,18 +14,14 @@ auto of_surface(T ThickenResult::*member) {
         return surface ? std::optional<T>(surface->result.*member) : std::nullopt;
     };
 }
-std::optional<ThickenResult> wall_of(const ThickenedPart& part) {
+std::optional<ThickenResult::Wall> wall_of(const ThickenedPart& part) {
     const auto* surface = std::get_if<ThickenedSurface>(&part);
-    if (!surface) return {};
-    ThickenResult wall;
-    wall.thinnest = surface->result.thinnest;
-    wall.mean = surface->result.mean;
-    return wall;
+    return surface ? surface->result.wall : std::nullopt;
 }
 
-void declare_wall(DeclareFields<ThickenResult>& d) {
-    d.field("min", &ThickenResult::thinnest, "The least.").unit("scene units");
-    d.field("mean", &ThickenResult::mean, "The mean.").unit("scene units");
+void declare_wall(DeclareFields<ThickenResult::Wall>& d) {
+    d.field("min", &ThickenResult::Wall::thinnest, "The least.").unit("scene units");
+    d.field("mean", &ThickenResult::Wall::mean, "The mean.").unit("scene units");
 }
 
 void declare_part(DeclareFields<ThickenedPart>& d) {
@@ -43,7 +39,17 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
     d.field("unbalanced_edges", of_surface(&ThickenResult::unbalanced),
             "Edges at which the solid is not closed because the surface is not oriented there.")
         .only_when(surface);
-    d.object("wall_thickness", wall_of, "From the front to the back.", declare_wall).only_when(surface);
+    d.field("filled_components", of_surface(&ThickenResult::filled),
+            "Closed components that have no room for a cavity: they became solid.")
+        .only_when(surface);
+    d.field("turned_faces", of_surface(&ThickenResult::turned),
+            "Faces of the front and the back that the move turned over: the wall folds there.")
+        .only_when(surface);
+    d.field("buried_components", of_surface(&ThickenResult::buried),
+            "Closed components of the solid within the walls of others.")
+        .only_when(surface);
+    d.object("wall_thickness", wall_of, "From the front to the back.", declare_wall)
+        .only_when("a surface got a thickness and is not filled");
     const auto pairs = [](const ThickenedPart& p) {
         const auto* s = std::get_if<ThickenedSurface>(&p);
         return s && s->looked && s->has_faces ? std::optional(s->result.self_intersections) : std::nullopt;
@@ -65,10 +71,14 @@ std::string line_of(const ThickenedEdges& edges) {
 
 std::string line_of(const ThickenedSurface& surface) {
     const ThickenResult& r = surface.result;
-    const std::string pairs =
-        r.self_intersections ? fmt::format(", {} self-intersections", *r.self_intersections) : "";
-    return fmt::format("{}: wall thickness at least {:.6g}, mean {:.6g}{}", surface.part, r.thinnest, r.mean,
-                       pairs);
+    std::string line = surface.part + ":";
+    if (r.wall)
+        line += fmt::format(" wall thickness at least {:.6g}, mean {:.6g},", r.wall->thinnest, r.wall->mean);
+    if (r.filled > 0) line += fmt::format(" {} components filled,", r.filled);
+    if (r.turned > 0) line += fmt::format(" {} faces turned over,", r.turned);
+    if (r.self_intersections) line += fmt::format(" {} self-intersections,", *r.self_intersections);
+    line.pop_back();
+    return line;
 }
 
 } // namespace
@@ -94,11 +104,11 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, b
                                  "there",
                                  part.name, r.unbalanced),
                      "use orient first; a Moebius strip has no inside");
-    if (r.thinnest < 0.5 * thickness)
+    if (r.wall && r.wall->thinnest < 0.5 * thickness)
         context.warn(
             "W-THICKEN-THIN",
             fmt::format("thicken: the wall of part '{}' is only {:.6g} thick where it should be {:.6g}",
-                        part.name, r.thinnest, thickness),
+                        part.name, r.wall->thinnest, thickness),
             "the surface curves or folds within the thickness there; try the other side or a smaller "
             "thickness");
     if (r.self_intersections.value_or(0) > 0)
@@ -106,6 +116,19 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, b
                      fmt::format("thicken: {} pairs of faces of part '{}' intersect", *r.self_intersections,
                                  part.name),
                      "use a smaller thickness, the other side, or a smoother surface (relax)");
+    if (r.turned > 0)
+        context.warn(
+            "W-THICKEN",
+            fmt::format("thicken: {} faces of the walls of part '{}' are turned over, the first at "
+                        "{:.6g} {:.6g} {:.6g}: there is no room for {:.6g}",
+                        r.turned, part.name, r.first_turned->x, r.first_turned->y, r.first_turned->z,
+                        thickness),
+            "use a smaller thickness, the other side, or larger and smoother faces (simplify, relax)");
+    if (r.buried > 0)
+        context.warn("W-THICKEN",
+                     fmt::format("thicken: {} closed components of part '{}' lie within the walls of others",
+                                 r.buried, part.name),
+                     "use a smaller thickness, or thicken the components one by one (separate)");
     if (looked && !r.self_intersections)
         context.warn("W-THICKEN",
                      fmt::format("thicken: part '{}' is smaller than its thickness, {:.6g}, so it was not "
