@@ -5,6 +5,8 @@
 #include "support/run_stage.hpp"
 #include "support/temporary.hpp"
 
+#include <algorithm>
+
 using namespace facetmill;
 using test::failure;
 using test::run_stage;
@@ -128,4 +130,22 @@ TEST_CASE("section refuses what is no plane and no drawing", "[stages]") {
     CHECK(refusal("{plane: z=2mm}") ==
           "usage [E-UNIT] 'plane' is 2mm, but the scene has no unit | give the unit of the file (load: "
           "{unit: mm}), or use a bare number or a percentage");
+}
+
+TEST_CASE("section warns of contours that run clockwise or cross themselves", "[stages]") {
+    Mesh cube = shapes::cube();
+    const auto has = [](const auto& run, const std::string& id) {
+        const auto ids = run.warnings();
+        return std::find(ids.begin(), ids.end(), id) != ids.end();
+    };
+    CHECK_FALSE(has(run_stage("section", "z=0.5", scene_of(cube)), "W-INSIDE-OUT"));
+    for (std::size_t c = 0; c < cube.corners.size(); c += 3) std::swap(cube.corners[c], cube.corners[c + 1]);
+    CHECK(has(run_stage("section", "z=0.5", scene_of(cube)), "W-INSIDE-OUT"));
+    Mesh bow = shapes::quad_cube(); // of which two walls cross
+    std::swap(bow.positions[2], bow.positions[3]);
+    std::swap(bow.positions[6], bow.positions[7]);
+    const auto run = run_stage("section", "z=0.5", scene_of(bow));
+    CHECK(has(run, "W-SECTION-CROSSES"));
+    CHECK(run.record.result["area"] == 0.5);
+    CHECK(run.record.result["empty"] == 0);
 }

@@ -14,6 +14,7 @@ namespace {
 struct Crossing {
     std::int64_t line;
     double at; ///< along the line
+    int turn;  ///< what the winding number changes by; 0: the frame around it all begins or ends
 };
 
 Box bounds_of(Rings rings) {
@@ -32,8 +33,8 @@ std::int64_t line_above(double height, double spacing) {
 }
 
 /// Crossings of the hatch lines with a ring. A corner's height is computed once and belongs to no two sides,
-/// so every line crosses every ring an even number of times.
-void cross_ring(Ring ring, const HatchSettings& s, std::vector<Crossing>& out) {
+/// so every line crosses every ring as often up as down.
+void cross_ring(Ring ring, const HatchSettings& s, bool frame, std::vector<Crossing>& out) {
     const Vec2 across{-s.direction.y, s.direction.x};
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2 &a = ring[i], &b = ring[i + 1 == ring.size() ? 0 : i + 1];
@@ -44,7 +45,7 @@ void cross_ring(Ring ring, const HatchSettings& s, std::vector<Crossing>& out) {
         const auto end = line_above(high, s.spacing);
         for (auto k = line_above(low, s.spacing); k < end; ++k) {
             const double t = (static_cast<double>(k) * s.spacing - ha) / (hb - ha);
-            out.push_back({k, sa * (1 - t) + sb * t});
+            out.push_back({k, sa * (1 - t) + sb * t, frame ? 0 : ha < hb ? -1 : 1});
         }
     }
 }
@@ -96,32 +97,56 @@ std::vector<Interval> clip_line(const Vec2& a, const Vec2& b, Rings rings, Keep 
     return kept;
 }
 
+namespace {
+
+/// Between crossings, by line and place, where the winding number says so; each from the line's start on, but
+/// for odd lines, which run back.
+std::vector<Segment> kept_segments(const std::vector<Crossing>& crossings, const HatchSettings& s) {
+    const Vec2 across{-s.direction.y, s.direction.x};
+    std::vector<Segment> segments;
+    int winding = 0;
+    bool framed = false, goes_on = false;
+    for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
+        const auto& [line, from, turn] = crossings[i];
+        const double to = crossings[i + 1].at;
+        winding += turn;
+        framed ^= turn == 0;
+        const bool kept = s.keep == Keep::inside ? winding != 0 : framed && winding == 0;
+        if (kept && from == to) continue; // corners and edges at one place
+        if (kept) {
+            const Vec2 foot = across * (static_cast<double>(line) * s.spacing);
+            const Vec2 begin = foot + s.direction * from, end = foot + s.direction * to;
+            const bool back = line % 2 != 0;
+            if (!goes_on)
+                segments.push_back(back ? Segment{end, begin} : Segment{begin, end});
+            else
+                (back ? segments.back().a : segments.back().b) = end;
+        }
+        goes_on = kept;
+    }
+    return segments;
+}
+
+} // namespace
+
 std::vector<Segment> hatch(Rings rings, const HatchSettings& s) {
     const Box box = bounds_of(rings);
     if (box.empty()) return {};
     check_limit(box, s);
     std::vector<Crossing> crossings;
-    for (const Ring ring : rings) cross_ring(ring, s, crossings);
+    for (const Ring ring : rings) cross_ring(ring, s, false, crossings);
     if (s.keep ==
         Keep::outside) { // the frame around it all, so that what is between it and the outline is inside
         const double w = s.spacing;
         const std::array frame{Vec2{box.min.x - w, box.min.y - w}, Vec2{box.max.x + w, box.min.y - w},
                                Vec2{box.max.x + w, box.max.y + w}, Vec2{box.min.x - w, box.max.y + w}};
-        cross_ring(frame, s, crossings);
+        cross_ring(frame, s, true, crossings);
     }
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
-        return a.line != b.line ? a.line < b.line : a.at < b.at;
+        return a.line != b.line ? a.line < b.line : a.at != b.at ? a.at < b.at : a.turn < b.turn;
     });
     const Vec2 across{-s.direction.y, s.direction.x};
-    std::vector<Segment> segments;
-    for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-        const auto [line, from] = crossings[i];
-        if (from == crossings[i + 1].at) continue;
-        const Vec2 foot = across * (static_cast<double>(line) * s.spacing);
-        Segment segment{foot + s.direction * from, foot + s.direction * crossings[i + 1].at};
-        if (line % 2 != 0) std::swap(segment.a, segment.b);
-        segments.push_back(segment);
-    }
+    std::vector<Segment> segments = kept_segments(crossings, s);
     // A pen that runs back and forth: odd lines are drawn from their far end.
     for (std::size_t i = 0; i < segments.size();) {
         std::size_t end = i;

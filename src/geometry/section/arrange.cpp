@@ -1,9 +1,11 @@
 // What the contours of a section are to each other, and their measures.
 #include "base/predicates.hpp"
 #include "geometry/polygon/ring_tree.hpp"
+#include "geometry/polygon/triangulate_rings.hpp"
 #include "geometry/section/section.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace facetmill {
 
@@ -56,6 +58,16 @@ class Nesting {
     RingTree tree_;
 };
 
+/// Of what a contour that crosses itself winds around, from its triangles.
+std::optional<polygon::Moments> moments_by_winding(Ring ring) {
+    const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));
+    const auto at = [&](Index i) { return i < ring.size() ? ring[i] : t.added[i - ring.size()].at; };
+    std::vector<std::array<Vec2, 3>> triangles;
+    for (const auto& abc : t.triangles) triangles.push_back({at(abc[0]), at(abc[1]), at(abc[2])});
+    const std::vector<Ring> rings(triangles.begin(), triangles.end());
+    return polygon::moments(rings);
+}
+
 void measure(Section& s, Contour& c, bool simple) {
     const Ring ring = s.ring(c);
     for (std::size_t i = 0; i + 1 < ring.size(); ++i) c.length += length(ring[i + 1] - ring[i]);
@@ -70,14 +82,20 @@ void measure(Section& s, Contour& c, bool simple) {
         c.kind = ring.size() == 3   ? polygon::Kind::triangle
                  : ring.size() == 4 ? polygon::Kind::quad
                                     : polygon::Kind::convex;
-    if (c.kind != polygon::Kind::self_intersecting) c.moments = polygon::moments(ring);
+    if (c.kind != polygon::Kind::self_intersecting) {
+        c.moments = polygon::moments(ring);
+        return;
+    }
+    c.moments = moments_by_winding(ring);
+    c.area = !c.moments ? 0 : c.orientation < 0 ? -c.moments->area : c.moments->area;
 }
 
 /// Whether outlines and holes cover each point at most once.
 bool covers_once(const Section& s) {
     return s.contact != polygon::Contact::crossing &&
            std::all_of(s.contours.begin(), s.contours.end(), [](const Contour& c) {
-               return (c.role == ContourRole::outline || c.role == ContourRole::hole) && c.moments;
+               return (c.role == ContourRole::outline || c.role == ContourRole::hole) && c.moments &&
+                      c.kind != polygon::Kind::self_intersecting;
            });
 }
 

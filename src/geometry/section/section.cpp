@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "geometry/polygon/triangulate_rings.hpp"
 #include "geometry/section/cut.hpp"
 
 #include <algorithm>
@@ -126,6 +127,14 @@ Index straighten(std::vector<Vec2>& points, Contour& c, Index to, double roundin
     return to;
 }
 
+/// Whether a closed contour winds around nothing. What it winds around both ways may cancel in its area.
+bool is_collapsed(polygon::Ring ring) {
+    if (ring.size() < 3) return true;
+    if (polygon::orientation(ring) != 0) return false;
+    const polygon::WindingRange range = polygon::winding_range(polygon::Rings(&ring, 1));
+    return range.least == 0 && range.most == 0;
+}
+
 /// Straightens all contours; those that shrank to a point or a line are dropped and counted.
 void tidy(Section& s, double rounding) {
     Index to = 0;
@@ -133,7 +142,7 @@ void tidy(Section& s, double rounding) {
     for (Contour c : s.contours) {
         const Index end = straighten(s.points, c, to, rounding);
         const bool open = c.role == ContourRole::open;
-        if (end - c.begin < (open ? 2U : 3U) || (!open && polygon::orientation(s.ring(c)) == 0)) {
+        if (open ? end - c.begin < 2U : is_collapsed(s.ring(c))) {
             ++s.collapsed;
             continue;
         }
@@ -171,6 +180,12 @@ std::vector<polygon::Ring> Section::filled() const {
     for (const Contour& c : contours)
         if (c.role == ContourRole::outline || c.role == ContourRole::hole) rings.push_back(ring(c));
     return rings;
+}
+
+std::size_t Section::inside_out() const {
+    return static_cast<std::size_t>(std::count_if(contours.begin(), contours.end(), [](const Contour& c) {
+        return c.role == ContourRole::outline && c.orientation < 0;
+    }));
 }
 
 std::vector<Section> section(const Mesh& mesh, const SectionSettings& settings) {

@@ -53,12 +53,11 @@ struct Contour {
     Index begin = 0, end = 0; ///< into Section::points
     ContourRole role = ContourRole::outline;
     Index parent = none; ///< the contour right around it, or none
-    int orientation = 1; ///< 1 anticlockwise seen against the normal, -1 clockwise
+    int orientation = 1; ///< 1 anticlockwise seen against the normal, -1 clockwise, 0 as much either way
     polygon::Kind kind = polygon::Kind::convex;
-    double area = 0;   ///< signed by orientation
+    double area = 0;   ///< of what it winds around (nonzero rule), negative when it is clockwise
     double length = 0; ///< around it, or along it when open
-    std::optional<polygon::Moments>
-        moments; ///< none when open or self-intersecting: the sums would mean nothing
+    std::optional<polygon::Moments> moments; ///< of what it winds around; none when open
 };
 
 /// The section at one height.
@@ -67,7 +66,9 @@ struct Section {
     SectionFrame frame;
     std::vector<Vec2> points;      ///< in the frame; contour by contour
     std::vector<Contour> contours; ///< in the order of the faces they start at
-    double area = 0;           ///< sum over closed contours: holes take, what is covered twice counts twice
+    /// Sum over closed contours: holes take, what is covered twice counts twice. Negative where the surface
+    /// is inside out, as its volume is.
+    double area = 0;
     bool oriented = true;      ///< neighbours agreed; else contours were turned by nesting (even-odd)
     std::size_t collapsed = 0; ///< contours that shrank to a point or line: the plane only touched there
     polygon::Contact contact = polygon::Contact::none; ///< among all closed contours
@@ -75,8 +76,11 @@ struct Section {
     std::optional<polygon::Moments> moments;
 
     polygon::Ring ring(const Contour& c) const { return {points.data() + c.begin, points.data() + c.end}; }
-    /// Outlines and holes: what a drawing fills.
+    /// Outlines and holes: what a drawing fills, by the nonzero rule. So bodies that overlap are one region,
+    /// as they are in space, and of a contour that crosses itself all that it winds around is inside.
     std::vector<polygon::Ring> filled() const;
+    /// Outlines that run clockwise: the surface is inside out there.
+    std::size_t inside_out() const;
 };
 
 /// Sections at all heights, in order; a plane that misses gives one without contours. Contours of

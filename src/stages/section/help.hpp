@@ -20,6 +20,12 @@ Vertices are classified once, by exact signs. A vertex on the plane counts as ab
 is the one just below the plane: for a cube standing on z = 0, the section at the bottom is empty
 and the section at the top is a square.
 
+What contours wind around is inside, whichever way (the nonzero rule, by which drawings and hatching
+are filled): bodies that overlap are one region, as in space, where an even-odd rule would leave a
+hole. A contour that intersects itself has the area and the moments of all that it winds around
+(W-SECTION-CROSSES). Outlines of a mesh that is inside out run clockwise and have negative areas
+(W-INSIDE-OUT).
+
 Drawings are SVG (sections side by side), DXF (one layer per section) and JSON (all points and
 measures). The scene passes on unchanged.
 

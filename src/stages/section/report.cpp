@@ -19,6 +19,7 @@ void add(SectionReport& report, const Section& s) {
     report.touched += s.collapsed;
     report.oriented = report.oriented && s.oriented;
     report.contours += s.contours.size();
+    report.inside_out += s.inside_out();
     for (const Contour& c : s.contours) {
         report.holes += c.role == ContourRole::hole;
         report.open += c.role == ContourRole::open;
@@ -69,11 +70,20 @@ void warn(const SectionReport& report, Context& context) {
                      "neighbouring faces are inconsistent, so nesting decided which contours are outlines "
                      "and which are holes",
                      "use orient first");
+    if (report.inside_out > 0)
+        context.warn(
+            "W-INSIDE-OUT",
+            fmt::format("{} outlines run clockwise, so their areas are negative: the mesh is inside out "
+                        "where the plane cuts it",
+                        report.inside_out),
+            "use orient first");
     const auto crossed = report.kinds[static_cast<std::size_t>(polygon::Kind::self_intersecting)];
     if (crossed > 0)
         context.warn(
             "W-SECTION-CROSSES",
-            fmt::format("{} contours intersect themselves and have no centroid and moments", crossed));
+            fmt::format("{} contours intersect themselves; all that they wind around counts as inside",
+                        crossed),
+            "use clean: {self_intersections: all} first, to unite what overlaps");
 }
 
 // --- fields

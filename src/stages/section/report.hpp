@@ -27,6 +27,7 @@ struct SectionReport {
     std::array<std::size_t, polygon::kinds> kinds{}; ///< of closed contours
     double area = 0;
     bool oriented = true;
+    std::size_t inside_out = 0; ///< outlines that run clockwise
     std::vector<ReportedSection> sections;
     std::optional<double> spacing, area_times_spacing, ratio;
     std::optional<std::optional<double>> volume;
@@ -35,7 +36,7 @@ void declare_section_report(DeclareFields<SectionReport>& d);
 
 /// The sums over the drawing and, for a stack (spacing above 0, world units), the areas times spacing beside
 /// the volume of the parts selected. Warns of contours that are open (W-OPEN-SECTION), turned by nesting
-/// (W-UNORIENTED) or crossing themselves (W-SECTION-CROSSES).
+/// (W-UNORIENTED), clockwise (W-INSIDE-OUT) or crossing themselves (W-SECTION-CROSSES).
 SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, const Scene& scene, double spacing,
                         Context& context);
 

@@ -80,3 +80,14 @@ TEST_CASE("hatching finer than the limit is refused", "[geometry]") {
           "limit [E-HATCH] hatching would take about 4242640687 lines, and at most 1000000 are drawn | "
           "choose a larger spacing");
 }
+
+TEST_CASE("hatching covers what rings wind around, overlaps once", "[geometry]") {
+    const auto overlapping = rings_of({square(0, 0, 4), square(2, 2, 4)});
+    const auto lines = hatch(overlapping, {.spacing = 0.01, .direction = {0.6, 0.8}});
+    CHECK(total(lines) * 0.01 == Approx(28).epsilon(1e-3));
+    const auto eight = rings_of({figure_eight()});
+    CHECK(total(hatch(eight, {.spacing = 0.01})) * 0.01 == Approx(2).epsilon(1e-2));
+    const auto around = hatch(overlapping, {.spacing = 0.01, .keep = Keep::outside});
+    CHECK(total(around) * 0.01 == Approx(6.02 * 6.02 - 28).epsilon(1e-2));
+    for (const auto& s : around) CHECK_FALSE(inside_by_angles((s.a + s.b) * 0.5, overlapping));
+}

@@ -223,3 +223,60 @@ TEST_CASE("a section where a clip was sees the cap as one face in the plane", "[
               section(sides.front, {plane, {0}, {}}).at(0).collapsed >
           0);
 }
+
+namespace {
+
+/// Walls over a ring, from z = 0 to 1.
+Mesh walls_over(const std::vector<Vec2>& ring) {
+    Mesh mesh;
+    const auto n = static_cast<Index>(ring.size());
+    for (const double z : {0.0, 1.0})
+        for (const Vec2& p : ring) mesh.positions.push_back({p.x, p.y, z});
+    for (Index i = 0; i < n; ++i) add_face(mesh, std::vector<Index>{i, (i + 1) % n, n + (i + 1) % n, n + i});
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("a contour that crosses itself is there, and all that it winds around is inside", "[geometry]") {
+    struct Case {
+        std::vector<Vec2> ring;
+        double area;
+        Vec2 centroid;
+    };
+    const double fifth = 2 * M_PI / 5, inner = (3 - std::sqrt(5.0)) / 2;
+    std::vector<Vec2> star;
+    for (const int k : {0, 2, 4, 1, 3}) star.push_back({std::cos(k * fifth), std::sin(k * fifth)});
+    const Case cases[] = {
+        {{{0, 0}, {1, 0}, {0, 1}, {1, 1}}, 0.5, {0.5, 0.5}},                    // as much either way
+        {{{0, 0}, {6, 0}, {2, 4}, {4, 4}}, 10, {3, (9.0 + 1 * 11.0 / 3) / 10}}, // heights: 1 and 3 2/3
+        {star, 5 * inner * std::sin(M_PI / 5), {0, 0}},
+    };
+    for (const Case& c : cases) {
+        const Section s = cut(walls_over(c.ring), across_z(0.5));
+        REQUIRE(s.contours.size() == 1);
+        const Contour& contour = s.contours[0];
+        CHECK(s.collapsed == 0);
+        CHECK(contour.kind == polygon::Kind::self_intersecting);
+        CHECK(contour.role == ContourRole::outline);
+        CHECK(contour.area == Approx(c.area));
+        CHECK(s.area == contour.area);
+        REQUIRE(contour.moments);
+        CHECK(contour.moments->centroid.x == Approx(c.centroid.x).margin(1e-12));
+        CHECK(contour.moments->centroid.y == Approx(c.centroid.y).margin(1e-12));
+        double hatched = 0;
+        for (const auto& line : polygon::hatch(s.filled(), {.spacing = 0.001, .direction = {0.6, 0.8}}))
+            hatched += length(line.b - line.a) * 0.001;
+        CHECK(hatched == Approx(c.area).epsilon(0.01));
+    }
+}
+
+TEST_CASE("the section of a mesh that is inside out is told", "[geometry]") {
+    Mesh cube = shapes::cube();
+    for (std::size_t c = 0; c < cube.corners.size(); c += 3) std::swap(cube.corners[c], cube.corners[c + 1]);
+    const Section s = cut(cube, across_z(0.5));
+    CHECK(s.area == -1);
+    CHECK(s.inside_out() == 1);
+    CHECK(cut(shapes::cube(), across_z(0.5)).inside_out() == 0);
+    CHECK(cut(hollow_cube(), across_z(0.5)).inside_out() == 0);
+}
