@@ -42,6 +42,7 @@ PUBLIC = {
     "geometry/section/stack.hpp": "the planes of a stack of sections",
     "geometry/simplify/joint.hpp": "several parts simplified together",
     "geometry/simplify/work.hpp": "the state that OpenMesh's decimater works on",
+    "geometry/triangulate/crossing_faces.hpp": "the triangles that files and pictures show",
     "geometry/triangulate/pair_triangles.hpp": "the other way round",
     "stages/measure/report.hpp": "measures in a report, for probe",
 }

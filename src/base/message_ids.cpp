@@ -430,7 +430,9 @@ const std::vector<MessageId>& message_ids() {
          "Nothing, unless this leaves holes in the surface."},
         {"W-FANS",
          {},
-         "triangulate cut faces that intersect themselves or have no area as fans.",
+         "triangulate cut faces so that their triangles may overlap: fans of faces without area or that "
+         "intersect "
+         "themselves in no plane, and faces with neighbours that wind around points several times.",
          "Check the faces given in the message."},
         {"W-FORMAT", {}, "The content of a file does not match its suffix.", "Rename it."},
         {"W-GROUPS",
@@ -451,7 +453,7 @@ const std::vector<MessageId>& message_ids() {
          "Export the file again."},
         {"W-INSIDE-OUT",
          {},
-         "The faces of a solid face inward, so its volume is negative.",
+         "The faces of a solid face inward, so its volume, and the area of its sections, are negative.",
          "Use `orient` to reverse them."},
         {"W-INSTANCES",
          {},
@@ -527,7 +529,7 @@ const std::vector<MessageId>& message_ids() {
          "Use a format with more digits (`precision: full`), or more Draco bits."},
         {"W-SECTION-CROSSES",
          {},
-         "Contours of a section intersect themselves and have no centroid and moments.",
+         "Contours of a section intersect themselves. What they wind around, either way, counts as inside.",
          "Use `clean: {self_intersections: all}` first."},
         {"W-SIMPLIFY-NOTHING",
          {},

@@ -1,4 +1,5 @@
 #include "geometry/render/render.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 
 #include "base/parallel.hpp"
 #include "geometry/render/painter.hpp"
@@ -235,7 +236,7 @@ Picture picture_of(const Scene& scene, const PictureSettings& settings) {
     for (const Part& part : scene.parts) {
         if (!shown(part, settings)) continue;
         faces += part.mesh.face_count();
-        const Mesh cut = part.mesh.all_triangles() ? Mesh{} : triangulated(part.mesh);
+        const Mesh cut = part.mesh.all_triangles() ? Mesh{} : triangles_of(part.mesh);
         const Mesh& triangles = part.mesh.all_triangles() ? part.mesh : cut;
         const Painter painter(triangles, scene, settings, number++, range);
         const PartDrawing drawing(part, triangles, painter, view, settings);

@@ -1,6 +1,7 @@
 #include "io/gltf/encode.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/draco/draco.hpp"
 
 #include <cstring>
@@ -265,7 +266,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
                         Written& written) {
     EncodedMesh out;
     Mesh cut;
-    if (!given.all_triangles()) cut = triangulated(given);
+    if (!given.all_triangles()) cut = triangles_of(given);
     const Mesh& mesh = given.all_triangles() ? given : cut;
     if (mesh.face_count() == 0) return out;
     check_range(mesh, settings.name);

@@ -1,6 +1,7 @@
 #include "io/stl/stl.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 
 #include <array>
@@ -41,7 +42,7 @@ class Triangles {
   public:
     explicit Triangles(const Mesh& mesh) : given_(&mesh) {
         if (mesh.all_triangles()) return;
-        own_ = triangulated(mesh);
+        own_ = triangles_of(mesh);
         given_ = &own_;
     }
     Triangles(const Triangles&) = delete;

@@ -1,6 +1,7 @@
 #include "geometry/triangulate/triangulate.hpp"
 
 #include "base/portable_math.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "stage/stage.hpp"
 #include "stages/triangulate/help.hpp"
@@ -33,8 +34,8 @@ void declare(Declare<TriangulateOptions>& d) {
 struct TriangulatedPart {
     std::string part;
     FaceKinds kinds;
-    std::size_t cut = 0, fans = 0;
-    std::optional<std::size_t> quads, triangles; ///< of pairing
+    std::size_t cut = 0, fans = 0, filled = 0;
+    std::optional<std::size_t> quads = {}, triangles = {}; ///< of pairing
 };
 
 struct TriangulateReport {
@@ -46,6 +47,8 @@ void declare_part(DeclareFields<TriangulatedPart>& d) {
     d.object("faces", &TriangulatedPart::kinds, "The faces of the input.", declare_face_kinds);
     d.field("cut", &TriangulatedPart::cut, "Faces that were cut into triangles.");
     d.field("fans", &TriangulatedPart::fans, "Those that were cut as fans, which may overlap.");
+    d.field("filled", &TriangulatedPart::filled,
+            "Those that intersect themselves and were filled by winding number.");
     d.field("quads", &TriangulatedPart::quads, "Pairs of triangles that became quads.")
         .only_when("quads are requested");
     d.field("triangles", &TriangulatedPart::triangles, "Triangles that remain.")
@@ -57,10 +60,18 @@ void declare_report(DeclareFields<TriangulateReport>& d) {
 }
 
 Scene run(Scene scene, const TriangulateOptions& o, Context& context, TriangulateReport& report) {
-    std::size_t fans = 0;
+    std::size_t fans = 0, overlapping = 0;
     context.for_each_part(scene, [&](Part& part) {
-        auto result = triangulate(part.mesh);
-        TriangulatedPart entry{part.name, result.kinds, result.cut, result.fans, {}, {}};
+        const FaceKinds kinds = face_kinds(part.mesh);
+        const auto filled = fill_crossing_faces(part.mesh);
+        auto result = triangulate(filled ? filled->mesh : part.mesh);
+        if (filled) result.changes = changes_in_sequence(filled->changes, std::move(result.changes));
+        TriangulatedPart entry{.part = part.name, .kinds = kinds, .cut = result.cut, .fans = result.fans};
+        if (filled) {
+            entry.filled = filled->filled;
+            entry.cut += filled->filled;
+            overlapping += filled->overlapping;
+        }
         fans += result.fans;
         part.mesh = std::move(result.mesh);
         if (o.to == To::quads) {
@@ -76,10 +87,15 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context, Triangulat
     if (fans > 0)
         context.warn(
             "W-FANS",
-            fmt::format(
-                "{} faces that intersect themselves or have no area were cut as fans, whose triangles may "
-                "overlap",
-                fans));
+            fmt::format("{} faces that have no area, or intersect themselves in no plane, were cut as "
+                        "fans, whose triangles may overlap",
+                        fans));
+    if (overlapping > 0)
+        context.warn(
+            "W-FANS",
+            fmt::format("{} faces wind around points several times, and their triangles overlap there: "
+                        "faces beside them would be open otherwise",
+                        overlapping));
     return scene;
 }
 

@@ -74,7 +74,7 @@ TEST_CASE("every kind of face becomes its corners less two triangles", "[geometr
     }
 }
 
-TEST_CASE("a face that intersects itself is filled by windings", "[geometry]") {
+TEST_CASE("a face that intersects itself is cut as a fan", "[geometry]") {
     const auto result = triangulate(face(samples::pentagram()));
     CHECK(result.fans == 1);
     CHECK(result.mesh.face_count() == 3);

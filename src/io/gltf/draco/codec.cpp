@@ -1,5 +1,6 @@
 // Plain Draco files: one mesh, without materials or nodes.
 
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/draco/draco.hpp"
 
@@ -90,7 +91,7 @@ Mesh joined(const Scene& scene) {
         else
             append(all, mesh);
     }
-    if (!all.all_triangles()) all = triangulated(all);
+    if (!all.all_triangles()) all = triangles_of(all);
     drop_unused(all);
     return all;
 }

@@ -1,0 +1,238 @@
+#include "geometry/triangulate/crossing_faces.hpp"
+
+#include "base/parallel.hpp"
+#include "geometry/cgal/triangulate_polygon.hpp"
+#include "geometry/edit/surgery.hpp"
+#include "mesh/face.hpp"
+#include "mesh/lineage.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+namespace facetmill {
+
+namespace {
+
+constexpr double planar_share = 1e-6; // of the perimeter, as in face_kinds
+
+/// The face's corners in the plane, and the outline that they make there.
+struct FlatFace {
+    std::vector<Vec3> corners;
+    Contours contours;
+
+    FlatFace(const Mesh& mesh, Index f) {
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners.push_back(mesh.point(c));
+        contours.points = polygon::flattened(corners);
+        const auto n = static_cast<Index>(corners.size());
+        for (Index i = 0; i < n; ++i) contours.edges.push_back({i, (i + 1) % n, 1});
+    }
+    /// Whether the outline winds around points more than once or both ways, or touches itself so that its
+    /// corners alone do not bound its triangles.
+    bool crosses() const {
+        const polygon::Kind kind = polygon::classify(contours.points);
+        if (kind != polygon::Kind::complex) return kind == polygon::Kind::self_intersecting;
+        return fill(contours).triangles.size() != corners.size() - 2;
+    }
+    bool planar() const {
+        double around = 0;
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            around += length(corners[(i + 1) % corners.size()] - corners[i]);
+        return polygon::plane_deviation(corners) <= planar_share * around;
+    }
+};
+
+/// The planar faces whose outlines cross or touch themselves elsewhere than along bridges to holes.
+std::vector<Index> crossing_faces(const Mesh& mesh) {
+    std::vector<std::uint8_t> crosses(mesh.face_count(), 0);
+    if (!mesh.all_triangles())
+        parallel_for(
+            mesh.face_count(),
+            [&](std::size_t i) {
+                const auto f = static_cast<Index>(i);
+                if (mesh.face_size(f) < 4) return;
+                const FlatFace face(mesh, f);
+                crosses[f] = face.crosses() && face.planar();
+            },
+            1024);
+    std::vector<Index> faces;
+    for (Index f = 0; f < crosses.size(); ++f)
+        if (crosses[f]) faces.push_back(f);
+    return faces;
+}
+
+/// Puts vertices where the outlines of faces meet themselves, on all faces along their edges.
+class OutlineSplitter {
+  public:
+    explicit OutlineSplitter(const Mesh& mesh) : mesh_(mesh), edges_(build_edges(mesh)) {}
+
+    void add(Index f) {
+        const FlatFace face(mesh_, f);
+        const Filling filling = fill(face.contours);
+        const Index begin = mesh_.face_begin(f), n = mesh_.face_size(f);
+        std::vector<std::vector<Index>> edges_at(
+            filling.added.size()); // the face's edges, by their first corners
+        for (Index e = 0; e < n; ++e)
+            for (Index k = filling.path_offsets[e]; k < filling.path_offsets[e + 1]; ++k)
+                if (filling.path[k] >= n) edges_at[filling.path[k] - n].push_back(begin + e);
+        std::vector<Index> vertex_of(filling.added.size());
+        for (std::size_t i = 0; i < vertex_of.size(); ++i) {
+            const auto& added = filling.added[i];
+            const Index c = begin + added.edge;
+            const Lineage::Edge at{mesh_.vertex(c), mesh_.vertex(next_corner(mesh_, f, c)), added.t};
+            vertex_of[i] = vertex_for(edges_at[i], at);
+        }
+        for (Index e = 0; e < n; ++e)
+            for (Index k = filling.path_offsets[e]; k < filling.path_offsets[e + 1]; ++k) {
+                const Index p = filling.path[k];
+                const Vec2 at = p < n ? face.contours.points[p] : filling.added[p - n].at;
+                const double t = along(face.contours.points[e], face.contours.points[(e + 1) % n], at);
+                insert(begin + e, t, p < n ? mesh_.vertex(begin + p) : vertex_of[p - n]);
+            }
+    }
+
+    Mesh run(AttributeChanges& changes) {
+        if (insertions_.empty()) {
+            changes = kept_changes(mesh_.attributes);
+            return mesh_;
+        }
+        return insert_on_edges(mesh_, std::move(insertions_), added_, &changes);
+    }
+
+  private:
+    static double along(const Vec2& a, const Vec2& b, const Vec2& p) {
+        const Vec2 d = b - a;
+        return std::abs(d.x) > std::abs(d.y) ? (p.x - a.x) / d.x : (p.y - a.y) / d.y;
+    }
+
+    /// One for each place where the same edges of the mesh meet, whichever face says so.
+    Index vertex_for(const std::vector<Index>& corners, const Lineage::Edge& at) {
+        std::vector<Index> edges;
+        for (const Index c : corners) edges.push_back(edges_.corner_edge[c]);
+        std::sort(edges.begin(), edges.end());
+        const auto next = static_cast<Index>(mesh_.vertex_count() + added_.size());
+        const auto [found, fresh] = made_.try_emplace(std::move(edges), next);
+        if (fresh) added_.push_back(at);
+        return found->second;
+    }
+
+    void insert(Index corner, double t, Index vertex) {
+        const Index e = edges_.corner_edge[corner];
+        if (!(t > 0 && t < 1) || !done_.insert({e, vertex}).second) return;
+        for (const Index c : edges_.corners_of(e))
+            insertions_.push_back({c, mesh_.vertex(c) == mesh_.vertex(corner) ? t : 1 - t, vertex});
+    }
+
+    const Mesh& mesh_;
+    EdgeTable edges_;
+    std::map<std::vector<Index>, Index> made_;
+    std::set<std::pair<Index, Index>> done_; ///< edge, vertex
+    std::vector<Lineage::Edge> added_;
+    std::vector<Insertion> insertions_;
+};
+
+using FaceTriangles = std::vector<std::array<Index, 3>>; ///< corners of a face, counted from its first
+
+/// Whether the triangles are bounded by the face's edges, vertex by vertex.
+bool bounded_by_face(const Mesh& mesh, Index f, const FaceTriangles& triangles) {
+    std::map<std::pair<Index, Index>, int> chain;
+    const auto count = [&](Index a, Index b, int times) {
+        if (a != b) chain[{std::min(a, b), std::max(a, b)}] += a < b ? times : -times;
+    };
+    const Index begin = mesh.face_begin(f);
+    for (Index c = begin; c < mesh.face_end(f); ++c)
+        count(mesh.vertex(c), mesh.vertex(next_corner(mesh, f, c)), 1);
+    for (const auto& t : triangles)
+        for (std::size_t k = 0; k < 3; ++k)
+            count(mesh.vertex(begin + t[k]), mesh.vertex(begin + t[(k + 1) % 3]), -1);
+    return std::all_of(chain.begin(), chain.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
+/// Replaces faces by their fillings.
+class FaceFiller {
+  public:
+    FaceFiller(const Mesh& mesh, CrossingFaces& out) : mesh_(mesh), edges_(build_edges(mesh)), out_(out) {}
+
+    void run(const std::vector<Index>& faces) {
+        std::map<Index, FaceTriangles> fillings;
+        for (const Index f : faces)
+            if (auto triangles = filling_of(f); !triangles.empty()) fillings[f] = std::move(triangles);
+        Descent descent;
+        descent.vertices.identity = descent.wedges.identity = true;
+        Mesh& m = out_.mesh;
+        m.positions = mesh_.positions;
+        m.wedge_vertex = mesh_.wedge_vertex;
+        m.face_offsets = {0};
+        const auto emit = [&](Index f, auto&& corners) {
+            for (const Index c : corners) m.corners.push_back(mesh_.corners[c]);
+            m.face_offsets.push_back(static_cast<Index>(m.corners.size()));
+            descent.faces.push_back(f);
+        };
+        std::vector<Index> corners;
+        for (Index f = 0; f < mesh_.face_count(); ++f) {
+            const Index begin = mesh_.face_begin(f);
+            if (const auto found = fillings.find(f); found != fillings.end()) {
+                for (const auto& t : found->second)
+                    emit(f, std::array{begin + t[0], begin + t[1], begin + t[2]});
+                continue;
+            }
+            corners.clear();
+            for (Index c = begin; c < mesh_.face_end(f); ++c) corners.push_back(c);
+            emit(f, corners);
+        }
+        normalise_offsets(m);
+        out_.changes = changes_in_sequence(out_.changes, inherit_attributes(m, mesh_, descent));
+        out_.filled = fillings.size();
+    }
+
+  private:
+    /// Empty when the face cannot be filled without opening the surface.
+    FaceTriangles filling_of(Index f) {
+        const FlatFace face(mesh_, f);
+        const Filling filling = fill(face.contours);
+        if (!filling.added.empty()) return {}; // crossings of rounded crossings
+        FaceTriangles once = filling.triangles;
+        once.erase(std::unique(once.begin(), once.end()), once.end()); // they are sorted
+        if (stands_alone(f)) return once; // corners at one place may be of several vertices: nobody minds
+        if (!bounded_by_face(mesh_, f, filling.triangles)) return {};
+        out_.overlapping += once.size() != filling.triangles.size();
+        return filling.triangles;
+    }
+
+    bool stands_alone(Index f) const {
+        for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c)
+            if (const Index e = edges_.corner_edge[c]; e != none && !of_one_face(e, f)) return false;
+        return true;
+    }
+    bool of_one_face(Index e, Index f) const {
+        const auto corners = edges_.corners_of(e);
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](Index c) { return mesh_.face_begin(f) <= c && c < mesh_.face_end(f); });
+    }
+
+    const Mesh& mesh_;
+    EdgeTable edges_;
+    CrossingFaces& out_;
+};
+
+} // namespace
+
+std::optional<CrossingFaces> fill_crossing_faces(const Mesh& mesh) {
+    const auto crossing = crossing_faces(mesh);
+    if (crossing.empty()) return {};
+    CrossingFaces out;
+    OutlineSplitter splitter(mesh);
+    for (const Index f : crossing) splitter.add(f);
+    const Mesh split = splitter.run(out.changes);
+    FaceFiller(split, out).run(crossing_faces(split));
+    return out;
+}
+
+Mesh triangles_of(const Mesh& mesh) {
+    if (const auto filled = fill_crossing_faces(mesh)) return triangulated(filled->mesh);
+    return triangulated(mesh);
+}
+
+} // namespace facetmill

@@ -1,0 +1,32 @@
+#pragma once
+// Faces that cross themselves, into triangles that cover what is inside.
+
+#include "mesh/mesh.hpp"
+
+#include <cstddef>
+#include <optional>
+
+namespace facetmill {
+
+struct CrossingFaces {
+    Mesh mesh;
+    AttributeChanges changes;
+    std::size_t filled = 0;      ///< faces that became triangles
+    std::size_t overlapping = 0; ///< among them, those whose triangles lie over each other
+};
+
+/// Faces whose outline crosses or touches itself in its plane become triangles that cover what it winds
+/// around (nonzero rule), and face the other way where it winds clockwise. The even-odd rule would leave a
+/// hole where a face lies over itself, which drawings and the union of solids do not have. Where an outline
+/// crosses itself there is a new vertex, interpolated along the edges, on all faces along them; so what was
+/// closed stays closed, and other faces may get corners more. What the outline winds around several times is
+/// covered once when the face has no neighbours; else as many times, since the surface would be open
+/// otherwise (overlapping). Constrained Delaunay, exact. None when there is no such face that is planar (a
+/// millionth of its perimeter, as in face_kinds). Faces that cannot be filled so (whose crossings round to
+/// other crossings) stay as they are.
+std::optional<CrossingFaces> fill_crossing_faces(const Mesh& mesh);
+
+/// triangulated, after fill_crossing_faces: the triangles that a file or a picture shows.
+Mesh triangles_of(const Mesh& mesh);
+
+} // namespace facetmill
