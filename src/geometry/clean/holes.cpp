@@ -247,6 +247,10 @@ class Filler {
         if (lacks_area(ring, patch)) return refuse("every patch would have faces without area", ring[0]);
         if (collides(o, patch))
             return refuse("a patch would duplicate a face or make an edge with more than two faces", ring[0]);
+        if (folds_back(o, ring, patch))
+            return refuse(
+                "a patch would lie on the faces beside it: this is where a flat surface ends, not a hole",
+                ring[0]);
         if (left_->contains(outline_)) return refuse("a patch would intersect other faces", ring[0]);
         add(o, ring, patch);
     }
@@ -309,11 +313,9 @@ class Filler {
         add_face(polygon, wedges);
         TriangulateResult cut = triangulate(polygon);
         HolePatch patch;
-        double largest = 0;
-        for (const Vec3& p : ring)
-            for (std::size_t i = 0; i < 3; ++i) largest = std::max(largest, std::abs(p[i]));
-        const double rounding = 0x1p-21 * largest; // of files with coordinates of 32 bits
-        if (cut.kinds.non_planar > 0 && cut.kinds.deviation > rounding) {
+        double rounded = 0;
+        for (const Vec3& p : ring) rounded = std::max(rounded, rounding(p));
+        if (cut.kinds.non_planar > 0 && cut.kinds.deviation > rounded) {
             why = fmt::format("its boundary loop is not planar, by {:.6g}", cut.kinds.deviation);
             return patch;
         }
@@ -337,9 +339,40 @@ class Filler {
         return patch;
     }
 
+    /// But for the rounding of files with coordinates of 32 bits.
+    static double rounding(const Vec3& p) {
+        return 0x1p-21 * std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    static bool in_plane(const Vec3& p, const Vec3& from, const Vec3& normal) {
+        return std::abs(dot(p - from, normalised(normal))) <= rounding(p) + rounding(from);
+    }
+    static Vec3 corner_of(const std::vector<Vec3>& ring, const HolePatch& patch, Index i) {
+        return i < ring.size() ? ring[i] : patch.points[i - ring.size()];
+    }
+
+    /// Whether a triangle of the patch lies in the plane of the face across an edge of the outline, on the
+    /// same side of the edge: the patch covers what it is to close from behind.
+    bool folds_back(const Outline& o, const std::vector<Vec3>& ring, const HolePatch& patch) const {
+        const auto n = static_cast<Index>(ring.size());
+        for (const auto& t : patch.triangles)
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index i = t[k], j = t[(k + 1) % 3];
+                if (i >= n || j >= n || (i + 1) % n != j) continue;
+                const Vec3 apex = corner_of(ring, patch, t[(k + 2) % 3]);
+                const Vec3 beyond = area_vector(o.faces[i]), own = cross(ring[j] - ring[i], apex - ring[i]);
+                const auto face = mesh_.face_wedges(o.faces[i]);
+                if (dot(beyond, own) < 0 && in_plane(apex, ring[i], beyond) &&
+                    std::all_of(face.begin(), face.end(), [&](Index w) {
+                        return in_plane(mesh_.positions[mesh_.vertex_of_wedge(w)], ring[i], own);
+                    }))
+                    return true;
+            }
+        return false;
+    }
+
     /// Whether a triangle of the patch has exactly zero area: it would be removed again.
     static bool lacks_area(const std::vector<Vec3>& ring, const HolePatch& patch) {
-        const auto at = [&](Index i) { return i < ring.size() ? ring[i] : patch.points[i - ring.size()]; };
+        const auto at = [&](Index i) { return corner_of(ring, patch, i); };
         return std::any_of(patch.triangles.begin(), patch.triangles.end(),
                            [&](const auto& t) { return collinear(at(t[0]), at(t[1]), at(t[2])); });
     }

@@ -44,7 +44,8 @@ bool take_apart_non_manifold(Work& work);
 /// Edges as (low vertex, high vertex), ascending.
 using EdgeList = std::vector<std::pair<Index, Index>>;
 /// Fills the loops of open edges as the settings say; holes that touch at a vertex each for itself. Loops
-/// with an edge of other_than stay, and so do those whose patch would run into other faces, unless it may.
+/// with an edge of other_than stay, and so do those whose patch would run into other faces, unless it may,
+/// or lie on the faces beside it (but for the rounding of 32 bits): where a flat sheet ends is no hole.
 bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross);
 bool remove_components(Work& work, const ComponentSettings& settings);
 /// Closed pieces that lie inside other closed pieces and touch none go.

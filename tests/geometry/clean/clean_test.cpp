@@ -5,6 +5,7 @@
 #include "geometry/clean/clean.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "mesh/invariants.hpp"
+#include "mesh/topology.hpp"
 
 using namespace facetmill;
 using namespace facetmill::testing;
@@ -376,4 +377,37 @@ TEST_CASE("clean leaves intersections that it cannot end, and says so", "[geomet
     s.isolated = false;
     const auto r = cleaned(mesh, s);
     if (r.counts.intersecting_faces == 0) CHECK(r.not_done.at(0).step == "self_intersections");
+}
+
+TEST_CASE("the end of a flat sheet is no hole", "[geometry]") {
+    CleanSettings s;
+    s.holes = HoleSettings{};
+    s.self_intersections = Untangle::all;
+    for (const HoleFill method : {HoleFill::minimal, HoleFill::smooth, HoleFill::planar})
+        for (const double tilt : {0.0, 0.3}) {
+            s.holes->method = method;
+            Mesh sheet = shapes::grid(6, 4);
+            for (Vec3& p : sheet.positions) p.z = tilt * p.x; // with rounding, not quite flat
+            const double area = test::area(sheet);
+            CleanResult r = clean(sheet, s);
+            CHECK(test::area(r.mesh) == area);
+            CHECK(r.counts.filled_holes == 0);
+            REQUIRE(r.not_done.size() == 1);
+            CHECK(r.not_done[0].step == "holes");
+            // With a hole: that is filled, the sheet ends where it ended.
+            Mesh frame = sheet;
+            frame.corners.erase(frame.corners.begin() + 6 * 8, frame.corners.begin() + 6 * 9);
+            r = clean(frame, s);
+            CHECK(r.counts.filled_holes == 1);
+            CHECK(test::area(r.mesh) == Approx(area));
+            CHECK(boundary_edges(r.mesh).size() == 20);
+        }
+    // What is not flat is closed as before, also with flat walls around.
+    Mesh box = shapes::cube();
+    box.corners.resize(box.corners.size() - 6);
+    s.holes->method = HoleFill::minimal;
+    const CleanResult r = clean(box, s);
+    CHECK(r.counts.filled_holes == 1);
+    CHECK(inspect(r.mesh).closed);
+    CHECK(std::abs(test::volume(r.mesh)) == Approx(1));
 }
