@@ -74,7 +74,7 @@ std::string line_of(const ThickenedSurface& surface) {
     std::string line = surface.part + ":";
     if (r.wall)
         line += fmt::format(" wall thickness at least {:.6g}, mean {:.6g},", r.wall->thinnest, r.wall->mean);
-    if (r.filled > 0) line += fmt::format(" {} components filled,", r.filled);
+    if (r.filled > 0) line += fmt::format(" {} component{} filled,", r.filled, r.filled == 1 ? "" : "s");
     if (r.turned > 0) line += fmt::format(" {} faces turned over,", r.turned);
     if (r.self_intersections) line += fmt::format(" {} self-intersections,", *r.self_intersections);
     line.pop_back();
