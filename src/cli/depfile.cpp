@@ -24,10 +24,8 @@ std::string make_spelling(const std::string& path, bool target) {
     return text;
 }
 
-std::string depfile_text(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
-    std::string text;
-    for (const auto& output : outputs) text += (text.empty() ? "" : " ") + make_spelling(output, true);
-    text += ":";
+std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs) {
+    std::string text = make_spelling(target, true) + ":";
     for (const auto& input : inputs) text += " \\\n  " + make_spelling(input, false);
     text += "\n";
     for (const auto& input : inputs) text += make_spelling(input, true) + ":\n";
@@ -42,16 +40,18 @@ void add_once(std::vector<std::string>& all, const std::string& path) {
 
 } // namespace
 
-void write_depfile(const std::string& depfile, const pipeline::Plan& plan, const report::RunRecord& record,
-                   const std::string& pipeline) {
+void write_depfile(const std::string& depfile, const report::RunRecord& record,
+                   const std::string& pipeline, const std::string& target) {
     std::vector<std::string> outputs, inputs;
-    for (const auto& file : record.outputs) add_once(outputs, file.path);
-    for (const auto& report : plan.reports) add_once(outputs, plan.places.output(report).string());
+    for (const bool mesh : {true, false})
+        for (const auto& file : record.outputs)
+            if (!mesh || !file.read_back.is_null()) add_once(outputs, file.path);
+    for (const auto& report : record.reports) add_once(outputs, report);
+    outputs.push_back(depfile); // a gate writes nothing; its rule is for the depfile itself
     if (!pipeline.empty()) add_once(inputs, pipeline);
     for (const auto& file : record.inputs) add_once(inputs, file.path);
-    // A gate writes nothing; its rule is for the depfile itself.
-    if (outputs.empty()) outputs.push_back(depfile);
-    const std::string text = depfile_text(outputs, inputs);
+    for (const auto& file : record.absent) add_once(inputs, file); // when it appears, the run is due again
+    const std::string text = depfile_text(target.empty() ? outputs.front() : target, inputs);
     io::write_now(depfile, std::as_bytes(std::span(text)));
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // What a run read and wrote as a rule for Make and Ninja.
 
-#include "pipeline/plan.hpp"
+#include "report/record.hpp"
 
 namespace facetmill::cli {
 
@@ -9,10 +9,13 @@ namespace facetmill::cli {
 /// Throws output (E-DEPFILE) for a line break, which Make cannot spell.
 std::string make_spelling(const std::string& path, bool target);
 
-/// "outputs: inputs", and an empty rule for each input, so that Make does not stop when one is deleted.
-std::string depfile_text(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+/// "target: inputs", and an empty rule for each input, so that Make does not stop when one is deleted.
+std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs);
 
-void write_depfile(const std::string& depfile, const pipeline::Plan& plan, const report::RunRecord& record,
-                   const std::string& pipeline);
+/// The rule of a run: its inputs, the pipeline's file unless it is empty, and the files that inputs name and
+/// that are not there. Ninja knows one target, so it is the one given, else the first mesh that was written,
+/// else the first output, the first report, or the depfile itself.
+void write_depfile(const std::string& depfile, const report::RunRecord& record, const std::string& pipeline,
+                   const std::string& target);
 
 } // namespace facetmill::cli

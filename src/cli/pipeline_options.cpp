@@ -46,6 +46,8 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--report", &options.reports,
                   "Also write a report: F.json, F.html, F.xml (JUnit) or F.txt.");
     arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");
+    arguments.add("--depfile-target", &options.depfile_target,
+                  "The target of that rule. Default: the first file that is written.");
     arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
     arguments.add("--check-invariants", &options.check_invariants, "Check every mesh after every stage.")
         .hidden();
@@ -159,7 +161,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     for (const auto& error : record.errors) console.diagnostic(error);
     summarise(record, console);
     if (record.exit_code == 0 && !options.depfile.empty())
-        write_depfile(options.depfile, plan, record, pipeline);
+        write_depfile(options.depfile, record, pipeline, options.depfile_target);
     return record.exit_code;
 }
 

@@ -29,11 +29,11 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     const auto plan = plan_of(options.pipeline, plan_settings(options.common, line, problems), problems);
     settle(problems, console);
     const bool files_only = options.inputs || options.outputs;
-    const auto headers = files_only ? pipeline::Headers{} : pipeline::read_headers(plan);
-    settle(headers.errors);
+    const auto headers = pipeline::read_headers(plan);
+    if (!files_only) settle(headers.errors); // names are known all the same
     std::string text;
-    if (options.inputs) text += lines(pipeline::planned_inputs(plan));
-    if (options.outputs) text += lines(pipeline::planned_outputs(plan));
+    if (options.inputs) text += lines(pipeline::planned_inputs(plan, headers));
+    if (options.outputs) text += lines(pipeline::planned_outputs(plan, headers));
     if (options.json) text = pipeline::describe_json(plan, headers).dump(2) + "\n";
     if (!files_only && !options.json) text = pipeline::describe(plan, headers);
     print(text);

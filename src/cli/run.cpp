@@ -24,9 +24,7 @@ Examples
 void refuse_common_outputs(std::vector<pipeline::Plan>& plans, Problems& problems) {
     std::set<std::filesystem::path> seen;
     for (auto& plan : plans) {
-        auto outputs = pipeline::planned_outputs(plan);
-        for (const auto& report : plan.reports) outputs.push_back(plan.places.output(report));
-        for (const auto& output : outputs)
+        for (const auto& output : pipeline::planned_outputs(plan))
             if (output != "-" && !seen.insert(output.lexically_normal()).second) {
                 plan.files_collide = true;
                 problems.add({}, "E-DUPLICATE-OUTPUT",

@@ -164,8 +164,8 @@ const std::vector<Capability>& capabilities() {
 FileHeader file_header(const Input& input, const ReadSettings& settings, const Codec* forced) {
     ReadLog log; // its warnings come again when the file is read
     const Codec& codec = reader_for(input, log, forced);
-    FileHeader header{codec.name, settings.unit.value_or(codec.unit), settings.up.value_or(codec.up), {}};
-    if (codec.peek) header.parts = codec.peek(input);
+    FileHeader header{codec.name, settings.unit.value_or(codec.unit), settings.up.value_or(codec.up)};
+    if (codec.peek) codec.peek(input, header);
     for (auto& name : header.parts)
         if (name.empty()) name = stem_of(input);
     return header;

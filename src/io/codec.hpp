@@ -19,6 +19,7 @@ struct ReadWarning : Diagnostic {
 struct ReadLog {
     std::vector<ReadWarning> warnings;
     std::vector<std::filesystem::path> files; ///< neighbours that were read (buffers, images, .mtl)
+    std::vector<std::filesystem::path> absent; ///< neighbours that the file names and that are not there
 };
 
 /// Whether vertices at exactly the same place become one: as the format needs it (STL and glTF do), never, or
@@ -79,6 +80,8 @@ struct Capabilities {
     Draco draco = Draco::never;  ///< WriteSettings::draco
     std::string attributes{};    ///< which it holds, in words
     std::string companion{};     ///< the suffix of a file beside it that it cannot do without: ".bin"
+    std::string library{};       ///< the suffix of a file beside it that holds the materials: ".mtl"
+    bool copies_images = false;  ///< images that are files stay files, beside it
 };
 
 /// A capability that is there or not, by its name.
@@ -87,6 +90,17 @@ struct Capability {
     bool Capabilities::*flag;
 };
 const std::vector<Capability>& capabilities();
+
+/// What is known of a mesh file from its header.
+struct FileHeader {
+    std::string format{};
+    Unit unit = Unit::unknown;
+    UpAxis up = UpAxis::unknown;
+    std::vector<std::string> parts{}; ///< their names; empty when only the whole file tells them
+    std::vector<std::filesystem::path> files{};  ///< neighbours that reading it opens, there or not
+    std::vector<std::filesystem::path> images{}; ///< those of them that are images, relative to the file
+    bool has_materials = false;
+};
 
 struct Codec {
     std::string name;                    ///< "ply"
@@ -105,9 +119,10 @@ struct Codec {
     /// Throws Error stage when the scene cannot be held by the format at all. Empty: the format is not
     /// written.
     std::function<Written(const Scene&, const WriteSettings&)> write = {};
-    /// Reads only the header: throws as read when it is malformed, and gives the names of the parts, where
-    /// they are known before the rest is read. Empty: the format has no header.
-    std::function<std::vector<std::string>(const Input&)> peek = {};
+    /// Reads only the header: throws as read when it is malformed, and sets the names of the parts, where
+    /// they are known before the rest is read, the files beside it, and whether it has materials. Empty: the
+    /// format has no header.
+    std::function<void(const Input&, FileHeader&)> peek = {};
 };
 
 /// Makes a codec known; one static object per codec file.
@@ -127,14 +142,6 @@ std::vector<std::string> names_of_writers();
 /// when no codec takes it. Positions that are not finite are malformed (E-NAN) with the vertex and file.
 Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
                  const Codec* forced = nullptr);
-
-/// What is known of a mesh file from its header.
-struct FileHeader {
-    std::string format;
-    Unit unit = Unit::unknown;
-    UpAxis up = UpAxis::unknown;
-    std::vector<std::string> parts; ///< their names; empty when only the whole file tells them
-};
 
 /// Recognises a file and reads its header. Throws as read_scene, for what the header shows.
 FileHeader file_header(const Input& input, const ReadSettings& settings, const Codec* forced = nullptr);

@@ -141,6 +141,12 @@ Json paths_json(const std::vector<std::filesystem::path>& paths) {
     return all;
 }
 
+std::vector<std::filesystem::path> report_paths(const Plan& plan) {
+    std::vector<std::filesystem::path> paths;
+    for (const auto& report : plan.reports) paths.push_back(plan.places.output(report));
+    return paths;
+}
+
 const InputHeader* header_of(const Headers& headers, const std::filesystem::path& path) {
     for (const auto& header : headers.inputs)
         if (header.path == path) return &header;
@@ -187,9 +193,8 @@ std::string describe(const Plan& plan, const Headers& headers) {
         for (const auto& path : paths)
             out += fmt::format("  {}{}\n", path.string(), header_text(headers, path));
     };
-    files("reads", planned_inputs(plan));
-    files("writes", planned_outputs(plan));
-    files("reports", {plan.reports.begin(), plan.reports.end()});
+    files("reads", planned_inputs(plan, headers));
+    files("writes", planned_outputs(plan, headers));
     return out;
 }
 
@@ -198,10 +203,10 @@ Json describe_json(const Plan& plan, const Headers& headers) {
             {"about", plan.about},
             {"params", plan.params},
             {"stages", steps_json(plan.steps, headers)},
-            {"inputs", paths_json(planned_inputs(plan))},
+            {"inputs", paths_json(planned_inputs(plan, headers))},
             {"headers", headers_json(headers)},
-            {"outputs", paths_json(planned_outputs(plan))},
-            {"reports", plan.reports}};
+            {"outputs", paths_json(planned_outputs(plan, headers))},
+            {"reports", paths_json(report_paths(plan))}};
 }
 
 } // namespace facetmill::pipeline

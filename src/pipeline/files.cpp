@@ -68,11 +68,15 @@ std::string nearest_file(const fs::path& path) {
     return did_you_mean(path.filename().string(), names);
 }
 
-std::vector<fs::path> paths_of(const Plan& plan, bool written) {
+void add_once(std::vector<fs::path>& paths, const fs::path& path) {
+    if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(path);
+}
+
+std::vector<fs::path> paths_of(const Plan& plan, bool written, const std::vector<fs::path>& more) {
     std::vector<fs::path> paths;
     for (const auto& file : planned_files(plan.steps, plan.places))
-        if (file.written == written && std::find(paths.begin(), paths.end(), file.path) == paths.end())
-            paths.push_back(file.path);
+        if (file.written == written) add_once(paths, file.path);
+    for (const auto& path : more) add_once(paths, path);
     return paths;
 }
 
@@ -138,7 +142,14 @@ std::vector<Diagnostic> missing_inputs(const Plan& plan) {
     return missing;
 }
 
-std::vector<fs::path> planned_inputs(const Plan& plan) { return paths_of(plan, false); }
-std::vector<fs::path> planned_outputs(const Plan& plan) { return paths_of(plan, true); }
+std::vector<fs::path> planned_inputs(const Plan& plan, const Headers& headers) {
+    return paths_of(plan, false, headers.more_inputs);
+}
+
+std::vector<fs::path> planned_outputs(const Plan& plan, const Headers& headers) {
+    auto paths = paths_of(plan, true, headers.more_outputs);
+    for (const auto& report : plan.reports) add_once(paths, plan.places.output(report));
+    return paths;
+}
 
 } // namespace facetmill::pipeline

@@ -58,6 +58,7 @@ class Walk {
             if (step.when && step.when->known == false) continue;
             for (const auto& arm : step.arms) steps(*arm.steps, unit);
             if (!step.stage || !step.options) continue;
+            add_written(step);
             if (step.stage->header)
                 load(step, unit);
             else if (unit == Unit::unknown)
@@ -86,11 +87,26 @@ class Walk {
                 const auto same = [&](const InputHeader& h) { return h.path == file.path; };
                 if (std::none_of(headers.inputs.begin(), headers.inputs.end(), same))
                     headers.inputs.push_back({file.path, header});
+                headers.more_inputs.insert(headers.more_inputs.end(), header.files.begin(), header.files.end());
+                images_.insert(images_.end(), header.images.begin(), header.images.end());
+                has_materials_ |= header.has_materials;
             } catch (Error& error) {
                 headers.errors.push_back(error.at(file.where));
                 first = false;
             }
         }
+    }
+
+    /// What goes beside an output because the scene has it. A branch counts what was loaded in those before it,
+    /// too: a file too many is better than one that nobody expects.
+    void add_written(const Step& step) {
+        if (!step.stage->files) return;
+        const StageFiles files = step.stage->files(step.options.get());
+        if (files.materials && has_materials_)
+            headers.more_outputs.push_back(places_.output(files.materials->text));
+        if (files.images)
+            for (const auto& image : images_)
+                headers.more_outputs.push_back(places_.output((fs::path(files.images->text) / image).string()));
     }
 
     void resolve_lengths(const Step& step, Unit unit) {
@@ -143,7 +159,8 @@ class Walk {
     }
 
     const Places& places_;
-    bool any_loaded_ = false;
+    std::vector<fs::path> images_;
+    bool any_loaded_ = false, has_materials_ = false;
 };
 
 } // namespace

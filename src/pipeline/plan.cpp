@@ -137,12 +137,7 @@ std::vector<std::string> read_reports(const Value* report, const Scope& scope, c
                 add(path.text, item.mark);
         }
     }
-    for (const auto& path :
-         settings.extra_reports) // named on the command line, so relative to where that was
-        add(settings.places.output_base.empty() || settings.places.output_base == settings.working_directory
-                ? path
-                : fs::absolute(settings.working_directory / path).string(),
-            command_line_mark("--report", path));
+    for (const auto& path : settings.extra_reports) add(path, command_line_mark("--report", path));
     return reports;
 }
 

@@ -104,6 +104,9 @@ struct InputHeader {
 
 struct Headers {
     std::vector<InputHeader> inputs; ///< in the order of the plan, each file once
+    /// Files beside inputs that are read, too (.bin, .mtl, images), there or not; and files beside outputs
+    /// that are written, too (images, a .mtl).
+    std::vector<std::filesystem::path> more_inputs, more_outputs;
     std::vector<Error> errors;       ///< in the order of the plan
     /// By the path of a step, its lengths with a physical unit where the scene's is known: {"amplitude":
     /// {"given": "0.1in", "is": 2.54, "unit": "mm"}}.
@@ -115,9 +118,10 @@ struct Headers {
 /// Streams and compressed files wait for the run, since they would have to be read whole.
 Headers read_headers(const Plan& plan);
 
-/// Files that the plan reads and writes, as far as they are known before it runs (globs expanded).
-std::vector<std::filesystem::path> planned_inputs(const Plan& plan);
-std::vector<std::filesystem::path> planned_outputs(const Plan& plan);
+/// Files that the plan reads and writes, as far as they are known before it runs (globs expanded, and what
+/// the headers tell); reports among the outputs.
+std::vector<std::filesystem::path> planned_inputs(const Plan& plan, const Headers& headers = {});
+std::vector<std::filesystem::path> planned_outputs(const Plan& plan, const Headers& headers = {});
 /// What would run, everything resolved, with what the headers of inputs say: for `facetmill plan`, as text
 /// and as JSON.
 std::string describe(const Plan& plan, const Headers& headers = {});

@@ -82,6 +82,7 @@ class Runner {
         record().pipeline = plan.name;
         record().about = plan.about;
         record().params = plan.params;
+        for (const auto& report : plan.reports) record().reports.push_back(plan.places.output(report).string());
     }
 
     report::RunRecord run() {
@@ -376,6 +377,7 @@ void report_refusal(const Plan& plan, const Problems& problems) {
     record.pipeline = plan.name;
     record.about = plan.about;
     record.params = plan.params;
+    for (const auto& report : plan.reports) record.reports.push_back(plan.places.output(report).string());
     record.exit_code = static_cast<int>(ErrorKind::usage);
     for (const auto& d : problems.all())
         if (d.severity == Severity::error)

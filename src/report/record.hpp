@@ -72,6 +72,8 @@ struct RunRecord {
     std::string about;
     Json params = Json::object();
     std::vector<FileRecord> inputs, outputs;
+    std::vector<std::string> absent;  ///< files that inputs name and that are not there: a run goes on
+    std::vector<std::string> reports; ///< the paths of the reports, as they are written
     std::vector<StageRecord> stages;
     std::vector<Check> checks;
     std::vector<Diagnostic> warnings; ///< of the run as a whole

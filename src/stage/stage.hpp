@@ -26,6 +26,8 @@ namespace facetmill {
 /// What a stage reads and writes, as far as its options tell; for plan, depfiles and collisions.
 struct StageFiles {
     std::vector<PathText> inputs, outputs;
+    std::optional<PathText> materials{}; ///< also written when the scene has materials
+    std::optional<PathText> images{};    ///< the folder that images of the scene are copied to
 };
 
 struct StageInfo {

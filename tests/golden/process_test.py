@@ -289,7 +289,7 @@ class Process(Case):
         self.write("p.yaml", 'facetmill: 1\nstages: [{load: "my scan.off"}, {write: out.ply}]\n')
         self.mill("run", "p.yaml", "--depfile", "p.d", "--report", "r.json")
         text = (self.dir / "p.d").read_text()
-        self.assertIn("out.ply", text.split(":")[0])
+        self.assertEqual(text.split(":")[0], "out.ply")
         self.assertIn("my\\ scan.off", text)
         self.write("Makefile", "out.ply:\n\tfalse\n-include p.d\n")
         make = ["make", "-q", "out.ply"]
@@ -297,6 +297,52 @@ class Process(Case):
         later = time.time() + 10
         os.utime(self.dir / "my scan.off", (later, later))
         self.assertEqual(subprocess.run(make, cwd=self.dir).returncode, 1, text)
+        self.mill("run", "p.yaml", "--depfile", "p.d", "--depfile-target", "stamp")
+        self.assertEqual((self.dir / "p.d").read_text().split(":")[0], "stamp")
+
+    def gltf_with_neighbours(self):
+        """t.gltf with t.bin and tex.png beside it."""
+        (self.dir / "t.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+        (self.dir / "tex.png").write_bytes(b"no picture, and nobody looks")
+        self.write("t.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+            "textures": [{"source": 0}], "images": [{"uri": "tex.png"}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                           "max": [1, 1, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "t.bin", "byteLength": 36}]}))
+
+    def test_the_plan_knows_neighbours_and_reports(self):
+        self.gltf_with_neighbours()
+        self.write("p.yaml", "facetmill: 1\nstages: [{load: t.gltf}, {write: o.glb}]\nreport: r.json\n")
+        self.assertEqual(self.mill("plan", "p.yaml", "--inputs").stdout.split(), ["t.gltf", "t.bin", "tex.png"])
+        planned = self.mill("plan", "p.yaml", "--outputs", "-o", "out").stdout.split()
+        self.assertEqual(planned, ["out/o.glb", "out/tex.png", "out/r.json"])
+        self.assertEqual(json.loads(self.mill("plan", "p.yaml", "--json", "-o", "out").stdout)["reports"], ["out/r.json"])
+        self.mill("run", "p.yaml", "-o", "out", "--report", "more.txt")
+        self.assertEqual(sorted(self.files(self.dir / "out")), ["more.txt", "o.glb", "r.json", "tex.png"])
+
+    def test_a_missing_texture_is_in_the_depfile(self):
+        self.gltf_with_neighbours()
+        (self.dir / "tex.png").unlink()
+        run = self.mill("pipe", "--depfile", "p.d", "load", "t.gltf", "!", "write", "o.glb")
+        self.assertIn("W-IMAGE", run.stderr)
+        text = (self.dir / "p.d").read_text()
+        self.assertEqual(text.split(":")[0], "o.glb")
+        self.assertIn("tex.png", text)
+        self.assertIn("t.bin", text)
+
+    def test_input_that_never_ends_ends_quickly(self):
+        (self.dir / "bomb.stl.gz").write_bytes(gzip.compress(bytes(80 << 20), 6))
+        with open("/dev/zero", "rb") as zero:
+            for name in ("bomb.stl.gz", "/dev/zero"):
+                begin = time.time()
+                run = self.mill("info", name, expect=7)
+                self.assertIn("E-SIZE", run.stderr)
+                self.assertLess(time.time() - begin, 20)
+            run = subprocess.run([str(FACETMILL), "info", "-"], stdin=zero, capture_output=True, text=True, timeout=60)
+            self.assertEqual(run.returncode, 7, run.stderr)
 
     def test_input_that_never_ends_ends_quickly(self):
         (self.dir / "bomb.stl.gz").write_bytes(gzip.compress(bytes(80 << 20), 6))

@@ -334,12 +334,12 @@ TEST_CASE("plan shows everything resolved", "[pipeline]") {
                                    "  a.ply\n"
                                    "writes:\n"
                                    "  b.glb\n"
-                                   "reports:\n"
                                    "  r.json\n");
     const Json json = describe_json(result.plan);
     CHECK(json["stages"][1]["options"].dump() ==
           R"({"ratio":"10%","depth":"1%","cap":false,"method":"fast"})");
-    CHECK(json["outputs"].dump() == R"(["b.glb"])");
+    CHECK(json["outputs"].dump() == R"(["b.glb","r.json"])");
+    CHECK(json["reports"].dump() == R"(["r.json"])");
 }
 
 TEST_CASE("a path given with -D is found from a pipeline that is named without a folder", "[pipeline]") {

@@ -174,13 +174,21 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     });
 }
 
-std::vector<std::string> peek(const Input& input) {
-    return located(input, [&] {
+void peek(const Input& input, FileHeader& header) {
+    located(input, [&] {
         const Json json = parse_document(chunks_of(input).json);
         check_asset(json);
-        std::vector<std::string> names;
-        for (const auto& placement : placements(json, node_frames(json))) names.push_back(placement.name);
-        return names;
+        for (const auto& placement : placements(json, node_frames(json)))
+            header.parts.push_back(placement.name);
+        header.has_materials = json.contains("materials") && !json["materials"].empty();
+        for (const bool images : {false, true})
+            for (const auto& name : neighbours(json, images ? "images" : "buffers")) {
+                const auto path = neighbour_path(input, name);
+                if (!path) continue;
+                header.files.push_back(*path);
+                std::error_code ignored;
+                if (images && std::filesystem::is_regular_file(*path, ignored)) header.images.push_back(name);
+            }
     });
 }
 
@@ -323,7 +331,8 @@ Capabilities abilities(std::string companion) {
             .lods = true,
             .draco = Capabilities::Draco::on_request,
             .attributes = "all at vertices, with materials and textures",
-            .companion = std::move(companion)};
+            .companion = std::move(companion),
+            .copies_images = true};
 }
 
 const RegisterCodec glb({

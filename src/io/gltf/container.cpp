@@ -163,7 +163,9 @@ std::string percent_decoded(std::string_view uri) {
     return out;
 }
 
-/// The file beside the input, with links resolved: a link may not lead out of the directory either.
+} // namespace
+
+/// With links resolved: a link may not lead out of the directory either.
 std::optional<fs::path> neighbour_path(const Input& input, const fs::path& relative) {
     // Absolute first: weakly_canonical leaves a relative path as it is when nothing of it exists yet.
     std::error_code failed;
@@ -178,6 +180,8 @@ std::optional<fs::path> neighbour_path(const Input& input, const fs::path& relat
     if (mismatch.first != base.end()) return std::nullopt;
     return input.path_beside(relative);
 }
+
+namespace {
 
 Bytes resolve_with_tinygltf(const Place& buffer, const std::string& uri, Neighbour neighbour) {
     const Json document = {{"asset", {{"version", "2.0"}}},
@@ -251,6 +255,18 @@ std::optional<fs::path> relative_path(std::string_view uri) {
     return path;
 }
 
+std::vector<fs::path> neighbours(const Json& document, const char* list) {
+    std::vector<fs::path> all;
+    for (std::size_t i = 0; i < count_of(document, list); ++i) {
+        const Place place = item(document, list, i);
+        const auto uri = place.find("uri");
+        if (!uri || is_data_uri(uri->text()) || is_fallback(place)) continue;
+        const auto path = relative_path(uri->text());
+        if (path && std::find(all.begin(), all.end(), *path) == all.end()) all.push_back(*path);
+    }
+    return all;
+}
+
 std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary_chunk, const Input& input,
                                 ReadLog& log) {
     std::vector<Bytes> buffers(count_of(document, "buffers"));
@@ -290,6 +306,7 @@ std::map<std::string, Bytes> load_images(const Json& document, const Input& inpu
                              uri->path(), uri->text()));
         } else if (!fs::is_regular_file(*path, ignored)) {
             warn(fmt::format("{}: the file \"{}\" is missing", uri->path(), path->string()));
+            log.absent.push_back(*path);
         } else {
             const auto size = fs::file_size(*path, ignored);
             if (!ignored)

@@ -84,6 +84,7 @@ void read_materials(const Input& input, const std::vector<Event>& events, std::v
             log.files.push_back(library.path());
             read_library(library, materials, log);
         } catch (const Error& error) {
+            if (error.kind() == ErrorKind::missing) log.absent.push_back(input.path_beside(*path));
             warn(log, input.name(),
                  fmt::format("materials keep their names only: {}", error.diagnostics().front().message));
         }
@@ -395,16 +396,31 @@ int sniff(Span bytes) {
     return 0;
 }
 
+/// Libraries are named near the beginning. The parts are known only when all is read.
+void peek(const Input& input, FileHeader& header) {
+    Text text(as_text(input.bytes().first(std::min<std::size_t>(input.bytes().size(), 1 << 20))), input.name(),
+              "E-OBJ", '#');
+    do {
+        const std::string_view word = text.word_on_line();
+        header.has_materials |= word == "usemtl";
+        if (word != "mtllib") continue;
+        if (const auto path = inside(input, std::string(text.rest_of_line())))
+            header.files.push_back(input.path_beside(*path));
+    } while (text.next_line());
+}
+
 const RegisterCodec codec({
     .name = "obj",
     .about = "Wavefront object, with its material colours; texture points and normals by corner",
     .extensions = {"obj"},
     .can = {.polygons = true,
             .full_precision = true,
-            .attributes = "texture points and normals by corner, colours of vertices, materials"},
+            .attributes = "texture points and normals by corner, colours of vertices, materials",
+            .library = ".mtl"},
     .sniff = sniff,
     .read = read,
     .write = write,
+    .peek = peek,
 });
 } // namespace
 

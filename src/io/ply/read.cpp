@@ -508,9 +508,9 @@ const RegisterCodec codec({
     .read = read,
     .write = write,
     .peek =
-        [](const Input& input) {
+        [](const Input& input, FileHeader& header) {
             read_header(input);
-            return std::vector<std::string>{""};
+            header.parts = {""};
         },
 });
 } // namespace

@@ -73,6 +73,7 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
     for (const auto& w : log.warnings)
         context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
     for (const auto& file : log.files) record_input(context, file.string(), io::Input::open(file).stored());
+    for (const auto& file : log.absent) context.run().record.absent.push_back(file.string());
     const bool first = scene.parts.empty();
     const io::Conversion done = io::add_scene(scene, std::move(more));
     if (!first && done.unit_guessed)

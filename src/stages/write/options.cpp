@@ -165,8 +165,15 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
 StageFiles files_of_write(const WriteOptions& o) {
     const io::Codec* codec = codec_of(o);
     const std::filesystem::path path = o.path.text;
-    if (!codec || codec->can.companion.empty() || o.path.text == "-") return {{}, {o.path}};
-    return {{}, {o.path, {(path.parent_path() / (title_of(path) + codec->can.companion)).string()}}};
+    StageFiles files{{}, {o.path}};
+    if (!codec || o.path.text == "-") return files;
+    const auto beside = [&](const std::string& suffix) {
+        return PathText{(path.parent_path() / (title_of(path) + suffix)).string()};
+    };
+    if (!codec->can.companion.empty()) files.outputs.push_back(beside(codec->can.companion));
+    if (!codec->can.library.empty()) files.materials = beside(codec->can.library);
+    if (codec->can.copies_images) files.images = PathText{path.parent_path().string()};
+    return files;
 }
 
 } // namespace facetmill
