@@ -40,8 +40,8 @@ void add_once(std::vector<std::string>& all, const std::string& path) {
 
 } // namespace
 
-void write_depfile(const std::string& depfile, const report::RunRecord& record,
-                   const std::string& pipeline, const std::string& target) {
+void write_depfile(const std::string& depfile, const report::RunRecord& record, const std::string& pipeline,
+                   const std::string& target) {
     std::vector<std::string> outputs, inputs;
     for (const bool mesh : {true, false})
         for (const auto& file : record.outputs)

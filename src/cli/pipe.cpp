@@ -72,10 +72,10 @@ int pipe(const PipelineOptions& options, const std::string& save_to, const Invoc
     const Value document = parse_pipe(invocation.line, invocation.rest, problems);
     if (problems.any_errors()) { // a report is due; what is wrong with no pipeline at all is not
         Problems others;
-        refuse({pipeline::make_plan({}, settings, others)}, problems);
+        refuse({pipeline::make_plan({}, settings, others)}, problems, console);
     }
     const auto plan = pipeline::make_plan(document, settings, problems);
-    refuse({plan}, problems);
+    refuse({plan}, problems, console);
     if (!save_to.empty()) save(document, options.reports, save_to);
     return run_with_messages(plan, options, console, "");
 }

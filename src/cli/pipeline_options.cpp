@@ -49,6 +49,8 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--depfile-target", &options.depfile_target,
                   "The target of that rule. Default: the first file that is written.");
     arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
+    arguments.add("--allow", &options.allowed,
+                  "A warning that is not told, by its id, and that --strict lets pass; also --quiet=ID.");
     arguments.add("--check-invariants", &options.check_invariants, "Check every mesh after every stage.")
         .hidden();
 }
@@ -73,11 +75,12 @@ Pairs split_pairs(const std::vector<std::string>& texts, const char* option, con
 }
 
 /// A misspelled id would switch a gate off without a word.
-void check_strict(const PipelineOptions& options, const CommandLine& line, Problems& problems) {
+void check_ids(const std::vector<std::string>& given, const std::string& option, const CommandLine& line,
+               Problems& problems) {
     const auto ids = warning_ids();
-    for (const auto& id : options.strict)
+    for (const auto& id : given)
         if (id != "*" && std::find(ids.begin(), ids.end(), id) == ids.end())
-            problems.add(line.find("--strict=" + id), "E-STRICT", fmt::format("there is no warning '{}'", id),
+            problems.add(line.find(id), "E-STRICT", fmt::format("{}: there is no warning '{}'", option, id),
                          did_you_mean(id, ids, "facetmill explain lists the warnings"));
 }
 
@@ -90,7 +93,9 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     settings.sets = split_pairs(options.sets, "--set", line, problems);
     settings.update_baselines = options.update_baseline;
     settings.places.output_base = options.output_dir;
-    check_strict(options, line, problems);
+    check_ids(options.strict, "--strict", line, problems);
+    check_ids(options.allowed, "--allow", line, problems);
+    settings.allowed = options.allowed;
     settings.working_directory = fs::current_path();
     settings.extra_reports = options.reports;
     if (!options.depfile.empty()) settings.others.push_back({options.depfile, line.find("--depfile"), true});
@@ -132,6 +137,7 @@ void summarise(report::RunRecord record, const Console& console) {
                    {"pipeline", record.pipeline},
                    {"exit_code", record.exit_code},
                    {"outputs", outputs},
+                   {"reports", record.reports},
                    {"seconds", record.seconds}});
     if (console.json) return;
     record.warnings.clear();
@@ -165,11 +171,13 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     return record.exit_code;
 }
 
-void refuse(const std::vector<pipeline::Plan>& plans, const Problems& problems) {
+void refuse(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console) {
     if (!problems.any_errors()) return; // warnings come with the run
     const auto collides = [](const pipeline::Plan& plan) { return plan.files_collide; };
     if (std::none_of(plans.begin(), plans.end(), collides)) // else a report might replace an input
-        for (const auto& plan : plans) pipeline::report_refusal(plan, problems);
+        for (const auto& plan : plans)
+            for (const auto& report : pipeline::report_refusal(plan, problems))
+                console.say(fmt::format("report {}", report));
     problems.throw_if_any(ErrorKind::usage);
 }
 

@@ -8,7 +8,7 @@ namespace facetmill::cli {
 
 struct PipelineOptions {
     std::vector<std::string> defines, sets; ///< "name=value", as given
-    std::vector<std::string> reports, strict;
+    std::vector<std::string> reports, strict, allowed;
     std::string output_dir, depfile, depfile_target;
     int threads = 0;
     bool check_invariants = false, update_baseline = false;
@@ -16,7 +16,7 @@ struct PipelineOptions {
 
 /// -D, --set and --update-baseline.
 void add_value_options(Arguments& arguments, PipelineOptions& options);
-/// -j, --output-dir, --report, --depfile, --strict.
+/// -j, --output-dir, --report, --depfile, --depfile-target, --strict, --allow.
 void add_run_options(Arguments& arguments, PipelineOptions& options);
 
 /// Settings for a plan: values split at "=", with problems that point into the command line.
@@ -27,8 +27,9 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
 /// that cannot be read throws missing.
 pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems);
 
-/// When there are errors: writes the reports of these plans, as far as they are known, and throws usage.
-void refuse(const std::vector<pipeline::Plan>& plans, const Problems& problems);
+/// When there are errors: writes the reports of these plans, as far as they are known, names them, and throws
+/// usage.
+void refuse(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console);
 
 /// Runs a plan with messages and progress, and writes the depfile when all went well. Returns the exit code.
 /// pipeline: the file that the plan came from, for the depfile; empty when there is none.

@@ -89,11 +89,13 @@ void refuse_extras(const Command& command, const Arguments& arguments, const std
     problems.throw_if_any(ErrorKind::usage);
 }
 
-/// --strict alone means all warnings; else the next argument would be taken for its value.
+/// --strict alone means all warnings; else the next argument would be taken for its value. --quiet with a
+/// value is --allow.
 std::vector<std::string> spelled_out(std::vector<std::string> words, bool takes_the_rest) {
     for (auto& word : words) {
         if (takes_the_rest && !word.starts_with("-")) break;
         if (word == "--strict") word = "--strict=*";
+        if (word.starts_with("--quiet=")) word = "--allow=" + word.substr(8);
     }
     return words;
 }

@@ -46,7 +46,7 @@ int run(const std::vector<std::string>& pipelines, const PipelineOptions& option
     std::vector<pipeline::Plan> plans;
     for (const auto& pipeline : pipelines) plans.push_back(plan_of(pipeline, settings, problems));
     if (!problems.any_errors() && plans.size() > 1) refuse_common_outputs(plans, problems);
-    refuse(plans, problems);
+    refuse(plans, problems, console);
     int worst = 0;
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const bool file = pipelines[i] != "-" && std::filesystem::exists(pipelines[i]);

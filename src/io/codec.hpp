@@ -18,7 +18,7 @@ struct ReadWarning : Diagnostic {
 /// What a reader wants to tell besides the scene: warnings with stable ids, and other files it read.
 struct ReadLog {
     std::vector<ReadWarning> warnings;
-    std::vector<std::filesystem::path> files; ///< neighbours that were read (buffers, images, .mtl)
+    std::vector<std::filesystem::path> files;  ///< neighbours that were read (buffers, images, .mtl)
     std::vector<std::filesystem::path> absent; ///< neighbours that the file names and that are not there
 };
 
@@ -96,7 +96,7 @@ struct FileHeader {
     std::string format{};
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
-    std::vector<std::string> parts{}; ///< their names; empty when only the whole file tells them
+    std::vector<std::string> parts{};            ///< their names; empty when only the whole file tells them
     std::vector<std::filesystem::path> files{};  ///< neighbours that reading it opens, there or not
     std::vector<std::filesystem::path> images{}; ///< those of them that are images, relative to the file
     bool has_materials = false;

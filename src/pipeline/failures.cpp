@@ -17,12 +17,27 @@ void Failures::add(const Error& error) {
     for (const auto& d : error.diagnostics()) add(error.kind(), {d});
 }
 
-void Failures::warn(const Diagnostic& warning) {
+namespace {
+
+bool holds(const std::vector<std::string>& ids, const std::string& id) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+/// "scan.ply: ": of many runs in one log, each warning says which asset it is about.
+std::string subject(const std::vector<report::FileRecord>& inputs, const std::string& message) {
+    if (inputs.empty() || message.find(inputs.front().path) != message.npos) return {};
+    if (inputs.size() == 1) return inputs.front().path + ": ";
+    return fmt::format("{} (and {} more): ", inputs.front().path, inputs.size() - 1);
+}
+
+} // namespace
+
+void Failures::warn(Diagnostic warning) {
+    if (holds(allowed_, warning.id)) return;
+    warning.message = subject(record_.inputs, warning.message) + warning.message;
     if (settings_.on_warning) settings_.on_warning(warning);
     const auto& strict = settings_.strict;
-    if (std::find(strict.begin(), strict.end(), "*") == strict.end() &&
-        std::find(strict.begin(), strict.end(), warning.id) == strict.end())
-        return;
+    if (!holds(strict, "*") && !holds(strict, warning.id)) return;
     add(ErrorKind::check,
         {{Severity::error, "E-STRICT", fmt::format("--strict makes {} fail: {}", warning.id, warning.message),
           warning.where, warning.hint}});

@@ -13,7 +13,9 @@ namespace facetmill::pipeline {
 /// Writes into the record of a run, which outlives it, as the settings ask.
 class Failures {
   public:
-    Failures(report::RunRecord& record, const RunSettings& settings) : record_(record), settings_(settings) {}
+    /// allowed: ids of warnings that are neither told nor made to fail.
+    Failures(report::RunRecord& record, const RunSettings& settings, const std::vector<std::string>& allowed)
+        : record_(record), settings_(settings), allowed_(allowed) {}
 
     bool any() const { return any_; }
 
@@ -21,8 +23,8 @@ class Failures {
     /// earnest.
     void add(ErrorKind kind, report::RunError why);
     void add(const Error& error);
-    /// Tells the warning, and fails when --strict says so.
-    void warn(const Diagnostic& warning);
+    /// Tells the warning, with the input that it is about, and fails when --strict says so.
+    void warn(Diagnostic warning);
     /// Turns the checks of the record from this one on that do not hold into failures or, by their severity,
     /// into warnings. Whether all errors among them hold.
     bool judge_checks(std::size_t first);
@@ -50,6 +52,7 @@ class Failures {
   private:
     report::RunRecord& record_;
     const RunSettings& settings_;
+    const std::vector<std::string>& allowed_;
     bool any_ = false;
 };
 

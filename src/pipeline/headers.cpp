@@ -87,7 +87,8 @@ class Walk {
                 const auto same = [&](const InputHeader& h) { return h.path == file.path; };
                 if (std::none_of(headers.inputs.begin(), headers.inputs.end(), same))
                     headers.inputs.push_back({file.path, header});
-                headers.more_inputs.insert(headers.more_inputs.end(), header.files.begin(), header.files.end());
+                headers.more_inputs.insert(headers.more_inputs.end(), header.files.begin(),
+                                           header.files.end());
                 images_.insert(images_.end(), header.images.begin(), header.images.end());
                 has_materials_ |= header.has_materials;
             } catch (Error& error) {
@@ -97,8 +98,8 @@ class Walk {
         }
     }
 
-    /// What goes beside an output because the scene has it. A branch counts what was loaded in those before it,
-    /// too: a file too many is better than one that nobody expects.
+    /// What goes beside an output because the scene has it. A branch counts what was loaded in those before
+    /// it, too: a file too many is better than one that nobody expects.
     void add_written(const Step& step) {
         if (!step.stage->files) return;
         const StageFiles files = step.stage->files(step.options.get());
@@ -106,7 +107,8 @@ class Walk {
             headers.more_outputs.push_back(places_.output(files.materials->text));
         if (files.images)
             for (const auto& image : images_)
-                headers.more_outputs.push_back(places_.output((fs::path(files.images->text) / image).string()));
+                headers.more_outputs.push_back(
+                    places_.output((fs::path(files.images->text) / image).string()));
     }
 
     void resolve_lengths(const Step& step, Unit unit) {

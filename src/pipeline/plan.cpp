@@ -1,5 +1,6 @@
 #include "pipeline/plan.hpp"
 
+#include "base/message_ids.hpp"
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
 #include "io/bytes.hpp"
@@ -72,8 +73,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> top_level_keys = {"facetmill", "requires", "about",
-                                                 "params",    "stages",   "report"};
+const std::vector<std::string> top_level_keys = {"facetmill", "requires", "about", "params",
+                                                 "stages",    "report",   "allow"};
 
 void check_keys(const Value& document, Problems& problems) {
     for (const auto& entry : document.entries)
@@ -141,6 +142,23 @@ std::vector<std::string> read_reports(const Value* report, const Scope& scope, c
     return reports;
 }
 
+/// The warnings of `allow`, after those of --allow.
+std::vector<std::string> read_allowed(const Value* allow, const PlanSettings& settings, Problems& problems) {
+    std::vector<std::string> allowed = settings.allowed;
+    if (!allow || allow->is_null()) return allowed;
+    const Value list = allow->is_list() ? *allow : Value::list({*allow}, allow->mark);
+    const auto known = warning_ids();
+    for (const auto& item : list.items) {
+        std::string id;
+        if (!OptionType<std::string>::parse(item, id, problems)) continue;
+        if (std::find(known.begin(), known.end(), id) == known.end())
+            problems.add(item.mark, "E-CHOICE", fmt::format("there is no warning '{}'", id),
+                         did_you_mean(id, known, "facetmill explain lists the warnings"));
+        allowed.push_back(std::move(id));
+    }
+    return allowed;
+}
+
 } // namespace
 
 Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems) {
@@ -148,6 +166,7 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
     plan.name = settings.name;
     plan.places = settings.places;
     plan.others = settings.others;
+    plan.allowed = settings.allowed;
     if (!document.is_map()) {
         plan.reports = read_reports(nullptr, {}, settings, plan.others, problems);
         problems.add(
@@ -161,6 +180,7 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
     check_keys(document, problems);
     if (const Value* about = document.find("about"))
         OptionType<std::string>::parse(*about, plan.about, problems);
+    plan.allowed = read_allowed(document.find("allow"), settings, problems);
     const Scope scope = read_params(document.find("params"), settings, plan.params, problems);
     Planner planner(settings, problems);
     bool has_scene = false;

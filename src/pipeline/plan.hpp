@@ -63,6 +63,7 @@ struct PlanSettings {
     Places places;
     std::filesystem::path working_directory; ///< what -D paths are relative to
     std::vector<std::string> extra_reports;  ///< --report
+    std::vector<std::string> allowed;        ///< --allow: ids of warnings
     std::vector<PlannedFile> others; ///< what is read and written besides: the pipeline itself, --save ...
     bool parameters_needed = true;   ///< false (check without -D): params without a value stand for any value
 };
@@ -76,6 +77,7 @@ struct Plan {
     Places places;
     bool files_collide = false; ///< a file would be read and written, or used twice (check_collisions)
     std::vector<Diagnostic> warnings;
+    std::vector<std::string> allowed; ///< ids of warnings that are neither told nor made to fail
 };
 
 /// Plans a parsed document. All problems (E-FORMAT-VERSION, E-REQUIRES, E-STAGE, E-KEY, E-PARAM, ...) are
@@ -107,7 +109,7 @@ struct Headers {
     /// Files beside inputs that are read, too (.bin, .mtl, images), there or not; and files beside outputs
     /// that are written, too (images, a .mtl).
     std::vector<std::filesystem::path> more_inputs, more_outputs;
-    std::vector<Error> errors;       ///< in the order of the plan
+    std::vector<Error> errors; ///< in the order of the plan
     /// By the path of a step, its lengths with a physical unit where the scene's is known: {"amplitude":
     /// {"given": "0.1in", "is": 2.54, "unit": "mm"}}.
     std::map<std::string, Json> lengths;

@@ -82,7 +82,8 @@ class Runner {
         record().pipeline = plan.name;
         record().about = plan.about;
         record().params = plan.params;
-        for (const auto& report : plan.reports) record().reports.push_back(plan.places.output(report).string());
+        for (const auto& report : plan.reports)
+            record().reports.push_back(plan.places.output(report).string());
     }
 
     report::RunRecord run() {
@@ -106,7 +107,8 @@ class Runner {
         record().seconds = seconds_since(start);
         record().peak_memory = peak_memory();
         record().threads = threads();
-        failures_.guarded({}, "the report", [&] { write_reports(plan_, record()); });
+        if (!failures_.guarded({}, "the report", [&] { write_reports(plan_, record()); }))
+            record().reports.clear();
         return std::move(record());
     }
 
@@ -363,7 +365,7 @@ class Runner {
     const Plan& plan_;
     const RunSettings& settings_;
     RunState state_;
-    Failures failures_{state_.record, settings_};
+    Failures failures_{state_.record, settings_, plan_.allowed};
     bool keeps_loaded_ = false, takes_pictures_ = false;
     std::string last_picture_;
     std::size_t picture_bytes_ = 0;
@@ -372,7 +374,7 @@ class Runner {
 
 } // namespace
 
-void report_refusal(const Plan& plan, const Problems& problems) {
+std::vector<std::string> report_refusal(const Plan& plan, const Problems& problems) {
     report::RunRecord record;
     record.pipeline = plan.name;
     record.about = plan.about;
@@ -385,6 +387,7 @@ void report_refusal(const Plan& plan, const Problems& problems) {
         else
             record.warnings.push_back(d);
     write_reports(plan, record);
+    return record.reports;
 }
 
 report::RunRecord run_plan(const Plan& plan, const RunSettings& settings) {

@@ -76,6 +76,7 @@ std::string to_text(const RunRecord& record, bool colour) {
     add_checks(record.checks, paint, out);
     for (const auto& file : record.outputs)
         out += fmt::format("wrote {} ({})\n", file.path, sized(file.bytes));
+    for (const auto& report : record.reports) out += fmt::format("report {}\n", report);
     const std::string cost =
         fmt::format("{}, peak memory {}", timed(record.seconds), sized(record.peak_memory));
     if (record.exit_code == 0) return out + fmt::format("{} in {}\n", paint("1;32", "ok"), cost);

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import signal
+import struct
 import subprocess
 import time
 
@@ -332,6 +333,23 @@ class Process(Case):
         self.assertEqual(text.split(":")[0], "o.glb")
         self.assertIn("tex.png", text)
         self.assertIn("t.bin", text)
+
+    def test_warnings_name_their_input_and_can_be_allowed(self):
+        self.write("t.off", TRIANGLE)
+        line = ["load", "t.off", "!", "write", "o.glb"]
+        self.assertIn("warning[W-UNITS]: t.off: ", self.mill("pipe", "--quiet", *line).stderr)
+        for allow in (["--allow", "W-UNITS"], ["--quiet=W-UNITS"], ["--allow=W-UNITS", "--strict"]):
+            self.assertNotIn("W-UNITS", self.mill("pipe", *allow, *line).stderr)
+        self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [{load: t.off}, {write: o.glb}]\nreport: r.txt\n")
+        run = self.mill("run", "p.yaml", "--strict")
+        self.assertNotIn("warning[", run.stderr)
+        self.assertIn("report r.txt", run.stderr)
+        self.assertIn("did you mean 'W-UNITS'?", self.mill("pipe", "--allow", "W-UNIT", *line, expect=2).stderr)
+        self.write("q.yaml", "facetmill: 1\nallow: [W-UNIT]\nstages: [{load: t.off}]\nreport: r.txt\n")
+        run = self.mill("run", "q.yaml", expect=2)
+        self.assertIn("did you mean 'W-UNITS'?", run.stderr)
+        self.assertIn("report r.txt", run.stderr)
+        self.assertNotIn("W-SIMPLIFY", self.mill("pipe", "load", "t.off", "!", "simplify", "100%").stderr)
 
     def test_input_that_never_ends_ends_quickly(self):
         (self.dir / "bomb.stl.gz").write_bytes(gzip.compress(bytes(80 << 20), 6))
