@@ -1,4 +1,5 @@
 #include "pipeline/plan.hpp"
+#include "stage/options/plane.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -20,12 +21,26 @@ bool has_open_header(const fs::path& path) {
     return !(magic[0] == '\x1f' && magic[1] == '\x8b');
 }
 
-/// The lengths with a physical unit among the values of options, with the names of their options.
-void find_physical(const Option& option, const Value& value,
-                   std::vector<std::pair<std::string, const Value*>>& found);
+/// Values, with the names of their options.
+using Lengths = std::vector<std::pair<std::string, Value>>;
 
-void find_physical(const Declaration& declaration, const Value& given,
-                   std::vector<std::pair<std::string, const Value*>>& found) {
+void add_physical(const std::string& name, const Value& value, Lengths& found) {
+    Problems ignored; // a range may reach here as a map or text of its own; its stage has judged it
+    Length length;
+    if (OptionType<Length>::parse(value, length, ignored) && length.kind == Length::Kind::physical)
+        found.emplace_back(name, value);
+}
+
+/// Whether the values of the option may be planes in their short form.
+bool takes_planes(const Option& option) {
+    static const Json plane = OptionType<PlaneOption>::schema();
+    return option.schema == plane || (option.schema.contains("anyOf") && option.schema["anyOf"][0] == plane);
+}
+
+/// The lengths with a physical unit among the values of options.
+void find_physical(const Option& option, const Value& value, Lengths& found);
+
+void find_physical(const Declaration& declaration, const Value& given, Lengths& found) {
     if (given.is_map()) {
         for (const auto& entry : given.entries)
             if (const Option* option = declaration.find(entry.key))
@@ -35,16 +50,14 @@ void find_physical(const Declaration& declaration, const Value& given,
     }
 }
 
-void find_physical(const Option& option, const Value& value,
-                   std::vector<std::pair<std::string, const Value*>>& found) {
+void find_physical(const Option& option, const Value& value, Lengths& found) {
+    if (takes_planes(option))
+        if (const auto length = length_in_plane(value)) return add_physical(option.name, *length, found);
     if (option.fields) return find_physical(*option.fields, value, found);
     for (const auto& item : value.items) find_physical(option, item, found);
     for (const auto& entry : value.entries) find_physical(option, entry.value, found); // {min: 2mm}
-    if (option.dimension != Dimension::length || !value.is_scalar() || value.deferred) return;
-    Problems ignored; // a range may reach here as a map or text of its own; its stage has judged it
-    Length length;
-    if (OptionType<Length>::parse(value, length, ignored) && length.kind == Length::Kind::physical)
-        found.emplace_back(option.name, &value);
+    if (option.dimension == Dimension::length && value.is_scalar() && !value.deferred)
+        add_physical(option.name, value, found);
 }
 
 class Walk {
@@ -112,14 +125,14 @@ class Walk {
     }
 
     void resolve_lengths(const Step& step, Unit unit) {
-        std::vector<std::pair<std::string, const Value*>> found;
+        Lengths found;
         find_physical(*step.stage->options, step.given, found);
         for (const auto& [option, value] : found) {
             Problems ignored; // it was found because it can be read
             Length length;
-            OptionType<Length>::parse(*value, length, ignored);
+            OptionType<Length>::parse(value, length, ignored);
             headers.lengths[step.path][option] = {
-                {"given", value->text}, {"is", length.amount / metres(unit)}, {"unit", to_string(unit)}};
+                {"given", value.text}, {"is", length.amount / metres(unit)}, {"unit", to_string(unit)}};
         }
     }
 
@@ -134,9 +147,9 @@ class Walk {
                 Error(ErrorKind::usage, "E-UNIT",
                       fmt::format("the scene has no unit, so it cannot be written in {}", wanted->text),
                       "give the unit of the file (load: {unit: mm})", wanted->mark));
-        std::vector<std::pair<std::string, const Value*>> found;
+        Lengths found;
         find_physical(*step.stage->options, step.given, found);
-        for (const auto& [option, value] : found) no_unit(option, value->text, value->mark);
+        for (const auto& [option, value] : found) no_unit(option, value.text, value.mark);
         if (step.when) assertions(step.when->predicates);
     }
 

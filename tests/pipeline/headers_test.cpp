@@ -95,6 +95,20 @@ TEST_CASE("a physical length on a scene without a unit is found before anything 
     CHECK(ground.errors(std::string("  - load: body.gltf\n") + later).empty());
 }
 
+TEST_CASE("so is the length in the short form of a plane, where it stands", "[pipeline]") {
+    Ground ground;
+    for (const std::string planes : {"plane: z=5mm", "planes: [x=10%, z=5mm]"}) {
+        const auto errors = ground.errors("  - load: good.off\n  - clip: {" + planes + "}\n");
+        REQUIRE(errors.size() == 1);
+        INFO(errors[0]);
+        CHECK(errors[0].find(
+                  fmt::format("2: p.yaml:4:{}: error[E-UNIT]: '{}' is 5mm, but the scene has no unit",
+                              12 + planes.find("5mm"), planes.substr(0, planes.find(':')))) == 0);
+        CHECK(errors[0].find("^~~\n") != std::string::npos);
+        CHECK(ground.errors("  - load: {path: good.off, unit: mm}\n  - clip: {" + planes + "}\n").empty());
+    }
+}
+
 TEST_CASE("headers of missing files, streams and compressed files wait for the run", "[pipeline]") {
     Folder ground;
     test::put(ground.directory / "scan.ply.gz", "\x1f\x8b not gzip at all");

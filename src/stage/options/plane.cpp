@@ -184,6 +184,19 @@ bool OptionType<PlaneOption>::parse(const Value& value, PlaneOption& out, Proble
 }
 Json OptionType<PlaneOption>::schema() { return plane_declaration().schema(); }
 
+std::optional<Value> length_in_plane(const Value& value) {
+    PlaneOption plane;
+    Problems ignored; // no plane, no length
+    if (!value.is_scalar() || value.deferred || !OptionType<PlaneOption>::parse(value, plane, ignored) ||
+        plane.through.kind != PlanePlace::Kind::level)
+        return {};
+    Value length = Value::scalar(value.text.substr(2), value.mark);
+    const int before = value.quoted ? 3 : 2; // the axis and the equals sign
+    length.mark.column += before;
+    length.mark.length = static_cast<int>(length.text.size());
+    return length;
+}
+
 void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problems) {
     if (!plane.normal && !plane.coefficients) {
         problems.add(where, "E-PLANE", "a plane needs a normal or coefficients",

@@ -64,6 +64,10 @@ struct OptionType<PlaneOption> {
     static std::optional<double> magnitude(const PlaneOption&) { return {}; }
 };
 
+/// The length in the short form of a plane, "5mm" of "z=5mm", with its own place; none when the value is no
+/// such form, or has a percentage or centre there.
+std::optional<Value> length_in_plane(const Value& value);
+
 /// Adds E-PLANE for what is no plane: nothing given, or a zero normal.
 void verify_plane(const PlaneOption& plane, const Mark& where, Problems& problems);
 
