@@ -45,6 +45,9 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
                   "The folder that written paths start from. Default: the working directory.");
     arguments.add("--report", &options.reports,
                   "Also write a report: F.json, F.html, F.xml (JUnit) or F.txt.");
+    arguments.add(
+        "--timings", &options.timings,
+        "Write times, memory and threads to F.json; no report has them, so that it is reproducible.");
     arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");
     arguments.add("--depfile-target", &options.depfile_target,
                   "The target of that rule. Default: the first file that is written.");
@@ -98,6 +101,8 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     settings.allowed = options.allowed;
     settings.working_directory = fs::current_path();
     settings.extra_reports = options.reports;
+    if (!options.timings.empty())
+        settings.others.push_back({settings.places.output(options.timings), line.find("--timings"), true});
     if (!options.depfile.empty()) settings.others.push_back({options.depfile, line.find("--depfile"), true});
     return settings;
 }
@@ -165,6 +170,10 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     const auto record = pipeline::run_plan(plan, settings);
     if (progress) progress->done();
     for (const auto& error : record.errors) console.diagnostic(error);
+    if (!options.timings.empty()) {
+        const std::string text = report::timings_json(record).dump(2) + "\n";
+        io::write_now(plan.places.output(options.timings), std::as_bytes(std::span(text)));
+    }
     summarise(record, console);
     if (record.exit_code == 0 && !options.depfile.empty())
         write_depfile(options.depfile, record, pipeline, options.depfile_target);

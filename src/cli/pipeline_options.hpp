@@ -9,7 +9,7 @@ namespace facetmill::cli {
 struct PipelineOptions {
     std::vector<std::string> defines, sets; ///< "name=value", as given
     std::vector<std::string> reports, strict, allowed;
-    std::string output_dir, depfile, depfile_target;
+    std::string output_dir, depfile, depfile_target, timings;
     int threads = 0;
     bool check_invariants = false, update_baseline = false;
 };

@@ -18,16 +18,17 @@ constexpr const char* schema_examples = R"(Examples
 } // namespace
 
 Command schema_command() {
-    return {"schema", "Prints the JSON Schema of pipelines, reports, info or diff.", schema_examples, false,
-            [](Arguments& arguments, Console&) {
+    return {"schema", "Prints the JSON Schema of pipelines, reports, timings, info or diff.", schema_examples,
+            false, [](Arguments& arguments, Console&) {
                 auto what = std::make_shared<std::string>("pipeline");
-                arguments.add("WHAT", what.get(), "pipeline (default), report, info or diff.")
-                    .one_of({"pipeline", "report", "info", "diff"});
+                arguments.add("WHAT", what.get(), "pipeline (default), report, timings, info or diff.")
+                    .one_of({"pipeline", "report", "timings", "info", "diff"});
                 return [=](const Invocation&) {
-                    const Json schema = *what == "report" ? docs::report_schema()
-                                        : *what == "info" ? docs::info_schema()
-                                        : *what == "diff" ? report::comparison_schema()
-                                                          : docs::pipeline_schema();
+                    const Json schema = *what == "report"    ? docs::report_schema()
+                                        : *what == "timings" ? report::timings_schema()
+                                        : *what == "info"    ? docs::info_schema()
+                                        : *what == "diff"    ? report::comparison_schema()
+                                                             : docs::pipeline_schema();
                     print(schema.dump(2) + "\n");
                     return 0;
                 };

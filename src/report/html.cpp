@@ -143,16 +143,6 @@ std::string verdict(const RunRecord& record) {
                        record.outputs.empty() ? ": no output was written" : "");
 }
 
-std::string run_section(const RunRecord& record) {
-    std::string rows;
-    for (const auto& s : record.stages)
-        rows += fmt::format("<tr>{}{}</tr>\n", cell(escaped(s.name)), number_cell(timed(s.seconds)));
-    rows += fmt::format("<tr>{}{}</tr>\n<tr>{}{}</tr>\n", cell("all"), number_cell(timed(record.seconds)),
-                        cell("peak memory"), number_cell(sized(record.peak_memory)));
-    return fmt::format("<section id=\"run\">\n{}</section>\n",
-                       table("Time and memory", heads({"", "#"}), rows));
-}
-
 } // namespace
 
 std::string to_html(const RunRecord& record) {
@@ -178,7 +168,6 @@ std::string to_html(const RunRecord& record) {
         table("Properties at the end", heads({"property", "value"}), property_rows(record.final_properties));
     out += table("Attribute changes", heads({"stage", "part", "attribute", "domain", "change", "why"}),
                  attribute_change_rows(record));
-    out += run_section(record);
     return out + fmt::format("<p class=\"soft\">facetmill {}</p>\n</body>\n</html>\n", FACETMILL_VERSION);
 }
 

@@ -67,18 +67,19 @@ Json check_json(const Check& check) {
             {"evidence", check.evidence}};
 }
 
-/// Whatever differs from run to run.
-Json run_json(const RunRecord& record) {
+} // namespace
+
+Json timings_json(const RunRecord& record) {
     Json stages = Json::array();
     for (const auto& stage : record.stages)
         stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}});
-    return {{"seconds", record.seconds},
+    return {{"format", 1},
+            {"pipeline", record.pipeline},
+            {"seconds", record.seconds},
             {"peak_memory", record.peak_memory},
             {"threads", record.threads},
             {"stages", std::move(stages)}};
 }
-
-} // namespace
 
 Json to_json(const RunRecord& record) {
     Json stages = Json::array(), checks = Json::array();
@@ -97,8 +98,7 @@ Json to_json(const RunRecord& record) {
             {"stages", std::move(stages)},
             {"checks", std::move(checks)},
             {"outputs", files_json(record.outputs, true)},
-            {"properties", record.final_properties},
-            {"run", run_json(record)}};
+            {"properties", record.final_properties}};
 }
 
 } // namespace facetmill::report

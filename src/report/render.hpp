@@ -15,14 +15,18 @@ Json scene_json(const Scene& scene, const Properties& properties);
 /// The components of a scene of these properties with most faces, the largest first: [{part, faces, euler,
 /// boundary_loops, closed, genus}].
 Json components_json(const Scene& scene, const Properties& properties, std::size_t limit);
-Json to_json(const RunRecord& record);                     ///< the report; its schema is schema()
-Json schema();                                             ///< JSON Schema (2020-12) of the report
-Json info_schema();                                        ///< ... and of `info --json`
-std::string to_text(const RunRecord& record, bool colour); ///< for a terminal
-std::string to_html(const RunRecord& record);              ///< one self-contained page
-std::string to_junit(const RunRecord& record);             ///< checks as test cases
-/// The renderer for a report's file name: .json, .html, .xml (JUnit), .txt. Throws usage (E-REPORT)
-/// otherwise.
+Json to_json(const RunRecord& record); ///< the report; its schema is schema()
+Json schema();                         ///< JSON Schema (2020-12) of the report
+/// Times, memory and threads: what differs from run to run, and is therefore in no report.
+Json timings_json(const RunRecord& record);
+Json timings_schema();
+Json info_schema(); ///< ... and of `info --json`
+/// For a terminal; without times and memory as a report.
+std::string to_text(const RunRecord& record, bool colour, bool with_times = true);
+std::string to_html(const RunRecord& record);  ///< one self-contained page
+std::string to_junit(const RunRecord& record); ///< checks as test cases
+/// The renderer for a report's file name: .json, .html, .xml (JUnit), .txt. The same inputs give the same
+/// text, in any run. Throws usage (E-REPORT) otherwise.
 std::string render_for(const std::string& path, const RunRecord& record);
 
 } // namespace facetmill::report

@@ -146,17 +146,6 @@ Json definitions() {
             {"scene", scene_schema()}};
 }
 
-Json run_schema() {
-    Json run = closed_object(
-        {{"seconds", typed("number")},
-         {"peak_memory", typed("integer", "Bytes")},
-         {"threads", typed("integer")},
-         {"stages", list_of(closed_object({{"name", typed("string")}, {"seconds", typed("number")}}),
-                            "In the order of `stages`")}});
-    run["description"] = "Whatever differs from run to run; all the rest is the same for the same input";
-    return run;
-}
-
 Json components_detail() {
     return list_of(closed_object({{"part", typed("string")},
                                   {"faces", typed("integer")},
@@ -188,8 +177,7 @@ Json schema() {
          {"outputs", list_of(file(true), "Files that were written; none when the run failed")},
          {"properties",
           {{"anyOf", Json::array({reference("scene"), typed("null")})},
-           {"description", "Of the scene at the end; null when the run failed before it"}}},
-         {"run", run_schema()}});
+           {"description", "Of the scene at the end; null when the run failed before it"}}}});
     Json out = {{"$schema", dialect}, {"title", "facetmill report"}};
     out.update(properties);
     out["$defs"] = definitions();
@@ -204,6 +192,21 @@ Json info_schema() {
         typed("integer", "How many components there are beyond those of components_detail");
     out.update(scene);
     return out;
+}
+
+Json timings_schema() {
+    Json schema = closed_object(
+        {{"format", {{"const", 1}}},
+         {"pipeline", typed("string")},
+         {"seconds", typed("number")},
+         {"peak_memory", typed("integer", "Bytes")},
+         {"threads", typed("integer")},
+         {"stages", list_of(closed_object({{"name", typed("string")}, {"seconds", typed("number")}}),
+                            "In the order of the report's stages")}});
+    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+    schema["title"] = "facetmill timings, format 1";
+    schema["description"] = "What differs from run to run, and is in no report for that reason.";
+    return schema;
 }
 
 } // namespace facetmill::report

@@ -29,13 +29,17 @@ std::string face_change(const StageRecord& stage) {
                        : fmt::format("{} -> {} faces", grouped(before), grouped(after));
 }
 
-void add_stage(const StageRecord& stage, std::size_t width, const Paint& paint, std::string& out) {
+void add_stage(const StageRecord& stage, std::size_t width, bool with_times, const Paint& paint,
+               std::string& out) {
     const std::string name = fmt::format("{:<{}}", stage.name, width);
     if (stage.skipped) {
         out += fmt::format("  {}  {}\n", name, paint("2", "skipped"));
         return;
     }
-    out += fmt::format("  {}  {:<34} {:>9}\n", name, face_change(stage), timed(stage.seconds));
+    if (with_times)
+        out += fmt::format("  {}  {:<34} {:>9}\n", name, face_change(stage), timed(stage.seconds));
+    else
+        out += fmt::format("  {}  {}\n", name, face_change(stage));
     for (const auto& line : stage.said) out += fmt::format("  {:<{}}    {}\n", "", width, line);
     for (const auto& warning : stage.warnings)
         out += fmt::format("  {:<{}}  {}: {}\n", "", width,
@@ -64,12 +68,13 @@ void add_checks(const std::vector<Check>& checks, const Paint& paint, std::strin
 
 } // namespace
 
-std::string to_text(const RunRecord& record, bool colour) {
+std::string to_text(const RunRecord& record, bool colour, bool with_times) {
     const Paint paint{colour};
     std::string out = paint("1", record.pipeline) + (record.about.empty() ? "" : ": " + record.about) + "\n";
     std::size_t width = 8;
     for (const auto& stage : record.stages) width = std::max(width, stage.name.size());
-    for (const auto& stage : record.stages) add_stage(stage, std::min<std::size_t>(width, 40), paint, out);
+    for (const auto& stage : record.stages)
+        add_stage(stage, std::min<std::size_t>(width, 40), with_times, paint, out);
     for (const auto& warning : record.warnings)
         out +=
             fmt::format("  {}: {}\n", paint("35", fmt::format("warning[{}]", warning.id)), warning.message);
@@ -77,9 +82,12 @@ std::string to_text(const RunRecord& record, bool colour) {
     for (const auto& file : record.outputs)
         out += fmt::format("wrote {} ({})\n", file.path, sized(file.bytes));
     for (const auto& report : record.reports) out += fmt::format("report {}\n", report);
-    const std::string cost =
-        fmt::format("{}, peak memory {}", timed(record.seconds), sized(record.peak_memory));
-    if (record.exit_code == 0) return out + fmt::format("{} in {}\n", paint("1;32", "ok"), cost);
+    if (record.exit_code == 0)
+        return out + paint("1;32", "ok") +
+               (with_times
+                    ? fmt::format(" in {}, peak memory {}", timed(record.seconds), sized(record.peak_memory))
+                    : "") +
+               "\n";
     const std::string why = record.errors.empty() ? ""
                                                   : fmt::format(": [{}] {}", record.errors.front().id,
                                                                 record.errors.front().message);

@@ -351,6 +351,20 @@ class Process(Case):
         self.assertIn("report r.txt", run.stderr)
         self.assertNotIn("W-SIMPLIFY", self.mill("pipe", "load", "t.off", "!", "simplify", "100%").stderr)
 
+    def test_every_output_is_a_function_of_the_inputs(self):
+        self.write("p.yaml", f"facetmill: 1\nstages: [{{load: {SCAN}}}, {{clip: {{plane: z=50%, cap: true}}}}, {{simplify: 20%}}, "
+                             "{measure: {path: m.json}}, {render: v.png}, {write: o.glb}]\n"
+                             "report: [r.json, r.html, r.txt, r.xml]\n")
+        for folder, threads in (("one", "1"), ("two", "2")):
+            self.mill("run", "p.yaml", "-o", folder, "-j", threads, "--timings", f"../{folder}.json")
+            self.assertEqual(json.loads((self.dir / f"{folder}.json").read_text())["threads"], int(threads))
+        one, two = self.files(self.dir / "one"), self.files(self.dir / "two")
+        self.assertEqual(len(one), 7)
+        for name in one:  # the folder's own name is in the reports
+            texts = [(self.dir / folder / name).read_bytes().replace(folder.encode() + b"/", b"") for folder in ("one", "two")]
+            self.assertEqual(texts[0], texts[1], name)
+        self.assertEqual(list(one), list(two))
+
     def test_input_that_never_ends_ends_quickly(self):
         (self.dir / "bomb.stl.gz").write_bytes(gzip.compress(bytes(80 << 20), 6))
         with open("/dev/zero", "rb") as zero:
