@@ -31,6 +31,8 @@ constexpr std::size_t max_locks = 128;
     }
 }
 
+bool is_streamed(const Outputs::File& file) { return file.temporary.empty() && !file.is_input; }
+
 void stream_out(const Outputs::File& file) {
     const bool standard = file.target == "-";
     const int fd = standard ? STDOUT_FILENO : ::open(file.target.c_str(), O_WRONLY | O_CLOEXEC | O_TRUNC);
@@ -112,12 +114,14 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     file->bytes = bytes.size();
     file->sha256 = sha256(bytes);
     const fs::path self = stream ? target : identity(file->resolved);
-    if (const auto input = inputs_.find(self); input != inputs_.end() && input->second != file->sha256)
+    const auto input = inputs_.find(self);
+    file->is_input = input != inputs_.end();
+    if (file->is_input && input->second != file->sha256)
         throw Error(ErrorKind::output, "E-OVERWRITE",
                     fmt::format("'{}' would overwrite an input", target.string()),
                     "give the output another name, or write elsewhere with --output-dir", where);
     for (const auto& other : files_) {
-        if (self != (other->temporary.empty() ? other->target : identity(other->resolved))) continue;
+        if (self != (is_streamed(*other) ? other->target : identity(other->resolved))) continue;
         // Two glTF files in one folder share their textures.
         if (!stream && other->bytes == file->bytes && other->sha256 == file->sha256) return *other;
         throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
@@ -126,7 +130,7 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     }
     if (stream) {
         file->stream.assign(bytes.begin(), bytes.end());
-    } else {
+    } else if (!file->is_input) {
         std::error_code error;
         if (target.filename().empty() || fs::is_directory(file->resolved, error))
             cannot_write(target, EISDIR);
@@ -138,7 +142,8 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
 }
 
 Input Outputs::staged(const File& file) const {
-    if (file.temporary.empty()) return Input::of(file.target.string(), file.stream);
+    if (file.is_input) return Input::open(file.resolved);
+    if (is_streamed(file)) return Input::of(file.target.string(), file.stream);
     auto instead = std::make_shared<Input::Instead>();
     for (const auto& other : files_)
         if (!other->temporary.empty()) instead->emplace(other->target.lexically_normal(), other->temporary);
@@ -202,7 +207,7 @@ void Outputs::settle(const std::vector<Renamed>& all) {
 
 void Outputs::commit() {
     const bool streams =
-        std::any_of(files_.begin(), files_.end(), [](const auto& f) { return f->temporary.empty(); });
+        std::any_of(files_.begin(), files_.end(), [](const auto& f) { return is_streamed(*f); });
     std::vector<Renamed> all;
     {
         const HoldSignals hold;
@@ -211,7 +216,7 @@ void Outputs::commit() {
     }
     try {
         for (const auto& file : files_)
-            if (file->temporary.empty()) stream_out(*file);
+            if (is_streamed(*file)) stream_out(*file);
     } catch (...) {
         const HoldSignals hold;
         put_back(all);

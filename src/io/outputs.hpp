@@ -25,6 +25,7 @@ class Outputs {
         std::filesystem::path
             resolved; ///< what is replaced: symbolic links followed, so that they stay links
         std::filesystem::path temporary; ///< empty for streams (-, devices, FIFOs), which are kept in memory
+        bool is_input = false; ///< an input that has these bytes already: it is left alone, with its time
         Bytes stream;
         std::size_t bytes = 0;
         std::string sha256;
@@ -36,8 +37,8 @@ class Outputs {
     /// An input with its SHA-256: from now on only the same bytes may be written there.
     void protect(const std::filesystem::path& input, std::string sum);
     /// Stages a file; makes its directory when missing. Throws output (E-WRITE, E-SPACE, E-DIRECTORY,
-    /// E-OVERWRITE for a protected input, E-DUPLICATE-OUTPUT for a target that was staged already with other
-    /// bytes). "-" is standard output.
+    /// E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that was staged
+    /// already with other bytes). "-" is standard output.
     const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
     /// Bytes of a staged file, for reading back.
     Input staged(const File& file) const;

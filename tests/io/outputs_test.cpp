@@ -4,6 +4,7 @@
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -37,6 +38,23 @@ TEST_CASE("a staged file can be read back before the commit", "[io]") {
     const io::Input input = outputs.staged(file);
     CHECK(io::as_text(input.bytes()) == "text");
     CHECK(input.name() == (dir / "a.ply").string());
+}
+
+TEST_CASE("an input that is an output with the same bytes is left alone", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "texture", "pixels");
+    const auto old = fs::last_write_time(dir / "texture") - std::chrono::hours(1);
+    fs::last_write_time(dir / "texture", old);
+    Outputs outputs;
+    outputs.add(dir / "first", bytes_of("x"));
+    outputs.protect(dir / "texture", outputs.add(dir / "copy", bytes_of("pixels")).sha256);
+    const auto& file = outputs.add(dir / "texture", bytes_of("pixels"));
+    CHECK(file.bytes == 6);
+    CHECK(io::as_text(outputs.staged(file).bytes()) == "pixels");
+    CHECK(&outputs.add(dir / "./texture", bytes_of("pixels")) == &file);
+    outputs.commit();
+    CHECK(dir.names() == Names{"copy", "first", "texture"});
+    CHECK(fs::last_write_time(dir / "texture") == old);
 }
 
 TEST_CASE("a discarded run leaves older outputs and no directories of its own", "[io]") {

@@ -35,7 +35,8 @@ std::optional<std::filesystem::path> relative_path(std::string_view uri);
 /// those that break the directory rule.
 std::vector<std::filesystem::path> neighbours(const Json& document, const char* list);
 /// Where the neighbour is; none when the input is a stream, or a link leads out of its directory.
-std::optional<std::filesystem::path> neighbour_path(const Input& input, const std::filesystem::path& relative);
+std::optional<std::filesystem::path> neighbour_path(const Input& input,
+                                                    const std::filesystem::path& relative);
 
 /// Reads all buffers of the document. Buffer 0 without a URI is the binary chunk; buffers that exist only for
 /// readers without meshopt decoding stay empty. Throws malformed (E-URI for a URI that breaks the directory

@@ -398,8 +398,8 @@ int sniff(Span bytes) {
 
 /// Libraries are named near the beginning. The parts are known only when all is read.
 void peek(const Input& input, FileHeader& header) {
-    Text text(as_text(input.bytes().first(std::min<std::size_t>(input.bytes().size(), 1 << 20))), input.name(),
-              "E-OBJ", '#');
+    Text text(as_text(input.bytes().first(std::min<std::size_t>(input.bytes().size(), 1 << 20))),
+              input.name(), "E-OBJ", '#');
     do {
         const std::string_view word = text.word_on_line();
         header.has_materials |= word == "usemtl";
