@@ -28,31 +28,71 @@ std::string depfile_text(const std::string& target, const std::vector<std::strin
     std::string text = make_spelling(target, true) + ":";
     for (const auto& input : inputs) text += " \\\n  " + make_spelling(input, false);
     text += "\n";
-    for (const auto& input : inputs) text += make_spelling(input, true) + ":\n";
+    for (const auto& input : inputs)
+        // With a % it would be a pattern for Make, and escaped it would be another file for Ninja.
+        if (input.find('%') == input.npos) text += make_spelling(input, true) + ":\n";
     return text;
 }
 
 namespace {
 
+namespace fs = std::filesystem;
+
 void add_once(std::vector<std::string>& all, const std::string& path) {
     if (path != "-" && std::find(all.begin(), all.end(), path) == all.end()) all.push_back(path);
 }
 
-} // namespace
+/// The folder whose time changes when the file appears.
+fs::path folder_of_absent(const fs::path& file) {
+    std::error_code ignored;
+    fs::path folder = fs::absolute(file).parent_path();
+    while (folder.has_relative_path() && !fs::is_directory(folder, ignored)) folder = folder.parent_path();
+    const fs::path near = folder.lexically_relative(fs::current_path());
+    return file.is_absolute() || near.empty() ? folder : near;
+}
 
-void write_depfile(const std::string& depfile, const report::RunRecord& record, const std::string& pipeline,
-                   const std::string& target) {
-    std::vector<std::string> outputs, inputs;
+/// What the target may be, the best first.
+std::vector<std::string> targets_of(const report::RunRecord& record, const std::string& depfile) {
+    std::vector<std::string> all;
     for (const bool mesh : {true, false})
         for (const auto& file : record.outputs)
-            if (!mesh || !file.read_back.is_null()) add_once(outputs, file.path);
-    for (const auto& report : record.reports) add_once(outputs, report);
-    outputs.push_back(depfile); // a gate writes nothing; its rule is for the depfile itself
-    if (!pipeline.empty()) add_once(inputs, pipeline);
+            if (!mesh || !file.read_back.is_null()) add_once(all, file.path);
+    for (const auto& report : record.reports) add_once(all, report);
+    all.push_back(depfile); // a gate writes nothing; its rule is for the depfile itself
+    return all;
+}
+
+/// An output beside which a file is missing is not older than the folder that both are in, or it would be
+/// made again each time.
+void make_newer_than_folders(const report::RunRecord& record) {
+    std::vector<std::string> written = record.reports;
+    for (const auto& file : record.outputs) written.push_back(file.path);
+    const auto now = fs::file_time_type::clock::now();
+    for (const auto& path : written) {
+        const auto is_this = [&](const report::FileRecord& input) {
+            std::error_code ignored;
+            return fs::equivalent(input.path, path, ignored);
+        };
+        std::error_code ignored; // then it is made again, no more
+        if (fs::is_regular_file(path, ignored) &&
+            std::none_of(record.inputs.begin(), record.inputs.end(), is_this))
+            fs::last_write_time(path, now, ignored);
+    }
+}
+
+} // namespace
+
+void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
+                   const pipeline::Plan& plan, const report::RunRecord& record) {
+    std::vector<std::string> inputs;
+    if (!pipeline_file.empty()) add_once(inputs, pipeline_file);
     for (const auto& file : record.inputs) add_once(inputs, file.path);
-    for (const auto& file : record.absent) add_once(inputs, file); // when it appears, the run is due again
-    const std::string text = depfile_text(target.empty() ? outputs.front() : target, inputs);
+    for (const auto& file : pipeline::planned_inputs(plan)) add_once(inputs, file.string()); // a baseline ...
+    for (const auto& file : record.absent) add_once(inputs, folder_of_absent(file).string());
+    const std::string text =
+        depfile_text(target.empty() ? targets_of(record, depfile).front() : target, inputs);
     io::write_now(depfile, std::as_bytes(std::span(text)));
+    if (!record.absent.empty()) make_newer_than_folders(record);
 }
 
 } // namespace facetmill::cli

@@ -1,7 +1,7 @@
 #pragma once
 // What a run read and wrote as a rule for Make and Ninja.
 
-#include "report/record.hpp"
+#include "pipeline/plan.hpp"
 
 namespace facetmill::cli {
 
@@ -12,10 +12,12 @@ std::string make_spelling(const std::string& path, bool target);
 /// "target: inputs", and an empty rule for each input, so that Make does not stop when one is deleted.
 std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs);
 
-/// The rule of a run: its inputs, the pipeline's file unless it is empty, and the files that inputs name and
-/// that are not there. Ninja knows one target, so it is the one given, else the first mesh that was written,
-/// else the first output, the first report, or the depfile itself.
-void write_depfile(const std::string& depfile, const report::RunRecord& record, const std::string& pipeline,
-                   const std::string& target);
+/// The rule of a run whose record names outputs and reports as they are found from here. Its target is the
+/// one given, since Ninja knows only one; empty: the first mesh that was written, else the first output, the
+/// first report, or the depfile itself. It depends on the pipeline's file, unless that is empty, on all that
+/// is read, and for a file that an input names and that is not there on the folder in which it would appear:
+/// the run is due when it does, and not before.
+void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
+                   const pipeline::Plan& plan, const report::RunRecord& record);
 
 } // namespace facetmill::cli

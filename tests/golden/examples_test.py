@@ -64,10 +64,15 @@ class Examples(Case):
         self.assertIn("facetmill run", self.run_in("make", "make"))
 
     def test_cmake(self):
-        self.run_in("cmake", "cmake", "-G", "Ninja", "-B", "build")
-        self.run_in("cmake", "cmake", "--build", "build")
-        self.assertIn("bust.glb", self.made("cmake"))
-        self.assertIn("no work to do", self.run_in("cmake", "cmake", "--build", "build"))
+        for generator, nothing in (("Ninja", "no work to do"), ("Unix Makefiles", "")):
+            self.run_in("cmake", "cmake", "-G", generator, "-B", generator)
+            self.assertIn("Milling", self.run_in("cmake", "cmake", "--build", generator))
+            self.assertLessEqual({"bust.glb", "bust.json"}, self.made(f"cmake/{generator}"))
+            again = self.run_in("cmake", "cmake", "--build", generator)
+            self.assertIn(nothing, again)
+            self.assertNotIn("Milling", again)
+            self.touch_scan()
+            self.assertIn("Milling", self.run_in("cmake", "cmake", "--build", generator))
 
     def test_ninja(self):
         self.run_in("ninja", "ninja")

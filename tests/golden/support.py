@@ -1,9 +1,11 @@
 """What the tests of the real executable share. Only the standard library."""
 
 import hashlib
+import json
 import os
 import pathlib
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -44,6 +46,20 @@ class Case(unittest.TestCase):
         folder = folder or self.dir
         return {p.relative_to(folder).as_posix(): hashlib.sha256(p.read_bytes()).hexdigest()
                 for p in sorted(folder.rglob("*")) if p.is_file()}
+
+    def gltf_with_neighbours(self, folder=None):
+        """t.gltf with t.bin and tex.png beside it."""
+        folder = folder or self.dir
+        (folder / "t.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+        (folder / "tex.png").write_bytes(b"no picture, and nobody looks")
+        (folder / "t.gltf").write_text(json.dumps({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+            "textures": [{"source": 0}], "images": [{"uri": "tex.png"}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
+                           "max": [1, 1, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "t.bin", "byteLength": 36}]}))
 
     def need(self, tool):
         """The path of an optional tool. Without it the test is skipped, with a notice, unless CI forbids that."""

@@ -1,0 +1,247 @@
+"""facetmill as a rule of Make, Ninja and CMake: a second build does nothing, and what a mesh depends on rebuilds it."""
+
+import json
+import os
+import re
+import subprocess
+import time
+
+from support import FACETMILL, Case, main
+
+TRIANGLE = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+
+
+def for_ninja(name):
+    return re.sub(r"([$ :])", r"$\1", name)
+
+
+def for_make(name):
+    return re.sub(r"([ #:])", r"\\\1", name.replace("$", "$$"))
+
+
+class Builds(Case):
+    """src/ has t.gltf with t.bin and tex.png, and p.yaml with a report; bin/mill notes each of its runs."""
+
+    def setUp(self):
+        super().setUp()
+        for folder in ("src", "bin", "out"):
+            (self.dir / folder).mkdir()
+        self.gltf_with_neighbours(self.dir / "src")
+        self.write("src/p.yaml", "facetmill: 1\nparams: {input: {type: path}}\n"
+                                 "stages: [{load: '${input}'}, {write: o.glb}]\nreport: r.json\n")
+        self.write("bin/mill", f'#!/bin/sh\necho run >>"{self.dir}/runs"\nexec "{FACETMILL}" "$@"\n').chmod(0o755)
+        self.write("runs", "")
+        self.mill_line = f"{self.dir}/bin/mill run ../src/p.yaml -D input=../src/t.gltf --depfile o.d --quiet"
+
+    def runs(self):
+        return (self.dir / "runs").read_text().count("run")
+
+    def build(self, *command, expect=None):
+        """Builds in out/ and returns how often facetmill ran."""
+        before = self.runs()
+        build = subprocess.run(command, cwd=self.dir / "out", capture_output=True, text=True, timeout=300)
+        self.assertEqual(build.returncode, 0, build.stdout + build.stderr)
+        self.said = build.stdout + build.stderr
+        return self.runs() - before
+
+    def touch(self, name):
+        time.sleep(0.02)  # file systems count time in steps
+        os.utime(self.dir / "src" / name)
+
+    def check_incremental(self, *command):
+        self.assertEqual(self.build(*command), 1)
+        self.assertEqual(self.build(*command), 0, self.said)
+        for name in ("t.gltf", "t.bin", "tex.png", "p.yaml"):
+            self.touch(name)
+            self.assertEqual(self.build(*command), 1, name + self.said)
+            self.assertEqual(self.build(*command), 0, name + self.said)
+        texture = self.dir / "src/tex.png"
+        picture = texture.read_bytes()
+        texture.unlink()
+        self.assertEqual(self.build(*command), 1, self.said)
+        self.assertIn("W-IMAGE", self.said)
+        self.assertEqual(self.build(*command), 0, "without the texture: " + self.said)
+        time.sleep(0.02)
+        texture.write_bytes(picture)
+        self.assertEqual(self.build(*command), 1, "the texture appeared: " + self.said)
+        self.assertEqual(self.build(*command), 0, self.said)
+
+    def ninja_file(self, deps=""):
+        self.write("out/build.ninja", f"rule mill\n  command = {self.mill_line}\n  depfile = o.d\n{deps}"
+                                      "build o.glb | r.json: mill\n")
+
+    def test_ninja(self):
+        self.need("ninja")
+        self.ninja_file()
+        self.check_incremental("ninja")
+
+    def test_ninja_that_keeps_the_dependencies_itself(self):
+        self.need("ninja")
+        self.ninja_file("  deps = gcc\n")
+        self.check_incremental("ninja")
+
+    def test_make(self):
+        self.write("out/Makefile", f"o.glb:\n\t{self.mill_line}\n-include o.d\n")
+        self.check_incremental("make", "o.glb")
+
+    def check_cmake(self, generator):
+        self.need("cmake")
+        self.write("src/CMakeLists.txt",
+                   "cmake_minimum_required(VERSION 3.21)\nproject(assets LANGUAGES NONE)\n"
+                   "set(mill ${CMAKE_CURRENT_SOURCE_DIR}/../bin/mill)\n"
+                   "add_custom_command(OUTPUT o.glb r.json DEPFILE ${CMAKE_CURRENT_BINARY_DIR}/o.d\n"
+                   "  COMMAND ${mill} run ${CMAKE_CURRENT_SOURCE_DIR}/p.yaml -D input=${CMAKE_CURRENT_SOURCE_DIR}/t.gltf\n"
+                   "          --output-dir ${CMAKE_CURRENT_BINARY_DIR} --depfile ${CMAKE_CURRENT_BINARY_DIR}/o.d --quiet)\n"
+                   "add_custom_target(models ALL DEPENDS o.glb)\n")
+        self.build("cmake", "-G", generator, "../src")
+        self.check_incremental("cmake", "--build", ".")
+
+    def test_cmake_with_ninja(self):
+        self.need("ninja")
+        self.check_cmake("Ninja")
+
+    def test_cmake_with_make(self):
+        self.check_cmake("Unix Makefiles")
+
+    def test_a_missing_texture_beside_the_output(self):
+        (self.dir / "src/tex.png").unlink()
+        line = self.mill_line.replace("--depfile o.d", "--depfile o.d -o ../src")
+        self.write("out/Makefile", f"../src/o.glb:\n\t{line}\n-include o.d\n")
+        self.assertEqual(self.build("make", "../src/o.glb"), 1)
+        self.assertEqual(self.build("make", "../src/o.glb"), 0, "the folder is not newer than what was written: " + self.said)
+
+    def test_an_output_beside_its_input(self):
+        line = self.mill_line.replace("--depfile o.d", "--depfile o.d -o ../src")
+        self.write("out/Makefile", f"../src/o.glb:\n\t{line}\n-include o.d\n")
+        self.assertEqual([self.build("make", "../src/o.glb") for _ in range(2)], [1, 0], self.said)
+
+    def test_a_missing_library_of_materials(self):
+        self.write("src/m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n")
+        self.write("out/Makefile", "o.glb:\n\t" + self.mill_line.replace("t.gltf", "m.obj") + "\n-include o.d\n")
+        self.assertEqual([self.build("make", "o.glb") for _ in range(2)], [1, 0])
+        time.sleep(0.02)
+        self.write("src/m.mtl", "newmtl red\nKd 1 0 0\n")
+        self.assertEqual([self.build("make", "o.glb") for _ in range(2)], [1, 0])
+
+    def test_a_missing_buffer_fails_until_it_is_there(self):
+        self.write("out/Makefile", f"o.glb:\n\t{self.mill_line}\n-include o.d\n")
+        self.assertEqual(self.build("make", "o.glb"), 1)
+        buffer = self.dir / "src/t.bin"
+        data = buffer.read_bytes()
+        buffer.unlink()
+        make = subprocess.run(["make", "o.glb"], cwd=self.dir / "out", capture_output=True, text=True)
+        self.assertIn("t.bin", make.stderr)
+        self.assertEqual(make.returncode, 2)
+        buffer.write_bytes(data)
+        self.assertEqual([self.build("make", "o.glb") for _ in range(2)], [1, 0])
+
+    def test_a_baseline_is_read_too(self):
+        self.write("src/t.off", TRIANGLE)
+        self.write("src/p.yaml", "facetmill: 1\nstages: [{load: t.off}, {validate: {closed: true, baseline: k.json}}, {write: o.ply}]\n")
+        self.mill("run", "src/p.yaml", "--update-baseline", "-o", "src")
+        self.mill("run", "src/p.yaml", "--depfile", "o.d")
+        self.assertIn("src/k.json", (self.dir / "o.d").read_text())
+
+    def test_names_that_make_and_ninja_read_differently(self):
+        self.need("ninja")
+        for name in ("a b", "a#b", "a$b", "a%b", "a:b", "grün", "a(b)", "a@b"):
+            self.write(f"src/{name}.off", TRIANGLE)
+            self.write("src/p.yaml", f"facetmill: 1\nstages: [{{load: '{name}.off'}}, {{write: 'o.ply'}}]\n")
+            line = f"{self.dir}/bin/mill run ../src/p.yaml --depfile o.d --quiet"
+            self.write("out/Makefile", f"o.ply:\n\t{line}\n-include o.d\n")
+            self.write("out/build.ninja", f"rule mill\n  command = {line}\n  depfile = o.d\nbuild o.ply: mill\n")
+            for command in (("make", "o.ply"), ("ninja",)):
+                (self.dir / "out/o.ply").unlink(missing_ok=True)
+                self.assertEqual([self.build(*command) for _ in range(2)], [1, 0], (command, name, self.said))
+                self.touch(f"{name}.off")
+                self.assertEqual([self.build(*command) for _ in range(2)], [1, 0], (command, name, self.said))
+
+    def test_names_of_targets(self):
+        self.need("ninja")
+        self.write("src/t.off", TRIANGLE)
+        for name in ("a b", "a#b", "a$b", "grün"):
+            self.write("src/p.yaml", f"facetmill: 1\nstages: [{{load: t.off}}, {{write: '{name}.ply'}}]\n")
+            line = f"{self.dir}/bin/mill run ../src/p.yaml --depfile o.d --quiet"
+            self.write("out/Makefile", f"{for_make(name)}.ply:\n\t{line}\n-include o.d\n")
+            self.write("out/build.ninja", f"rule mill\n  command = {line}\n  depfile = o.d\nbuild {for_ninja(name)}.ply: mill\n")
+            for command in (("make",), ("ninja",)):
+                (self.dir / f"out/{name}.ply").unlink(missing_ok=True)
+                self.assertEqual([self.build(*command) for _ in range(2)], [1, 0], (command, name, self.said))
+                self.touch("t.off")
+                self.assertEqual([self.build(*command) for _ in range(2)], [1, 0], (command, name, self.said))
+
+    def test_the_target_of_the_depfile(self):
+        self.mill("run", "src/p.yaml", "-D", "input=src/t.gltf", "--depfile", "o.d")
+        self.assertEqual((self.dir / "o.d").read_text().split(":")[0], "o.glb")
+        self.mill("run", "src/p.yaml", "-D", "input=src/t.gltf", "--depfile", "o.d", "--depfile-target", "stamp")
+        self.assertEqual((self.dir / "o.d").read_text().split(":")[0], "stamp")
+
+
+class Folders(Case):
+    """A folder that cannot take the outputs is found before the work."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("t.off", TRIANGLE)
+        self.write("p.yaml", "facetmill: 1\nstages: [{load: t.off}, {relax: 3}, {write: a.ply}, {write: b.ply}]\n")
+
+    def check_refused(self, folder, message):
+        run = self.mill("run", "p.yaml", "--log", "json", "-v", "-o", folder, "--report", f"{self.dir}/r.json",
+                        "--report", "in.json", "--timings", "times.json", "--depfile", "o.d", expect=4)
+        lines = [json.loads(line) for line in run.stderr.splitlines()]
+        errors = [line for line in lines if line["level"] == "error"]
+        self.assertEqual(len(errors), 1, run.stderr)
+        self.assertIn(message, errors[0]["message"])
+        self.assertFalse([line for line in lines if "stage" in line], "a stage ran")
+        self.assertEqual(json.loads((self.dir / "r.json").read_text())["stages"], [])
+        self.assertEqual(lines[-1]["reports"], [f"{self.dir}/r.json"])
+        self.assertFalse((self.dir / "o.d").exists())
+
+    def mount(self, *options):
+        folder = self.dir / "disk"
+        folder.mkdir()
+        mount = subprocess.run(["mount", "-t", "tmpfs", *options, "tmpfs", str(folder)], capture_output=True)
+        if mount.returncode:
+            self.skipTest("only root may mount")
+        self.addCleanup(subprocess.run, ["umount", str(folder)], check=False)
+        return folder
+
+    def test_a_read_only_folder(self):
+        if os.geteuid() == 0:
+            folder = self.mount("-o", "ro")
+        else:
+            folder = self.dir / "disk"
+            folder.mkdir(0o555)
+        self.check_refused(folder, "cannot be written")
+        self.check_refused(folder / "new/sub", "cannot be made")
+
+    def test_a_full_folder(self):
+        folder = self.mount("-o", "size=64k")
+        with open(folder / "filler", "wb", buffering=0) as filler:
+            try:
+                while filler.write(bytes(4096)):
+                    pass
+            except OSError:
+                pass
+        self.check_refused(folder, "no space left")
+        self.assertEqual([p.name for p in folder.iterdir()], ["filler"])
+
+    def test_a_folder_where_a_file_should_be(self):
+        (self.dir / "out/a.ply").mkdir(parents=True)
+        run = self.mill("run", "p.yaml", "-v", "-o", "out", expect=4)
+        self.assertIn("is a directory", run.stderr)
+        self.assertNotIn("relax", run.stderr)
+        self.assertEqual([p.name for p in (self.dir / "out").iterdir()], ["a.ply"])
+
+    def test_trying_leaves_nothing(self):
+        self.write("q.yaml", "facetmill: 1\nstages: [{load: t.off}, {validate: {closed: true}}, {write: a.ply}]\n")
+        (self.dir / "out").mkdir()
+        (self.dir / "out/a.ply").write_text("older")
+        self.mill("run", "q.yaml", "-o", "out", expect=1)
+        self.mill("run", "q.yaml", "-o", "new/sub", expect=1)
+        self.assertEqual({p.name for p in self.dir.iterdir()}, {"t.off", "p.yaml", "q.yaml", "out"})
+        self.assertEqual([p.read_text() for p in (self.dir / "out").iterdir()], ["older"])
+
+
+if __name__ == "__main__":
+    main()
