@@ -21,16 +21,31 @@ Error& Error::at(const Mark& where) {
     return *this;
 }
 
+namespace {
+
+bool same(const Diagnostic& a, const Diagnostic& b) {
+    return a.severity == b.severity && a.id == b.id && a.message == b.message &&
+           to_string(a.where) == to_string(b.where);
+}
+
+/// The stages of a foreach are planned for each of its values: what is wrong with all of them is said once.
+void add_once(std::vector<Diagnostic>& all, Diagnostic one) {
+    const auto is_known = [&](const Diagnostic& d) { return same(d, one); };
+    if (std::none_of(all.begin(), all.end(), is_known)) all.push_back(std::move(one));
+}
+
+} // namespace
+
 void Problems::add(Mark where, std::string id, std::string message, std::string hint) {
-    all_.push_back({Severity::error, std::move(id), std::move(message), std::move(where), std::move(hint)});
+    add_once(all_, {Severity::error, std::move(id), std::move(message), std::move(where), std::move(hint)});
 }
 
 void Problems::warn(Mark where, std::string id, std::string message, std::string hint) {
-    all_.push_back({Severity::warning, std::move(id), std::move(message), std::move(where), std::move(hint)});
+    add_once(all_, {Severity::warning, std::move(id), std::move(message), std::move(where), std::move(hint)});
 }
 
 void Problems::add(const Error& error) {
-    all_.insert(all_.end(), error.diagnostics().begin(), error.diagnostics().end());
+    for (const auto& diagnostic : error.diagnostics()) add_once(all_, diagnostic);
 }
 
 bool Problems::any_errors() const {

@@ -4,6 +4,7 @@
 #include "base/portable_math.hpp"
 
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill {
@@ -41,10 +42,42 @@ std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_v
 
 // --- bool, numbers, text
 
+namespace {
+
+/// "write true" for the words that other YAML versions take for truths.
+std::string hint_of_truth(const Value& value) {
+    std::string word;
+    if (value.is_scalar()) word = value.text;
+    for (char& c : word)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (word == "yes" || word == "on" || word == "y") return "write true";
+    return word == "no" || word == "off" || word == "n" ? "write false" : "";
+}
+
+/// "write 20000" for 20k and 20,000; empty when it is neither, or no integer.
+std::string hint_of_integer(const Value& value) {
+    if (!value.is_scalar()) return {};
+    std::string digits = value.text;
+    std::erase_if(digits, [](char c) { return c == ',' || c == '_' || c == '\''; });
+    const auto parts = number_and_unit(digits);
+    if (!parts) return {};
+    const std::string_view unit = parts->second;
+    const double factor = unit.empty()                 ? 1
+                          : unit == "k" || unit == "K" ? 1e3
+                          : unit == "m" || unit == "M" ? 1e6
+                                                       : 0;
+    const double number = parts->first * factor;
+    constexpr double most = 1e15; // exact in a double, with room
+    if (factor == 0 || number != std::floor(number) || std::abs(number) > most) return {};
+    return fmt::format("write {}", static_cast<std::int64_t>(number));
+}
+
+} // namespace
+
 bool OptionType<bool>::parse(const Value& value, bool& out, Problems& problems) {
     if (value.deferred) return true;
     const auto truth = value.as_bool();
-    if (!truth) return wrong_type(value, "true or false", problems);
+    if (!truth) return wrong_type(value, "true or false", problems, hint_of_truth(value));
     out = *truth;
     return true;
 }
@@ -55,7 +88,7 @@ std::optional<double> OptionType<bool>::magnitude(const bool&) { return {}; }
 bool OptionType<std::int64_t>::parse(const Value& value, std::int64_t& out, Problems& problems) {
     if (value.deferred) return true;
     const auto number = value.as_integer();
-    if (!number) return wrong_type(value, "an integer", problems);
+    if (!number) return wrong_type(value, "an integer", problems, hint_of_integer(value));
     out = *number;
     return true;
 }
@@ -119,8 +152,9 @@ bool OptionType<Ratio>::parse(const Value& value, Ratio& out, Problems& problems
     return true;
 }
 std::string OptionType<Ratio>::print(const Ratio& value) { return to_string(value.value * 100) + "%"; }
+/// To a schema 1 and 1.0 are one number, and 1 is refused above: all of it is written 100%.
 Json OptionType<Ratio>::schema() {
-    return {{"anyOf", Json::array({{{"type", "number"}, {"minimum", 0}, {"maximum", 1}},
+    return {{"anyOf", Json::array({{{"type", "number"}, {"minimum", 0}, {"exclusiveMaximum", 1}},
                                    {{"type", "string"}, {"pattern", "^[0-9.eE+-]+ *(%|pct)$"}}})}};
 }
 std::optional<double> OptionType<Ratio>::magnitude(const Ratio& value) { return value.value; }

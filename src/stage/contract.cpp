@@ -75,11 +75,11 @@ bool parse_contract(const Value& value, Contract& out, Problems& problems) {
     const auto* entry = value.is_map() && !value.deferred ? value.find_entry("deviation") : nullptr;
     if (!entry) return good;
     out.deviation_at = entry->key_mark;
-    const std::size_t before = problems.size();
-    good &= deviation_declaration().parse(entry->value, &out.deviation.emplace(), "deviation", problems);
-    if (problems.size() == before && !entry->value.deferred)
-        verify_deviation(*out.deviation, entry->key_mark, problems);
-    return good && problems.size() == before;
+    DeviationLimits& limits = out.deviation.emplace();
+    good &= deviation_declaration().parse(entry->value, &limits, "deviation", problems);
+    if (!good || entry->value.deferred) return good;
+    verify_deviation(limits, entry->key_mark, problems);
+    return limits.max || limits.rms || limits.mean;
 }
 
 Json contract_schema() {
