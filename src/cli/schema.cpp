@@ -29,7 +29,7 @@ Command schema_command() {
                                         : *what == "info"    ? docs::info_schema()
                                         : *what == "diff"    ? report::comparison_schema()
                                                              : docs::pipeline_schema();
-                    print(schema.dump(2) + "\n");
+                    print(docs::with_single_types(schema).dump(2) + "\n");
                     return 0;
                 };
             }};

@@ -6,6 +6,8 @@
 #include "stage/contract.hpp"
 #include "stage/stage.hpp"
 
+#include <algorithm>
+
 namespace facetmill::docs {
 
 namespace {
@@ -16,12 +18,14 @@ Json with_expressions(Json schema);
 
 /// The schema or an expression in its place.
 Json or_expression(Json schema) {
+    if (schema.is_boolean()) return schema; // names a property, no more
     schema = with_expressions(std::move(schema));
     Json described;
-    if (schema.contains("description")) {
-        described["description"] = schema["description"];
-        schema.erase("description");
-    }
+    for (const char* annotation : {"description", "default"})
+        if (schema.contains(annotation)) {
+            described[annotation] = schema[annotation];
+            schema.erase(annotation);
+        }
     described["anyOf"] = Json::array({std::move(schema), ref("expression")});
     return described;
 }
@@ -43,15 +47,25 @@ Json step_schema(const std::string& key, Json value, Json beside = Json::object(
     Json properties = {{key, std::move(value)}};
     properties.update(beside);
     for (const auto& common : common_keys()) properties[common.name] = ref(common.name.c_str());
-    return {{"type", "object"},
+    return {{"title", key},
+            {"type", "object"},
             {"required", Json::array({key})},
             {"properties", properties},
             {"additionalProperties", false}};
 }
 
+/// Whether the stage may stand alone, without a value.
+bool may_be_bare(const StageInfo& stage) {
+    const auto& rules = stage.options->exclusions;
+    const auto& options = stage.options->options;
+    return std::none_of(options.begin(), options.end(), [](const Option& o) { return o.required; }) &&
+           std::all_of(rules.begin(), rules.end(),
+                       [](const Exclusion& rule) { return rule.rule == Exclusion::Rule::at_most_one; });
+}
+
 Json stage_step(const StageInfo& stage) {
     Json value = or_expression(stage.options->schema());
-    value["anyOf"].push_back({{"type", "null"}});
+    if (may_be_bare(stage)) value["anyOf"].push_back({{"type", "null"}});
     value["description"] = stage.about;
     return step_schema(stage.name, std::move(value));
 }
@@ -71,8 +85,9 @@ Json foreach_step() {
 
 Json step_forms() {
     Json forms = Json::array(), bare = Json::array();
-    for (const auto& s : stages()) bare.push_back(s.name);
-    forms.push_back({{"enum", bare}});
+    for (const auto& s : stages())
+        if (may_be_bare(s)) bare.push_back(s.name);
+    forms.push_back({{"title", "stage"}, {"description", "A stage with its defaults."}, {"enum", bare}});
     for (const auto& s : stages()) forms.push_back(stage_step(s));
     forms.push_back(branch_step());
     forms.push_back(foreach_step());
@@ -82,17 +97,19 @@ Json step_forms() {
 Json param_schema() {
     const Json types = {{"enum", Json::array({"path", "text", "integer", "number", "bool", "ratio", "length",
                                               "angle", "choice"})}};
-    const Json limit = {{"type", Json::array({"number", "string"})}};
-    const Json whole = {{"type", "object"},
+    const Json limit = {{"type", Json::array({"number", "string"})},
+                        {"description", "A limit of the value."}};
+    const Json whole = {{"title", "param"},
+                        {"type", "object"},
                         {"required", Json::array({"type"})},
                         {"properties",
                          {{"type", types},
-                          {"default", true},
-                          {"help", {{"type", "string"}}},
-                          {"required", {{"type", "boolean"}}},
+                          {"default", {{"description", "The value when none is given."}}},
+                          {"help", {{"type", "string"}, {"description", "What the parameter is for."}}},
+                          {"required", {{"type", "boolean"}, {"description", "Whether it must be given."}}},
                           {"min", limit},
                           {"max", limit},
-                          {"choices", {{"type", "array"}}}}},
+                          {"choices", {{"type", "array"}, {"description", "The values of a choice."}}}}},
                         {"additionalProperties", false}};
     return {{"anyOf", Json::array({types, whole})}};
 }
@@ -102,7 +119,10 @@ Json definitions() {
     for (const auto& key : common_keys()) all[key.name] = with_expressions(key.schema);
     all["param"] = param_schema();
     all["step"] = step_forms();
-    all["stages"] = {{"type", "array"}, {"items", ref("step")}};
+    all["stages"] = {{"title", "stages"},
+                     {"description", "The steps, one after the other."},
+                     {"type", "array"},
+                     {"items", ref("step")}};
     return all;
 }
 
@@ -119,15 +139,46 @@ Json pipeline_schema() {
          {{"facetmill", {{"const", 1}, {"description", "The version of the pipeline format."}}},
           {"requires", {{"type", "string"}, {"description", "The releases that may run it: \">=0.3,<2\"."}}},
           {"about", {{"type", "string"}, {"description", "What the pipeline is for, in a sentence."}}},
-          {"params", {{"type", "object"}, {"additionalProperties", ref("param")}}},
+          {"params",
+           {{"type", "object"},
+            {"description",
+             "What -D sets: names and types, or maps with type, default, help, min, max, choices."},
+            {"additionalProperties", ref("param")}}},
           {"stages", ref("stages")},
           {"allow",
            {{"anyOf", Json::array({path, {{"type", "array"}, {"items", path}}})},
             {"description", "Warnings that are neither told nor made to fail, by their ids."}}},
-          {"report", {{"anyOf", Json::array({path, {{"type", "array"}, {"items", path}}})}}}}},
+          {"report",
+           {{"anyOf", Json::array({path, {{"type", "array"}, {"items", path}}})},
+            {"description", "Reports: .json, .html, .xml (JUnit), .txt."}}}}},
         {"patternProperties", {{"^x-", true}}},
         {"additionalProperties", false},
         {"$defs", definitions()}};
+}
+
+Json with_single_types(Json schema) {
+    if (schema.is_array())
+        for (auto& item : schema) item = with_single_types(std::move(item));
+    if (!schema.is_object()) return schema;
+    for (auto& [key, value] : schema.items())
+        if (key != "enum" && key != "const" && key != "default") value = with_single_types(std::move(value));
+    const auto type = schema.find("type");
+    if (type == schema.end() || !type->is_array()) return schema;
+    Json forms = Json::array(), about = Json::object();
+    const Json names = *type;
+    schema.erase("type");
+    for (const char* annotation : {"description", "title", "default"})
+        if (schema.contains(annotation)) {
+            about[annotation] = schema[annotation];
+            schema.erase(annotation);
+        }
+    for (const auto& name : names) {
+        Json form = name == "null" ? Json::object() : schema;
+        form["type"] = name;
+        forms.push_back(std::move(form));
+    }
+    about["anyOf"] = std::move(forms);
+    return about;
 }
 
 Json info_schema() {

@@ -7,9 +7,13 @@
 namespace facetmill::docs {
 
 /// The whole language: params, stages with all their options, branch, foreach, common keys, report. Wherever
-/// a value stands, an expression (${x}) may stand too. It accepts what `facetmill check` accepts, and more:
-/// ranges, exclusive options and names are judged by check.
+/// a value stands, an expression (${x}) may stand too. It accepts what `facetmill check` accepts (but for the
+/// ratio 1.0, which it cannot tell from 1), and more: ranges of quantities and names are judged by check.
 Json pipeline_schema();
+
+/// The same schema in which each form has one type at most, as strict validators want it: {"type": ["a",
+/// "b"]} is written with anyOf.
+Json with_single_types(Json schema);
 
 /// What info --json prints: that of report::info_schema(), with the kinds of faces.
 Json info_schema();

@@ -53,21 +53,77 @@ std::vector<std::string> Declaration::names() const {
     return all;
 }
 
+namespace {
+
+/// A default as a value of its type, none for those that are no single value.
+Json default_json(const Option& option) {
+    const std::string& text = option.default_text;
+    if (text.empty() || text.starts_with('[') || text.starts_with('{')) return nullptr;
+    if (option.type == "bool") return text == "true";
+    if (const auto integer = parse_integer(text)) return *integer;
+    if (const auto number = parse_real(text)) return *number;
+    return text;
+}
+
+/// The schema of an option's value with all that the declaration tells.
+Json described(const Option& option) {
+    Json schema = option.schema;
+    schema["description"] = option.help;
+    if (Json value = default_json(option); !value.is_null()) schema["default"] = std::move(value);
+    const Range& range = option.range;
+    if (!range.min && !range.max) return schema;
+    schema["description"] = fmt::format("{} Range: {}.", option.help, range.to_string());
+    const bool number =
+        schema.contains("type") && (schema["type"] == "integer" || schema["type"] == "number");
+    if (number && range.min) schema[range.min_open ? "exclusiveMinimum" : "minimum"] = *range.min;
+    if (number && range.max) schema[range.max_open ? "exclusiveMaximum" : "maximum"] = *range.max;
+    return schema;
+}
+
+/// Of names of which at most one may be given: each forbids the others, so that an editor points at them.
+void add_conflicts(const std::vector<std::string>& names, Json& object) {
+    for (const auto& name : names)
+        for (const auto& other : names)
+            if (name != other) object["dependentSchemas"][name]["properties"][other] = false;
+}
+
+/// One of the names must be there. Each form names its property, as strict validators want it.
+Json any_of_these(const std::vector<std::string>& names) {
+    Json forms = Json::array();
+    for (const auto& name : names)
+        forms.push_back({{"properties", {{name, true}}}, {"required", Json::array({name})}});
+    return {{"anyOf", std::move(forms)}};
+}
+
+bool is_map(const Json& schema) { return schema.contains("type") && schema["type"] == "object"; }
+
+/// What a bare value of the primary option may be: a map gives the options by their names.
+Json without_maps(Json schema) {
+    if (!schema.contains("anyOf")) return schema;
+    Json forms = Json::array();
+    for (auto& form : schema["anyOf"])
+        if (!is_map(form)) forms.push_back(without_maps(std::move(form)));
+    schema["anyOf"] = std::move(forms);
+    return schema;
+}
+
+} // namespace
+
 Json Declaration::schema() const {
     Json object = {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
     Json required = Json::array();
     for (const auto& o : options) {
-        Json property = o.schema;
-        property["description"] = o.help;
-        if (!o.default_text.empty()) property["x-default"] = o.default_text;
-        if (const auto text = o.range.to_string(); !text.empty()) property["x-range"] = text;
-        object["properties"][o.name] = std::move(property);
+        object["properties"][o.name] = described(o);
         if (o.required) required.push_back(o.name);
     }
     if (!required.empty()) object["required"] = required;
+    for (const auto& rule : exclusions) {
+        if (rule.rule != Exclusion::Rule::at_least_one) add_conflicts(rule.names, object);
+        if (rule.rule != Exclusion::Rule::at_most_one) object["allOf"].push_back(any_of_these(rule.names));
+    }
     Json forms = Json::array({object});
     if (!shorthand_schema.is_null()) forms.push_back(shorthand_schema);
-    if (const Option* o = primary()) forms.push_back(o->schema);
+    if (const Option* o = primary(); o && !is_map(o->schema)) forms.push_back(without_maps(o->schema));
     return forms.size() == 1 ? object : Json{{"anyOf", forms}};
 }
 

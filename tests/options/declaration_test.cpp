@@ -125,6 +125,14 @@ TEST_CASE("the schema lists every option once and is closed", "[options]") {
     const Json& object = schema["anyOf"][0];
     CHECK(object["additionalProperties"] == false);
     CHECK(object["properties"].size() == 7);
-    CHECK(object["properties"]["factor"]["x-range"] == "0 < x <= 1");
+    const Json& factor = object["properties"]["factor"];
+    CHECK(factor["exclusiveMinimum"] == 0);
+    CHECK(factor["maximum"] == 1);
+    CHECK(factor["description"].get<std::string>().find("Range: 0 < x <= 1.") != std::string::npos);
     CHECK(schema["anyOf"][1]["type"] == "integer");
+    CHECK(object["dependentSchemas"]["ratio"]["properties"]["faces"] == false);
+    CHECK(object["dependentSchemas"]["faces"]["properties"]["ratio"] == false);
+    CHECK(object["properties"]["iterations"]["default"] == 1);
+    CHECK(object["properties"]["method"]["default"] == "better");
+    CHECK_FALSE(object["properties"]["paths"].contains("default"));
 }

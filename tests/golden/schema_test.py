@@ -1,0 +1,135 @@
+"""The JSON Schemas, as editors and strict validators read them; and what shells complete."""
+
+import json
+import os
+import subprocess
+import unittest
+
+from support import SOURCE, Case, main
+
+try:
+    import jsonschema
+    import yaml
+except ImportError:
+    jsonschema = None
+
+
+@unittest.skipIf(jsonschema is None, "python3-jsonschema or python3-yaml is missing")
+class Schema(Case):
+    def setUp(self):
+        super().setUp()
+        self.schema = json.loads(self.mill("schema").stdout)
+        self.validator = jsonschema.Draft202012Validator(self.schema)
+
+    def accepts(self, stages):
+        return not list(self.validator.iter_errors({"facetmill": 1, "stages": [{"load": "a.ply"}, *yaml.safe_load(stages)]}))
+
+    def test_what_check_refuses_without_a_mesh_is_refused(self):
+        for stages in ("[simplify: 1]", "[simplify: {}]", "[simplify: {rato: 10%}]", "[simplify: {faces: 20k}]", "[simplify: {faces: 0}]",
+                       "[clip: {plane: z=0, box: [0, 0, 0, 1, 1, 1]}]", "[clip: {cap: true}]", "[clip: {normal: [0, 0, 1]}]", "[clip]",
+                       "[{clip: z=0, relax: 3}]", "[render: {path: a.png, view: front, from: [1, 1, 1]}]", "[{name: x}]",
+                       "[write: {path: a.glb, draco: 'yes'}]"):
+            self.assertFalse(self.accepts(stages), stages)
+            self.write("p.yaml", f"facetmill: 1\nstages: [load: a.ply, {stages[1:]}\n")
+            self.mill("check", "p.yaml", expect=2)
+
+    def test_what_check_accepts_is_accepted(self):
+        for stages in ("[simplify: 10%]", "[simplify: {ratio: 0.5, max_error: 1%}]", "[clip: z=0]", "[clip: {plane: {normal: [0, 0, 1]}}]",
+                       "[relax]", "[{relax: 3, name: smooth, only: [a], when: {closed: true}, ensure: {closed: true}}]", "[validate]",
+                       "[{ensure: {closed: true}}]", "[foreach: {lod: [50%, 25%]}, do: [{simplify: '${lod}'}]]",
+                       "[branch: {a: [{write: a.glb}], b: [relax]}]", "[write: {path: a.glb, draco: true}]"):
+            self.assertTrue(self.accepts(stages), stages)
+            self.write("p.yaml", f"facetmill: 1\nstages: [load: a.ply, {stages[1:]}\n")
+            if not stages.startswith("[foreach"):  # in brackets its two keys would be two steps
+                self.mill("check", "p.yaml")
+
+    def test_ready_pipelines_and_examples_follow_it(self):
+        for path in (*SOURCE.glob("pipelines/*.yaml"), *SOURCE.glob("examples/*/*.yaml")):
+            self.assertEqual(list(self.validator.iter_errors(yaml.safe_load(path.read_text()))), [], path)
+
+    def test_strict_validators_take_all_of_them(self):
+        """As ajv in its strict mode: known keywords only, one type a form, only names that are declared are required."""
+        known = {"$schema", "$ref", "$defs", "title", "description", "default", "type", "enum", "const", "anyOf", "oneOf", "allOf", "if",
+                 "then", "properties", "required", "additionalProperties", "patternProperties", "dependentSchemas", "minProperties",
+                 "items", "minItems", "maxItems", "minLength", "pattern", "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum"}
+
+        def walk(schema, names):
+            if not isinstance(schema, dict):
+                return
+            self.assertLessEqual(set(schema), known)
+            self.assertNotIsInstance(schema.get("type"), list, schema)
+            names = names | set(schema.get("properties", {}))
+            self.assertLessEqual(set(schema.get("required", [])), set(schema.get("properties", {})), schema)
+            for key in ("properties", "$defs", "dependentSchemas", "patternProperties"):
+                for one in schema.get(key, {}).values():
+                    walk(one, names)
+            for key in ("items", "additionalProperties", "if", "then"):
+                walk(schema.get(key), names)
+            for key in ("anyOf", "oneOf", "allOf"):
+                for one in schema.get(key, []):
+                    walk(one, names)
+
+        for what in ("pipeline", "report", "timings", "info", "diff"):
+            schema = json.loads(self.mill("schema", what).stdout)
+            jsonschema.Draft202012Validator.check_schema(schema)
+            walk(schema, set())
+
+    def test_every_step_has_a_title(self):
+        titles = [form["title"] for form in self.schema["$defs"]["step"]["anyOf"]]
+        self.assertEqual(len(titles), len(set(titles)))
+        self.assertIn("simplify", titles)
+
+
+class Completions(Case):
+    """What is offered for the last word of a line, whose other words stand before it."""
+
+    def candidates(self, shell, line):
+        words = line.split(" ")
+        if shell == "fish":
+            run = subprocess.run(["fish", "--no-config", "-c", "source script; complete -C $argv[1]", line], cwd=self.dir,
+                                 capture_output=True, text=True, timeout=60, env={**os.environ, "HOME": str(self.dir)})
+        elif shell == "bash":
+            run = subprocess.run(["bash", "--norc", "-c", 'source script; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _facetmill; '
+                                  'printf "%s\\n" "${COMPREPLY[@]}"', "bash", *words], cwd=self.dir, capture_output=True, text=True, timeout=60)
+        else:
+            run = subprocess.run(["zsh", "-f", "-c", 'compdef() { : }; source ./script; _facetmill_candidates "$@"', "zsh", words[-1],
+                                  *words[1:-1]], cwd=self.dir, capture_output=True, text=True, timeout=60)
+        self.assertEqual(run.stderr, "")
+        found = [line.split("\t")[0] for line in run.stdout.splitlines()]
+        return [word for word in found if word.startswith(words[-1])]
+
+    def check_shell(self, shell):
+        self.need(shell)
+        (self.dir / "script").write_text(self.mill("completions", shell).stdout)
+        self.assertEqual(self.candidates(shell, "facetmill sch"), ["schema"])
+        self.assertEqual(self.candidates(shell, "facetmill run --dep"), ["--depfile", "--depfile-target"])
+        self.assertIn("quickstart", self.candidates(shell, "facetmill run qui"))
+        self.assertEqual(self.candidates(shell, "facetmill schema p"), ["pipeline"])
+        self.assertLessEqual({"text", "json"}, set(self.candidates(shell, "facetmill run --log ")))
+        self.assertEqual(self.candidates(shell, "facetmill pipe load a.ply ! simp"), ["simplify"])
+        self.assertEqual(self.candidates(shell, "facetmill pipe load a.ply ! simplify --max"), ["--max_error"])
+        self.assertIn("quadric", self.candidates(shell, "facetmill pipe load a.ply ! simplify --method q"))
+        self.assertIn("--plane.normal", self.candidates(shell, "facetmill pipe load a.ply + clip --plane"))
+        self.assertIn("--ensure.closed", self.candidates(shell, "facetmill pipe load a.ply ! relax 3 --ensure.clos"))
+        self.assertIn("relax", self.candidates(shell, "facetmill pipe load a ! foreach n=1,2 [ rel"))
+        self.assertIn("--report", self.candidates(shell, "facetmill pipe --rep"))
+        self.assertIn("load", self.candidates(shell, "facetmill pipe -j 2 lo"))
+        self.assertIn("W-UNITS", self.candidates(shell, "facetmill explain W-UN"))
+        for stage in json.loads(self.mill("stages", "--json").stdout):
+            name = stage["name"]
+            offered = self.candidates(shell, f"facetmill pipe load a ! {name} --")
+            for option in stage["options"]:
+                self.assertIn("--" + option["name"], offered, name)
+
+    def test_bash(self):
+        self.check_shell("bash")
+
+    def test_zsh(self):
+        self.check_shell("zsh")
+
+    def test_fish(self):
+        self.check_shell("fish")
+
+
+if __name__ == "__main__":
+    main()
