@@ -30,6 +30,9 @@ int check(const std::vector<std::string>& pipelines, const PipelineOptions& opti
                                                       : facetmill::pipeline::read_headers(plan);
             of_inputs.insert(of_inputs.end(), headers.errors.begin(), headers.errors.end());
             if (!of_this.any_errors() && headers.errors.empty()) console.say(pipeline + ": ok");
+            if (const auto warning = facetmill::pipeline::without_effect(plan);
+                warning && !of_this.any_errors())
+                console.diagnostic(*warning);
         } catch (const Error& unreadable) { // the others are checked all the same
             of_inputs.push_back(unreadable);
         }

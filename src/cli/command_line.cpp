@@ -52,4 +52,19 @@ Mark CommandLine::find(const std::string& start) const {
     return whole_;
 }
 
+Mark CommandLine::value(const std::string& text) const {
+    for (std::size_t i = 0; i < arguments_.size(); ++i) {
+        const std::string& argument = arguments_[i];
+        if (argument == text) return marks_[i];
+        if (!argument.starts_with("-") || !argument.ends_with("=" + text)) continue;
+        Mark mark = marks_[i];
+        const int before = static_cast<int>(argument.size() - text.size());
+        if (mark.length != static_cast<int>(argument.size())) return mark; // in quotes
+        mark.column += before;
+        mark.length -= before;
+        return mark;
+    }
+    return whole_;
+}
+
 } // namespace facetmill::cli

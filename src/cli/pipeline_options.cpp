@@ -82,8 +82,8 @@ void check_ids(const std::vector<std::string>& given, const std::string& option,
                Problems& problems) {
     const auto ids = warning_ids();
     for (const auto& id : given)
-        if (id != "*" && std::find(ids.begin(), ids.end(), id) == ids.end())
-            problems.add(line.find(id), "E-STRICT", fmt::format("{}: there is no warning '{}'", option, id),
+        if (std::find(ids.begin(), ids.end(), id) == ids.end())
+            problems.add(line.value(id), "E-STRICT", fmt::format("{}: there is no warning '{}'", option, id),
                          did_you_mean(id, ids, "facetmill explain lists the warnings"));
 }
 
@@ -96,7 +96,9 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     settings.sets = split_pairs(options.sets, "--set", line, problems);
     settings.update_baselines = options.update_baseline;
     settings.places.output_base = options.output_dir;
-    check_ids(options.strict, "--strict", line, problems);
+    auto strict = options.strict;
+    std::erase(strict, "*"); // --strict alone
+    check_ids(strict, "--strict", line, problems);
     check_ids(options.allowed, "--allow", line, problems);
     settings.allowed = options.allowed;
     settings.working_directory = fs::current_path();
@@ -133,8 +135,15 @@ pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings setti
 
 namespace {
 
+/// The record with its outputs and reports as they are found from the working directory.
+report::RunRecord located(report::RunRecord record, const Places& places) {
+    for (auto& file : record.outputs) file.path = places.output(file.path).string();
+    for (auto& report : record.reports) report = places.output(report).string();
+    return record;
+}
+
 /// What was done, for people or as an object. Warnings and errors have been told where they arose.
-void summarise(report::RunRecord record, const Console& console) {
+void summarise(const report::RunRecord& record, const Console& console) {
     Json outputs = Json::array();
     for (const auto& file : record.outputs) outputs.push_back(file.path);
     console.event({{"level", "info"},
@@ -144,50 +153,50 @@ void summarise(report::RunRecord record, const Console& console) {
                    {"outputs", outputs},
                    {"reports", record.reports},
                    {"seconds", record.seconds}});
-    if (console.json) return;
-    record.warnings.clear();
-    for (auto& stage : record.stages) stage.warnings.clear();
-    console.say(report::to_text(record, console.colour()));
+    if (!console.json) console.say(report::to_terminal(record, console.colour()));
 }
 
 } // namespace
 
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
-                      const std::string& pipeline) {
+                      const std::string& pipeline_file) {
     set_threads(options.threads);
     const auto progress = console.progress();
     pipeline::RunSettings settings;
     settings.progress = progress.get();
     settings.strict = options.strict;
     settings.check_invariants = options.check_invariants;
-    settings.on_warning = [&](const Diagnostic& warning) { console.diagnostic(warning); };
+    const auto tell = [&](const Diagnostic& d) { console.diagnostic(pipeline::about_input(plan, d)); };
+    settings.on_warning = tell;
     if (console.verbose)
         settings.on_stage = [&](const report::StageRecord& stage) {
             for (const auto& [option, length] : stage.resolved.items())
                 console.say(fmt::format("  {}: {} {} is {} in scene units", stage.name, option,
                                         length["given"].get<std::string>(), length["is"].dump()));
         };
-    const auto record = pipeline::run_plan(plan, settings);
+    const auto record = located(pipeline::run_plan(plan, settings), plan.places);
     if (progress) progress->done();
-    for (const auto& error : record.errors) console.diagnostic(error);
-    if (!options.timings.empty()) {
+    for (const auto& error : record.errors) tell(error);
+    summarise(record, console);
+    const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else said already
+    if (!options.timings.empty() && writable) {
         const std::string text = report::timings_json(record).dump(2) + "\n";
         io::write_now(plan.places.output(options.timings), std::as_bytes(std::span(text)));
     }
-    summarise(record, console);
     if (record.exit_code == 0 && !options.depfile.empty())
-        write_depfile(options.depfile, record, pipeline, options.depfile_target);
+        write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record);
     return record.exit_code;
 }
 
-void refuse(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console) {
-    if (!problems.any_errors()) return; // warnings come with the run
+bool refused(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console) {
+    if (!problems.any_errors()) return false; // warnings come with the run
+    for (const auto& problem : problems.all()) console.diagnostic(problem);
     const auto collides = [](const pipeline::Plan& plan) { return plan.files_collide; };
-    if (std::none_of(plans.begin(), plans.end(), collides)) // else a report might replace an input
-        for (const auto& plan : plans)
-            for (const auto& report : pipeline::report_refusal(plan, problems))
-                console.say(fmt::format("report {}", report));
-    problems.throw_if_any(ErrorKind::usage);
+    if (std::any_of(plans.begin(), plans.end(), collides)) return true; // a report might replace an input
+    for (const auto& plan : plans)
+        for (const auto& report : pipeline::report_refusal(plan, problems))
+            console.say(fmt::format("report {}", plan.places.output(report).string()));
+    return true;
 }
 
 void settle(const Problems& problems, const Console& console) {

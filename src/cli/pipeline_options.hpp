@@ -27,14 +27,14 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
 /// that cannot be read throws missing.
 pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems);
 
-/// When there are errors: writes the reports of these plans, as far as they are known, names them, and throws
-/// usage.
-void refuse(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console);
+/// Whether there are errors. Then tells all problems, writes the reports of these plans, as far as they are
+/// known, and names them; the exit code is that of usage.
+bool refused(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console);
 
 /// Runs a plan with messages and progress, and writes the depfile when all went well. Returns the exit code.
-/// pipeline: the file that the plan came from, for the depfile; empty when there is none.
+/// pipeline_file: what the plan came from, for the depfile; empty when there is none.
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
-                      const std::string& pipeline);
+                      const std::string& pipeline_file);
 
 /// Shows warnings; throws usage when there are errors.
 void settle(const Problems& problems, const Console& console);

@@ -31,6 +31,8 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     const bool files_only = options.inputs || options.outputs;
     const auto headers = pipeline::read_headers(plan);
     if (!files_only) settle(headers.errors); // names are known all the same
+    if (const auto warning = pipeline::without_effect(plan); warning && !files_only)
+        console.diagnostic(*warning);
     std::string text;
     if (options.inputs) text += lines(pipeline::planned_inputs(plan, headers));
     if (options.outputs) text += lines(pipeline::planned_outputs(plan, headers));

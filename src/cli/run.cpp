@@ -38,15 +38,18 @@ int run(const std::vector<std::string>& pipelines, const PipelineOptions& option
         const Console& console) {
     Problems problems;
     const auto settings = plan_settings(options, line, problems);
-    for (const char* single : {"--depfile", "--report"})
-        if (pipelines.size() > 1 && (single[2] == 'd' ? !options.depfile.empty() : !options.reports.empty()))
-            problems.add(line.find(single), "E-ARGUMENT",
-                         fmt::format("{} takes one pipeline, found {}", single, pipelines.size()),
+    const std::pair<const char*, bool> of_one[] = {{"--depfile", !options.depfile.empty()},
+                                                   {"--report", !options.reports.empty()},
+                                                   {"--timings", !options.timings.empty()}};
+    for (const auto& [option, is_given] : of_one)
+        if (pipelines.size() > 1 && is_given)
+            problems.add(line.find(option), "E-ARGUMENT",
+                         fmt::format("{} takes one pipeline, found {}", option, pipelines.size()),
                          "run them one by one");
     std::vector<pipeline::Plan> plans;
     for (const auto& pipeline : pipelines) plans.push_back(plan_of(pipeline, settings, problems));
     if (!problems.any_errors() && plans.size() > 1) refuse_common_outputs(plans, problems);
-    refuse(plans, problems, console);
+    if (refused(plans, problems, console)) return static_cast<int>(ErrorKind::usage);
     int worst = 0;
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const bool file = pipelines[i] != "-" && std::filesystem::exists(pipelines[i]);

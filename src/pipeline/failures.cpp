@@ -23,18 +23,10 @@ bool holds(const std::vector<std::string>& ids, const std::string& id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-/// "scan.ply: ": of many runs in one log, each warning says which asset it is about.
-std::string subject(const std::vector<report::FileRecord>& inputs, const std::string& message) {
-    if (inputs.empty() || message.find(inputs.front().path) != message.npos) return {};
-    if (inputs.size() == 1) return inputs.front().path + ": ";
-    return fmt::format("{} (and {} more): ", inputs.front().path, inputs.size() - 1);
-}
-
 } // namespace
 
-void Failures::warn(Diagnostic warning) {
+void Failures::warn(const Diagnostic& warning) {
     if (holds(allowed_, warning.id)) return;
-    warning.message = subject(record_.inputs, warning.message) + warning.message;
     if (settings_.on_warning) settings_.on_warning(warning);
     const auto& strict = settings_.strict;
     if (!holds(strict, "*") && !holds(strict, warning.id)) return;
@@ -48,9 +40,11 @@ bool Failures::judge_checks(std::size_t first) {
     for (std::size_t i = first; i < record_.checks.size(); ++i) {
         const auto& check = record_.checks[i];
         if (check.passed) continue;
-        const std::string text =
-            fmt::format("'{}' must be {}, found {}{}", check.name, check.expected, report::found_text(check),
-                        check.part.empty() ? "" : fmt::format(" in part '{}'", check.part));
+        const std::string locations = report::locations_text(check);
+        const std::string text = fmt::format(
+            "'{}' must be {}, found {}{}{}", check.name, check.expected, report::found_text(check),
+            check.part.empty() ? "" : fmt::format(" in part '{}'", check.part),
+            locations.empty() ? "" : "; " + locations);
         if (check.severity == Severity::error) {
             all_hold = false;
             add(ErrorKind::check, {{Severity::error, "E-CHECK", text, check.where, check.hint}, true});

@@ -23,8 +23,8 @@ class Failures {
     /// earnest.
     void add(ErrorKind kind, report::RunError why);
     void add(const Error& error);
-    /// Tells the warning, with the input that it is about, and fails when --strict says so.
-    void warn(Diagnostic warning);
+    /// Tells the warning, unless it is allowed, and fails when --strict says so.
+    void warn(const Diagnostic& warning);
     /// Turns the checks of the record from this one on that do not hold into failures or, by their severity,
     /// into warnings. Whether all errors among them hold.
     bool judge_checks(std::size_t first);

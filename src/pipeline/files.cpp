@@ -88,42 +88,74 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places)
         if (step.when && step.when->known == false) continue;
         add_files(step, places, files);
         for (const auto& arm : step.arms) {
-            auto inner = planned_files(*arm.steps, places);
-            files.insert(files.end(), inner.begin(), inner.end());
+            for (auto& file : planned_files(*arm.steps, places)) {
+                file.variables.insert(file.variables.begin(), arm.variables.begin(), arm.variables.end());
+                files.push_back(std::move(file));
+            }
         }
     }
     return files;
 }
 
-bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems) {
-    const std::size_t before = problems.size();
-    std::map<std::string, const PlannedFile*> inputs, outputs;
+namespace {
+
+/// The first is at another place of the pipeline, or at the same for another value of a foreach: then the
+/// name lacks the variables that differ.
+std::string hint_of_duplicate(const PlannedFile& first, const PlannedFile& file) {
+    if (to_string(first.where) != to_string(file.where) || file.variables.empty())
+        return fmt::format("the first is at {}", to_string(first.where));
+    std::string all, differing;
+    for (std::size_t i = 0; i < std::min(first.variables.size(), file.variables.size()); ++i) {
+        const auto& [name, value] = file.variables[i];
+        const std::string part = name == "part" ? "${part}" : fmt::format("${{{}.index}}", name);
+        all += "." + part;
+        if (value.text != first.variables[i].second.text) differing += "." + part;
+    }
+    return fmt::format("foreach writes it for every value: {}{}{}", file.path.stem().string(),
+                       differing.empty() ? all : differing, file.path.extension().string());
+}
+
+bool check_inputs(const std::vector<PlannedFile>& files, std::map<std::string, const PlannedFile*>& inputs,
+                  Problems& problems) {
+    bool good = true;
     for (const auto& file : files) {
         if (file.written) continue;
         const auto [first, is_new] = inputs.emplace(identity(file.path), &file);
-        if (!is_new && file.path == "-")
-            problems.add(file.where, "E-DUPLICATE-INPUT", "standard input can be read only once",
-                         fmt::format("the first is at {}", to_string(first->second->where)));
+        if (is_new || file.path != "-") continue;
+        good = false;
+        problems.add(file.where, "E-DUPLICATE-INPUT", "standard input can be read only once",
+                     fmt::format("the first is at {}", to_string(first->second->where)));
     }
+    return good;
+}
+
+} // namespace
+
+bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems) {
+    std::map<std::string, const PlannedFile*> inputs, outputs;
+    bool good = check_inputs(files, inputs, problems);
     for (const auto& file : files) {
         if (!file.written) continue;
         const std::string path = identity(file.path);
-        if (const auto input = inputs.find(path); input != inputs.end() && path != "-")
+        if (const auto input = inputs.find(path); input != inputs.end() && path != "-") {
+            good = false;
             problems.add(
                 file.where, "E-OVERWRITE", fmt::format("'{}' would overwrite an input", file.path.string()),
                 input->second->where.known() ? fmt::format("it is read at {}; give the output another name",
                                                            to_string(input->second->where))
                                              : "it is the pipeline itself; give the output another name");
+        }
         const auto [first, is_new] = outputs.emplace(lower_case(path), &file);
         if (is_new) continue;
+        good = false;
         const bool same = identity(first->second->path) == path;
         problems.add(file.where, "E-DUPLICATE-OUTPUT",
                      same ? fmt::format("'{}' is written twice", file.path.string())
                           : fmt::format("'{}' and '{}' are one file where case does not count",
                                         first->second->path.string(), file.path.string()),
-                     fmt::format("the first is at {}", to_string(first->second->where)));
+                     hint_of_duplicate(*first->second, file));
     }
-    return problems.size() == before;
+    return good;
 }
 
 std::vector<Diagnostic> missing_inputs(const Plan& plan) {
@@ -140,6 +172,42 @@ std::vector<Diagnostic> missing_inputs(const Plan& plan) {
                                file.where, nearest_file(file.path)});
     }
     return missing;
+}
+
+namespace {
+
+/// Whether a step judges the scene, or may write: stages that tell something of the scene, on the terminal or
+/// in a file, have a path, too.
+bool has_effect(const Steps& steps) {
+    return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
+        if (step.ensure) return true;
+        if (step.stage) return step.stage->checks || (!step.stage->loads && step.stage->options.find("path"));
+        return std::any_of(step.arms.begin(), step.arms.end(),
+                           [](const Arm& arm) { return has_effect(*arm.steps); });
+    });
+}
+
+} // namespace
+
+std::optional<Diagnostic> without_effect(const Plan& plan) {
+    if (plan.steps.empty() || !plan.reports.empty() || has_effect(plan.steps)) return {};
+    if (std::find(plan.allowed.begin(), plan.allowed.end(), "W-NOTHING") != plan.allowed.end()) return {};
+    return Diagnostic{Severity::warning, "W-NOTHING",
+                      "the pipeline writes nothing and checks nothing, so nothing is left of what it does",
+                      plan.steps.back().where,
+                      "end it with write: FILE, or with validate, or ask for a --report"};
+}
+
+Diagnostic about_input(const Plan& plan, Diagnostic diagnostic) {
+    const auto inputs = paths_of(plan, false, {});
+    const auto is_named = [&](const fs::path& input) {
+        return diagnostic.message.find(input.string()) != std::string::npos;
+    };
+    if (inputs.empty() || std::any_of(inputs.begin(), inputs.end(), is_named)) return diagnostic;
+    const std::string first = inputs.front() == "-" ? "standard input" : inputs.front().string();
+    const std::string more = inputs.size() > 1 ? fmt::format(" and {} more", inputs.size() - 1) : "";
+    diagnostic.message = fmt::format("{}{}: {}", first, more, diagnostic.message);
+    return diagnostic;
 }
 
 std::vector<fs::path> planned_inputs(const Plan& plan, const Headers& headers) {

@@ -3,6 +3,7 @@
 #include "base/spelling.hpp"
 
 #include <fmt/format.h>
+#include <map>
 
 namespace facetmill::pipeline {
 
@@ -260,17 +261,25 @@ class Params {
         return false;
     }
 
-    /// The last -D of that name.
     const std::pair<std::string, std::string>* defined(const std::string& name) const {
-        const std::pair<std::string, std::string>* found = nullptr;
         for (const auto& define : settings_.defines)
-            if (define.first == name) found = &define;
-        return found;
+            if (define.first == name) return &define;
+        return nullptr;
     }
 
     const PlanSettings& settings_;
     Problems& problems_;
 };
+
+/// Which of two values was meant is not ours to say.
+void refuse_repeated(const PlanSettings& settings, Problems& problems) {
+    std::map<std::string, std::string> first;
+    for (const auto& [name, text] : settings.defines)
+        if (const auto [known, is_new] = first.emplace(name, text); !is_new)
+            problems.add(command_line_mark("-D", fmt::format("{}={}", name, text)), "E-PARAM",
+                         fmt::format("the parameter '{}' is given twice", name),
+                         fmt::format("it was '{}' before; leave one out", known->second));
+}
 
 } // namespace
 
@@ -289,6 +298,7 @@ Scope read_params(const Value* params, const PlanSettings& settings, Json& json,
             problems.add(command_line_mark("-D", fmt::format("{}={}", name, text)), "E-PARAM",
                          fmt::format("the pipeline has no parameter '{}'", name),
                          names.empty() ? "it declares none" : suggestion(name, names));
+    refuse_repeated(settings, problems);
     return std::move(all.scope);
 }
 

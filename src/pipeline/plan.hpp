@@ -53,6 +53,8 @@ struct PlannedFile {
     std::filesystem::path path;
     Mark where;
     bool written = false;
+    std::vector<std::pair<std::string, Value>>
+        variables{}; ///< of each foreach that it stands in, the outer first
 };
 
 struct PlanSettings {
@@ -124,6 +126,12 @@ Headers read_headers(const Plan& plan);
 /// the headers tell); reports among the outputs.
 std::vector<std::filesystem::path> planned_inputs(const Plan& plan, const Headers& headers = {});
 std::vector<std::filesystem::path> planned_outputs(const Plan& plan, const Headers& headers = {});
+/// W-NOTHING, at the last stage, when nothing would be left of a run: no file, no check that can fail, no
+/// report.
+std::optional<Diagnostic> without_effect(const Plan& plan);
+/// The diagnostic with the input of the plan in its message ("scan.ply: ..."), unless it names one already:
+/// in a log of many runs it says which asset it is about.
+Diagnostic about_input(const Plan& plan, Diagnostic diagnostic);
 /// What would run, everything resolved, with what the headers of inputs say: for `facetmill plan`, as text
 /// and as JSON.
 std::string describe(const Plan& plan, const Headers& headers = {});

@@ -14,9 +14,12 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <set>
 #include <sys/resource.h>
 
 namespace facetmill::pipeline {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -67,11 +70,9 @@ bool compares_with_load(const Steps& steps) {
     });
 }
 
-void write_reports(const Plan& plan, const report::RunRecord& record) {
-    for (const auto& path : plan.reports) {
-        const std::string text = report::render_for(path, record);
-        io::write_now(plan.places.output(path), std::as_bytes(std::span(text)));
-    }
+void write_report(const Plan& plan, const std::string& path, const report::RunRecord& record) {
+    const std::string text = report::render_for(path, record);
+    io::write_now(plan.places.output(path), std::as_bytes(std::span(text)));
 }
 
 class Runner {
@@ -82,8 +83,6 @@ class Runner {
         record().pipeline = plan.name;
         record().about = plan.about;
         record().params = plan.params;
-        for (const auto& report : plan.reports)
-            record().reports.push_back(plan.places.output(report).string());
     }
 
     report::RunRecord run() {
@@ -96,8 +95,14 @@ class Runner {
             failures_.warn(warning);
             record().warnings.push_back(warning);
         }
+        if (const auto warning = without_effect(plan_)) {
+            failures_.warn(*warning);
+            record().warnings.push_back(*warning);
+        }
         for (const auto& missing : missing_inputs(plan_)) failures_.add(ErrorKind::missing, {missing});
-        for (const auto& error : read_headers(plan_).errors) failures_.add(error);
+        const Headers headers = read_headers(plan_);
+        for (const auto& error : headers.errors) failures_.add(error);
+        try_outputs(headers);
         Scene scene;
         if (!failures_.any() && run_steps(plan_.steps, scene, true) && !plan_.reports.empty())
             failures_.guarded({}, "the inspection at the end",
@@ -107,8 +112,7 @@ class Runner {
         record().seconds = seconds_since(start);
         record().peak_memory = peak_memory();
         record().threads = threads();
-        if (!failures_.guarded({}, "the report", [&] { write_reports(plan_, record()); }))
-            record().reports.clear();
+        write_reports();
         return std::move(record());
     }
 
@@ -352,7 +356,42 @@ class Runner {
         check_collisions(files, problems);
     }
 
-    // --- the end
+    // --- files
+
+    /// Stages a small file for everything that will be written, and removes it again: a folder that is full
+    /// or read-only is found before the work. One error a folder.
+    void try_outputs(const Headers& headers) {
+        constexpr std::size_t a_block = 4096;
+        const io::Bytes bytes(a_block);
+        auto files = planned_files(plan_.steps, plan_.places);
+        files.insert(files.end(), plan_.others.begin(), plan_.others.end());
+        for (const auto& path : headers.more_outputs)
+            if (!is_read(path, headers)) files.push_back({path, {}, true});
+        io::Outputs trial;
+        for (const auto& file : files) {
+            const fs::path folder = file.path.parent_path();
+            if (!file.written || unwritable_.contains(folder)) continue;
+            if (!failures_.guarded(file.where, "an output", [&] { trial.add(file.path, bytes, file.where); }))
+                unwritable_.insert(folder);
+        }
+    }
+
+    /// A texture that is copied to where it is stays as it is.
+    static bool is_read(const fs::path& path, const Headers& headers) {
+        return std::any_of(headers.more_inputs.begin(), headers.more_inputs.end(),
+                           [&](const fs::path& input) {
+                               std::error_code ignored; // what is not there is no other file
+                               return fs::equivalent(input, path, ignored);
+                           });
+    }
+
+    /// All that can be written are, whatever became of the others.
+    void write_reports() {
+        for (const auto& path : plan_.reports)
+            if (!unwritable_.contains(plan_.places.output(path).parent_path()) &&
+                failures_.guarded({}, "the report", [&] { write_report(plan_, path, record()); }))
+                record().reports.push_back(path);
+    }
 
     void finish_outputs() {
         if (!failures_.any() &&
@@ -366,6 +405,7 @@ class Runner {
     const RunSettings& settings_;
     RunState state_;
     Failures failures_{state_.record, settings_, plan_.allowed};
+    std::set<fs::path> unwritable_; ///< folders
     bool keeps_loaded_ = false, takes_pictures_ = false;
     std::string last_picture_;
     std::size_t picture_bytes_ = 0;
@@ -379,15 +419,14 @@ std::vector<std::string> report_refusal(const Plan& plan, const Problems& proble
     record.pipeline = plan.name;
     record.about = plan.about;
     record.params = plan.params;
-    for (const auto& report : plan.reports) record.reports.push_back(plan.places.output(report).string());
     record.exit_code = static_cast<int>(ErrorKind::usage);
     for (const auto& d : problems.all())
         if (d.severity == Severity::error)
             record.errors.push_back({d});
         else
             record.warnings.push_back(d);
-    write_reports(plan, record);
-    return record.reports;
+    for (const auto& path : plan.reports) write_report(plan, path, record);
+    return plan.reports;
 }
 
 report::RunRecord run_plan(const Plan& plan, const RunSettings& settings) {

@@ -18,8 +18,8 @@ struct RunSettings {
 };
 
 /// Writes the reports of a pipeline that is not run because of these problems (exit code 2). Not for a plan
-/// whose files collide: a report may be one of them. Returns their paths. Throws output when one cannot be
-/// written.
+/// whose files collide: a report may be one of them. Returns their paths, from the output folder. Throws
+/// output when one cannot be written.
 std::vector<std::string> report_refusal(const Plan& plan, const Problems& problems);
 
 /// Runs the plan, writes its outputs (all or none) and its reports (always), and returns the record;

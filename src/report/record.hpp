@@ -55,7 +55,8 @@ struct StageRecord {
 };
 
 struct FileRecord {
-    std::string path;
+    std::string
+        path; ///< of an input as it was opened; of an output from the output folder, as the pipeline says
     std::size_t bytes = 0;
     std::string sha256;
     Json read_back; ///< of meshes among the outputs: properties of the file decoded again, and how far
@@ -73,7 +74,7 @@ struct RunRecord {
     Json params = Json::object();
     std::vector<FileRecord> inputs, outputs;
     std::vector<std::string> absent;  ///< files that inputs name and that are not there: a run goes on
-    std::vector<std::string> reports; ///< the paths of the reports, as they are written
+    std::vector<std::string> reports; ///< that were written, from the output folder
     std::vector<StageRecord> stages;
     std::vector<Check> checks;
     std::vector<Diagnostic> warnings; ///< of the run as a whole

@@ -20,9 +20,11 @@ Json schema();                         ///< JSON Schema (2020-12) of the report
 /// Times, memory and threads: what differs from run to run, and is therefore in no report.
 Json timings_json(const RunRecord& record);
 Json timings_schema();
-Json info_schema(); ///< ... and of `info --json`
-/// For a terminal; without times and memory as a report.
-std::string to_text(const RunRecord& record, bool colour, bool with_times = true);
+Json info_schema();                           ///< ... and of `info --json`
+std::string to_text(const RunRecord& record); ///< the report for people
+/// What was done, for a terminal: with times and memory, without warnings and errors, which were told when
+/// they arose.
+std::string to_terminal(const RunRecord& record, bool colour);
 std::string to_html(const RunRecord& record);  ///< one self-contained page
 std::string to_junit(const RunRecord& record); ///< checks as test cases
 /// The renderer for a report's file name: .json, .html, .xml (JUnit), .txt. The same inputs give the same

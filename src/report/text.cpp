@@ -29,24 +29,30 @@ std::string face_change(const StageRecord& stage) {
                        : fmt::format("{} -> {} faces", grouped(before), grouped(after));
 }
 
-void add_stage(const StageRecord& stage, std::size_t width, bool with_times, const Paint& paint,
-               std::string& out) {
+enum class Form { report, terminal };
+
+void add_warning(const Diagnostic& warning, const std::string& lead, std::string& out) {
+    out += fmt::format("{}warning[{}]: {}\n", lead, warning.id, warning.message);
+}
+
+void add_stage(const StageRecord& stage, std::size_t width, Form form, const Paint& paint, std::string& out) {
     const std::string name = fmt::format("{:<{}}", stage.name, width);
+    const std::string lead = fmt::format("  {:<{}}  ", "", width);
     if (stage.skipped) {
         out += fmt::format("  {}  {}\n", name, paint("2", "skipped"));
         return;
     }
-    if (with_times)
+    if (form == Form::terminal)
         out += fmt::format("  {}  {:<34} {:>9}\n", name, face_change(stage), timed(stage.seconds));
     else
         out += fmt::format("  {}  {}\n", name, face_change(stage));
-    for (const auto& line : stage.said) out += fmt::format("  {:<{}}    {}\n", "", width, line);
-    for (const auto& warning : stage.warnings)
-        out += fmt::format("  {:<{}}  {}: {}\n", "", width,
-                           paint("35", fmt::format("warning[{}]", warning.id)), warning.message);
+    for (const auto& line : stage.said) out += fmt::format("{}  {}\n", lead, line);
+    if (form == Form::terminal) return;
+    for (const auto& warning : stage.warnings) add_warning(warning, lead, out);
 }
 
-void add_checks(const std::vector<Check>& checks, const Paint& paint, std::string& out) {
+/// A terminal has been told of those that do not hold.
+void add_checks(const std::vector<Check>& checks, Form form, const Paint& paint, std::string& out) {
     if (checks.empty()) return;
     const auto failed = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return !c.passed; });
     const auto known = std::count_if(checks.begin(), checks.end(), [](const auto& c) { return c.waived; });
@@ -54,49 +60,58 @@ void add_checks(const std::vector<Check>& checks, const Paint& paint, std::strin
                        static_cast<std::ptrdiff_t>(checks.size()) - failed - known,
                        known > 0 ? fmt::format("{} known, ", known) : "", failed);
     for (const auto& c : checks) {
-        if (c.passed && !c.waived) continue;
+        if ((c.passed && !c.waived) || (!c.passed && form == Form::terminal)) continue;
         const std::string where = locations_text(c);
         out += fmt::format("  {} {} ({}{}): expected {}, found {}{}\n",
-                           paint(c.waived                        ? "2"
-                                 : c.severity == Severity::error ? "31"
-                                                                 : "35",
-                                 outcome(c)),
-                           c.name, c.stage, c.part.empty() ? "" : ", part " + c.part, c.expected,
-                           found_text(c), where.empty() ? "" : "; " + where);
+                           c.waived ? paint("2", outcome(c)) : outcome(c), c.name, c.stage,
+                           c.part.empty() ? "" : ", part " + c.part, c.expected, found_text(c),
+                           where.empty() ? "" : "; " + where);
     }
+}
+
+/// Name and stages, without an end.
+std::string begin(const RunRecord& record, Form form, const Paint& paint) {
+    std::string out = paint("1", record.pipeline) + (record.about.empty() ? "" : ": " + record.about) + "\n";
+    constexpr std::size_t widest = 40;
+    std::size_t width = 8;
+    for (const auto& stage : record.stages) width = std::max(width, stage.name.size());
+    for (const auto& stage : record.stages) add_stage(stage, std::min(width, widest), form, paint, out);
+    if (form == Form::report)
+        for (const auto& warning : record.warnings) add_warning(warning, "  ", out);
+    add_checks(record.checks, form, paint, out);
+    for (const auto& file : record.outputs)
+        out += fmt::format("wrote {} ({})\n", file.path, sized(file.bytes));
+    return out;
+}
+
+/// After a failure; a report may fail after the outputs.
+std::string outputs_left(const RunRecord& record) {
+    return record.outputs.empty() ? "; no output was written" : "";
 }
 
 } // namespace
 
-std::string to_text(const RunRecord& record, bool colour, bool with_times) {
-    const Paint paint{colour};
-    std::string out = paint("1", record.pipeline) + (record.about.empty() ? "" : ": " + record.about) + "\n";
-    std::size_t width = 8;
-    for (const auto& stage : record.stages) width = std::max(width, stage.name.size());
-    for (const auto& stage : record.stages)
-        add_stage(stage, std::min<std::size_t>(width, 40), with_times, paint, out);
-    for (const auto& warning : record.warnings)
-        out +=
-            fmt::format("  {}: {}\n", paint("35", fmt::format("warning[{}]", warning.id)), warning.message);
-    add_checks(record.checks, paint, out);
-    for (const auto& file : record.outputs)
-        out += fmt::format("wrote {} ({})\n", file.path, sized(file.bytes));
-    for (const auto& report : record.reports) out += fmt::format("report {}\n", report);
-    if (record.exit_code == 0)
-        return out + paint("1;32", "ok") +
-               (with_times
-                    ? fmt::format(" in {}, peak memory {}", timed(record.seconds), sized(record.peak_memory))
-                    : "") +
-               "\n";
+std::string to_text(const RunRecord& record) {
+    const std::string out = begin(record, Form::report, {false});
+    if (record.exit_code == 0) return out + "ok\n";
     const std::string why = record.errors.empty() ? ""
                                                   : fmt::format(": [{}] {}", record.errors.front().id,
                                                                 record.errors.front().message);
     const std::string more =
         record.errors.size() > 1 ? fmt::format(" (and {} more)", record.errors.size() - 1) : "";
-    const char* outputs =
-        record.outputs.empty() ? "; no output was written" : ""; // a report may fail after them
-    return out + fmt::format("{}{}{}{}; exit code {}\n", paint("1;31", "failed"), why, more, outputs,
-                             record.exit_code);
+    return out +
+           fmt::format("failed{}{}{}; exit code {}\n", why, more, outputs_left(record), record.exit_code);
+}
+
+std::string to_terminal(const RunRecord& record, bool colour) {
+    const Paint paint{colour};
+    std::string out = begin(record, Form::terminal, paint);
+    for (const auto& report : record.reports) out += fmt::format("report {}\n", report);
+    if (record.exit_code != 0)
+        return out + fmt::format("{}{}; exit code {}\n", paint("1;31", "failed"), outputs_left(record),
+                                 record.exit_code);
+    return out + fmt::format("{} in {}, peak memory {}\n", paint("1;32", "ok"), timed(record.seconds),
+                             sized(record.peak_memory));
 }
 
 } // namespace facetmill::report

@@ -301,19 +301,6 @@ class Process(Case):
         self.mill("run", "p.yaml", "--depfile", "p.d", "--depfile-target", "stamp")
         self.assertEqual((self.dir / "p.d").read_text().split(":")[0], "stamp")
 
-    def gltf_with_neighbours(self):
-        """t.gltf with t.bin and tex.png beside it."""
-        (self.dir / "t.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
-        (self.dir / "tex.png").write_bytes(b"no picture, and nobody looks")
-        self.write("t.gltf", json.dumps({
-            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
-            "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
-            "textures": [{"source": 0}], "images": [{"uri": "tex.png"}],
-            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0],
-                           "max": [1, 1, 0]}],
-            "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "t.bin", "byteLength": 36}]}))
-
     def test_the_plan_knows_neighbours_and_reports(self):
         self.gltf_with_neighbours()
         self.write("p.yaml", "facetmill: 1\nstages: [{load: t.gltf}, {write: o.glb}]\nreport: r.json\n")
@@ -323,16 +310,6 @@ class Process(Case):
         self.assertEqual(json.loads(self.mill("plan", "p.yaml", "--json", "-o", "out").stdout)["reports"], ["out/r.json"])
         self.mill("run", "p.yaml", "-o", "out", "--report", "more.txt")
         self.assertEqual(sorted(self.files(self.dir / "out")), ["more.txt", "o.glb", "r.json", "tex.png"])
-
-    def test_a_missing_texture_is_in_the_depfile(self):
-        self.gltf_with_neighbours()
-        (self.dir / "tex.png").unlink()
-        run = self.mill("pipe", "--depfile", "p.d", "load", "t.gltf", "!", "write", "o.glb")
-        self.assertIn("W-IMAGE", run.stderr)
-        text = (self.dir / "p.d").read_text()
-        self.assertEqual(text.split(":")[0], "o.glb")
-        self.assertIn("tex.png", text)
-        self.assertIn("t.bin", text)
 
     def test_warnings_name_their_input_and_can_be_allowed(self):
         self.write("t.off", TRIANGLE)
@@ -353,17 +330,54 @@ class Process(Case):
 
     def test_every_output_is_a_function_of_the_inputs(self):
         self.write("p.yaml", f"facetmill: 1\nstages: [{{load: {SCAN}}}, {{clip: {{plane: z=50%, cap: true}}}}, {{simplify: 20%}}, "
-                             "{measure: {path: m.json}}, {render: v.png}, {write: o.glb}]\n"
+                             "{measure: {path: m.json}}, {render: v.png}, {validate: {closed: true, severity: warn}}, "
+                             "{write: {path: sub/o.glb, draco: {position_bits: 4}}}]\n"
                              "report: [r.json, r.html, r.txt, r.xml]\n")
-        for folder, threads in (("one", "1"), ("two", "2")):
-            self.mill("run", "p.yaml", "-o", folder, "-j", threads, "--timings", f"../{folder}.json")
-            self.assertEqual(json.loads((self.dir / f"{folder}.json").read_text())["threads"], int(threads))
-        one, two = self.files(self.dir / "one"), self.files(self.dir / "two")
+        for folder, threads in (("one", "1"), ("two/deep", "2")):
+            self.mill("run", "p.yaml", "-o", folder, "-j", threads, "--timings", f"{self.dir}/{threads}.json")
+            self.assertEqual(json.loads((self.dir / f"{threads}.json").read_text())["threads"], int(threads))
+        one = self.files(self.dir / "one")
         self.assertEqual(len(one), 7)
-        for name in one:  # the folder's own name is in the reports
-            texts = [(self.dir / folder / name).read_bytes().replace(folder.encode() + b"/", b"") for folder in ("one", "two")]
-            self.assertEqual(texts[0], texts[1], name)
-        self.assertEqual(list(one), list(two))
+        self.assertEqual(one, self.files(self.dir / "two/deep"))
+
+    def test_reports_name_outputs_from_their_folder(self):
+        self.gltf_with_neighbours()
+        self.mill("pipe", "-o", "out", "--report", "r.json", "load", "t.gltf", "!", "write", "sub/../o.glb")
+        report = json.loads((self.dir / "out/r.json").read_text())
+        self.assertEqual([file["path"] for file in report["outputs"]], ["o.glb", "tex.png"])
+
+    def test_one_error_is_told_once(self):
+        self.write("t.off", TRIANGLE)
+        run = self.mill("pipe", "load", "t.off", "!", "validate", "--closed", expect=1)
+        self.assertEqual(run.stderr.count("closed' must be"), 1, run.stderr)
+        self.assertIn("3 locations, the first face 0 of 't'", run.stderr)
+        self.assertTrue(run.stderr.endswith("failed; no output was written; exit code 1\n"), run.stderr)
+        run = self.mill("pipe", "load", "none.off", "!", "write", "a.ply", expect=3)
+        self.assertEqual(run.stderr.count("none.off'"), 1, run.stderr)
+
+    def test_a_pipeline_that_leaves_nothing_says_so(self):
+        self.write("t.off", TRIANGLE)
+        self.assertIn("W-NOTHING", self.mill("pipe", "--quiet", "load", "t.off", "!", "relax", "3").stderr)
+        self.mill("pipe", "--strict=W-NOTHING", "load", "t.off", "!", "relax", "3", expect=1)
+        self.write("p.yaml", "facetmill: 1\nstages: [{load: t.off}, {relax: 3}]\n")
+        self.assertIn("W-NOTHING", self.mill("check", "p.yaml").stderr)
+        self.assertIn("W-NOTHING", self.mill("plan", "p.yaml").stderr)
+        for line in (["measure"], ["validate"], ["write", "a.ply"], ["relax", "--ensure.faces", "1"]):
+            self.assertNotIn("W-NOTHING", self.mill("pipe", "load", "t.off", "!", *line).stderr)
+
+    def test_many_quiet_runs(self):
+        """A log of 30 assets: every line says which one it is about, and what is allowed is not said."""
+        log = ""
+        for i in range(30):
+            self.write(f"scan{i}.off", TRIANGLE)
+            self.write("p.yaml", "facetmill: 1\nparams: {input: path}\n"
+                                 "stages: [{load: '${input}'}, {simplify: 100%}, {write: '${input.stem}.glb'}]\n")
+            log += self.mill("run", "p.yaml", "--quiet", "-D", f"input=scan{i}.off").stderr
+            self.assertEqual(self.mill("run", "p.yaml", "--quiet", "--allow", "W-UNITS", "-D", f"input=scan{i}.off").stderr, "")
+        warnings = [line for line in log.splitlines() if "warning[" in line]
+        self.assertEqual(len(warnings), 30, log)
+        for i, line in enumerate(warnings):
+            self.assertIn(f"scan{i}.off", line)
 
     def test_input_that_never_ends_ends_quickly(self):
         (self.dir / "bomb.stl.gz").write_bytes(gzip.compress(bytes(80 << 20), 6))

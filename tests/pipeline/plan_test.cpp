@@ -150,7 +150,25 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "p.yaml:5:22: error[E-DUPLICATE-OUTPUT]: 'o.glb' is written twice\n"
          "      do: [test-write: o.glb]\n"
          "                       ^~~~~\n"
-         "  hint: the first is at p.yaml:5:22"},
+         "  hint: foreach writes it for every value: o.${lod.index}.glb"},
+        {stages("  - foreach: {a: [1, 2], b: [1, 2, 3]}\n    do: [test-write: \"out/${a}.glb\"]\n"),
+         "p.yaml:5:22: error[E-DUPLICATE-OUTPUT]: 'out/1.glb' is written twice\n"
+         "      do: [test-write: \"out/${a}.glb\"]\n"
+         "                       ^~~~~~~~~~~~~~\n"
+         "  hint: foreach writes it for every value: 1.${b.index}.glb\n"
+         "p.yaml:5:22: error[E-DUPLICATE-OUTPUT]: 'out/2.glb' is written twice\n"
+         "      do: [test-write: \"out/${a}.glb\"]\n"
+         "                       ^~~~~~~~~~~~~~\n"
+         "  hint: foreach writes it for every value: 2.${b.index}.glb"},
+        {stages("  - foreach: {keep: [3, 4, 5]}\n    do: [test-cut: {faces: \"${keep}\", cap: Yes}]\n"),
+         "p.yaml:5:45: error[E-TYPE]: expected true or false, found 'Yes'\n"
+         "      do: [test-cut: {faces: \"${keep}\", cap: Yes}]\n"
+         "                                              ^~~\n"
+         "  hint: write true"},
+        {stages("  - test-cut: 2k\n"), "p.yaml:4:15: error[E-TYPE]: expected an integer, found '2k'\n"
+                                       "    - test-cut: 2k\n"
+                                       "                ^~\n"
+                                       "  hint: write 2000"},
         {stages("  - test-load: \"-\"\n  - test-load: \"-\"\n"),
          "p.yaml:5:16: error[E-DUPLICATE-INPUT]: standard input can be read only once\n"
          "    - test-load: \"-\"\n"
@@ -402,4 +420,40 @@ TEST_CASE("items and keys that say nothing are refused with their place", "[pipe
           0);
     const auto problems = planned(stages("  - branch: {a: [test-cut: 3]}\n    joined: true\n")).problems;
     CHECK(problems.find("did you mean 'join'?") != std::string::npos);
+}
+
+TEST_CASE("a parameter is given once", "[pipeline]") {
+    PlanSettings settings;
+    settings.defines = {{"keep", "2"}, {"keep", "3"}};
+    const auto result = planned("facetmill: 1\nparams: {keep: integer}\n"
+                                "stages: [{test-load: a.ply}, {test-cut: \"${keep}\"}]\n",
+                                settings);
+    CHECK(result.problems == "-D:1:1: error[E-PARAM]: the parameter 'keep' is given twice\n"
+                             "  keep=3\n"
+                             "  ^~~~~~\n"
+                             "  hint: it was '2' before; leave one out");
+}
+
+TEST_CASE("a plan that leaves nothing behind is known", "[pipeline]") {
+    const auto warned = [](const std::string& text) {
+        return pipeline::without_effect(planned(text).plan).has_value();
+    };
+    CHECK(warned(stages("  - test-cut: 5\n")));
+    CHECK(warned(stages("  - branch: {a: [test-cut: 5]}\n")));
+    CHECK_FALSE(warned(stages("  - branch: {a: [test-cut: 5, test-write: b.ply]}\n")));
+    CHECK_FALSE(warned(stages("  - test-cut: 5\n    ensure: {closed: true}\n")));
+    CHECK_FALSE(warned(stages("  - ensure: {closed: true}\n")));
+    CHECK_FALSE(warned(stages("  - test-cut: 5\nreport: r.json\n")));
+    CHECK_FALSE(warned(stages("  - test-cut: 5\nallow: W-NOTHING\n")));
+}
+
+TEST_CASE("a diagnostic names the input unless it does already", "[pipeline]") {
+    const auto told = [](const std::string& text, const std::string& message) {
+        return about_input(planned(text).plan, {Severity::warning, "W-X", message, {}, {}}).message;
+    };
+    CHECK(told(stages(""), "flat") == "a.ply: flat");
+    CHECK(told(stages(""), "'a.ply' is flat") == "'a.ply' is flat");
+    CHECK(told(stages("  - test-load: b.ply\n"), "flat") == "a.ply and 1 more: flat");
+    CHECK(told(stages("  - test-load: b.ply\n"), "b.ply: flat") == "b.ply: flat");
+    CHECK(told("facetmill: 1\nstages: [{test-load: \"-\"}]\n", "flat") == "standard input: flat");
 }

@@ -153,25 +153,41 @@ TEST_CASE("what varies from run to run is in no report", "[report]") {
     CHECK(timings_json(slow)["stages"][0]["seconds"] == 7);
 }
 
-TEST_CASE("the text for the terminal", "[report]") {
-    CHECK(to_text(full_record(), false) ==
+TEST_CASE("the text for people", "[report]") {
+    CHECK(to_text(full_record()) ==
           "p.yaml: Mills <cubes> & more\n"
-          "  cut       1,200 -> 12 faces                     0.25 s\n"
+          "  cut       1,200 -> 12 faces\n"
           "            warning[W-CAP]: one loop stays open\n"
           "  relax     skipped\n"
           "checks: 1 passed, 1 known, 2 failed\n"
           "  failed euler (validate, part cube): expected 2, found 0; first face 3 of 'cube' at 1 2.5 3\n"
           "  warned area (validate): expected at most 5, found 6\n"
           "  known oriented (validate, part cube): expected true, found false; 12 locations, the first face "
-          "4 of "
-          "'cube' at 0 0 1\n"
+          "4 of 'cube' at 0 0 1\n"
           "wrote b.glb (56.8 kB)\n"
           "failed: [E-CHECK] 'euler' must be 2, found 0 (and 1 more); exit code 4\n");
+    CHECK(to_text({.pipeline = "p.yaml"}) == "p.yaml\nok\n");
+}
+
+TEST_CASE("a terminal is not told again of what was told as it arose", "[report]") {
+    RunRecord record = full_record();
+    record.reports = {"out/r.json"};
+    CHECK(to_terminal(record, false) ==
+          "p.yaml: Mills <cubes> & more\n"
+          "  cut       1,200 -> 12 faces                     0.25 s\n"
+          "  relax     skipped\n"
+          "checks: 1 passed, 1 known, 2 failed\n"
+          "  known oriented (validate, part cube): expected true, found false; 12 locations, the first face "
+          "4 of 'cube' at 0 0 1\n"
+          "wrote b.glb (56.8 kB)\n"
+          "report out/r.json\n"
+          "failed; exit code 4\n");
     RunRecord good;
     good.pipeline = "p.yaml";
     good.seconds = 0.5;
     good.peak_memory = 2'000'000;
-    CHECK(to_text(good, true) == "\033[1mp.yaml\033[0m\n\033[1;32mok\033[0m in 0.50 s, peak memory 2.0 MB\n");
+    CHECK(to_terminal(good, true) ==
+          "\033[1mp.yaml\033[0m\n\033[1;32mok\033[0m in 0.50 s, peak memory 2.0 MB\n");
 }
 
 TEST_CASE("JUnit: checks and errors are cases", "[report]") {

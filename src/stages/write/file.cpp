@@ -105,30 +105,31 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
     report.draco = WriteReport::Bits{s.draco.position_bits, why};
 }
 
-void stage_files(const io::Written& written, const std::filesystem::path& target, const io::Codec& codec,
+void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
                  const Scene& scene, const io::WriteSettings& settings, Context& context) {
     RunState& run = context.run();
     const io::Outputs::File* main = nullptr;
     const std::size_t first = run.record.outputs.size();
     for (const auto& file : written.files) {
-        if (main && target == "-") {
+        if (main && path == "-") {
             context.warn("W-SKIPPED", fmt::format("'{}' cannot go to standard output beside the mesh",
                                                   file.name.string()));
             continue;
         }
-        const bool packed = !main && target.extension() == ".gz";
+        const bool packed = !main && path.extension() == ".gz";
         const io::Bytes gz = packed ? io::gzipped(file.bytes) : io::Bytes{};
-        const auto& staged = run.outputs.add(main ? target.parent_path() / file.name : target,
-                                             packed ? gz : file.bytes, context.where());
+        const std::filesystem::path name = main ? path.parent_path() / file.name : path;
+        const auto& staged = run.outputs.add(context.places().output(name.string()), packed ? gz : file.bytes,
+                                             context.where());
         if (!main) main = &staged;
-        run.record.outputs.push_back({staged.target.string(), staged.bytes, staged.sha256, {}});
+        run.record.outputs.push_back({name.lexically_normal().string(), staged.bytes, staged.sha256, {}});
     }
     if (!main || !run.read_back) return;
     const io::ReadBack back = io::read_back(run.outputs.staged(*main), codec, scene, settings);
     run.record.outputs[first].read_back = back.json();
     if (!back.losses.empty())
         context.warn("W-ROUNDED",
-                     fmt::format("'{}' is less sound when read back than the scene: {}", target.string(),
+                     fmt::format("'{}' is less sound when read back than the scene: {}", path.string(),
                                  fmt::join(back.losses, ", ")),
                      reason(back.changes, codec, settings));
 }

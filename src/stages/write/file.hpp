@@ -24,9 +24,9 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report);
 
-/// Stages the files, the first as the target and the others beside it, and reads the first back. Warns when
-/// what is read is less sound than the scene.
-void stage_files(const io::Written& written, const std::filesystem::path& target, const io::Codec& codec,
+/// Stages the files, the first at the path as the pipeline names it and the others beside it, and reads the
+/// first back. Warns when what is read is less sound than the scene.
+void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
                  const Scene& scene, const io::WriteSettings& settings, Context& context);
 
 } // namespace facetmill

@@ -66,7 +66,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     const io::Written written = codec->write(out, settings);
     for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
-    stage_files(written, target, *codec, out, settings, context);
+    stage_files(written, o.path.text, *codec, out, settings, context);
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);
         back.transform = lent[k].transform;
