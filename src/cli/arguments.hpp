@@ -67,6 +67,8 @@ class Arguments {
   public:
     /// Declares one; refine what is returned at once, the next declaration may move it.
     Argument& add(std::string names, Argument::Target target, std::string help);
+    /// As they were declared, positional ones too.
+    const std::vector<Argument>& all() const { return all_; }
     /// The long names of options, without their dashes.
     std::vector<std::string> long_names() const;
     /// The option of this name ("-j", "--threads"), or null.
