@@ -19,6 +19,8 @@ class CommandLine {
     Mark mark(std::size_t argument) const;
     /// The mark of the first argument that starts with this text, or of the line as a whole.
     Mark find(const std::string& start) const;
+    /// The mark of this value of an option, an argument of its own or after "=", or of the line as a whole.
+    Mark value(const std::string& text) const;
 
   private:
     std::vector<std::string> arguments_;
@@ -53,6 +55,7 @@ Command stages_command();
 Command schema_command();
 Command formats_command();
 Command explain_command();
+Command completions_command();
 
 /// --quiet, -v, --log.
 void add_message_options(Arguments& arguments, Console& console);

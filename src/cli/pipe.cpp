@@ -62,20 +62,21 @@ bool help_wanted(const Invocation& invocation) {
     return false;
 }
 
-int pipe(const PipelineOptions& options, const std::string& save_to, const Invocation& invocation,
-         const Console& console) {
+int pipe(const PipelineOptions& options, const std::string& save_to, const Arguments& own,
+         const Invocation& invocation, const Console& console) {
     if (help_wanted(invocation)) return 0;
     Problems problems;
     auto settings = plan_settings(options, invocation.line, problems);
     settings.name = "pipe";
     if (!save_to.empty()) settings.others.push_back({save_to, invocation.line.find("--save"), true});
-    const Value document = parse_pipe(invocation.line, invocation.rest, problems);
+    const Value document = parse_pipe(invocation.line, invocation.rest, problems, &own);
     if (problems.any_errors()) { // a report is due; what is wrong with no pipeline at all is not
         Problems others;
-        refuse({pipeline::make_plan({}, settings, others)}, problems, console);
+        refused({pipeline::make_plan({}, settings, others)}, problems, console);
+        return static_cast<int>(ErrorKind::usage);
     }
     const auto plan = pipeline::make_plan(document, settings, problems);
-    refuse({plan}, problems, console);
+    if (refused({plan}, problems, console)) return static_cast<int>(ErrorKind::usage);
     if (!save_to.empty()) save(document, options.reports, save_to);
     return run_with_messages(plan, options, console, "");
 }
@@ -90,8 +91,8 @@ Command pipe_command() {
                 arguments.add("--save", save_to.get(), "Also writes the pipeline as a file for run.");
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);
-                return [=, &console](const Invocation& invocation) {
-                    return pipe(*options, *save_to, invocation, console);
+                return [=, &arguments, &console](const Invocation& invocation) {
+                    return pipe(*options, *save_to, arguments, invocation, console);
                 };
             }};
 }

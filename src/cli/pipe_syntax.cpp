@@ -163,8 +163,8 @@ bool is_common(std::string_view key) { return is_common_key(key) || key == "join
 /// Reads the arguments from left to right; every function leaves at_ behind what it read.
 class Parser {
   public:
-    Parser(const CommandLine& line, std::size_t first, Problems& problems)
-        : line_(line), all_(line.arguments()), at_(first), problems_(problems) {}
+    Parser(const CommandLine& line, std::size_t first, Problems& problems, const Arguments* own)
+        : line_(line), all_(line.arguments()), at_(first), problems_(problems), own_(own) {}
 
     Value document() {
         Value stages = steps();
@@ -184,7 +184,7 @@ class Parser {
             } else
                 list.items.push_back(step());
             if (done() || all_[at_] == "]") return list;
-            ++at_; // the separator
+            if (is_separator(all_[at_])) ++at_; // else it is missing, and that was said
         }
     }
 
@@ -205,6 +205,12 @@ class Parser {
         std::vector<Value> bare;
         const Option* primary = stage ? stage->options->primary() : nullptr;
         while (!at_end_of_step()) {
+            if (skip_own_option(stage)) continue;
+            if (is_forgotten_separator(primary, bare.empty())) {
+                wrong(fmt::format("'{}' is a stage, found among the values of '{}'", all_[at_], name),
+                      fmt::format("did you forget ! before {}?", all_[at_]));
+                break;
+            }
             if (is_option(all_[at_]))
                 option(item, stage);
             else if (all_[at_] == "[") {
@@ -217,6 +223,43 @@ class Parser {
         }
         if (!bare.empty()) set_bare(item.entries[0].value, std::move(bare), stage, where);
         return item;
+    }
+
+    /// Whether the bare word is a stage that a ! should stand before. The first value of an option that holds
+    /// words or files may be called so, and so may a file that is there.
+    bool is_forgotten_separator(const Option* primary, bool first) const {
+        const std::string& word = all_[at_];
+        if (!stage_named(word) && word != "foreach" && word != "branch") return false;
+        std::error_code ignored;
+        if (!primary) return true;
+        if (std::any_of(primary->choices.begin(), primary->choices.end(),
+                        [&](const Choice& choice) { return choice.name == word; }))
+            return false;
+        const bool takes_words = primary->dimension == Dimension::none && primary->type != "integer" &&
+                                 primary->type != "number" && primary->type != "vector";
+        return !(first && takes_words) && !std::filesystem::exists(word, ignored);
+    }
+
+    /// An option of pipe itself that stands behind a stage, with its value: says where it belongs.
+    bool skip_own_option(const StageInfo* stage) {
+        const std::string& word = all_[at_];
+        if (!own_ || !stage || word.size() < 2 || !word.starts_with("-")) return false;
+        const bool is_long = word.starts_with("--");
+        const std::string name = is_long ? word.substr(0, word.find('=')) : word.substr(0, 2);
+        const Argument* argument = own_->find(name);
+        if (!argument || (is_long && takes(*stage, name.substr(2)))) return false;
+        wrong(fmt::format("'{}' is an option of pipe itself, found behind the stage '{}'", name, stage->name),
+              fmt::format("it comes before the first stage: facetmill pipe {} ... load ...", name));
+        const bool attached = is_long ? word.find('=') != word.npos : word.size() > 2;
+        ++at_;
+        if (!argument->is_flag() && !attached && !at_end_of_step()) ++at_;
+        return true;
+    }
+
+    /// Whether an option of this name is one of the stage, or a common key.
+    static bool takes(const StageInfo& stage, const std::string& name) {
+        return is_common(name.substr(0, name.find('.'))) || find_dotted(stage.options, name) ||
+               find_dotted(stage.options, with_underscores(name));
     }
 
     /// Gives a stage its bare values: alone, or as the primary option beside the others.
@@ -491,12 +534,13 @@ class Parser {
     const std::vector<std::string>& all_;
     std::size_t at_;
     Problems& problems_;
+    const Arguments* own_;
 };
 
 } // namespace
 
-Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems) {
-    return Parser(line, first, problems).document();
+Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems, const Arguments* own) {
+    return Parser(line, first, problems, own).document();
 }
 
 } // namespace facetmill::cli

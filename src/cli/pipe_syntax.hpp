@@ -9,8 +9,10 @@
 namespace facetmill::cli {
 
 /// The stages from argument first on, as a document of format 1. Problems of the one-liner's own syntax
-/// (E-PIPE) are added.
-Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems);
+/// (E-PIPE) are added, also of a missing ! between stages, and of options of pipe itself (own; null: none are
+/// known) that stand behind a stage.
+Value parse_pipe(const CommandLine& line, std::size_t first, Problems& problems,
+                 const Arguments* own = nullptr);
 
 /// An argument as a value of that option (null: unknown): "@{x}" is "${x}", "50pct" is "50%", vectors and
 /// lists are split at commas (lists of paths are not: a path may hold a comma), and what stands in braces, or

@@ -2,6 +2,7 @@
 #include "base/spelling.hpp"
 #include "cli/command.hpp"
 #include "docs/versions.hpp"
+#include "stage/stage.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,9 +11,10 @@
 namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
-    static const std::vector<Command> all{
-        run_command(),  plan_command(),   pipe_command(),   check_command(),   info_command(),
-        diff_command(), stages_command(), schema_command(), formats_command(), explain_command()};
+    static const std::vector<Command> all{run_command(),     plan_command(),       pipe_command(),
+                                          check_command(),   info_command(),       diff_command(),
+                                          stages_command(),  schema_command(),     formats_command(),
+                                          explain_command(), completions_command()};
     return all;
 }
 
@@ -32,7 +34,7 @@ std::string help_text() {
     std::string text =
         "facetmill: a mill for facets. Declarative mesh pipelines that end in checked glTF.\n\n"
         "Usage: facetmill COMMAND ...\n\nCommands\n";
-    for (const auto& c : commands()) text += fmt::format("  {:<8}  {}\n", c.name, c.about);
+    for (const auto& c : commands()) text += fmt::format("  {:<11}  {}\n", c.name, c.about);
     return text + "\n  --help, --version, --version --json\n\nExamples\n"
                   "  facetmill pipe load scan.ply ! simplify 25% ! write web.glb\n"
                   "  facetmill run pipeline.yaml -D input=scan.ply --output-dir out\n"
@@ -55,6 +57,15 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
         if (c.name == name) return c;
         names.push_back(c.name);
     }
+    if (stage_named(name) || name == "branch" || name == "foreach")
+        throw Error(
+            ErrorKind::usage, "E-COMMAND", fmt::format("'{}' is a stage, not a command", name),
+            stage_named(name)
+                ? fmt::format("facetmill pipe load IN ! {0} ... ! write OUT; facetmill stages {0} tells its "
+                              "options",
+                              name)
+                : "facetmill pipe --help",
+            line.mark(0));
     if (name.starts_with("-"))
         throw Error(ErrorKind::usage, "E-OPTION", fmt::format("facetmill itself has no option '{}'", name),
                     "options come after the command: facetmill run ... " + name, line.mark(0));
@@ -91,9 +102,18 @@ void refuse_extras(const Command& command, const Arguments& arguments, const std
 
 /// --strict alone means all warnings; else the next argument would be taken for its value. --quiet with a
 /// value is --allow.
-std::vector<std::string> spelled_out(std::vector<std::string> words, bool takes_the_rest) {
-    for (auto& word : words) {
+std::vector<std::string> spelled_out(std::vector<std::string> words, bool takes_the_rest,
+                                     const CommandLine& line) {
+    const auto refuse_id_apart = [&](std::size_t i) {
+        if (i + 1 >= words.size() || !words[i + 1].starts_with("W-")) return;
+        throw Error(ErrorKind::usage, "E-ARGUMENT",
+                    fmt::format("{0} and a warning's id are one argument: {0}={1}", words[i], words[i + 1]),
+                    fmt::format("{} alone is about all warnings", words[i]), line.mark(i + 2));
+    };
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        std::string& word = words[i];
         if (takes_the_rest && !word.starts_with("-")) break;
+        if (word == "--strict" || word == "--quiet") refuse_id_apart(i);
         if (word == "--strict") word = "--strict=*";
         if (word.starts_with("--quiet=")) word = "--allow=" + word.substr(8);
     }
@@ -117,7 +137,7 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
     Arguments arguments;
     const auto work = command.declare(arguments, console);
     std::vector<std::string> words(line.arguments().begin() + 1, line.arguments().end());
-    words = spelled_out(std::move(words), command.takes_the_rest);
+    words = spelled_out(std::move(words), command.takes_the_rest, line);
     Invocation invocation{line, 0};
     if (command.takes_the_rest) {
         const auto count = leading_options(arguments, words);

@@ -66,3 +66,30 @@ TEST_CASE("one JSON document names the release and its libraries", "[cli]") {
     CHECK(version_text(true).find("\"CGAL\"") != std::string::npos);
     CHECK(version_text(true).find("unknown") == std::string::npos);
 }
+
+TEST_CASE("the value of an option is found after its equals sign, too", "[cli]") {
+    const CommandLine line({"run", "--allow=W-X", "--allow", "W-Y"});
+    CHECK(to_string(line.value("W-X")) == "command line:1:23");
+    CHECK(to_string(line.value("W-Y")) == "command line:1:35");
+    CHECK(to_string(line.value("W-Z")) == "command line:1:1");
+}
+
+TEST_CASE("an id beside --strict is not taken for a pipeline or a stage", "[cli]") {
+    CHECK(message({"run", "--strict", "W-UNITS", "a.yaml"}) ==
+          "command line:1:24: error[E-ARGUMENT]: --strict and a warning's id are one argument: "
+          "--strict=W-UNITS\n"
+          "  facetmill run --strict W-UNITS a.yaml\n"
+          "                         ^~~~~~~\n"
+          "  hint: --strict alone is about all warnings\n");
+    CHECK(message({"pipe", "--quiet", "W-UNITS", "load", "a.ply"}).find("--quiet=W-UNITS") !=
+          std::string::npos);
+}
+
+TEST_CASE("a stage is no command", "[cli]") {
+    CHECK(
+        message({"relax", "a.ply"}) ==
+        "command line:1:11: error[E-COMMAND]: 'relax' is a stage, not a command\n"
+        "  facetmill relax a.ply\n"
+        "            ^~~~~\n"
+        "  hint: facetmill pipe load IN ! relax ... ! write OUT; facetmill stages relax tells its options\n");
+}

@@ -124,6 +124,46 @@ TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
     CHECK(yaml("relax --lambda").starts_with("command line:1:22: error[E-PIPE]: '--lambda' needs a value\n"));
 }
 
+TEST_CASE("a stage among the values of another lacks its separator", "[cli]") {
+    CHECK(yaml("load a.ply simplify 25% ! write o.glb") ==
+          "command line:1:27: error[E-PIPE]: 'simplify' is a stage, found among the values of 'load'\n"
+          "  facetmill pipe load a.ply simplify 25% ! write o.glb\n"
+          "                            ^~~~~~~~\n"
+          "  hint: did you forget ! before simplify?\n");
+    CHECK(yaml("load a.ply ! clip z=0 --cap relax 3 foreach n=1 [ write @{n}.ply ]")
+              .find("did you forget ! before foreach?") != std::string::npos);
+    CHECK(same("load a.ply b.ply", "[{load: [a.ply, b.ply]}]"));
+    CHECK(same("load simplify", "[{load: simplify}]")); // a file may have that name
+}
+
+TEST_CASE("options of pipe itself come before the first stage", "[cli]") {
+    cli::Arguments own;
+    bool quiet = false;
+    std::string report;
+    own.add("-q,--quiet", &quiet, "");
+    own.add("--report", &report, "");
+    const auto problems = [&](const std::string& text) {
+        std::vector<std::string> words{"pipe"};
+        std::istringstream split(text);
+        for (std::string word; split >> word;) words.push_back(word);
+        const cli::CommandLine line(words);
+        Problems problems;
+        const Value document = cli::parse_pipe(line, 1, problems, &own);
+        std::string all = pipeline::emit_yaml(*document.find("stages"));
+        for (const auto& d : problems.all()) all += render(d) + "\n";
+        return all;
+    };
+    CHECK(problems("load a ! write b.glb --report r.json") ==
+          "- load: a\n- write: b.glb\n"
+          "command line:1:37: error[E-PIPE]: '--report' is an option of pipe itself, found behind the stage "
+          "'write'\n"
+          "  facetmill pipe load a ! write b.glb --report r.json\n"
+          "                                      ^~~~~~~~\n"
+          "  hint: it comes before the first stage: facetmill pipe --report ... load ...\n");
+    CHECK(problems("load a -q ! relax")
+              .starts_with("- load: a\n- relax\ncommand line:1:23: error[E-PIPE]: '-q' is"));
+}
+
 TEST_CASE("no line of brackets, separators and options crashes the parser", "[cli][property]") {
     const std::vector<std::string> words{"[",      "]",   "!",     "relax",  "foreach",
                                          "branch", "a=1", "--cap", "--join", "3"};
