@@ -97,7 +97,7 @@ Words of_choices(const std::vector<Choice>& choices) {
 void add_stage_tables(const StageInfo& stage, Tables& tables) {
     Words options;
     const std::string owner = "stage " + stage.name;
-    for (const auto& row : docs::rows(stage.options)) {
+    for (const auto& row : docs::rows(*stage.options)) {
         options.push_back({"--" + row.name, brief_help(row.help)});
         if (row.choices.empty()) continue;
         tables.emplace_back("values " + owner + " --" + row.name, of_choices(row.choices));

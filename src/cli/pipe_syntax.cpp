@@ -258,8 +258,8 @@ class Parser {
 
     /// Whether an option of this name is one of the stage, or a common key.
     static bool takes(const StageInfo& stage, const std::string& name) {
-        return is_common(name.substr(0, name.find('.'))) || find_dotted(stage.options, name) ||
-               find_dotted(stage.options, with_underscores(name));
+        return is_common(name.substr(0, name.find('.'))) || find_dotted(*stage.options, name) ||
+               find_dotted(*stage.options, with_underscores(name));
     }
 
     /// Gives a stage its bare values: alone, or as the primary option beside the others.

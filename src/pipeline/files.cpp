@@ -181,7 +181,8 @@ namespace {
 bool has_effect(const Steps& steps) {
     return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
         if (step.ensure) return true;
-        if (step.stage) return step.stage->checks || (!step.stage->loads && step.stage->options.find("path"));
+        if (step.stage)
+            return step.stage->checks || (!step.stage->loads && step.stage->options->find("path"));
         return std::any_of(step.arms.begin(), step.arms.end(),
                            [](const Arm& arm) { return has_effect(*arm.steps); });
     });
