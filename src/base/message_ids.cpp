@@ -441,8 +441,10 @@ const std::vector<MessageId>& message_ids() {
          "Use materials or objects if they are needed."},
         {"W-IMAGE",
          {},
-         "An image or texture that a file refers to is not read or not kept.",
-         "Put the image beside the file."},
+         "An image or texture that a file refers to is missing, outside of the file's directory, or of a "
+         "kind "
+         "that is not kept.",
+         "Put the image beside the file, as PNG or JPEG."},
         {"W-INCOMPLETE",
          {},
          "Indices are left over after the last triangle of a glTF primitive.",
@@ -459,6 +461,11 @@ const std::vector<MessageId>& message_ids() {
          {},
          "Instances of a glTF mesh differ now, so they get separate meshes.",
          "Nothing, if the larger file is fine."},
+        {"W-INSTANCING",
+         {},
+         "A glTF node places many instances of its mesh (EXT_mesh_gpu_instancing), and stages see one of "
+         "them.",
+         "The instances stay in glTF that is written of the scene; make them nodes before to work on all."},
         {"W-LODS",
          {},
          "write should link levels of detail, but the scene has none.",
@@ -483,8 +490,8 @@ const std::vector<MessageId>& message_ids() {
         {"W-MTL",
          {},
          "A material library of an OBJ file is missing, in another directory, or contains statements that "
-         "are not kept.",
-         "Put the library beside the OBJ file."},
+         "glTF has no place for.",
+         "Put the library beside the OBJ file; the message names what is not kept."},
         {"W-NAN",
          {},
          "Values of an attribute are not finite numbers and are set to 0.",
@@ -528,9 +535,11 @@ const std::vector<MessageId>& message_ids() {
          "Give more iterations, or a larger `until`; `method: hc` or `taubin` where the surface shrinks."},
         {"W-ROUNDED",
          {},
-         "A written file is less sound than the scene when it is read back, because of rounding or a limit "
-         "of the format.",
-         "Use a format with more digits (`precision: full`), or more Draco bits."},
+         "A written file is less sound than the scene when it is read back, or its points have moved by more "
+         "than "
+         "a millionth of the diagonal, because of rounding or a limit of the format.",
+         "Use a format with more digits (`precision: full`), or more Draco bits; move what is far from the "
+         "origin near it (`transform: {centre: true}`)."},
         {"W-SECTION-CROSSES",
          {},
          "Contours of a section intersect themselves. What they wind around, either way, counts as inside.",
@@ -554,8 +563,8 @@ const std::vector<MessageId>& message_ids() {
          "Use `transform: {scale: ...}` to bring it near 1."},
         {"W-SKIN",
          {},
-         "A skinned part is moved in bind pose and loses its skin.",
-         "Nothing, if it need not move."},
+         "A part in bind pose loses its skin: it is joined with others, or has moved away from its skeleton.",
+         "Nothing, if it need not move; else treat all parts of a skeleton alike."},
         {"W-SKIPPED",
          {},
          "Something in a file that a mesh cannot represent is skipped.",
@@ -587,6 +596,11 @@ const std::vector<MessageId>& message_ids() {
          "Validate what entered the stage: folded, flat or doubled surfaces cancel. "
          "`--strict=W-SURFACE-LOST` "
          "makes it an error."},
+        {"W-TEXTURES",
+         {},
+         "Textures are not written, because the format cannot hold them or facetmill does not write them "
+         "there.",
+         "Write glTF to keep them."},
         {"W-THICKEN",
          {},
          "The walls of a thickened part intersect, are turned over where they have no room, or lie within "

@@ -157,6 +157,7 @@ const std::vector<Capability>& capabilities() {
         {"full_precision", &Capabilities::full_precision},
         {"mesh_manifold", &Capabilities::mesh_manifold},
         {"lods", &Capabilities::lods},
+        {"textures", &Capabilities::textures},
     };
     return all;
 }

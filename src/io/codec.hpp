@@ -36,7 +36,16 @@ struct ReadSettings {
 struct DracoSettings {
     bool on = false;
     int position_bits = 14, normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12;
-    int speed = 3; ///< 0 smallest .. 10 fastest
+    int speed = 3;                ///< 0 smallest .. 10 fastest
+    bool keep_degenerate = false; ///< faces that name a vertex twice stay, in a primitive of their own
+};
+
+/// Where the images go that a document names as files.
+enum class Textures {
+    automatic, ///< into the file where it is one (GLB), else beside it
+    embed,     ///< among the written file's own bytes
+    copy,      ///< beside the written file, under names that begin with its stem
+    reference  ///< nowhere: the written file names them where they lie
 };
 
 struct WriteSettings {
@@ -48,6 +57,8 @@ struct WriteSettings {
     bool mesh_manifold = false; ///< glTF: EXT_mesh_manifold
     bool lods = false;          ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
     std::string title{};        ///< the output's stem, for names inside the file
+    Textures textures = Textures::automatic; ///< glTF
+    std::filesystem::path directory{};       ///< the output's, for Textures::reference
 };
 
 /// A written file: the main one first, then its neighbours (a .gltf's .bin and images, an .obj's .mtl).
@@ -59,7 +70,8 @@ struct OutputFile {
 struct Written {
     std::vector<OutputFile> files;
     std::vector<Diagnostic> warnings;
-    AttributeChanges changes; ///< what the format cannot hold is dropped, and said
+    AttributeChanges changes;      ///< what the format cannot hold is dropped, and said
+    std::size_t dropped_faces = 0; ///< that the scene has and the file has not, for the read-back
 };
 
 /// What a format can hold, and in which ways it is written. `write` refuses options by it, and `facetmill
@@ -77,11 +89,12 @@ struct Capabilities {
     bool full_precision = false; ///< WriteSettings::double_positions
     bool mesh_manifold = false;  ///< WriteSettings::mesh_manifold
     bool lods = false;           ///< WriteSettings::lods
+    bool textures = false;       ///< WriteSettings::textures
     Draco draco = Draco::never;  ///< WriteSettings::draco
     std::string attributes{};    ///< which it holds, in words
     std::string companion{};     ///< the suffix of a file beside it that it cannot do without: ".bin"
     std::string library{};       ///< the suffix of a file beside it that holds the materials: ".mtl"
-    bool copies_images = false;  ///< images that are files stay files, beside it
+    bool copies_images = false;  ///< images that are files stay files, beside it, unless Textures says else
 };
 
 /// A capability that is there or not, by its name.

@@ -1,7 +1,5 @@
 #include "io/convert.hpp"
 
-#include "io/flatten.hpp"
-
 #include <fmt/format.h>
 #include <set>
 #include <utility>
@@ -45,9 +43,7 @@ Conversion convert(Scene& scene, const Convention& target) {
     if (done.factor != 1) done.transform = scaling(done.factor) * done.transform;
     if (done.transform.identity()) return done;
     for (auto& part : scene.parts) {
-        part.transform = done.transform * effective(part);
-        if (part.skinned) done.lost_skins.push_back(part.name);
-        part.skinned = false;
+        part.transform = done.transform * part.transform;
     }
     return done;
 }

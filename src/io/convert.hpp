@@ -16,13 +16,11 @@ struct Conversion {
     bool turned = false;       ///< the up axis changed
     bool unit_guessed = false; ///< the target has a unit, the scene none: numbers are as they were
     bool up_guessed = false;
-    Transform transform;                 ///< old world -> new world
-    std::vector<std::string> lost_skins; ///< the parts that were skinned and are plain now
+    Transform transform; ///< old world -> new world
 };
 
 /// Puts the scene into the convention by the transforms of its parts; meshes stay as they are. Unknown, in
-/// the target, means as the scene has it. Skinned parts, which ignore their transform, get one (and are plain
-/// then) when there is something to convert.
+/// the target, means as the scene has it. Skinned parts are moved in bind pose.
 Conversion convert(Scene& scene, const Convention& target);
 
 /// Adds the parts, materials and documents of `more` to the scene, in the scene's convention (the first load

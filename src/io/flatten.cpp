@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cstring>
 #include <fmt/format.h>
+#include <map>
+#include <set>
 
 namespace facetmill::io {
 
@@ -40,6 +42,36 @@ void leave_documents(Written& written, const Scene& scene, const char* format) {
             for (const auto& name : *at)
                 if (name.is_string()) leave(name.get<std::string>());
     }
+}
+
+void warn_of_textures(Written& written, const Scene& scene, const char* format) {
+    std::set<Index> used;
+    for (const auto& part : scene.parts)
+        for (const auto& primitive : part.mesh.primitives)
+            if (primitive.material < scene.materials.size()) used.insert(primitive.material);
+    std::map<int, Json> documents;
+    std::vector<std::string> textured;
+    for (const Index m : used) {
+        const Material& material = scene.materials[m];
+        if (material.document < 0 || material.index < 0) continue;
+        const auto [at, fresh] = documents.try_emplace(material.document);
+        if (fresh)
+            at->second = Json::parse(scene.documents[static_cast<std::size_t>(material.document)]->json,
+                                     nullptr, false);
+        const Json::json_pointer place(fmt::format("/materials/{}", material.index));
+        if (at->second.is_object() && at->second.contains(place) &&
+            at->second[place].dump(-1, ' ', false, Json::error_handler_t::replace).find("Texture\":") !=
+                std::string::npos)
+            textured.push_back(material.name.empty() ? fmt::format("{}", material.index) : material.name);
+    }
+    if (!textured.empty())
+        written.warnings.push_back(
+            {Severity::warning,
+             "W-TEXTURES",
+             fmt::format("the textures of {} material{} are not written to {}: {}", textured.size(),
+                         textured.size() == 1 ? "" : "s", format, fmt::join(textured, ", ")),
+             {},
+             "glTF keeps them: write .glb"});
 }
 
 void dropped(Written& written, const Attribute& attribute, std::string why) {

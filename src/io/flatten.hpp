@@ -27,6 +27,10 @@ void dropped(Written& written, const Attribute& attribute, std::string why);
 /// animations, cameras, extensions. `format` is spelled as in "STL".
 void leave_documents(Written& written, const Scene& scene, const char* format);
 
+/// Warns (W-TEXTURES) of textured materials that the scene's faces have, by a format that could hold
+/// textures.
+void warn_of_textures(Written& written, const Scene& scene, const char* format);
+
 /// Numbers, text or bytes written chunk by chunk in parallel and joined in order.
 /// write(begin, end, std::string& out) appends the text of items [begin, end).
 template <class Write>

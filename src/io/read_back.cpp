@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace facetmill::io {
 
@@ -70,7 +71,12 @@ struct Flat {
     std::vector<Vec3> points;
     std::vector<Index> corners;
 
-    explicit Flat(const Scene& scene) {
+    /// degenerate: with the faces of fewer than three different vertices.
+    explicit Flat(const Scene& scene, bool degenerate = true) {
+        if (!degenerate) {
+            add_sound_faces(scene);
+            return;
+        }
         for (const auto& part : scene.parts) {
             const Transform to_world = effective(part);
             const std::size_t first = points.size(), first_corner = corners.size();
@@ -82,6 +88,22 @@ struct Flat {
                 corners[first_corner + c] =
                     static_cast<Index>(first) + part.mesh.vertex(static_cast<Index>(c));
             });
+        }
+    }
+
+    /// The faces of three different vertices and more, from every part.
+    void add_sound_faces(const Scene& scene) {
+        for (const auto& part : scene.parts) {
+            const Mesh& mesh = part.mesh;
+            const std::size_t first = points.size();
+            for (const Vec3& p : mesh.positions) points.push_back(in_world(part, p));
+            for (Index f = 0; f < mesh.face_count(); ++f) {
+                std::set<Index> vertices;
+                for (const Index w : mesh.face_wedges(f)) vertices.insert(mesh.vertex_of_wedge(w));
+                if (vertices.size() < 3) continue;
+                for (const Index w : mesh.face_wedges(f))
+                    corners.push_back(static_cast<Index>(first) + mesh.vertex_of_wedge(w));
+            }
         }
     }
 
@@ -185,8 +207,8 @@ double farthest(const std::vector<Vec3>& from, const std::vector<Vec3>& to, doub
 }
 
 /// How far a corner or, where the format orders faces anew, a point is from the one that it was; either way.
-double position_error(const Scene& before, const Scene& after, double tolerance) {
-    const Flat wanted(before), found(after);
+double position_error(const Scene& before, const Scene& after, double tolerance, bool degenerate) {
+    const Flat wanted(before, degenerate), found(after);
     if (wanted.corners.size() == found.corners.size() && !wanted.corners.empty()) {
         const double in_order = largest(wanted.corners.size(), [&](std::size_t c) {
             return length(wanted.points[wanted.corners[c]] - found.points[found.corners[c]]);
@@ -199,9 +221,9 @@ double position_error(const Scene& before, const Scene& after, double tolerance)
 
 /// How far the format may move a point: float32's rounding of the largest coordinate (twice, for a node's
 /// transform between), and half a step of Draco's grid in every direction.
-double allowed(const Scene& scene, const WriteSettings& settings) {
+void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings) {
     Box world;
-    double largest = 0, step = 0;
+    double largest = 0;
     for (const auto& part : scene.parts) {
         Box own;
         const Transform to_world = effective(part);
@@ -218,14 +240,17 @@ double allowed(const Scene& scene, const WriteSettings& settings) {
         if (settings.draco.on && settings.draco.position_bits > 0) {
             const Vec3 e = own.extent();
             const double range = std::max({e.x, e.y, e.z}) * std::sqrt(scale);
-            step = std::max(
-                step, range / static_cast<double>((std::int64_t{1} << settings.draco.position_bits) - 1));
+            const auto steps = static_cast<double>((std::int64_t{1} << settings.draco.position_bits) - 1);
+            back.grid_step = std::max(back.grid_step, range / steps);
         }
     }
-    if (!world.empty()) largest = std::max({largest, length(world.min), length(world.max)});
-    constexpr double float_step = 1.0 / (1 << 23);
-    return largest * 2 * float_step +
-           step; // half a step times the square root of three, and a margin for rounding
+    if (!world.empty()) {
+        largest = std::max({largest, length(world.min), length(world.max)});
+        back.diagonal = length(world.extent());
+    }
+    back.float_step = largest / (1 << 23);
+    // Half a step times the square root of three, and a margin for rounding.
+    back.tolerance = 2 * back.float_step + back.grid_step;
 }
 
 /// The properties that a file should not lose; truths, or counts of what is wrong.
@@ -253,6 +278,11 @@ std::vector<std::string> losses(const Properties& before, const Properties& afte
 
 } // namespace
 
+bool ReadBack::too_far_for_floats() const {
+    constexpr double tolerable = 1e-6; // of the diagonal
+    return position_error > tolerable * diagonal && float_step > grid_step;
+}
+
 Json ReadBack::json() const {
     Json all = {{"vertices", vertices}, {"faces", faces}, {"position_error", position_error}};
     for (const char* name : sound_properties) {
@@ -266,7 +296,8 @@ Json ReadBack::json() const {
     return all;
 }
 
-ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings) {
+ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings,
+                   std::size_t dropped_faces) {
     ReadBack back;
     const auto refuse = [&](std::string message) {
         throw Error(ErrorKind::output, "E-READBACK",
@@ -284,14 +315,16 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, co
         polygons += part.mesh.face_count();
         triangles += part.mesh.corner_count() - 2 * part.mesh.face_count();
     }
+    triangles -= dropped_faces;
+    if (dropped_faces > 0) polygons = triangles;
     for (const auto& part : back.scene.parts) back.vertices += part.mesh.vertex_count();
     back.faces = back.scene.face_count();
     if (back.faces != polygons && back.faces != triangles)
         refuse(fmt::format("{} faces, expected {}", back.faces,
                            polygons == triangles ? fmt::format("{}", polygons)
                                                  : fmt::format("{} (or {} triangles)", polygons, triangles)));
-    back.tolerance = allowed(scene, settings);
-    back.position_error = position_error(scene, back.scene, back.tolerance);
+    set_tolerance(back, scene, settings);
+    back.position_error = position_error(scene, back.scene, back.tolerance, dropped_faces == 0);
     if (back.position_error > back.tolerance)
         refuse(fmt::format("a vertex moved farther than {}", back.tolerance));
     back.soundness = inspect(back.scene);

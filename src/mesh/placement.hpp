@@ -5,11 +5,12 @@
 
 namespace facetmill {
 
-/// The part's transform as it counts, part space -> world: skinned meshes ignore their node's.
-inline Transform effective(const Part& part) { return part.skinned ? Transform{} : part.transform; }
+/// The part's transform as it counts, part space -> world. A skinned part is in bind pose, whatever its
+/// node's transform, so its own is the identity until a stage moves it.
+inline Transform effective(const Part& part) { return part.transform; }
 
 /// The place in the world of a point of the part.
-inline Vec3 in_world(const Part& part, const Vec3& p) { return part.skinned ? p : part.transform.point(p); }
+inline Vec3 in_world(const Part& part, const Vec3& p) { return part.transform.point(p); }
 
 /// The positions and faces alone, with the mesh's own numbers of vertices, wedges, corners and faces:
 /// attributes and primitives are left behind. O(n).

@@ -67,7 +67,7 @@ Surface surface_of(const Mesh& mesh) {
 
 Surface surface_of(const Part& part) {
     Surface surface = surface_of(part.mesh);
-    if (!part.skinned && !part.transform.identity())
+    if (!part.transform.identity())
         parallel_for(surface.positions.size(), [&](std::size_t v) {
             surface.positions[v] = part.transform.point(surface.positions[v]);
         });

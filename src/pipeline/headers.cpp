@@ -1,3 +1,4 @@
+#include "io/image_files.hpp"
 #include "pipeline/plan.hpp"
 #include "stage/options/plane.hpp"
 
@@ -118,10 +119,12 @@ class Walk {
         const StageFiles files = step.stage->files(step.options.get());
         if (files.materials && has_materials_)
             headers.more_outputs.push_back(places_.output(files.materials->text));
-        if (files.images)
-            for (const auto& image : images_)
-                headers.more_outputs.push_back(
-                    places_.output((fs::path(files.images->text) / image).string()));
+        if (!files.images) return;
+        const fs::path path = files.images->text;
+        const std::string stem = path.stem().string();
+        io::ImageNames names(stem, {stem + ".gltf", stem + ".glb", stem + ".bin"});
+        for (const auto& image : images_)
+            headers.more_outputs.push_back(places_.output((path.parent_path() / names.add(image)).string()));
     }
 
     void resolve_lengths(const Step& step, Unit unit) {

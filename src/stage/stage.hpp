@@ -27,7 +27,7 @@ namespace facetmill {
 struct StageFiles {
     std::vector<PathText> inputs, outputs;
     std::optional<PathText> materials{}; ///< also written when the scene has materials
-    std::optional<PathText> images{};    ///< the folder that images of the scene are copied to
+    std::optional<PathText> images{};    ///< the output that images of the scene are copied beside
 };
 
 struct StageInfo {

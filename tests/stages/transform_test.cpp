@@ -75,12 +75,12 @@ TEST_CASE("transform bakes no part that an animation moves", "[stages]") {
 TEST_CASE("merge leaves no joints without a skin, thicken no skin without joints", "[stages]") {
     Scene scene = scene_of(shapes::cube());
     scene.parts[0].skinned = true;
-    scene.parts[0].transform.m[0][3] = 9; // which a skin ignores
     scene.parts[0].mesh.attributes = {
         {"JOINTS_0", Domain::wedge, Role::joints, 4, false, std::vector<std::uint8_t>(32, 0)},
         {"WEIGHTS_0", Domain::wedge, Role::weights, 4, false, std::vector<float>(32, 0.25F)}};
     const auto merged = run_stage("merge", "", scene);
     CHECK_FALSE(merged.scene.parts[0].skinned);
+    CHECK(merged.warnings() == std::vector<std::string>{"W-SKIN"});
     CHECK(merged.scene.parts[0].mesh.find("JOINTS_0", Domain::wedge) == nullptr);
     CHECK(merged.scene.parts[0].mesh.find("WEIGHTS_0", Domain::wedge) == nullptr);
     const auto wires = run_stage("thicken", "{thickness: 0.1, mode: edges}", scene);
@@ -89,19 +89,16 @@ TEST_CASE("merge leaves no joints without a skin, thicken no skin without joints
     CHECK(wires.record.warnings.at(0).id == "W-SKIN");
 }
 
-TEST_CASE("transform says when a skin is lost, by units and axes too", "[stages]") {
+TEST_CASE("transform keeps skins, by units and axes too", "[stages]") {
     Scene scene = scene_of(shapes::cube(), Unit::m);
     scene.up = UpAxis::y;
     scene.parts[0].skinned = true;
     for (const char* options : {"{scale: 2}", "{unit: mm}", "{up: z}"}) {
         const auto run = run_stage("transform", options, scene);
-        CHECK_FALSE(run.scene.parts[0].skinned);
-        REQUIRE(run.record.warnings.size() == 1);
-        CHECK(run.record.warnings[0].id == "W-SKIN");
+        CHECK(run.scene.parts[0].skinned);
+        CHECK_FALSE(run.scene.parts[0].transform.identity());
+        CHECK(run.record.warnings.empty());
     }
-    const auto run = run_stage("transform", "{unit: m, up: y}", scene);
-    CHECK(run.scene.parts[0].skinned);
-    CHECK(run.record.warnings.empty());
 }
 
 TEST_CASE("transform moves nodes, and meshes when it bakes", "[stages]") {

@@ -11,7 +11,7 @@
 
 namespace facetmill::test {
 
-inline Scene scene_of(Mesh mesh, std::string name = "thing") {
+inline Scene scene_in_metres(Mesh mesh, std::string name = "thing") {
     Scene scene;
     scene.unit = Unit::m;
     scene.up = UpAxis::y;

@@ -5,6 +5,7 @@
 #include "io/gltf/mesh.hpp"
 #include "io/gltf/nodes.hpp"
 #include "io/gltf/patch.hpp"
+#include "io/image_files.hpp"
 
 #include <fmt/format.h>
 #include <map>
@@ -87,6 +88,27 @@ double bytes_of(const Mesh& mesh) {
     return bytes;
 }
 
+/// Says of a node that places many instances of its mesh that only the mesh is a part.
+void warn_of_instancing(const Source& source, const Placement& placement, ReadLog& log) {
+    if (placement.node < 0) return;
+    const auto extensions =
+        item(source.json(), "nodes", static_cast<std::size_t>(placement.node)).find("extensions");
+    const auto instancing = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
+    const auto attributes = instancing ? instancing->find("attributes") : std::nullopt;
+    if (!attributes || attributes->json().empty() || !attributes->json().is_object()) return;
+    const auto first = attributes->json().begin();
+    const std::size_t count = accessor(source, Place(*first, attributes->path() + "." + first.key())).count;
+    log.warnings.push_back(
+        {Severity::warning,
+         "W-INSTANCING",
+         fmt::format("part '{}' has {} instances by EXT_mesh_gpu_instancing: stages and formats other than "
+                     "glTF see the mesh once, where its node is",
+                     placement.name, count),
+         {},
+         "",
+         false});
+}
+
 void read_parts(Scene& scene, Source& source, const ReadSettings& settings, ReadLog& log) {
     const auto frames = node_frames(source.json(), [&](const char* id, std::string message) {
         log.warnings.push_back({Severity::warning, id, std::move(message), {}, "", false});
@@ -95,6 +117,7 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
     std::size_t vertices = 0;
     double bytes = 0; // of copies: a node costs few bytes of JSON
     for (const auto& placement : placements(source.json(), frames)) {
+        warn_of_instancing(source, placement, log);
         Part part;
         if (const auto known = first_part.find(placement.mesh); known != first_part.end()) {
             bytes += bytes_of(scene.parts[known->second].mesh);
@@ -122,6 +145,18 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
     }
 }
 
+/// Throws malformed (E-EMPTY) for a document of points and lines only.
+void refuse_without_faces(const Json& document, const std::string& name) {
+    std::size_t primitives = 0;
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
+        primitives += item(document, "meshes", m).at("primitives").size();
+    if (primitives > 0)
+        throw Error(ErrorKind::malformed, "E-EMPTY",
+                    fmt::format("'{}' has no faces: its {} primitive{} are placed nowhere or hold points and "
+                                "lines only",
+                                name, primitives, primitives == 1 ? "" : "s"));
+}
+
 Chunks chunks_of(const Input& input) {
     if (is_glb(input.bytes())) return split_glb(input.bytes());
     Chunks chunks;
@@ -146,6 +181,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
         scene.materials.push_back(read_material(item(json, "materials", i), i));
     Source source(json, document->buffers);
     read_parts(scene, source, settings, log);
+    if (scene.parts.empty()) refuse_without_faces(json, input.name());
     scene.documents.push_back(std::move(document));
     return scene;
 }
@@ -183,7 +219,7 @@ void peek(const Input& input, FileHeader& header) {
         header.has_materials = json.contains("materials") && !json["materials"].empty();
         for (const bool images : {false, true})
             for (const auto& name : neighbours(json, images ? "images" : "buffers")) {
-                const auto path = neighbour_path(input, name);
+                const auto path = path_below(input, name);
                 if (!path) continue;
                 header.files.push_back(*path);
                 std::error_code ignored;
@@ -202,19 +238,6 @@ Json empty_document() {
             {"scenes", Json::array({Json::object()})}};
 }
 
-std::string percent_encoded(const std::string& name) {
-    static constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
-    std::string out;
-    for (const char c : name) {
-        if (plain.find(c) != std::string_view::npos)
-            out += c;
-        else
-            out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-    }
-    return out;
-}
-
 Bytes to_bytes(const std::string& text) {
     const auto bytes = std::as_bytes(std::span(text));
     return {bytes.begin(), bytes.end()};
@@ -229,36 +252,15 @@ void drop_unused_draco(Builder& builder) {
     if (!used) builder.drop_extension("KHR_draco_mesh_compression");
 }
 
-/// The images that the written document names, as files beside it.
-void add_images(Patch& patch) {
-    for (std::size_t i = 0; i < count_of(patch.builder.json(), "images"); ++i) {
-        const auto uri = item(patch.builder.json(), "images", i).find("uri");
-        if (!uri || is_data_uri(uri->text())) continue;
-        const auto found = patch.files.find(uri->text());
-        const auto path = relative_path(uri->text());
-        if (found == patch.files.end() || !path) {
-            patch.warn("W-IMAGE", fmt::format("{}: the image \"{}\" was not read and is not copied",
-                                              uri->path(), uri->text()));
-            continue;
-        }
-        const bool there = std::any_of(patch.written.files.begin(), patch.written.files.end(),
-                                       [&](const OutputFile& f) { return f.name == *path; });
-        if (!there) patch.written.files.push_back({*path, found->second});
-    }
-}
-
-void add_main_files(Patch& patch, Bytes buffer, bool binary) {
-    const std::string stem = patch.settings.title.empty() ? "scene" : patch.settings.title;
+void add_main_files(Patch& patch, const std::string& stem, Bytes buffer, bool binary) {
     Json& json = patch.builder.json();
     if (binary) {
         patch.written.files.push_back({stem + ".glb", join_glb(to_string(json), buffer)});
         return;
     }
-    std::string name = stem + ".bin";
+    const std::string name = stem + ".bin";
     if (!buffer.empty()) {
-        for (int n = 2; patch.files.count(name); ++n)
-            name = fmt::format("{}.{}.bin", stem, n); // an image's name
-        Json first = {{"uri", percent_encoded(name)}};
+        Json first = {{"uri", uri_of(name)}};
         first.update(json["buffers"][0]);
         json["buffers"][0] = std::move(first);
     }
@@ -269,7 +271,8 @@ void add_main_files(Patch& patch, Bytes buffer, bool binary) {
 
 /// What a second document has besides meshes and materials does not come along.
 void warn_of_losses(Patch& patch) {
-    for (std::size_t d = 1; d < patch.scene.documents.size(); ++d) {
+    for (std::size_t d = 0; d < patch.scene.documents.size(); ++d) {
+        if (static_cast<int>(d) == patch.base) continue;
         const Json other = parse_document(patch.scene.documents[d]->json);
         std::vector<std::string> lost;
         for (const char* list : {"animations", "skins", "cameras", "extensions"})
@@ -286,23 +289,34 @@ void warn_of_losses(Patch& patch) {
 
 Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
     Written written;
-    const Document* document = scene.documents.empty() ? nullptr : scene.documents[0].get();
+    const int base = base_document(scene);
+    const Document* document = base < 0 ? nullptr : scene.documents[static_cast<std::size_t>(base)].get();
     Builder builder(document ? parse_document(document->json) : empty_document(),
                     document ? &document->buffers : nullptr);
-    Patch patch{scene, settings, builder, written, document ? 0 : -1};
-    if (document) patch.files = document->files;
+    std::map<std::size_t, Transform> skin_moves;
+    const bool skins_moved = std::any_of(scene.parts.begin(), scene.parts.end(), [](const Part& part) {
+        return part.skinned && !part.transform.identity();
+    });
+    const Scene moved = skins_moved ? in_bind_pose(scene, base, skin_moves, written.warnings) : Scene{};
+    Patch patch{skins_moved ? moved : scene, settings, builder, written, base};
     if (settings.draco.on && settings.mesh_manifold)
         patch.warn("W-MANIFOLD",
                    "EXT_mesh_manifold is not written under Draco, which renumbers what it names");
     claim_placements(patch);
+    move_skins(patch, skin_moves);
     const auto mesh_of_part = patch_meshes(patch);
     patch_levels(patch, patch_nodes(patch, mesh_of_part));
     drop_dead_meshes(patch, mesh_of_part);
     drop_unused_draco(builder);
     warn_of_losses(patch);
+    const std::string stem = settings.title.empty() ? "scene" : settings.title;
+    const Textures textures = settings.textures != Textures::automatic ? settings.textures
+                              : binary                                 ? Textures::embed
+                                                                       : Textures::copy;
+    auto images = place_images(patch, stem, textures);
     Bytes buffer = builder.finish(written.warnings);
-    add_main_files(patch, std::move(buffer), binary);
-    add_images(patch);
+    add_main_files(patch, stem, std::move(buffer), binary);
+    for (auto& image : images) written.files.push_back(std::move(image));
     return written;
 }
 
@@ -324,15 +338,18 @@ int sniff_gltf(Span bytes) {
     return asset ? 2 : 1;
 }
 
+/// companion: of the document that is text, which also has its images beside it.
 Capabilities abilities(std::string companion) {
+    const bool copies = !companion.empty();
     return {.transforms = true,
             .skins = true,
             .mesh_manifold = true,
             .lods = true,
+            .textures = true,
             .draco = Capabilities::Draco::on_request,
             .attributes = "all at vertices, with materials and textures",
             .companion = std::move(companion),
-            .copies_images = true};
+            .copies_images = copies};
 }
 
 const RegisterCodec glb({

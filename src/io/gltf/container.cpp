@@ -1,6 +1,7 @@
 #include "io/gltf/container.hpp"
 
 #include "base/memory.hpp"
+#include "io/image_files.hpp"
 
 #include <cstring>
 #include <fmt/format.h>
@@ -163,26 +164,6 @@ std::string percent_decoded(std::string_view uri) {
     return out;
 }
 
-} // namespace
-
-/// With links resolved: a link may not lead out of the directory either.
-std::optional<fs::path> neighbour_path(const Input& input, const fs::path& relative) {
-    // Absolute first: weakly_canonical leaves a relative path as it is when nothing of it exists yet.
-    std::error_code failed;
-    const fs::path directory = fs::absolute(input.path().empty() ? "." : input.path(), failed);
-    if (failed) return std::nullopt;
-    const fs::path base =
-        fs::weakly_canonical(input.path().empty() ? directory : directory.parent_path(), failed);
-    if (failed) return std::nullopt;
-    const fs::path real = fs::weakly_canonical(base / relative, failed);
-    if (failed) return std::nullopt;
-    const auto mismatch = std::mismatch(base.begin(), base.end(), real.begin(), real.end());
-    if (mismatch.first != base.end()) return std::nullopt;
-    return input.path_beside(relative);
-}
-
-namespace {
-
 Bytes resolve_with_tinygltf(const Place& buffer, const std::string& uri, Neighbour neighbour) {
     const Json document = {{"asset", {{"version", "2.0"}}},
                            {"buffers", {{{"uri", uri}, {"byteLength", neighbour.bytes}}}}};
@@ -212,7 +193,7 @@ Bytes load_uri(const Place& buffer, const std::string& uri, std::size_t length, 
                ReadLog& log) {
     if (is_data_uri(uri)) return resolve_with_tinygltf(buffer, uri, {{}, length});
     const auto relative = relative_path(uri);
-    const auto path = relative ? neighbour_path(input, *relative) : std::nullopt;
+    const auto path = relative ? path_below(input, *relative) : std::nullopt;
     if (!path)
         throw Error(
             ErrorKind::malformed, "E-URI",
@@ -241,7 +222,7 @@ bool is_fallback(const Place& buffer) {
 
 bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
 
-std::optional<fs::path> relative_path(std::string_view uri) {
+std::optional<fs::path> decoded_path(std::string_view uri) {
     for (const char c : uri) { // a scheme ends at a colon before any slash
         if (c == ':') return std::nullopt;
         if (c == '/') break;
@@ -250,8 +231,13 @@ std::optional<fs::path> relative_path(std::string_view uri) {
     if (text.empty() || text.find('\0') != std::string::npos || text.find('\\') != std::string::npos)
         return std::nullopt;
     const fs::path path = fs::path(text).lexically_normal();
-    if (path.is_absolute() || path.empty() || *path.begin() == ".." || path == "." || !path.has_filename())
-        return std::nullopt;
+    if (path.is_absolute() || path == "." || !path.has_filename()) return std::nullopt;
+    return path;
+}
+
+std::optional<fs::path> relative_path(std::string_view uri) {
+    auto path = decoded_path(uri);
+    if (path && *path->begin() == "..") return std::nullopt;
     return path;
 }
 
@@ -292,33 +278,11 @@ std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary
 
 std::map<std::string, Bytes> load_images(const Json& document, const Input& input, ReadLog& log) {
     std::map<std::string, Bytes> files;
-    const auto warn = [&](const std::string& message) {
-        log.warnings.push_back({Severity::warning, "W-IMAGE", message, file_mark(input.name()), ""});
-    };
     for (std::size_t i = 0; i < count_of(document, "images"); ++i) {
         const auto uri = item(document, "images", i).find("uri");
         if (!uri || is_data_uri(uri->text()) || files.count(uri->text())) continue;
-        const auto relative = relative_path(uri->text());
-        const auto path = relative ? neighbour_path(input, *relative) : std::nullopt;
-        std::error_code ignored;
-        if (!path) {
-            warn(fmt::format("{}: \"{}\" is not a file in the document's directory and is not read",
-                             uri->path(), uri->text()));
-        } else if (!fs::is_regular_file(*path, ignored)) {
-            warn(fmt::format("{}: the file \"{}\" is missing", uri->path(), path->string()));
-            log.absent.push_back(*path);
-        } else {
-            const auto size = fs::file_size(*path, ignored);
-            if (!ignored)
-                require_memory(static_cast<double>(size), fmt::format("reading '{}'", path->string()),
-                               "use a machine with more memory");
-            std::ifstream file(*path, std::ios::binary);
-            Bytes& bytes = files[uri->text()];
-            bytes.resize(ignored ? 0 : static_cast<std::size_t>(size));
-            file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-            bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
-            log.files.push_back(*path);
-        }
+        auto bytes = read_image(input, relative_path(uri->text()), uri->text(), uri->path(), log);
+        if (bytes) files[uri->text()] = *std::move(bytes);
     }
     return files;
 }

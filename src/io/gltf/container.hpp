@@ -27,17 +27,14 @@ Bytes join_glb(std::string_view json, Span binary);
 
 /// True for "data:..." URIs.
 bool is_data_uri(std::string_view uri);
-/// The relative path that a URI names, percent-decoded and normalised; none when it is absolute, remote, or
-/// leaves the directory.
+/// The path that a relative URI names, percent-decoded and normalised; none when it is absolute or remote.
+std::optional<std::filesystem::path> decoded_path(std::string_view uri);
+/// The same; none also when it leaves the directory.
 std::optional<std::filesystem::path> relative_path(std::string_view uri);
 
 /// The files that the entries of "buffers" or "images" name, relative to the document, each once; without
 /// those that break the directory rule.
 std::vector<std::filesystem::path> neighbours(const Json& document, const char* list);
-/// Where the neighbour is; none when the input is a stream, or a link leads out of its directory.
-std::optional<std::filesystem::path> neighbour_path(const Input& input,
-                                                    const std::filesystem::path& relative);
-
 /// Reads all buffers of the document. Buffer 0 without a URI is the binary chunk; buffers that exist only for
 /// readers without meshopt decoding stay empty. Throws malformed (E-URI for a URI that breaks the directory
 /// rule, E-BUFFER for too few bytes), missing (E-FILE).

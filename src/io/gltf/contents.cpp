@@ -3,6 +3,7 @@
 #include "base/hash.hpp"
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/container.hpp"
+#include "io/gltf/nodes.hpp"
 
 #include <fmt/format.h>
 
@@ -132,8 +133,9 @@ Json material_contents(const Scene& scene, const Material& material) {
 }
 
 Json document_contents(const Scene& scene) {
-    if (scene.documents.empty()) return nullptr;
-    const Document& document = *scene.documents.front();
+    const int base = base_document(scene);
+    if (base < 0) return nullptr;
+    const Document& document = *scene.documents[static_cast<std::size_t>(base)];
     const Json json = parse_document(document.json);
     Speller speller(json, document);
     Json out = {{"animations", Json::array()},

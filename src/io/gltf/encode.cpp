@@ -132,6 +132,47 @@ Json primitive_frame(const Mesh& mesh, Index p, const EncodeSettings& settings, 
     return out;
 }
 
+/// The table of some of another one's faces.
+Table part_of(const Table& table, const std::vector<bool>& marked, bool wanted) {
+    Table part{table.primitive, {}, {}};
+    std::vector<Index> number(table.wedges.size(), none);
+    for (std::size_t c = 0; c < table.indices.size(); ++c)
+        if (marked[c / 3] == wanted) number[table.indices[c]] = 0;
+    for (std::size_t w = 0; w < number.size(); ++w) {
+        if (number[w] == none) continue;
+        number[w] = static_cast<Index>(part.wedges.size());
+        part.wedges.push_back(table.wedges[w]);
+    }
+    for (std::size_t c = 0; c < table.indices.size(); ++c)
+        if (marked[c / 3] == wanted) part.indices.push_back(number[table.indices[c]]);
+    return part;
+}
+
+/// What Draco compresses well: degenerate faces, which would have it fall back to storing indices, are
+/// dropped or go into tables of their own. A table that has nothing else stays. With morph targets indices
+/// are stored anyway.
+std::vector<Table> draco_tables(const Mesh& mesh, std::vector<Table> tables, bool targets,
+                                const EncodeSettings& settings, EncodedMesh& out) {
+    if (targets) return tables;
+    std::vector<Table> all;
+    for (Table& table : tables) {
+        std::vector<Index> vertices;
+        for (const Index w : table.wedges) vertices.push_back(mesh.vertex_of_wedge(w));
+        const std::vector<bool> degenerate = degenerate_faces(table.indices, vertices);
+        const auto count = static_cast<std::size_t>(std::count(degenerate.begin(), degenerate.end(), true));
+        if (count == 0 || count == degenerate.size()) {
+            all.push_back(std::move(table));
+            continue;
+        }
+        all.push_back(part_of(table, degenerate, false));
+        if (settings.draco.keep_degenerate)
+            all.push_back(part_of(table, degenerate, true));
+        else
+            out.dropped_faces += count;
+    }
+    return all;
+}
+
 /// All primitives' indices in one view, one accessor each: EXT_mesh_manifold then covers them with a single
 /// one.
 void encode_manifold(Builder& builder, const Mesh& mesh, std::vector<Table>& tables,
@@ -278,6 +319,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
         encode_manifold(builder, mesh, tables, columns, settings, written, out);
         return out;
     }
+    if (settings.draco.on) tables = draco_tables(mesh, std::move(tables), out.targets > 0, settings, out);
     for (auto& table : tables) {
         Json primitive = primitive_frame(mesh, table.primitive, settings, builder, written);
         if (settings.draco.on) {
@@ -290,6 +332,15 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
         }
         out.primitives.push_back(std::move(primitive));
     }
+    if (out.dropped_faces > 0)
+        written.warnings.push_back(
+            {Severity::warning,
+             "W-FACES",
+             fmt::format("part '{}': {} degenerate face{} dropped, since Draco cannot compress {}",
+                         settings.name, out.dropped_faces, out.dropped_faces == 1 ? " is" : "s are",
+                         out.dropped_faces == 1 ? "it" : "them"),
+             {},
+             "draco: {degenerate_faces: keep} keeps them in a primitive of their own"});
     return out;
 }
 

@@ -21,11 +21,12 @@ struct EncodedMesh {
     Json primitives = Json::array(); ///< empty when the mesh has no faces: then it cannot be a glTF mesh
     Json extensions;                 ///< of the mesh, or null
     std::size_t targets = 0;         ///< morph targets of each primitive
+    std::size_t dropped_faces = 0;   ///< degenerate ones, under Draco
 };
 
 /// Polygons are triangulated. Positions become float32 with min and max, indices uint16 where they fit, else
-/// uint32. Degenerate faces are kept, wedges that no face uses are not. Throws stage (E-RANGE) when a
-/// position does not fit float32.
+/// uint32. Degenerate faces are kept, except under Draco unless it is to keep them (W-FACES); wedges that no
+/// face uses are not. Throws stage (E-RANGE) when a position does not fit float32.
 EncodedMesh encode_mesh(Builder& builder, const Mesh& mesh, const EncodeSettings& settings, Written& written);
 
 /// The wedges of one primitive in the order they are written, and its triangles in that numbering.

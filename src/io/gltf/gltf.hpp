@@ -15,9 +15,9 @@ namespace facetmill::io {
 /// The material of the document; null when the material is of none. Throws malformed as reading does.
 Json material_contents(const Scene& scene, const Material& material);
 
-/// One entry for each animation, skin, camera and light of the scene's first document: {animations: [...],
-/// skins: [...], cameras: [...], lights: [...]}; null when there is no document. Throws malformed as reading
-/// does.
+/// One entry for each animation, skin, camera and light of the scene's first document with nodes:
+/// {animations: [...], skins: [...], cameras: [...], lights: [...]}; null when there is no document. Throws
+/// malformed as reading does.
 Json document_contents(const Scene& scene);
 
 /// For each part, whether an animation of its document drives the node it stands at, or one above it. Such a

@@ -1,4 +1,3 @@
-#include "io/gltf/container.hpp"
 #include "io/gltf/patch.hpp"
 
 #include <algorithm>
@@ -31,31 +30,17 @@ std::size_t once(Patch& patch, int document, std::size_t kind, std::size_t i, Co
     return index;
 }
 
-/// An image beside the file keeps its name unless another image has it.
-std::string add_file(Patch& patch, int document, const std::string& uri) {
-    const auto& files = patch.scene.documents[static_cast<std::size_t>(document)]->files;
-    const auto found = files.find(uri);
-    if (found == files.end()) return uri;
-    std::string name = uri;
-    for (int n = document + 1; patch.files.count(name) && patch.files[name] != found->second; ++n) {
-        const auto slash = uri.find_last_of('/') + 1; // 0 when there is none
-        name = uri.substr(0, slash) + fmt::format("{}-", n) + uri.substr(slash);
-    }
-    patch.files[name] = found->second;
-    return name;
-}
-
 std::size_t copy_image(Patch& patch, int document, std::size_t i) {
     const Json& other = other_document(patch, document);
     Json image = item(other, "images", i).json();
-    if (const auto uri = item(other, "images", i).find("uri"); uri && !is_data_uri(uri->text()))
-        image["uri"] = add_file(patch, document, uri->text());
     if (image.contains("bufferView")) {
         Source source(other, patch.scene.documents[static_cast<std::size_t>(document)]->buffers);
         const Span bytes = source.view(item(other, "images", i).at("bufferView"));
         image["bufferView"] = patch.builder.add_view(Bytes(bytes.begin(), bytes.end()));
     }
-    return patch.builder.add("images", std::move(image));
+    const std::size_t index = patch.builder.add("images", std::move(image));
+    patch.image_document[index] = document;
+    return index;
 }
 
 std::size_t image_for(Patch& patch, int document, const Place& reference) {

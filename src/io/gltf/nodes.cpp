@@ -178,6 +178,15 @@ std::vector<Placement> placements(const Json& document, const std::vector<NodeFr
     return all;
 }
 
+int base_document(const Scene& scene) {
+    for (std::size_t d = 0; d < scene.documents.size(); ++d) {
+        const Json json = parse_document(scene.documents[d]->json);
+        for (const char* content : {"scenes", "nodes", "meshes"})
+            if (json.contains(content)) return static_cast<int>(d);
+    }
+    return -1;
+}
+
 Json matrix(const Transform& t) {
     Json out = Json::array();
     for (std::size_t column = 0; column < 4; ++column) {

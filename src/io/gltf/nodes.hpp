@@ -45,6 +45,10 @@ std::vector<Placement> placements(const Json& document, const std::vector<NodeFr
 bool makes_triangles(const Place& primitive);
 bool has_triangles(const Place& mesh);
 
+/// The first document of the scene with nodes or meshes; those that only tell the materials of another format
+/// have none. -1 when there is none.
+int base_document(const Scene& scene);
+
 /// glTF's 16 numbers, column by column.
 Json matrix(const Transform& t);
 

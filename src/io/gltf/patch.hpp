@@ -14,21 +14,33 @@ struct Patch {
     const WriteSettings& settings;
     Builder& builder;
     Written& written;
-    int base; ///< the document that is patched: 0, or -1 when there is none
+    int base; ///< the document that is patched, or -1 when there is none
 
-    std::vector<NodeFrame> frames{};     ///< of the document as read
-    std::vector<Placement> placements{}; ///< its parts as read
-    std::vector<int> claimed{};          ///< the part that stands at each placement, or -1
-    std::map<Index, int> materials{};    ///< document's index of each scene material used so far
+    std::vector<NodeFrame> frames{};          ///< of the document as read, moved skeletons where they are now
+    std::map<std::size_t, Transform> above{}; ///< the matrices of new nodes above roots
+    std::vector<Placement> placements{};      ///< its parts as read
+    std::vector<int> claimed{};               ///< the part that stands at each placement, or -1
+    std::map<Index, int> materials{};         ///< document's index of each scene material used so far
     std::map<std::pair<int, std::size_t>, std::size_t>
-        copied{};                         ///< textures, samplers, images of other documents
-    std::map<int, Json> others{};         ///< other documents, parsed
-    std::map<std::string, Bytes> files{}; ///< images beside the output, by URI
+        copied{};                                ///< textures, samplers, images of other documents
+    std::map<int, Json> others{};                ///< other documents, parsed
+    std::map<std::size_t, int> image_document{}; ///< where images come from, when not from the base
 
     void warn(const char* id, std::string message, std::string hint = {}) {
         written.warnings.push_back({Severity::warning, id, std::move(message), {}, std::move(hint)});
     }
 };
+
+/// The scene with skinned parts that have moved where they are now, their transforms the identity, since glTF
+/// gives a skinned mesh none; and how far each skin of the base document has moved. A part whose skin, or a
+/// skeleton that shares joints with it, has moved elsewhere already is skinned no longer (W-SKIN).
+Scene in_bind_pose(Scene scene, int base, std::map<std::size_t, Transform>& skin_moves,
+                   std::vector<Diagnostic>& warnings);
+/// Moves skeletons along with their skins: a node above their roots has the move, the inverse bind matrices
+/// take it off again, and joints and animations stay as they are. After claim_placements, before patch_nodes.
+void move_skins(Patch& patch, const std::map<std::size_t, Transform>& skin_moves);
+/// Gives a node a new one above it that has this matrix.
+void move_from_above(Patch& patch, std::size_t node, const Transform& by);
 
 /// Finds which part stands where the document has one. Call it first.
 void claim_placements(Patch& patch);
@@ -45,6 +57,11 @@ void drop_dead_meshes(Patch& patch, const std::vector<int>& mesh_of_part);
 
 /// The document's index for a scene material, added when it is new; -1 for none.
 int patch_material(Patch& patch, Index material);
+
+/// Puts the images that the document names as files where the settings say: among the document's buffer
+/// views, beside it under new names, or by their place. Returns those that go beside the output, whose stem
+/// and whose own files are told.
+std::vector<OutputFile> place_images(Patch& patch, const std::string& stem, Textures textures);
 
 /// Same geometry, attributes and primitives, bit for bit; materials compared by `same_material`.
 bool same_mesh(const Mesh& a, const Mesh& b, const std::function<bool(Index, Index)>& same_material);

@@ -13,6 +13,7 @@ struct Variant {
     std::size_t example;   ///< a part
     bool original = false; ///< nothing has changed: its primitives stay as they are
     int mesh = -1;
+    std::size_t dropped_faces = 0;
 };
 
 bool same_attribute(const Attribute& a, const Attribute& b) {
@@ -74,8 +75,10 @@ void drop_extensions(Patch& patch, Json& mesh, const Part& part) {
 }
 
 /// The mesh object for a part: `mesh` is what it was (or has only a name). Null when nothing is left of it.
-Json encoded_object(Patch& patch, Json mesh, const Part& part) {
+Json encoded_object(Patch& patch, Json mesh, Variant& variant) {
+    const Part& part = patch.scene.parts[variant.example];
     EncodedMesh encoded = encode_mesh(patch.builder, part.mesh, settings_for(patch, part), patch.written);
+    variant.dropped_faces = encoded.dropped_faces;
     Json untouched = Json::array(); // points and lines
     if (mesh.contains("primitives"))
         for (auto& primitive : mesh["primitives"])
@@ -108,12 +111,11 @@ void patch_variants(Patch& patch, std::size_t mesh, std::vector<Variant>& varian
             if (makes_triangles(Place(primitive, ""))) patch.builder.release(primitive);
     int copies = 0;
     for (auto& variant : variants) {
-        const Part& part = patch.scene.parts[variant.example];
         if (variant.original) {
             variant.mesh = static_cast<int>(mesh);
             continue;
         }
-        Json object = encoded_object(patch, before, part);
+        Json object = encoded_object(patch, before, variant);
         if (object.is_null()) continue;
         if (slot_free) {
             patch.builder.json()["meshes"][mesh] = std::move(object);
@@ -174,14 +176,17 @@ std::vector<int> patch_meshes(Patch& patch) {
             continue;
         }
         for (auto& variant : family) {
-            Json object =
-                encoded_object(patch, {{"name", parts[variant.example].name}}, parts[variant.example]);
+            Json object = encoded_object(patch, {{"name", parts[variant.example].name}}, variant);
             if (!object.is_null())
                 variant.mesh = static_cast<int>(patch.builder.add("meshes", std::move(object)));
         }
     }
     std::vector<int> mesh_of_part(parts.size());
-    for (std::size_t i = 0; i < parts.size(); ++i) mesh_of_part[i] = families[key_of(i)][variant_of[i]].mesh;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const Variant& variant = families[key_of(i)][variant_of[i]];
+        mesh_of_part[i] = variant.mesh;
+        patch.written.dropped_faces += variant.dropped_faces;
+    }
     return mesh_of_part;
 }
 

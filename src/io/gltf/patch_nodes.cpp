@@ -107,15 +107,6 @@ void place_instead(Json& document, std::size_t node, std::size_t other) {
     }
 }
 
-/// An animated node keeps its own transform, which the animation drives: a new node above it moves both.
-void move_from_above(Patch& patch, std::size_t node, const Transform& by) {
-    const std::size_t above = patch.builder.add("nodes", Json::object());
-    Json& document = patch.builder.json();
-    place_instead(document, node, above);
-    document["nodes"][above]["children"] = Json::array({node});
-    set_matrix(document["nodes"][above], by);
-}
-
 /// Warns of a node that moves by itself under one that is animated and stays.
 void warn_of_animated_ancestor(Patch& patch, std::size_t n, const std::set<std::size_t>& animated,
                                const std::vector<Transform>& wanted) {
@@ -138,7 +129,10 @@ void move_nodes(Patch& patch) {
         const auto parent = static_cast<std::size_t>(frame.parent);
         const bool parent_moved = frame.parent >= 0 && wanted[parent] != patch.frames[parent].world;
         if (!parent_moved && wanted[n] == frame.world) continue;
-        const auto up = frame.parent < 0 ? Transform{} : inverse(wanted[parent]);
+        const auto root = patch.above.find(n);
+        const auto up = frame.parent >= 0           ? inverse(wanted[parent])
+                        : root == patch.above.end() ? Transform{}
+                                                    : inverse(root->second);
         const auto down = animated.contains(n) ? inverse(frame.local) : Transform{};
         if (!up || !down) {
             patch.warn("W-TRANSFORM",
@@ -148,6 +142,7 @@ void move_nodes(Patch& patch) {
         }
         if (parent_moved && nearly_same(*up * wanted[n], frame.local)) continue;
         if (!parent_moved) warn_of_animated_ancestor(patch, n, animated, wanted);
+        // An animated node keeps its own transform, which the animation drives: one above it moves both.
         if (animated.contains(n))
             move_from_above(patch, n, *up * wanted[n] * *down);
         else
@@ -233,6 +228,14 @@ std::size_t add_node(Patch& patch, const Part& part, int mesh) {
 }
 
 } // namespace
+
+void move_from_above(Patch& patch, std::size_t node, const Transform& by) {
+    const std::size_t above = patch.builder.add("nodes", Json::object());
+    Json& document = patch.builder.json();
+    place_instead(document, node, above);
+    document["nodes"][above]["children"] = Json::array({node});
+    set_matrix(document["nodes"][above], by);
+}
 
 void claim_placements(Patch& patch) {
     if (patch.base < 0) return;

@@ -310,6 +310,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
              fmt::format("{} vertices became {}: PLY has one set of attributes at a vertex, so seams split",
                          world->vertex_count(), world->wedge_count())});
     leave_documents(written, scene, "PLY");
+    warn_of_textures(written, scene, "PLY");
     if (!scene.materials.empty())
         written.changes.push_back(
             {"materials", Domain::face, AttributeChange::Kind::dropped, "PLY has no materials"});

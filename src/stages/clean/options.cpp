@@ -104,7 +104,7 @@ void declare_clean(Declare<CleanOptions>& d) {
 }
 
 CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part, Context& context) {
-    const double stretch = part.skinned ? 1 : mean_stretch(part.transform);
+    const double stretch = mean_stretch(part.transform);
     const auto local = [&](const std::optional<Length>& l, const char* option) {
         return l ? context.resolve(*l, scene, option, &part) / stretch : 0;
     };

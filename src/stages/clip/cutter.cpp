@@ -41,8 +41,7 @@ Cutter::Cutter(const CutterOption& option, const Scene& scene, Context& context)
 std::vector<Plane> Cutter::planes_for(const Part& part) const {
     if (option_.space == Space::local) return resolved(option_, scene_, context_, &part);
     std::vector<Plane> planes = world_;
-    if (!part.skinned)
-        for (Plane& p : planes) p = pulled_back(p, part.transform);
+    for (Plane& p : planes) p = pulled_back(p, part.transform);
     return planes;
 }
 

@@ -70,7 +70,11 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
             rest.push_back(std::move(part));
             continue;
         }
-        if (!part.skinned) apply(part.mesh, part.transform);
+        apply(part.mesh, part.transform);
+        if (part.skinned)
+            context.warn("W-SKIN",
+                         fmt::format("merge: part '{}' is in bind pose and loses its skin", part.name),
+                         "leave it out with `only`, or write the parts as they are");
         context.attribute_changes(part, drop_skin(part.mesh));
         mark_group(part.mesh, static_cast<std::uint32_t>(report.merged.size()));
         report.merged.push_back(part.name);

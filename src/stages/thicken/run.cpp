@@ -31,7 +31,6 @@ ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thicknes
     context.attribute_changes(part, changes);
     part.mesh = std::move(r.mesh);
     if (std::exchange(part.skinned, false)) {
-        part.transform = {};
         context.warn(
             "W-SKIN",
             fmt::format("thicken: the cylinders of part '{}' are in bind pose, without its skin", part.name));

@@ -10,6 +10,6 @@ inline constexpr const char* details =
 scene), scale, rotate, matrix, translate, centre, ground. All are in world space: the nodes of the
 parts move and their meshes stay as they are, unless bake is on. Faces of a mirrored part keep their
 front, as glTF requires. The ground is at 0 along the up axis, or along +Z if the up axis is
-unknown. A skinned part is moved in its bind pose and loses its skin (W-SKIN).)";
+unknown. A skinned part is moved in its bind pose and keeps its skin: its skeleton moves along.)";
 
 } // namespace facetmill::help::transform

@@ -18,7 +18,6 @@ void declare_transform_report(DeclareFields<TransformReport>& d) {
 }
 
 void warn_of_conversion(const io::Conversion& converted, const TransformOptions& o, Context& context) {
-    for (const auto& name : converted.lost_skins) warn_of_skin(name, context);
     if (converted.unit_guessed)
         context.warn(
             "W-UNITS",
@@ -29,11 +28,6 @@ void warn_of_conversion(const io::Conversion& converted, const TransformOptions&
                      fmt::format("transform: the scene had no up axis; nothing is rotated, and {} is up now",
                                  to_string(o.up)),
                      "give the up axis when the file is loaded (load: {up: z})");
-}
-
-void warn_of_skin(const std::string& part, Context& context) {
-    context.warn("W-SKIN", fmt::format("transform: part '{}' is moved in bind pose and loses its skin", part),
-                 "move the node of its skeleton instead");
 }
 
 void warn_of_animation(const std::string& part, Context& context) {

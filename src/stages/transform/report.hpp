@@ -13,10 +13,8 @@ struct TransformReport {
 };
 void declare_transform_report(DeclareFields<TransformReport>& d);
 
-/// Says what was guessed, and which skins are lost, when units or the up axis were converted.
+/// Says what was guessed when units or the up axis were converted.
 void warn_of_conversion(const io::Conversion& converted, const TransformOptions& o, Context& context);
-/// Says that a part loses its skin.
-void warn_of_skin(const std::string& part, Context& context);
 /// Says that a part is not baked.
 void warn_of_animation(const std::string& part, Context& context);
 

@@ -62,9 +62,7 @@ class Mover {
         all_ = t * all_;
         for (Part& part : scene_.parts) {
             if (!context_.selects(part, scene_)) continue;
-            part.transform = part.skinned ? t : t * part.transform;
-            if (part.skinned) warn_of_skin(part.name, context_);
-            part.skinned = false;
+            part.transform = t * part.transform;
         }
     }
 

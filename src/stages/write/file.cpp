@@ -19,11 +19,12 @@ Mesh in_one(const Scene& scene) {
 }
 
 /// Why rounding put points on others or faces on lines, and the hint.
-std::string rounding(std::size_t points, const io::Codec& codec, const io::WriteSettings& settings) {
+std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
+    const std::size_t points = back.changes.rounded;
     const std::string what = points > 0
                                  ? fmt::format("put {} point{} on others", points, points == 1 ? "" : "s")
                                  : std::string("moved points onto lines of others");
-    if (settings.draco.on)
+    if (settings.draco.on && back.grid_step >= back.float_step)
         return fmt::format("Draco's {} bits {}: use more draco.position_bits, or no draco",
                            settings.draco.position_bits, what);
     if (codec.can.full_precision && !settings.double_positions)
@@ -34,8 +35,8 @@ std::string rounding(std::size_t points, const io::Codec& codec, const io::Write
 }
 
 /// Why a file is less sound than the scene, and the hint.
-std::string reason(const io::VertexChanges& changes, const io::Codec& codec,
-                   const io::WriteSettings& settings) {
+std::string reason(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
+    const io::VertexChanges& changes = back.changes;
     std::vector<std::string> reasons;
     if (changes.added > 0)
         reasons.push_back(fmt::format("{} has one set of attributes per vertex, so seams were cut and {} "
@@ -51,7 +52,7 @@ std::string reason(const io::VertexChanges& changes, const io::Codec& codec,
                         "PLY, OBJ or OFF",
                         codec.name, changes.merged,
                         settings.mesh_manifold || settings.draco.on ? "" : "mesh_manifold: true, or "));
-    if (changes.rounded > 0 || reasons.empty()) reasons.push_back(rounding(changes.rounded, codec, settings));
+    if (changes.rounded > 0 || reasons.empty()) reasons.push_back(rounding(back, codec, settings));
     return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
@@ -74,12 +75,6 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
                      fmt::format("the scene has no unit: '{}' gets its numbers as they are, and {} means {}",
                                  o.path.text, codec.name, to_string(target.unit)),
                      "give both when it is loaded: load: {path: ..., unit: mm, up: z}");
-    if (codec.can.skins)
-        for (const auto& name : done.lost_skins)
-            context.warn("W-SKIN",
-                         fmt::format("part '{}' is converted to {} and {} up in bind pose and loses its skin",
-                                     name, to_string(target.unit), to_string(target.up)),
-                         "write it in the unit and up axis that it was loaded in");
     if (done.factor != 1) report.factor = done.factor;
     if (done.turned) report.up = to_string(target.up);
 }
@@ -125,13 +120,24 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
         run.record.outputs.push_back({name.lexically_normal().string(), staged.bytes, staged.sha256, {}});
     }
     if (!main || !run.read_back) return;
-    const io::ReadBack back = io::read_back(run.outputs.staged(*main), codec, scene, settings);
+    const io::ReadBack back =
+        io::read_back(run.outputs.staged(*main), codec, scene, settings, written.dropped_faces);
     run.record.outputs[first].read_back = back.json();
     if (!back.losses.empty())
         context.warn("W-ROUNDED",
                      fmt::format("'{}' is less sound when read back than the scene: {}", path.string(),
                                  fmt::join(back.losses, ", ")),
-                     reason(back.changes, codec, settings));
+                     reason(back, codec, settings));
+    if (back.too_far_for_floats())
+        context.warn(
+            "W-ROUNDED",
+            fmt::format("'{}': points moved by up to {:.2g}, since 32-bit floats are {:.2g} apart so far "
+                        "from the origin (the diagonal is {:.4g})",
+                        target.string(), back.position_error, back.float_step, back.diagonal),
+            codec.can.full_precision && !settings.double_positions
+                ? "precision: full keeps all digits"
+                : "transform: {centre: true} before write brings the scene to the origin; PLY, OBJ and OFF "
+                  "have precision: full");
 }
 
 } // namespace facetmill

@@ -16,7 +16,7 @@ struct WriteReport {
 };
 
 /// Converts to the file's convention, which the option or else the format says. Throws stage (E-UNIT, E-UP)
-/// when the option asks for one and the scene has none; warns of guesses and of skins that are lost.
+/// when the option asks for one and the scene has none; warns of guesses.
 void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context,
                    WriteReport& report);
 

@@ -26,6 +26,12 @@ void declare_draco(Declare<DracoOptions>& d) {
     d.option("speed", &DracoOptions::speed,
              "0 gives the smallest file, 10 the fastest compression (a count).")
         .between(0, 10);
+    d.choice<DracoOptions::Degenerate>(
+        "degenerate_faces", &DracoOptions::degenerate_faces,
+        {{"drop", DracoOptions::Degenerate::drop, "they are left out, with a warning"},
+         {"keep", DracoOptions::Degenerate::keep,
+          "in a primitive of their own, without the connectivity that makes Draco small"}},
+        "Faces that name a vertex twice, which Draco's compression of connectivity cannot hold.");
     d.shorthand("true or false", {{"type", "boolean"}},
                 [](const Value& v, DracoOptions& out, Problems& problems) {
                     return OptionType<bool>::parse(v, out.on, problems);
@@ -47,6 +53,7 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"draco", o.draco && o.draco->on, [](const Can& can) { return can.draco != Can::Draco::never; }},
             {"mesh_manifold", o.mesh_manifold, &Can::mesh_manifold},
             {"lods", o.lods, &Can::lods},
+            {"textures", o.textures != io::Textures::automatic, &Can::textures},
             {"normals", o.normals != NormalKind::keep, &Can::normals}};
 }
 
@@ -108,6 +115,14 @@ void declare_write(Declare<WriteOptions>& d) {
             "Writes glTF with KHR_draco_mesh_compression: true, or its settings.", declare_draco);
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
              "Writes glTF with EXT_mesh_manifold, so that readers need not weld.");
+    d.choice<io::Textures>(
+        "textures", &WriteOptions::textures,
+        {{"auto", io::Textures::automatic, "embed for .glb, copy for .gltf"},
+         {"embed", io::Textures::embed, "among the bytes of the .glb or the .bin"},
+         {"copy", io::Textures::copy, "beside the file, under names that begin with its stem"},
+         {"reference", io::Textures::reference,
+          "not at all: the file names the images where the input has them"}},
+        "Where glTF's images go that the input has as files of their own.");
     d.option("lods", &WriteOptions::lods,
              "Writes glTF with MSFT_lod: the parts X.lod1, X.lod2, ... become levels of detail of X rather "
              "than nodes beside it.");
@@ -148,6 +163,8 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
     s.big_endian = o.big_endian;
     s.mesh_manifold = o.mesh_manifold;
     s.lods = o.lods;
+    s.textures = o.textures;
+    s.directory = target.parent_path();
     s.double_positions = o.precision == Precision::full;
     s.title = title_of(target);
     if (o.draco && o.draco->on)
@@ -157,7 +174,8 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
                    .uv_bits = static_cast<int>(o.draco->uv_bits),
                    .colour_bits = static_cast<int>(o.draco->colour_bits),
                    .generic_bits = static_cast<int>(o.draco->generic_bits),
-                   .speed = static_cast<int>(o.draco->speed)};
+                   .speed = static_cast<int>(o.draco->speed),
+                   .keep_degenerate = o.draco->degenerate_faces == DracoOptions::Degenerate::keep};
     s.draco.on |= codec.can.draco == io::Capabilities::Draco::always;
     return s;
 }
@@ -172,7 +190,10 @@ StageFiles files_of_write(const WriteOptions& o) {
     };
     if (!codec->can.companion.empty()) files.outputs.push_back(beside(codec->can.companion));
     if (!codec->can.library.empty()) files.materials = beside(codec->can.library);
-    if (codec->can.copies_images) files.images = PathText{path.parent_path().string()};
+    using io::Textures;
+    if (codec->can.textures &&
+        (o.textures == Textures::copy || (o.textures == Textures::automatic && codec->can.copies_images)))
+        files.images = o.path;
     return files;
 }
 

@@ -7,9 +7,12 @@
 namespace facetmill {
 
 struct DracoOptions {
+    enum class Degenerate { drop, keep };
+
     bool on = true;
     std::optional<std::int64_t> position_bits;
     std::int64_t normal_bits = 10, uv_bits = 12, colour_bits = 8, generic_bits = 12, speed = 3;
+    Degenerate degenerate_faces = Degenerate::drop;
 };
 
 struct WriteOptions {
@@ -24,6 +27,7 @@ struct WriteOptions {
     NormalKind normals = NormalKind::keep;
     std::optional<Angle> feature_angle; ///< of smooth normals
     std::optional<DracoOptions> draco;
+    io::Textures textures = io::Textures::automatic;
 };
 
 void declare_write(Declare<WriteOptions>& d);

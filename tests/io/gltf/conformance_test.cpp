@@ -5,6 +5,7 @@
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/gltf.hpp"
+#include "support/images.hpp"
 #include "support/temporary.hpp"
 
 #include <cstdlib>
@@ -34,12 +35,28 @@ std::string put(const fs::path& folder, const io::Written& written) {
     return fmt::format(" '{}'", (folder / written.files[0].name).string());
 }
 
+/// Textures with transforms and channels of two images, and a face without texture points.
+Scene textured_obj() {
+    const test::TemporaryDirectory dir;
+    test::put(dir / "a.obj",
+              "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
+              "usemtl m\nf 1/1/1 2/2/1 3/3/1\nf 1//1 3//1 4//1\n");
+    test::put(dir / "a.mtl", "newmtl m\nKs 0.5 0.5 0.5\nKe 2 1 0\nmap_Kd -s 2 2 -o 0.5 0 -clamp on red.png\n"
+                             "map_d -s 2 2 -o 0.5 0 -clamp on grey.png\nmap_Pr red.png\nmap_Pm grey.png\n"
+                             "map_Bump grey.png\nmap_Ke blue.png\n");
+    test::put(dir / "red.png", test::red_png());
+    test::put(dir / "blue.png", test::blue_png());
+    test::put(dir / "grey.png", test::png_of(0, "\x40"));
+    io::ReadLog log;
+    return io::read_scene(io::Input::open(dir / "a.obj"), {}, log);
+}
+
 std::vector<Scene> scenes() {
     std::vector<Scene> all;
     for (const Mesh& mesh :
          {shapes::tetrahedron(), shapes::uv_cube(), shapes::quad_cube(), shapes::torus(8, 6), shapes::fan3(),
           shapes::hourglass(), shapes::folded_quad(), shapes::open_cone(7), Mesh{}})
-        all.push_back(test::scene_of(mesh));
+        all.push_back(test::scene_in_metres(mesh));
     for (const char* name : {"box-textured.glb", "morph-cube/AnimatedMorphCube.gltf", "box-meshopt.glb",
                              "box-draco.glb", "box-ext-mesh-manifold.glb"}) {
         io::ReadLog log;
@@ -48,9 +65,10 @@ std::vector<Scene> scenes() {
         all.push_back(all.back());
         for (auto& part : all.back().parts) part.changed = true;
     }
-    all.push_back(test::scene_of(shapes::icosphere(2)));
+    all.push_back(textured_obj());
+    all.push_back(test::scene_in_metres(shapes::icosphere(2)));
     for (const int level : {1, 2}) {
-        all.back().parts.push_back(test::scene_of(shapes::icosphere(2 - level)).parts[0]);
+        all.back().parts.push_back(test::scene_in_metres(shapes::icosphere(2 - level)).parts[0]);
         all.back().parts.back().name = all.back().parts[0].name + ".lod" + std::to_string(level);
     }
     return all;
@@ -92,7 +110,7 @@ TEST_CASE("draco_decoder reads what is compressed", "[io]") {
     settings.draco.on = true;
     const test::TemporaryDirectory folder;
     for (const Mesh& mesh : {shapes::uv_cube(), shapes::torus(8, 6)}) {
-        const Scene glb = test::again(test::scene_of(mesh), settings);
+        const Scene glb = test::again(test::scene_in_metres(mesh), settings);
         const Json json = Json::parse(glb.documents[0]->json);
         const Json& primitive = json["meshes"][0]["primitives"][0];
         const auto view =

@@ -1,4 +1,5 @@
 #include "io/codec.hpp"
+#include "io/gltf/draco/quantise.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
@@ -20,7 +21,7 @@ Mesh two_materials() {
 }
 
 Scene scene_of_two_materials() {
-    Scene scene = test::scene_of(two_materials());
+    Scene scene = test::scene_in_metres(two_materials());
     scene.materials = {{"red", {1, 0, 0, 1}, false, -1, -1}, {"blue", {0, 0, 1, 1}, true, -1, -1}};
     return scene;
 }
@@ -37,7 +38,7 @@ TEST_CASE("shapes are the same after writing and reading a GLB", "[io]") {
     for (const Mesh& mesh :
          {shapes::tetrahedron(), shapes::cube(), shapes::uv_cube(), shapes::icosphere(2), shapes::torus(9, 7),
           shapes::grid(3, 4), shapes::bowtie(), shapes::fan3(), shapes::crossing()}) {
-        const Scene read = test::again(test::scene_of(mesh));
+        const Scene read = test::again(test::scene_in_metres(mesh));
         CHECK(drawn(only_mesh(read)) == drawn(mesh));
         CHECK(read.parts[0].mesh.vertex_count() == mesh.vertex_count());
         CHECK(read.parts[0].mesh.wedge_count() == mesh.wedge_count());
@@ -45,17 +46,18 @@ TEST_CASE("shapes are the same after writing and reading a GLB", "[io]") {
 }
 
 TEST_CASE("a written glTF is in metres with y up", "[io]") {
-    const Scene read = test::again(test::scene_of(shapes::cube()));
+    const Scene read = test::again(test::scene_in_metres(shapes::cube()));
     CHECK(read.unit == Unit::m);
     CHECK(read.up == UpAxis::y);
 }
 
 TEST_CASE("polygons are written as triangles", "[io]") {
-    CHECK(only_mesh(test::again(test::scene_of(shapes::quad_cube()))).face_count() == 12);
+    CHECK(only_mesh(test::again(test::scene_in_metres(shapes::quad_cube()))).face_count() == 12);
 }
 
 TEST_CASE("a part without faces is a node without mesh", "[io]") {
-    const Json json = Json::parse(test::json_of(test::written(test::scene_of(Mesh{}), "glb").files[0].bytes));
+    const Json json =
+        Json::parse(test::json_of(test::written(test::scene_in_metres(Mesh{}), "glb").files[0].bytes));
     CHECK(json["nodes"] == Json::parse(R"([{"name":"thing"}])"));
     CHECK_FALSE(json.contains("meshes"));
 }
@@ -73,7 +75,7 @@ TEST_CASE("primitives come apart by material and together again", "[io]") {
 }
 
 TEST_CASE("node transforms and names survive", "[io]") {
-    Scene scene = test::scene_of(shapes::cube(), "first");
+    Scene scene = test::scene_in_metres(shapes::cube(), "first");
     scene.parts.push_back(scene.parts[0]);
     scene.parts[1].name = "second";
     scene.parts[1].transform.m[0][3] = 5;
@@ -89,7 +91,7 @@ TEST_CASE("Draco keeps faces, closedness and seams", "[io]") {
     io::WriteSettings settings;
     settings.draco.on = true;
     for (const Mesh& mesh : {shapes::uv_cube(), shapes::icosphere(3), shapes::torus(12, 8)}) {
-        const Scene read = test::again(test::scene_of(mesh), settings);
+        const Scene read = test::again(test::scene_in_metres(mesh), settings);
         CHECK(only_mesh(read).face_count() == mesh.face_count());
         CHECK(read.parts[0].mesh.vertex_count() == mesh.vertex_count());
         CHECK(read.parts[0].mesh.wedge_count() == mesh.wedge_count());
@@ -107,17 +109,41 @@ TEST_CASE("Draco primitives of one mesh meet without cracks", "[io]") {
     CHECK(only_mesh(test::again(scene, settings)).vertex_count() == 8);
 }
 
-TEST_CASE("Draco keeps degenerate faces", "[io]") {
-    Mesh mesh = shapes::tetrahedron();
-    mesh.corners.insert(mesh.corners.end(), {0, 0, 1});
+TEST_CASE("one degenerate face costs Draco nothing", "[io]") {
+    const Scene plain = test::scene_in_metres(shapes::icosphere(4));
+    Scene scene = plain;
+    scene.parts[0].mesh.corners.insert(scene.parts[0].mesh.corners.end(), {0, 0, 1});
     io::WriteSettings settings;
     settings.draco.on = true;
-    CHECK(only_mesh(test::again(test::scene_of(mesh), settings)).face_count() == 5);
+    for (const char* codec : {"glb", "drc"}) {
+        INFO(codec);
+        const std::size_t before = test::written(plain, codec, settings).files[0].bytes.size();
+        const io::Written dropped = test::written(scene, codec, settings);
+        CHECK(dropped.files[0].bytes.size() == before);
+        CHECK(dropped.dropped_faces == 1);
+        REQUIRE(dropped.warnings.size() == 1);
+        CHECK(dropped.warnings[0].id == "W-FACES");
+    }
+    settings.draco.keep_degenerate = true;
+    const io::Written kept = test::written(scene, "glb", settings);
+    CHECK(kept.warnings.empty());
+    CHECK(kept.dropped_faces == 0);
+    CHECK(kept.files[0].bytes.size() < test::written(plain, "glb", settings).files[0].bytes.size() + 1000);
+    CHECK(only_mesh(test::read_bytes(kept.files[0].bytes, "glb")).face_count() ==
+          scene.parts[0].mesh.face_count());
+}
+
+TEST_CASE("a mesh of degenerate faces keeps them under Draco", "[io]") {
+    Mesh mesh = shapes::tetrahedron();
+    for (std::size_t f = 0; f < 4; ++f) mesh.corners[3 * f + 1] = mesh.corners[3 * f];
+    io::WriteSettings settings;
+    settings.draco.on = true;
+    CHECK(only_mesh(test::again(test::scene_in_metres(mesh), settings)).face_count() == 4);
 }
 
 TEST_CASE("plain Draco files are written and read", "[io]") {
     const Mesh mesh = shapes::uv_cube();
-    const io::Written written = test::written(test::scene_of(mesh), "drc");
+    const io::Written written = test::written(test::scene_in_metres(mesh), "drc");
     const Scene read = test::read_bytes(written.files[0].bytes, "drc");
     CHECK(only_mesh(read).face_count() == 12);
     CHECK(read.parts[0].mesh.vertex_count() == 8);
@@ -133,9 +159,9 @@ TEST_CASE("EXT_mesh_manifold gives the same vertices back, and says when a mesh 
     for (std::size_t v = 4; v < 8; ++v)
         mesh.positions[v] = mesh.positions[0] + (mesh.positions[0] - mesh.positions[v]);
     for (std::size_t c = 12; c < 24; c += 3) std::swap(mesh.corners[c], mesh.corners[c + 1]);
-    CHECK(only_mesh(test::again(test::scene_of(mesh), settings)).vertex_count() == 8);
-    CHECK(only_mesh(test::again(test::scene_of(mesh))).vertex_count() == 7);
-    const io::Written open = test::written(test::scene_of(shapes::grid(1, 1)), "glb", settings);
+    CHECK(only_mesh(test::again(test::scene_in_metres(mesh), settings)).vertex_count() == 8);
+    CHECK(only_mesh(test::again(test::scene_in_metres(mesh))).vertex_count() == 7);
+    const io::Written open = test::written(test::scene_in_metres(shapes::grid(1, 1)), "glb", settings);
     REQUIRE(open.warnings.size() == 1);
     CHECK(open.warnings[0].message ==
           "part 'thing' is not a closed manifold, so EXT_mesh_manifold is not written");
@@ -148,7 +174,7 @@ TEST_CASE("attributes of types that glTF lacks are converted, face attributes dr
         {"quality", Domain::vertex, Role::generic, 1, false, std::vector<double>{0.5, 1, 2, 3}});
     mesh.attributes.push_back(
         {"cell", Domain::face, Role::generic, 1, false, std::vector<float>{1, 2, 3, 4}});
-    const io::Written written = test::written(test::scene_of(mesh), "glb");
+    const io::Written written = test::written(test::scene_in_metres(mesh), "glb");
     CHECK(written.changes == AttributeChanges{{"quality", Domain::vertex, AttributeChange::Kind::kept,
                                                "written as float32, because glTF has no float64 there"},
                                               {"cell", Domain::face, AttributeChange::Kind::dropped,
@@ -162,7 +188,7 @@ TEST_CASE("attributes of types that glTF lacks are converted, face attributes dr
 TEST_CASE("a .gltf names its .bin after the title", "[io]") {
     io::WriteSettings settings;
     settings.title = "my part";
-    const io::Written written = test::written(test::scene_of(shapes::cube()), "gltf", settings);
+    const io::Written written = test::written(test::scene_in_metres(shapes::cube()), "gltf", settings);
     REQUIRE(written.files.size() == 2);
     CHECK(written.files[0].name == "my part.gltf");
     CHECK(written.files[1].name == "my part.bin");
@@ -203,4 +229,49 @@ TEST_CASE("counts are not believed", "[io]") {
                 R"({"asset":{"version":"2.0"},"accessors":[{"componentType":5126,"type":"VEC3","count":1000000000}],
                                 "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]})");
         }) == "limit [E-LIMIT] test: accessors[0]: 1000000000 elements of zeros, without bytes in the file");
+}
+
+TEST_CASE("Draco rounds alike with and without fused multiply-add", "[io]") {
+    // With as many bits as a float32 has, adding 1/2 rounds, and rounding once or twice differs often.
+    const io::DracoGrid grid{{0.0F, -0.3F, 1e-3F}, 1.7F, 24};
+    std::vector<float> numbers;
+    for (int n = 0; n < 3000; ++n)
+        for (const float origin : grid.origin)
+            numbers.push_back(origin + 1.7F * static_cast<float>(n) / 3000);
+    const auto step = [&](float x, float origin, bool fused) {
+        const float along = x - origin, density = grid.density();
+        if (fused) return std::floor(std::fma(along, density, 0.5F));
+        const float product = along * density;
+        return std::floor(product + 0.5F);
+    };
+    std::size_t differ = 0;
+    std::vector<float> after = numbers;
+    io::settle(after, grid);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const float origin = grid.origin[i % 3];
+        differ += step(numbers[i], origin, true) != step(numbers[i], origin, false);
+        CHECK(step(after[i], origin, true) == step(after[i], origin, false));
+        CHECK(std::abs(after[i] - numbers[i]) <= 1e-6F);
+    }
+    CHECK(differ > 0);
+}
+
+TEST_CASE("the accessor of a Draco primitive has the bounds of the grid's own numbers", "[io]") {
+    io::WriteSettings settings;
+    settings.draco.on = true;
+    Mesh mesh = shapes::icosphere(2);
+    for (Vec3& p : mesh.positions) p = p * 0.37 + Vec3{3.1, -2.7, 0.9};
+    const Scene scene = test::scene_in_metres(mesh);
+    const Json json = Json::parse(test::json_of(test::written(scene, "glb", settings).files[0].bytes));
+    const Json position =
+        json["accessors"][json["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
+    io::DracoInput input;
+    io::set_draco_grid(mesh, input);
+    const float step = input.range / 16383;
+    for (std::size_t c = 0; c < 3; ++c)
+        for (const char* end : {"min", "max"}) {
+            const auto x = position[end][c].get<float>();
+            const float along = std::round((x - input.origin[c]) / step) * step;
+            CHECK(x == along + input.origin[c]);
+        }
 }

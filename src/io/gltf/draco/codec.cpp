@@ -120,6 +120,25 @@ DracoColumn to_column(const Mesh& mesh, const Attribute& a) {
     return column;
 }
 
+/// Degenerate faces go, unless they are wanted or there are no others: then indices are stored.
+void leave_degenerate(DracoInput& input, const DracoSettings& settings, Written& written) {
+    const std::vector<bool> degenerate = degenerate_faces(input.triangles, input.point_vertex);
+    const auto count = static_cast<std::size_t>(std::count(degenerate.begin(), degenerate.end(), true));
+    input.keep_order = count > 0 && (settings.keep_degenerate || count == degenerate.size());
+    if (count == 0 || input.keep_order) return;
+    std::vector<Index> kept;
+    for (std::size_t c = 0; c < input.triangles.size(); ++c)
+        if (!degenerate[c / 3]) kept.push_back(input.triangles[c]);
+    input.triangles = std::move(kept);
+    written.dropped_faces = count;
+    written.warnings.push_back({Severity::warning,
+                                "W-FACES",
+                                fmt::format("{} degenerate face{} dropped, since Draco cannot compress {}",
+                                            count, count == 1 ? " is" : "s are", count == 1 ? "it" : "them"),
+                                {},
+                                "draco: {degenerate_faces: keep} keeps them, at the price of a larger file"});
+}
+
 Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
     const Mesh mesh = joined(scene);
@@ -152,6 +171,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
             {"materials", Domain::face, AttributeChange::Kind::dropped, "Draco has no materials"});
     if (mesh.face_count() == 0)
         throw Error(ErrorKind::stage, "E-EMPTY", "a Draco file needs at least one face");
+    leave_degenerate(input, settings.draco, written);
     DracoOutput output = encode_draco(input, settings.draco);
     written.files.push_back(
         {(settings.title.empty() ? "mesh" : settings.title) + ".drc", std::move(output.bytes)});

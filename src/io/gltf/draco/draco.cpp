@@ -1,4 +1,5 @@
 #include "io/gltf/draco/draco.hpp"
+#include "io/gltf/draco/quantise.hpp"
 
 #include "io/gltf/gltf.hpp"
 
@@ -249,21 +250,52 @@ int bits_of(const DracoColumn& column, const DracoSettings& settings) {
     }
 }
 
+/// The input with numbers that are quantised alike on every processor, and the grids of its columns.
+struct Settled {
+    DracoInput input;
+    DracoGrid positions;
+    std::vector<std::optional<DracoGrid>> grids; ///< of float columns that are no normals
+};
+
+Settled settle_all(const DracoInput& given, const DracoSettings& settings) {
+    Settled out{given,
+                {{given.origin[0], given.origin[1], given.origin[2]}, given.range, settings.position_bits},
+                {}};
+    settle(out.input.vertices, out.positions);
+    for (auto& column : out.input.columns) {
+        auto& grid = out.grids.emplace_back();
+        auto* floats = std::get_if<std::vector<float>>(&column.data);
+        if (!floats) continue;
+        const int bits = bits_of(column, settings);
+        if (type_of(column) == Attribute::NORMAL) {
+            settle_normals(*floats, bits);
+        } else {
+            grid = grid_of(*floats, column.components, bits);
+            settle(*floats, *grid);
+        }
+    }
+    return out;
+}
+
 struct Encoded {
     bool ok = false;
     Bytes bytes;
     std::string why;
 };
 
-Encoded encode(const ::draco::Mesh& mesh, const DracoInput& input, const DracoSettings& settings,
+Encoded encode(const ::draco::Mesh& mesh, const Settled& settled, const DracoSettings& settings,
                bool sequential, int position, const std::vector<int>& columns) {
+    const DracoInput& input = settled.input;
     ::draco::ExpertEncoder encoder(mesh);
     encoder.SetSpeedOptions(settings.speed, settings.speed);
     encoder.SetEncodingMethod(sequential ? ::draco::MESH_SEQUENTIAL_ENCODING
                                          : ::draco::MESH_EDGEBREAKER_ENCODING);
     encoder.SetAttributeExplicitQuantization(position, settings.position_bits, 3, input.origin, input.range);
     for (std::size_t c = 0; c < columns.size(); ++c)
-        if (std::holds_alternative<std::vector<float>>(input.columns[c].data))
+        if (const auto& grid = settled.grids[c])
+            encoder.SetAttributeExplicitQuantization(columns[c], grid->bits, input.columns[c].components,
+                                                     grid->origin.data(), grid->range);
+        else if (std::holds_alternative<std::vector<float>>(input.columns[c].data))
             encoder.SetAttributeQuantization(columns[c], bits_of(input.columns[c], settings));
     ::draco::EncoderBuffer buffer;
     const auto status = encoder.EncodeToBuffer(&buffer);
@@ -290,7 +322,20 @@ void set_draco_grid(const Mesh& mesh, DracoInput& input) {
     input.range = range > 0 ? range : 1;
 }
 
-DracoOutput encode_draco(const DracoInput& input, const DracoSettings& settings) {
+std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
+                                   const std::vector<Index>& point_vertex) {
+    std::vector<bool> degenerate(triangles.size() / 3);
+    for (std::size_t f = 0; f < degenerate.size(); ++f) {
+        const Index a = point_vertex[triangles[3 * f]], b = point_vertex[triangles[3 * f + 1]],
+                    c = point_vertex[triangles[3 * f + 2]];
+        degenerate[f] = a == b || b == c || c == a;
+    }
+    return degenerate;
+}
+
+DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings) {
+    const Settled settled = settle_all(given, settings);
+    const DracoInput& input = settled.input;
     ::draco::Mesh mesh;
     mesh.set_num_points(static_cast<std::uint32_t>(input.point_vertex.size()));
     const std::size_t faces = input.triangles.size() / 3;
@@ -310,13 +355,16 @@ DracoOutput encode_draco(const DracoInput& input, const DracoSettings& settings)
     std::string why;
     for (const bool sequential : {false, true}) {
         if (input.keep_order && !sequential) continue;
-        Encoded encoded = encode(mesh, input, settings, sequential, position, columns);
+        Encoded encoded = encode(mesh, settled, settings, sequential, position, columns);
         why = encoded.why;
         if (!encoded.ok) continue;
         DracoMesh decoded = decode_draco(encoded.bytes);
         if (decoded.triangles.size() != input.triangles.size()) continue;
         output.bytes = std::move(encoded.bytes);
         output.decoded = std::move(decoded);
+        for (auto& column : output.decoded.columns)
+            if (column.id == output.position_id)
+                put_on_grid(std::get<std::vector<float>>(column.data), settled.positions);
         output.sequential = sequential;
         return output;
     }
@@ -344,15 +392,15 @@ std::size_t count_places(std::vector<Place>& places) {
     return count;
 }
 
-/// The step of the grid at each vertex, with Draco's own arithmetic, or the coordinates' own bits.
+/// The step of the grid at each vertex, as it is written, or the coordinates' own bits.
 std::vector<Place> places_of(const Mesh& mesh, const DracoInput& grid, std::optional<int> bits) {
     std::vector<Place> places(mesh.vertex_count());
-    const float steps = bits ? static_cast<float>((1u << *bits) - 1) / grid.range : 0;
+    const float density = bits ? DracoGrid{{}, grid.range, *bits}.density() : 0;
     parallel_for(places.size(), [&](std::size_t v) {
         for (std::size_t i = 0; i < 3; ++i) {
-            const float x = static_cast<float>(mesh.positions[v][i]) - grid.origin[i];
-            places[v][i] = bits ? static_cast<std::uint32_t>(std::max(0.0f, std::floor(x * steps + 0.5f)))
-                                : std::bit_cast<std::uint32_t>(x + 0.0f); // -0 is 0
+            const float x = static_cast<float>(mesh.positions[v][i]), origin = grid.origin[i];
+            places[v][i] = bits ? step_of(settled(x, origin, density), origin, density)
+                                : std::bit_cast<std::uint32_t>(x - origin + 0.0f); // -0 is 0
         }
     });
     return places;

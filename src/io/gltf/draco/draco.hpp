@@ -46,6 +46,10 @@ struct DracoInput {
 /// Sets the quantisation grid to the cube of the mesh's bounds, rounded outwards to float32.
 void set_draco_grid(const Mesh& mesh, DracoInput& input);
 
+/// The faces that name a vertex twice, which Edgebreaker cannot hold; three corners each.
+std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
+                                   const std::vector<Index>& point_vertex);
+
 struct DracoOutput {
     Bytes bytes;
     DracoMesh decoded; ///< what a reader will see
@@ -55,7 +59,8 @@ struct DracoOutput {
 };
 
 /// Compresses with Edgebreaker; with the sequential method when order matters, or when Edgebreaker would drop
-/// faces (it drops degenerate ones). Throws stage (E-DRACO) when Draco cannot do it at all.
+/// faces: it drops degenerate ones, so take them out before. Numbers are quantised alike on every processor.
+/// Throws stage (E-DRACO) when Draco cannot do it at all.
 DracoOutput encode_draco(const DracoInput& input, const DracoSettings& settings);
 
 } // namespace facetmill::io

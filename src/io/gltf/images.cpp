@@ -1,0 +1,124 @@
+// The images of a written document: in it, beside it, or where they are.
+
+#include "base/hash.hpp"
+#include "io/gltf/container.hpp"
+#include "io/gltf/patch.hpp"
+#include "io/image_files.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::io::gltf {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// An image of the document that is named as a file.
+struct FileImage {
+    std::size_t index;
+    std::string uri;
+    const Document* document; ///< that it comes from
+    const Bytes* bytes;       ///< null when it was not read
+};
+
+std::vector<FileImage> file_images(Patch& patch) {
+    std::vector<FileImage> all;
+    for (std::size_t i = 0; i < count_of(patch.builder.json(), "images"); ++i) {
+        const auto uri = item(patch.builder.json(), "images", i).find("uri");
+        if (!uri || is_data_uri(uri->text())) continue;
+        const auto owner = patch.image_document.find(i);
+        const int d = owner == patch.image_document.end() ? patch.base : owner->second;
+        const Document* document = patch.scene.documents[static_cast<std::size_t>(d)].get();
+        const auto found = document->files.find(uri->text());
+        all.push_back({i, uri->text(), document, found == document->files.end() ? nullptr : &found->second});
+    }
+    return all;
+}
+
+Json& image_json(Patch& patch, const FileImage& image) { return patch.builder.json()["images"][image.index]; }
+
+/// The name of the image's file, as a name of the image.
+void keep_name(Json& json, const std::string& uri) {
+    const auto path = relative_path(uri);
+    if (!json.contains("name") && path) json["name"] = path->stem().string();
+}
+
+/// Where images go that are embedded or copied; the same bytes go there once.
+class Placer {
+  public:
+    Placer(Patch& patch, const std::string& stem)
+        : patch_(patch), names_(stem, {stem + ".gltf", stem + ".glb", stem + ".bin"}) {}
+
+    void embed(const FileImage& image) {
+        const std::string type = media_type(*image.bytes);
+        if (type.empty()) {
+            patch_.warn(
+                "W-IMAGE",
+                fmt::format("the image \"{}\" is of no kind that can be embedded and is copied beside "
+                            "the file",
+                            image.uri));
+            return copy(image);
+        }
+        const auto [view, fresh] = views_.try_emplace(sha256(*image.bytes), 0);
+        if (fresh) view->second = patch_.builder.add_view(*image.bytes);
+        Json& json =
+            image_json(patch_, image); // only now: a view that is added may move what stands beside it
+        json.erase("uri");
+        keep_name(json, image.uri);
+        json["mimeType"] = type;
+        json["bufferView"] = view->second;
+    }
+
+    void copy(const FileImage& image) {
+        const auto [path, fresh] = copies_.try_emplace(sha256(*image.bytes));
+        if (fresh) {
+            path->second = names_.add(relative_path(image.uri).value_or("image"));
+            files_.push_back({path->second, *image.bytes});
+        }
+        image_json(patch_, image)["uri"] = uri_of(path->second);
+    }
+
+    std::vector<OutputFile> files() { return std::move(files_); }
+
+  private:
+    Patch& patch_;
+    ImageNames names_;
+    std::map<std::string, std::size_t> views_; ///< by the digest of the bytes
+    std::map<std::string, fs::path> copies_;
+    std::vector<OutputFile> files_;
+};
+
+/// Names the image by the way from the output's directory to where it lies.
+void refer(Patch& patch, Placer& placer, const FileImage& image) {
+    const auto path = decoded_path(image.uri);
+    if (!path) return; // remote or absolute: stays as spelled
+    std::error_code failed;
+    const fs::path from = fs::absolute(fs::path(image.document->name).parent_path() / *path, failed);
+    const fs::path to =
+        fs::absolute(patch.settings.directory.empty() ? "." : patch.settings.directory, failed);
+    if (failed) return;
+    if (image.bytes && !fs::exists(from, failed)) return placer.copy(image); // made while it was read
+    image_json(patch, image)["uri"] =
+        uri_of(from.lexically_normal().lexically_relative(to.lexically_normal()));
+}
+
+} // namespace
+
+std::vector<OutputFile> place_images(Patch& patch, const std::string& stem, Textures textures) {
+    Placer placer(patch, stem);
+    for (const FileImage& image : file_images(patch)) {
+        if (textures == Textures::reference)
+            refer(patch, placer, image);
+        else if (!image.bytes)
+            patch.warn("W-IMAGE",
+                       fmt::format("images[{}].uri: the image \"{}\" was not read and is not copied",
+                                   image.index, image.uri));
+        else if (textures == Textures::embed)
+            placer.embed(image);
+        else
+            placer.copy(image);
+    }
+    return placer.files();
+}
+
+} // namespace facetmill::io::gltf

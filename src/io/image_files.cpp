@@ -1,0 +1,142 @@
+#include "io/image_files.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+
+namespace facetmill::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string in_lower_case(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+unsigned byte_at(Span bytes, std::size_t i) { return std::to_integer<unsigned>(bytes[i]); }
+
+/// The colour type of the header (PNG specification, third edition, 11.2.1), or a palette's transparency.
+std::optional<ImageColours> png_colours(Span bytes) {
+    constexpr std::size_t colour_type = 25;
+    if (bytes.size() <= colour_type) return {};
+    const unsigned type = byte_at(bytes, colour_type);
+    const std::string_view head = as_text(bytes.first(std::min<std::size_t>(bytes.size(), 4096)));
+    return ImageColours{(type & 2) == 0, (type & 4) != 0 || head.find("tRNS") != std::string_view::npos};
+}
+
+/// The number of components of the frame (ITU-T T.81, B.2.2): the first SOF marker has it.
+std::optional<ImageColours> jpeg_colours(Span bytes) {
+    for (std::size_t at = 2; at + 9 < bytes.size();) {
+        if (byte_at(bytes, at) != 0xff) return {};
+        const unsigned marker = byte_at(bytes, at + 1);
+        const bool frame =
+            marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+        if (frame) return ImageColours{byte_at(bytes, at + 9) == 1, false};
+        at += marker == 0xff ? 1 : 2 + (byte_at(bytes, at + 2) << 8 | byte_at(bytes, at + 3));
+    }
+    return {};
+}
+
+} // namespace
+
+std::optional<fs::path> path_below(const Input& input, const fs::path& relative) {
+    // Absolute first: weakly_canonical leaves a relative path as it is when nothing of it exists yet.
+    std::error_code failed;
+    const fs::path directory = fs::absolute(input.path().empty() ? "." : input.path(), failed);
+    if (failed) return std::nullopt;
+    const fs::path base =
+        fs::weakly_canonical(input.path().empty() ? directory : directory.parent_path(), failed);
+    if (failed) return std::nullopt;
+    const fs::path real = fs::weakly_canonical(base / relative, failed);
+    if (failed) return std::nullopt;
+    const auto mismatch = std::mismatch(base.begin(), base.end(), real.begin(), real.end());
+    if (mismatch.first != base.end()) return std::nullopt;
+    return input.path_beside(relative);
+}
+
+std::optional<fs::path> path_inside(std::string name) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    if (name.find('\0') != std::string::npos) return {};
+    const fs::path path = fs::path(name).lexically_normal();
+    if (path.empty() || path.is_absolute() || *path.begin() == ".." || path == "." || !path.has_filename())
+        return {};
+    return path;
+}
+
+std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path>& relative,
+                                const std::string& name, const std::string& where, ReadLog& log) {
+    const auto refuse = [&](const std::string& why) -> std::optional<Bytes> {
+        log.warnings.push_back(
+            {Severity::warning, "W-IMAGE", fmt::format("{}: {}", where, why), file_mark(input.name()), ""});
+        return {};
+    };
+    const auto path = relative ? path_below(input, *relative) : std::nullopt;
+    if (!path)
+        return refuse(
+            fmt::format("\"{}\" is not a file in the directory of '{}' and is not read", name, input.name()));
+    std::error_code ignored;
+    if (!fs::is_regular_file(*path, ignored)) {
+        log.absent.push_back(*path);
+        return refuse(fmt::format("the file \"{}\" is missing", path->string()));
+    }
+    try {
+        const Input image = Input::open(*path);
+        log.files.push_back(*path);
+        return Bytes(image.stored().begin(), image.stored().end());
+    } catch (const Error& error) {
+        return refuse(error.diagnostics().front().message);
+    }
+}
+
+std::string media_type(Span bytes) {
+    const std::string_view text = as_text(bytes.first(std::min<std::size_t>(bytes.size(), 16)));
+    if (text.starts_with("\x89PNG\r\n\x1a\n")) return "image/png";
+    if (text.starts_with("\xff\xd8\xff")) return "image/jpeg";
+    if (text.starts_with("RIFF") && text.substr(std::min<std::size_t>(text.size(), 8)).starts_with("WEBP"))
+        return "image/webp";
+    if (text.starts_with("\xabKTX 20\xbb\r\n\x1a\n")) return "image/ktx2";
+    return text.starts_with("DDS ") ? "image/vnd-ms.dds" : "";
+}
+
+std::optional<ImageColours> image_colours(Span bytes) {
+    const std::string type = media_type(bytes);
+    if (type == "image/png") return png_colours(bytes);
+    if (type == "image/jpeg") return jpeg_colours(bytes);
+    return {};
+}
+
+std::string uri_of(const fs::path& relative) {
+    static constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~/";
+    std::string out;
+    for (const char c : relative.generic_string()) {
+        if (plain.find(c) != std::string_view::npos)
+            out += c;
+        else
+            out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return out;
+}
+
+ImageNames::ImageNames(std::string stem, std::vector<std::string> taken)
+    : stem_(std::move(stem)), taken_(std::move(taken)) {
+    for (auto& name : taken_) name = in_lower_case(name);
+}
+
+fs::path ImageNames::add(const fs::path& relative) {
+    const std::string file = relative.filename().string();
+    const std::string name = file.starts_with(stem_ + ".") ? file : stem_ + "." + file;
+    fs::path path = relative.parent_path() / name;
+    const auto is_taken = [&] {
+        return std::find(taken_.begin(), taken_.end(), in_lower_case(path.generic_string())) != taken_.end();
+    };
+    const fs::path plain = fs::path(name).stem(), extension = fs::path(name).extension();
+    for (int n = 2; is_taken(); ++n)
+        path = relative.parent_path() / fmt::format("{}.{}{}", plain.string(), n, extension.string());
+    taken_.push_back(in_lower_case(path.generic_string()));
+    return path;
+}
+
+} // namespace facetmill::io

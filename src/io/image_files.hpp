@@ -1,0 +1,52 @@
+#pragma once
+// Images that a mesh file names: which of them are read, of what kind they are, and how they are named beside
+// what is written. The directory rule: only files in the directory of the file that is read, or below it.
+
+#include "io/codec.hpp"
+
+#include <optional>
+
+namespace facetmill::io {
+
+/// The file beside the input, with links resolved: a link may not lead out of the directory either. None when
+/// it would.
+std::optional<std::filesystem::path> path_below(const Input& input, const std::filesystem::path& relative);
+
+/// The relative path below a directory that a text names, with slashes either way; none when it is empty,
+/// absolute, or leaves the directory.
+std::optional<std::filesystem::path> path_inside(std::string name);
+
+/// The bytes of an image beside the input, whose path is added to the log. When it cannot be read: none, and
+/// a warning (W-IMAGE) that begins with `where`. relative: none when the name breaks the directory rule.
+std::optional<Bytes> read_image(const Input& input, const std::optional<std::filesystem::path>& relative,
+                                const std::string& name, const std::string& where, ReadLog& log);
+
+/// "image/png", "image/jpeg", "image/webp", "image/ktx2" or "image/vnd-ms.dds" by the first bytes; empty for
+/// others.
+std::string media_type(Span bytes);
+
+/// What a PNG or JPEG says of its colours.
+struct ImageColours {
+    bool grey = false, alpha = false;
+};
+/// None when the bytes are neither PNG nor JPEG, or end before they say it.
+std::optional<ImageColours> image_colours(Span bytes);
+
+/// A relative path as a URI: bytes that a URI gives a meaning are written %XX.
+std::string uri_of(const std::filesystem::path& relative);
+
+/// Names of the images beside an output: "textures/wood.png" beside lamp.gltf is "textures/lamp.wood.png", so
+/// that two outputs in one folder never have the same name for different images.
+class ImageNames {
+  public:
+    /// taken: the names of the output's other files.
+    ImageNames(std::string stem, std::vector<std::string> taken);
+    /// A name for the image that was called so. Names that differ only in case count as the same.
+    std::filesystem::path add(const std::filesystem::path& relative);
+
+  private:
+    std::string stem_;
+    std::vector<std::string> taken_; ///< in lower case
+};
+
+} // namespace facetmill::io

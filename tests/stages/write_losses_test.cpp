@@ -1,0 +1,85 @@
+// Losses that a run can be stopped for: each is a warning with an id of its own.
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/failure.hpp"
+#include "support/gltf.hpp"
+#include "support/images.hpp"
+#include "support/run_stage.hpp"
+#include "support/temporary.hpp"
+
+#include <fmt/format.h>
+
+using namespace facetmill;
+using namespace facetmill::test;
+
+namespace {
+
+/// The stage writes, and its warnings are given, "ID message (hint)" a line.
+std::string warnings_of(const Scene& scene, const std::string& options) {
+    const StageRun run = run_stage("write", options, scene);
+    std::string all;
+    for (const auto& w : run.record.warnings) all += fmt::format("{} {} ({})\n", w.id, w.message, w.hint);
+    return all;
+}
+
+Scene far_away(double offset) {
+    Scene scene = test::scene_in_metres(shapes::icosphere(2), "ball");
+    for (Vec3& p : scene.parts[0].mesh.positions) p = p * 10 + Vec3{offset, offset / 10, 0.123456789};
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages]") {
+    const TemporaryDirectory dir;
+    const std::string glb = (dir / "a.glb").string(), ply = (dir / "a.ply").string();
+    const Scene scene = far_away(5.4e6); // a northing of UTM
+    const std::string plain = warnings_of(scene, glb);
+    CHECK(plain.find("W-ROUNDED") == 0);
+    CHECK(plain.find("so far from the origin") != std::string::npos);
+    CHECK(plain.find("transform: {centre: true}") != std::string::npos);
+    const std::string draco = warnings_of(scene, fmt::format("{{path: {}, draco: true}}", glb));
+    CHECK(draco.find("so far from the origin") != std::string::npos);
+    CHECK(draco.find("draco.position_bits") == std::string::npos);
+    CHECK(warnings_of(scene, ply).find("precision: full keeps all digits") != std::string::npos);
+    CHECK(warnings_of(scene, fmt::format("{{path: {}, precision: full}}", ply)).empty());
+    for (const char* options : {"{{path: {}}}", "{{path: {}, draco: true}}"})
+        CHECK(warnings_of(far_away(0), fmt::format(fmt::runtime(options), glb)).empty());
+}
+
+TEST_CASE("textures that a format does not get are said", "[stages]") {
+    const TemporaryDirectory dir;
+    put(dir / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n");
+    put(dir / "a.mtl", "newmtl m\nmap_Kd a.png\n");
+    put(dir / "a.png", red_png());
+    io::ReadLog log;
+    const Scene scene = io::read_scene(io::Input::open(dir / "a.obj"), {}, log);
+    CHECK(log.warnings.empty());
+    for (const char* name : {"b.obj", "b.ply"})
+        CHECK(
+            warnings_of(scene, (dir / name).string()).find("W-TEXTURES the textures of 1 material are not") ==
+            0);
+    CHECK(warnings_of(scene, (dir / "b.glb").string()).find("W-TEXTURES") == std::string::npos);
+    put(dir / "a.mtl", "newmtl m\nKd 1 0 0\n");
+    const Scene plain = io::read_scene(io::Input::open(dir / "a.obj"), {}, log);
+    CHECK(warnings_of(plain, (dir / "b.obj").string()).empty());
+}
+
+TEST_CASE("instances that stages do not see are said, and points without faces", "[stages]") {
+    const char* const start = R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_mesh_gpu_instancing"],
+ "scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"tree","mesh":0,"extensions":{"EXT_mesh_gpu_instancing":
+ {"attributes":{"TRANSLATION":0}}}}],"meshes":[{"primitives":[{"attributes":{"POSITION":0})";
+    const char* const end = R"(}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],
+ "bufferViews":[{"buffer":0,"byteLength":36}],
+ "buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+    io::ReadLog log;
+    const Scene scene = test::read_text(std::string(start) + end, &log);
+    REQUIRE(log.warnings.size() == 1);
+    CHECK(log.warnings[0].id == "W-INSTANCING");
+    CHECK(log.warnings[0].message.find("part 'tree' has 3 instances") == 0);
+    CHECK(Json::parse(json_of(written(scene, "glb").files[0].bytes))["nodes"][0].contains("extensions"));
+    CHECK(failure([&] {
+              test::read_text(std::string(start) + R"(,"mode":0)" + end);
+          }).find("has no faces: its 1 primitive") != std::string::npos);
+}
