@@ -56,6 +56,8 @@ LIBRARIES = {
     "CGAL": ["src/geometry/cgal/"],
     "OpenMesh": ["src/geometry/openmesh/"],
     "boost": ["src/geometry/cgal/"],
+    "png.h": ["src/io/pixels.cpp"],
+    "jpeglib.h": ["src/io/pixels.cpp"],
 }
 
 # The version of a library is no use of it: these headers hold only macros.

@@ -35,13 +35,6 @@ struct Statements {
 /// Parses the text, in parallel over chunks of lines. Malformed (E-OBJ, E-NAN) with the line.
 Statements parse(const Input& input, const ReadSettings& settings);
 
-/// Reads the .mtl files that the events name, beside the input, and gives the materials their colours. What
-/// cannot be read is a warning (W-MTL): the mesh is whole without it.
-void read_materials(const Input& input, const std::vector<Event>& events, std::vector<Material>& materials,
-                    ReadLog& log);
-/// The .mtl file of the materials.
-std::string material_library(const std::vector<Material>& materials);
-
 /// `o` makes parts, unless objects share vertices: then they stay one part, so that the surface stays whole,
 /// with the face attribute "object". Face attributes "group" and "smoothing_group" number the groups where
 /// there are several. `usemtl` makes materials and primitives. Texture points and normals make wedges.

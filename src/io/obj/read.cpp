@@ -1,112 +1,14 @@
 #include "base/parallel.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
-#include "io/obj/obj.hpp"
+#include "io/image_files.hpp"
+#include "io/obj/materials.hpp"
 #include "io/text.hpp"
 
 #include <fmt/format.h>
 #include <numeric>
-#include <set>
 
 namespace facetmill::io::obj {
-
-namespace fs = std::filesystem;
-
-namespace {
-
-void warn(ReadLog& log, const std::string& name, std::string message) {
-    log.warnings.push_back({Severity::warning, "W-MTL", std::move(message), file_mark(name), ""});
-}
-
-/// A library's path beside the input, when it stays in the directory of the input: a mesh file does not
-/// choose what else is read.
-std::optional<fs::path> inside(const Input& input, std::string name) {
-    for (char& c : name)
-        if (c == '\\') c = '/';
-    const fs::path relative = fs::path(name).lexically_normal();
-    if (input.path().empty() || relative.empty() || relative.is_absolute() || *relative.begin() == "..")
-        return {};
-    return relative;
-}
-
-double fraction(double x) { return std::clamp(x, 0.0, 1.0); }
-
-void read_library(const Input& library, std::vector<Material>& materials, ReadLog& log) {
-    Text text(as_text(library.bytes()), library.name(), "E-MTL", '#');
-    Material* current = nullptr;
-    std::set<std::string> textures;
-    do {
-        const std::string_view word = text.word_on_line();
-        if (word == "newmtl") {
-            const std::string_view name = text.rest_of_line();
-            const auto found = std::find_if(materials.begin(), materials.end(),
-                                            [&](const auto& m) { return m.name == name; });
-            current = found == materials.end() ? nullptr : &*found;
-        } else if (!current) {
-            continue;
-        } else if (word == "Kd") {
-            Text ahead = text;
-            const std::string_view kind = ahead.word_on_line();
-            if (kind == "spectral" || kind == "xyz") continue;
-            for (int c = 0; c < 3; ++c)
-                current->base_colour[c] =
-                    fraction(text.at_line_end() ? current->base_colour[0] : text.coordinate("a colour"));
-        } else if (word == "d" && !text.at_line_end()) {
-            Text ahead = text;
-            if (ahead.word_on_line() != "-halo")
-                current->base_colour[3] = fraction(text.coordinate("an opacity"));
-        } else if (word == "Tr" && !text.at_line_end()) {
-            current->base_colour[3] = 1 - fraction(text.coordinate("a transparency"));
-        } else if (word.starts_with("map_") || word == "bump" || word == "disp" || word == "refl") {
-            textures.insert(std::string(text.rest_of_line()));
-        }
-    } while (text.next_line());
-    if (!textures.empty())
-        warn(log, library.name(), fmt::format("textures are not kept: {}", fmt::join(textures, ", ")));
-}
-
-} // namespace
-
-void read_materials(const Input& input, const std::vector<Event>& events, std::vector<Material>& materials,
-                    ReadLog& log) {
-    std::set<std::string> met;
-    for (const auto& e : events) {
-        if (e.kind != Event::Kind::library || materials.empty() || !met.insert(e.text).second) continue;
-        const auto path = inside(input, e.text);
-        if (!path) {
-            warn(log, input.name(),
-                 fmt::format("the material file {} is not beside the mesh and is not read",
-                             in_quotes(e.text)));
-            continue;
-        }
-        try {
-            const Input library = input.beside(*path);
-            log.files.push_back(library.path());
-            read_library(library, materials, log);
-        } catch (const Error& error) {
-            if (error.kind() == ErrorKind::missing) log.absent.push_back(input.path_beside(*path));
-            warn(log, input.name(),
-                 fmt::format("materials keep their names only: {}", error.diagnostics().front().message));
-        }
-    }
-}
-
-std::string material_library(const std::vector<Material>& materials) {
-    std::string text = "# written by facetmill\n";
-    for (const auto& m : materials) {
-        text += fmt::format("newmtl {}\nKd", m.name);
-        for (int c = 0; c < 3; ++c) {
-            text += ' ';
-            put_number(text, static_cast<float>(m.base_colour[c]));
-        }
-        text += "\nd ";
-        put_number(text, static_cast<float>(m.base_colour[3]));
-        text += '\n';
-    }
-    return text;
-}
-
-// --- read
 
 namespace {
 
@@ -197,21 +99,55 @@ void add_wedges(Mesh& mesh, Statements& s) {
     add_attribute(mesh, std::move(colour));
 }
 
-/// Materials of the scene and the primitives of the mesh, from usemtl.
-void add_materials(Scene& scene, Mesh& mesh, const Statements& s) {
+/// Whether each face has texture points, when some have and some have not; else empty.
+std::vector<bool> faces_with_uvs(const Statements& s) {
+    std::vector<bool> with(s.faces());
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < with.size() && !s.corner_keys.empty(); ++f) {
+        for (Index c = s.face_offsets[f]; c < s.face_offsets[f + 1]; ++c)
+            if (static_cast<Index>(s.corner_keys[c] >> 32) != none) with[f] = true;
+        count += with[f];
+    }
+    return count == 0 || count == with.size() ? std::vector<bool>{} : with;
+}
+
+/// The names of the wedge attributes that a primitive with or without texture points has.
+std::vector<std::string> attributes_of(const Mesh& mesh, bool with_uvs) {
+    std::vector<std::string> names{"POSITION"}; // an empty list would mean all
+    for (const Attribute& a : mesh.attributes)
+        if (a.domain == Domain::wedge && (with_uvs || a.name != "TEXCOORD_0")) names.push_back(a.name);
+    return names;
+}
+
+/// Materials of the scene and the primitives of the mesh, from usemtl. Faces without texture points are
+/// primitives of their own, with no texture coordinates and no textures.
+void add_materials(Scene& scene, Mesh& mesh, const Statements& s, const Input& input, ReadLog& log) {
     static const std::string no_material; // usemtl without a name means the same
-    Naming used = naming(s, Event::Kind::material, no_material);
-    if (used.names.empty() || used.names == std::vector{no_material}) return;
-    for (const auto& name : used.names) {
+    const Naming used = naming(s, Event::Kind::material, no_material);
+    const std::vector<bool> with_uvs = faces_with_uvs(s);
+    const bool uvs = mesh.find("TEXCOORD_0", Domain::wedge) != nullptr;
+    const bool nameless = used.names.empty() || used.names == std::vector{no_material};
+    if (nameless && with_uvs.empty()) return;
+    MaterialMaker maker(
+        input, nameless ? std::map<std::string, Description>{} : read_libraries(input, s.events, log), log);
+    std::vector<Index> primitive_of(2 * used.names.size(), none); // without and with texture points
+    std::vector<Index> of_face(s.faces());
+    for (std::size_t f = 0; f < of_face.size(); ++f) {
+        const bool with = with_uvs.empty() ? uvs : with_uvs[f];
+        Index& known = primitive_of[2 * std::size_t{used.of_face[f]} + with];
+        const bool fresh = known == none;
+        if (fresh) known = static_cast<Index>(mesh.primitives.size());
+        of_face[f] = known;
+        if (!fresh) continue;
         Primitive primitive;
-        if (!name.empty()) {
-            primitive.material = static_cast<Index>(scene.materials.size());
-            scene.materials.emplace_back().name = name;
-        }
+        const std::string& name = used.names[used.of_face[f]];
+        if (!name.empty()) primitive.material = maker.index_of(name, with, scene.materials);
+        if (!with_uvs.empty()) primitive.attributes = attributes_of(mesh, with);
         mesh.primitives.push_back(std::move(primitive));
     }
+    maker.finish(scene);
     if (mesh.primitives.size() > 1)
-        mesh.attributes.push_back(numbers(std::string(primitive_attribute).c_str(), std::move(used.of_face)));
+        mesh.attributes.push_back(numbers(std::string(primitive_attribute).c_str(), std::move(of_face)));
 }
 
 void add_groups(Mesh& mesh, const Statements& s, const std::string& file, ReadLog& log) {
@@ -302,6 +238,18 @@ Mesh extract(const Mesh& mesh, const Shares& vertices, const Shares& wedges, con
     return own;
 }
 
+/// Texture coordinates that no primitive has go; lists of attributes that say nothing, too.
+void drop_unlisted(Mesh& mesh) {
+    const auto lists_uvs = [](const Primitive& p) {
+        return p.attributes.empty() ||
+               std::find(p.attributes.begin(), p.attributes.end(), "TEXCOORD_0") != p.attributes.end();
+    };
+    const auto with = std::count_if(mesh.primitives.begin(), mesh.primitives.end(), lists_uvs);
+    if (with == 0) mesh.drop("TEXCOORD_0", Domain::wedge);
+    if (with == 0 || with == static_cast<std::ptrdiff_t>(mesh.primitives.size()))
+        for (Primitive& p : mesh.primitives) p.attributes.clear();
+}
+
 /// Primitives that no face uses go; one that is left needs no attribute.
 void compact_primitives(Mesh& mesh) {
     Attribute* a = mesh.find(primitive_attribute, Domain::face);
@@ -317,6 +265,7 @@ void compact_primitives(Mesh& mesh) {
         p = place[p];
     }
     mesh.primitives = std::move(used);
+    drop_unlisted(mesh);
     if (mesh.primitives.size() < 2) mesh.drop(primitive_attribute, Domain::face);
 }
 
@@ -377,9 +326,8 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     mesh.face_offsets = s.face_offsets;
     add_wedges(mesh, s);
     normalise_offsets(mesh);
-    add_materials(scene, mesh, s);
+    add_materials(scene, mesh, s, input, log);
     add_groups(mesh, s, input.name(), log);
-    read_materials(input, s.events, scene.materials, log);
     add_parts(scene, std::move(mesh), s);
     return scene;
 }
@@ -404,14 +352,15 @@ void peek(const Input& input, FileHeader& header) {
         const std::string_view word = text.word_on_line();
         header.has_materials |= word == "usemtl";
         if (word != "mtllib") continue;
-        if (const auto path = inside(input, std::string(text.rest_of_line())))
+        if (const auto path =
+                input.path().empty() ? std::nullopt : path_inside(std::string(text.rest_of_line())))
             header.files.push_back(input.path_beside(*path));
     } while (text.next_line());
 }
 
 const RegisterCodec codec({
     .name = "obj",
-    .about = "Wavefront object, with its material colours; texture points and normals by corner",
+    .about = "Wavefront object, with its materials and their textures; texture points and normals by corner",
     .extensions = {"obj"},
     .can = {.polygons = true,
             .full_precision = true,

@@ -1,6 +1,5 @@
-#include "io/obj/obj.hpp"
-
 #include "io/flatten.hpp"
+#include "io/obj/materials.hpp"
 
 #include <bit>
 #include <cstring>
@@ -138,7 +137,7 @@ class PartWriter {
             statements(begin);
             end = begin + 1;
             while (end < count && !changes(end)) ++end;
-            put_faces(bytes_, mesh_, begin, end, uv, normal, offsets);
+            put_faces(bytes_, mesh_, begin, end, uvs_ ? uv : Pool{}, normal, offsets);
         }
     }
 
@@ -150,11 +149,18 @@ class PartWriter {
     Index material(Index f) const {
         return mesh_.primitives.empty() ? none : mesh_.primitives[mesh_.primitive_of(f)].material;
     }
+    /// Whether the face's primitive has the texture points that the mesh has.
+    bool has_uvs(Index f) const {
+        if (mesh_.primitives.empty()) return true;
+        const auto& names = mesh_.primitives[mesh_.primitive_of(f)].attributes;
+        return names.empty() || std::find(names.begin(), names.end(), "TEXCOORD_0") != names.end();
+    }
     bool changes(Index f) const {
-        return material(f) != material_ || group_.differs(f) || smoothing_.differs(f);
+        return material(f) != material_ || has_uvs(f) != uvs_ || group_.differs(f) || smoothing_.differs(f);
     }
 
     void statements(Index f) {
+        uvs_ = has_uvs(f);
         if (group_.differs(f)) {
             group_.current = group_.attribute->value(f, 0);
             append(bytes_, fmt::format("g group_{}\n", group_.current));
@@ -173,6 +179,7 @@ class PartWriter {
     const std::vector<std::string>& materials_;
     Switch group_, smoothing_;
     Index material_ = none;
+    bool uvs_ = true;
 };
 
 /// Names for usemtl: on one line, never empty, each once.
@@ -242,6 +249,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         tell_what_is_lost(part.mesh, written);
     }
     leave_documents(written, scene, "OBJ");
+    warn_of_textures(written, scene, "OBJ");
     written.files.push_back({settings.title + ".obj", std::move(bytes)});
     if (!materials.empty()) {
         std::vector<Material> named = scene.materials;

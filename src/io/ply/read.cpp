@@ -1,5 +1,7 @@
 #include "base/parallel.hpp"
 #include "io/attributes.hpp"
+#include "io/image_files.hpp"
+#include "io/material_document.hpp"
 #include "io/ply/ply.hpp"
 #include "io/text.hpp"
 
@@ -296,6 +298,9 @@ class Builder {
     std::size_t index_column();
     void add_strips();
     void add_corner_uvs();
+    void add_textures(Scene& scene, const Header& header);
+    std::vector<Index> texture_of_faces(std::size_t textures);
+    std::optional<Material> material_of(MaterialDocument& document, const std::string& texture);
     void report_lists(const Table& table);
 
     const Input& input_;
@@ -431,6 +436,78 @@ void Builder::add_corner_uvs() {
     add_attribute(mesh_, {"TEXCOORD_0", Domain::wedge, Role::uv, 2, false, std::move(uv)});
 }
 
+/// The number of each face's texture (MeshLab's texnumber), `textures` for those of none; 0 where faces do
+/// not tell.
+std::vector<Index> Builder::texture_of_faces(std::size_t textures) {
+    std::vector<Index> numbers(mesh_.face_count(), 0);
+    if (faces_.count() != numbers.size()) return numbers; // faces of strips
+    const auto found = faces_.take({"texnumber"});
+    if (found.empty()) return numbers;
+    std::visit(
+        [&](const auto& values) {
+            for (std::size_t f = 0; f < numbers.size(); ++f) {
+                const auto number = static_cast<double>(values[f]);
+                const bool known = number >= 0 && number < static_cast<double>(textures);
+                numbers[f] = static_cast<Index>(known ? number : static_cast<double>(textures));
+            }
+        },
+        faces_.columns[found[0]].values);
+    return numbers;
+}
+
+/// Materials from the images that comments name, a primitive for each that faces use. Without texture
+/// coordinates they mean nothing.
+void Builder::add_textures(Scene& scene, const Header& header) {
+    if (header.textures.empty()) return;
+    const std::vector<Index> numbers = texture_of_faces(header.textures.size());
+    if (!mesh_.find("TEXCOORD_0", Domain::wedge)) {
+        log_.warnings.push_back(
+            {Severity::warning, "W-IMAGE",
+             fmt::format("the texture '{}' is not read: the file has no texture coordinates",
+                         header.textures[0]),
+             file_mark(input_.name()), ""});
+        return;
+    }
+    MaterialDocument document(input_.name());
+    std::vector<Index> primitive_of(header.textures.size() + 1, none), of_face;
+    for (const Index number : numbers) {
+        Index& primitive = primitive_of[number];
+        if (primitive == none) {
+            primitive = static_cast<Index>(mesh_.primitives.size());
+            Primitive& p = mesh_.primitives.emplace_back();
+            if (number < header.textures.size())
+                if (auto material = material_of(document, header.textures[number])) {
+                    p.material = static_cast<Index>(scene.materials.size());
+                    scene.materials.push_back(*std::move(material));
+                }
+        }
+        of_face.push_back(primitive);
+    }
+    if (mesh_.primitives.size() > 1)
+        mesh_.attributes.push_back(
+            {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(of_face)});
+    if (!document.empty()) scene.documents.push_back(document.finish());
+}
+
+std::optional<Material> Builder::material_of(MaterialDocument& document, const std::string& texture) {
+    const auto relative = path_inside(texture);
+    auto bytes = read_image(input_, relative, texture, "TextureFile", log_);
+    const std::string type = bytes ? media_type(*bytes) : "";
+    if (type == "image/png" || type == "image/jpeg")
+        return document.add({{"name", relative->stem().string()},
+                             {"pbrMetallicRoughness",
+                              {{"baseColorTexture", {{"index", document.texture(*relative, *bytes, false)}}},
+                               {"metallicFactor", 0}}}},
+                            0);
+    if (bytes)
+        log_.warnings.push_back(
+            {Severity::warning, "W-IMAGE",
+             fmt::format("the texture '{}' is neither PNG nor JPEG, which glTF asks for, and is not kept",
+                         texture),
+             file_mark(input_.name()), ""});
+    return {};
+}
+
 void Builder::report_lists(const Table& table) {
     for (std::size_t p = 0; p < table.columns.size(); ++p)
         if (!table.taken[p] && table.property(p).list && table.count() > 0)
@@ -440,11 +517,6 @@ void Builder::report_lists(const Table& table) {
 
 Scene Builder::read() {
     const Header header = read_header(input_);
-    for (const auto& texture : header.textures)
-        log_.warnings.push_back(
-            {Severity::warning, "W-IMAGE",
-             fmt::format("the texture '{}' is not read: PLY names it only in a comment", texture),
-             file_mark(input_.name()), "give the written file its material elsewhere"});
     Body body(input_, header);
     for (const Element& e : header.elements) {
         Table table{&e, body.read(e), std::vector<bool>(e.properties.size(), false)};
@@ -471,6 +543,8 @@ Scene Builder::read() {
     if (faces_.count() > 0 && strips_.count() > 0)
         fail(*strips_.element, "faces and strips in one file cannot be read");
     add_strips();
+    Scene scene;
+    add_textures(scene, header);
     if (faces_.count() > 0) {
         add_colours(faces_, mesh_, Domain::face);
         add_others(faces_, mesh_, Domain::face);
@@ -479,7 +553,6 @@ Scene Builder::read() {
     report_lists(faces_);
     drop_short_faces(mesh_, input_.name(), log_);
     normalise_offsets(mesh_);
-    Scene scene;
     scene.parts.emplace_back().mesh = std::move(mesh_);
     return scene;
 }

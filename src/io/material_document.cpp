@@ -1,0 +1,65 @@
+#include "io/material_document.hpp"
+
+#include "io/image_files.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::io {
+
+MaterialDocument::MaterialDocument(std::string name)
+    : json_{{"asset", {{"version", "2.0"}}}, {"materials", Json::array()}} {
+    document_.name = std::move(name);
+}
+
+std::size_t MaterialDocument::find_or_add(const char* list, const Json& value) {
+    Json& items = json_[list];
+    if (!items.is_array()) items = Json::array();
+    const auto found = std::find(items.begin(), items.end(), value);
+    const auto index = static_cast<std::size_t>(found - items.begin());
+    if (found == items.end()) items.push_back(value);
+    return index;
+}
+
+std::size_t MaterialDocument::texture(const std::filesystem::path& image, const std::vector<std::byte>& bytes,
+                                      bool clamp) {
+    constexpr int repeat = 10497, clamp_to_edge = 33071;
+    std::string uri = uri_of(image);
+    for (int n = 2; !document_.files.try_emplace(uri, bytes).second && document_.files[uri] != bytes; ++n)
+        uri = uri_of(image.parent_path() /
+                     fmt::format("{}.{}{}", image.stem().string(), n, image.extension().string()));
+    const int wrap = clamp ? clamp_to_edge : repeat;
+    const std::size_t sampler = find_or_add("samplers", {{"wrapS", wrap}, {"wrapT", wrap}});
+    const std::size_t source = find_or_add("images", {{"uri", uri}});
+    return find_or_add("textures", {{"sampler", sampler}, {"source", source}});
+}
+
+void MaterialDocument::list_extensions(const Json& json) {
+    if (!json.is_structured()) return;
+    for (const auto& [key, value] : json.items()) {
+        if (json.is_object() && key == "extensions")
+            for (const auto& [name, content] : value.items()) find_or_add("extensionsUsed", name);
+        list_extensions(value);
+    }
+}
+
+Material MaterialDocument::add(Json material, std::size_t documents) {
+    list_extensions(material);
+    Material out;
+    out.name = material.value("name", "");
+    out.double_sided = material.value("doubleSided", false);
+    const Json colour =
+        material.value("/pbrMetallicRoughness/baseColorFactor"_json_pointer, Json::array({1, 1, 1, 1}));
+    for (std::size_t c = 0; c < 4; ++c) out.base_colour[c] = colour.at(c).get<double>();
+    out.document = static_cast<int>(documents);
+    out.index = static_cast<int>(json_["materials"].size());
+    json_["materials"].push_back(std::move(material));
+    return out;
+}
+
+std::shared_ptr<const Document> MaterialDocument::finish() {
+    document_.json = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return std::make_shared<const Document>(std::move(document_));
+}
+
+} // namespace facetmill::io

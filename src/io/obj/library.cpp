@@ -1,0 +1,204 @@
+// The statements of .mtl files. Wavefront Technologies, "MTL material format", 1995; the words of physically
+// based materials (Pr, Pm, norm, map_RMA ...) after Exocortex, "Extending the MTL format for PBR", 2016.
+
+#include "io/image_files.hpp"
+#include "io/obj/materials.hpp"
+#include "io/text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+
+namespace facetmill::io::obj {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void warn(ReadLog& log, const std::string& name, std::string message) {
+    log.warnings.push_back({Severity::warning, "W-MTL", std::move(message), file_mark(name), ""});
+}
+
+double fraction(double x) { return std::clamp(x, 0.0, 1.0); }
+
+/// The numbers that follow, `most` at most; none of what follows them is taken.
+std::vector<double> take_numbers(Text& text, std::size_t most) {
+    std::vector<double> numbers;
+    while (numbers.size() < most) {
+        Text ahead = text;
+        const std::string_view word = ahead.word_on_line();
+        const char* at = word.data();
+        double number = 0;
+        if (word.empty() || !scan_real(at, word.data() + word.size(), number) ||
+            at != word.data() + word.size() || !std::isfinite(number))
+            break;
+        numbers.push_back(number);
+        text = ahead;
+    }
+    return numbers;
+}
+
+/// The word of a texture statement without "map_", in lower case.
+std::string map_key(std::string_view word) {
+    std::string key(word.starts_with("map_") ? word.substr(4) : word);
+    for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return key == "opacity" ? "d" : key;
+}
+
+bool is_map(std::string_view word) {
+    static const std::set<std::string_view> others{"bump", "norm", "disp", "decal", "refl"};
+    return word.starts_with("map_") || others.count(word) > 0;
+}
+
+class LibraryReader {
+  public:
+    /// folder: of the library, relative to the OBJ file.
+    LibraryReader(const Input& library, fs::path folder, std::map<std::string, Description>& out)
+        : text_(as_text(library.bytes()), library.name(), "E-MTL", '#'), folder_(std::move(folder)),
+          out_(out) {}
+
+    void read() {
+        do {
+            statement(text_.word_on_line());
+        } while (text_.next_line());
+    }
+
+  private:
+    void statement(std::string_view word) {
+        if (word == "newmtl") {
+            current_ = &out_[std::string(text_.rest_of_line())];
+        } else if (!current_ || word.empty()) {
+            return;
+        } else if (word == "Kd") {
+            colour(word, current_->diffuse);
+        } else if (word == "Ks") {
+            colour(word, current_->specular);
+        } else if (word == "Ke") {
+            colour(word, current_->emission);
+        } else if (word == "d" || word == "Tr") {
+            opacity(word == "Tr");
+        } else if (word == "Ns") {
+            number(current_->shininess);
+        } else if (word == "Pr") {
+            number(current_->roughness);
+        } else if (word == "Pm") {
+            number(current_->metalness);
+        } else if (word == "illum") {
+            if (const auto n = take_numbers(text_, 1); !n.empty())
+                current_->illumination = static_cast<int>(std::clamp(n[0], 0.0, 10.0));
+        } else if (is_map(word)) {
+            map(word);
+        } else if (word == "Ps" || word == "Pc" || word == "Pcr" || word == "aniso" || word == "anisor") {
+            if (const auto n = take_numbers(text_, 1); !n.empty() && n[0] != 0)
+                current_->left_out.emplace_back(word);
+        }
+    }
+
+    /// One number is grey; colours of other kinds (spectral, xyz) are not read.
+    void colour(std::string_view word, std::optional<Colour>& to) {
+        const auto n = take_numbers(text_, 3);
+        if (n.empty()) {
+            current_->left_out.emplace_back(word);
+            return;
+        }
+        to = Colour{n[0], n.size() > 1 ? n[1] : n[0], n.size() > 2 ? n[2] : n[0]};
+        for (double& c : *to) c = std::max(c, 0.0);
+    }
+
+    void number(std::optional<double>& to) {
+        if (const auto n = take_numbers(text_, 1); !n.empty()) to = n[0];
+    }
+
+    void opacity(bool inverted) {
+        Text ahead = text_;
+        if (ahead.word_on_line() == "-halo") return;
+        const auto n = take_numbers(text_, 1);
+        if (!n.empty()) current_->opacity = inverted ? 1 - fraction(n[0]) : fraction(n[0]);
+    }
+
+    void map(std::string_view word) {
+        Map map;
+        while (true) {
+            Text ahead = text_;
+            const std::string_view option = ahead.word_on_line();
+            if (!option.starts_with('-') || option.size() < 2) break;
+            const Text before = text_;
+            text_ = ahead;
+            if (take_option(option, map)) continue;
+            text_ = before;
+            break;
+        }
+        map.file = text_.rest_of_line();
+        if (map.file.size() > 1 && map.file.front() == '"' && map.file.back() == '"')
+            map.file = map.file.substr(1, map.file.size() - 2);
+        if (map.file.empty()) return;
+        std::string path = map.file;
+        std::replace(path.begin(), path.end(), '\\', '/');
+        const auto relative =
+            fs::path(path).is_absolute() ? std::nullopt : path_inside((folder_ / path).string());
+        if (relative) map.relative = *relative;
+        current_->maps[map_key(word)] = std::move(map);
+    }
+
+    /// False when the word is no option, and so the beginning of a name.
+    bool take_option(std::string_view option, Map& map) {
+        if (option == "-s" || option == "-o") {
+            const auto n = take_numbers(text_, 3);
+            auto& to = option == "-s" ? map.scale : map.offset;
+            for (std::size_t i = 0; i < std::min<std::size_t>(n.size(), 2); ++i) to[i] = n[i];
+        } else if (option == "-clamp") {
+            map.clamp = text_.word_on_line() == "on";
+        } else if (option == "-bm") {
+            if (const auto n = take_numbers(text_, 1); !n.empty()) map.strength = n[0];
+        } else if (option == "-mm") {
+            const auto n = take_numbers(text_, 2);
+            if (n != std::vector<double>{0, 1}) current_->left_out.emplace_back(option);
+        } else if (option == "-t" || option == "-boost" || option == "-texres") {
+            take_numbers(text_, option == "-t" ? 3 : 1);
+            current_->left_out.emplace_back(option);
+        } else if (option == "-blendu" || option == "-blendv" || option == "-cc" || option == "-type" ||
+                   option == "-imfchan") {
+            text_.word_on_line(); // about filters and channels: glTF's own are the usual ones
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    Text text_;
+    fs::path folder_;
+    std::map<std::string, Description>& out_;
+    Description* current_ = nullptr;
+};
+
+} // namespace
+
+std::map<std::string, Description> read_libraries(const Input& input, const std::vector<Event>& events,
+                                                  ReadLog& log) {
+    std::map<std::string, Description> all;
+    std::set<std::string> met;
+    for (const auto& e : events) {
+        if (e.kind != Event::Kind::library || !met.insert(e.text).second) continue;
+        const auto path = input.path().empty() ? std::nullopt : path_inside(e.text);
+        if (!path) {
+            warn(log, input.name(),
+                 fmt::format("the material file {} is not beside the mesh and is not read",
+                             in_quotes(e.text)));
+            continue;
+        }
+        try {
+            const Input library = input.beside(*path);
+            log.files.push_back(library.path());
+            LibraryReader(library, path->parent_path(), all).read();
+        } catch (const Error& error) {
+            if (error.kind() == ErrorKind::missing) log.absent.push_back(input.path_beside(*path));
+            warn(log, input.name(),
+                 fmt::format("materials keep their names only: {}", error.diagnostics().front().message));
+        }
+    }
+    return all;
+}
+
+} // namespace facetmill::io::obj

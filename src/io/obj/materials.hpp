@@ -1,0 +1,83 @@
+#pragma once
+// The materials of an OBJ file: its .mtl libraries, and what their words mean in glTF.
+
+#include "io/material_document.hpp"
+#include "io/obj/obj.hpp"
+#include "io/pixels.hpp"
+
+#include <array>
+#include <optional>
+
+namespace facetmill::io::obj {
+
+/// A texture statement: an image, and how it is laid on. Texture points count from the bottom.
+struct Map {
+    std::string file;                 ///< as spelled
+    std::filesystem::path relative{}; ///< to the OBJ file; empty when it is outside of its folder
+    std::array<double, 2> scale{1, 1}, offset{0, 0};
+    bool clamp = false;
+    double strength = 1; ///< -bm
+
+    bool operator==(const Map&) const = default;
+    /// Whether the image of another statement lies where this one's does.
+    bool lies_as(const Map& other) const {
+        return scale == other.scale && offset == other.offset && clamp == other.clamp;
+    }
+};
+
+using Colour = std::array<double, 3>;
+
+/// A material as a library has it. Words that are not in the file are none.
+struct Description {
+    std::optional<Colour> diffuse, specular, emission;     ///< Kd, Ks, Ke
+    std::optional<double> shininess, roughness, metalness; ///< Ns, Pr, Pm
+    std::optional<int> illumination;                       ///< illum
+    double opacity = 1;                                    ///< d, or 1 - Tr
+    std::map<std::string, Map> maps;                       ///< by their word, "map_Kd" as "kd"
+    std::vector<std::string> left_out;                     ///< words and options that glTF has no place for
+};
+
+/// The materials of all libraries that the events name, by name. What cannot be read is a warning (W-MTL):
+/// the mesh is whole without it.
+std::map<std::string, Description> read_libraries(const Input& input, const std::vector<Event>& events,
+                                                  ReadLog& log);
+
+/// Makes materials of a scene from descriptions, and the document that tells them.
+class MaterialMaker {
+  public:
+    MaterialMaker(const Input& input, std::map<std::string, Description> descriptions, ReadLog& log);
+    /// The index in the materials of the one with that name; textured: for faces with texture points. What
+    /// glTF cannot say is a warning (W-MTL), as are textures that cannot be read (W-IMAGE).
+    Index index_of(const std::string& name, bool textured, std::vector<Material>& materials);
+    /// Gives the scene the document, when there is anything in it.
+    void finish(Scene& scene);
+
+  private:
+    struct Image {
+        Bytes bytes;
+        std::optional<Pixels> pixels; ///< once they were asked for
+    };
+    Image* image_of(const std::string& material, const std::string& word, const Map& map);
+    const Pixels* pixels_of(const std::string& material, const std::string& word, const Map& map);
+    Json reference(const std::filesystem::path& image, const Bytes& bytes, const Map& map);
+    std::optional<Json> texture(const std::string& material, const std::string& word, const Map& map);
+    std::optional<Json> surface_texture(const std::string& name, const Description& d);
+    Json material_json(const std::string& name, const Description& d, bool textured);
+    void add_colour_maps(Json& json, const std::string& name, const Description& d);
+    void add_opacity_map(Json& json, const std::string& name, const Description& d);
+    void add_surface_maps(Json& json, const std::string& name, const Description& d);
+    void add_relief_map(Json& json, const std::string& name, const Description& d);
+    void warn(const std::string& material, std::string message);
+
+    const Input& input_;
+    std::map<std::string, Description> descriptions_;
+    ReadLog& log_;
+    MaterialDocument document_;
+    std::map<std::filesystem::path, std::optional<Image>> images_;
+    std::map<std::pair<std::string, bool>, Index> known_;
+};
+
+/// The .mtl file of the materials.
+std::string material_library(const std::vector<Material>& materials);
+
+} // namespace facetmill::io::obj

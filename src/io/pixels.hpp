@@ -1,0 +1,47 @@
+#pragma once
+// Images as pixels, for textures whose channels glTF has in another order or place.
+
+#include "io/bytes.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace facetmill::io {
+
+/// Red, green, blue and alpha of 8 bits each, row by row from the top, as the file stores them.
+struct Pixels {
+    std::size_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;
+
+    /// The pixel of an image scaled to width x height (its nearest one).
+    const std::uint8_t* at(std::size_t x, std::size_t y, std::size_t of_width, std::size_t of_height) const {
+        return &rgba[4 * (y * height / of_height * width + x * width / of_width)];
+    }
+};
+
+/// A PNG or JPEG of at most 2^26 pixels; none for others and for what is broken. Grey becomes three equal
+/// channels, what has no alpha is opaque.
+std::optional<Pixels> decoded_image(Span bytes);
+
+/// Whether all pixels are grey.
+bool is_grey(const Pixels& image);
+
+/// Where a channel of a combined image comes from: one of the image's (0 to 3) or its brightness (4), or,
+/// without an image, a number.
+struct Channel {
+    const Pixels* image = nullptr;
+    int channel = 0;
+    std::uint8_t number = 255;
+};
+constexpr int brightness = 4; ///< 0.299 red + 0.587 green + 0.114 blue (ITU-R BT.601)
+
+/// A PNG as large as the largest image that is named; smaller ones are scaled to it.
+Bytes combined_image(const std::array<Channel, 4>& channels);
+
+/// A PNG of the normals of a relief, brighter being higher: its slopes are `strength` times the difference of
+/// the neighbours' brightness. The image is repeated at its borders. Blinn, "Simulation of Wrinkled
+/// Surfaces", 1978.
+Bytes normals_of_relief(const Pixels& relief, double strength);
+
+} // namespace facetmill::io
