@@ -1,5 +1,7 @@
 #include "io/image_files.hpp"
 
+#include "base/memory.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
@@ -81,6 +83,10 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
         log.absent.push_back(*path);
         return refuse(fmt::format("the file \"{}\" is missing", path->string()));
     }
+    const auto size = fs::file_size(*path, ignored);
+    if (!ignored)
+        require_memory(2.0 * static_cast<double>(size), fmt::format("reading '{}'", path->string()),
+                       "use a machine with more memory");
     try {
         const Input image = Input::open(*path);
         log.files.push_back(*path);

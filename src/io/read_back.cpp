@@ -4,6 +4,7 @@
 #include "base/random.hpp"
 #include "io/flatten.hpp"
 #include "mesh/placement.hpp"
+#include "mesh/transform.hpp"
 
 #include <algorithm>
 #include <array>
@@ -219,9 +220,19 @@ double position_error(const Scene& before, const Scene& after, double tolerance,
     return std::max(farthest(here, there, tolerance), farthest(there, here, tolerance));
 }
 
+/// The distance between neighbouring float32 numbers at the largest coordinate of the box.
+double float_step_at(const Box& box) {
+    double most = 0;
+    for (std::size_t i = 0; i < 3 && !box.empty(); ++i)
+        most = std::max({most, std::abs(box.min[i]), std::abs(box.max[i])});
+    const auto x = static_cast<float>(most);
+    return static_cast<double>(std::nextafter(x, HUGE_VALF)) - static_cast<double>(x);
+}
+
 /// How far the format may move a point: float32's rounding of the largest coordinate (twice, for a node's
 /// transform between), and half a step of Draco's grid in every direction.
-void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings) {
+/// transforms: the file has the parts' own coordinates.
+void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings, bool transforms) {
     Box world;
     double largest = 0;
     for (const auto& part : scene.parts) {
@@ -237,6 +248,8 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
             for (int c = 0; c < 3; ++c) scale += row[c] * row[c];
         const double reach = std::max(length(own.min), length(own.max)) * std::sqrt(scale);
         largest = std::max(largest, reach);
+        if (transforms)
+            back.float_step = std::max(back.float_step, float_step_at(own) * greatest_stretch(to_world));
         if (settings.draco.on && settings.draco.position_bits > 0) {
             const Vec3 e = own.extent();
             const double range = std::max({e.x, e.y, e.z}) * std::sqrt(scale);
@@ -248,9 +261,10 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
         largest = std::max({largest, length(world.min), length(world.max)});
         back.diagonal = length(world.extent());
     }
-    back.float_step = largest / (1 << 23);
+    if (!transforms) back.float_step = float_step_at(world);
     // Half a step times the square root of three, and a margin for rounding.
-    back.tolerance = 2 * back.float_step + back.grid_step;
+    constexpr double float_step = 1.0 / (1 << 23);
+    back.tolerance = 2 * largest * float_step + back.grid_step;
 }
 
 /// The properties that a file should not lose; truths, or counts of what is wrong.
@@ -323,7 +337,7 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, co
         refuse(fmt::format("{} faces, expected {}", back.faces,
                            polygons == triangles ? fmt::format("{}", polygons)
                                                  : fmt::format("{} (or {} triangles)", polygons, triangles)));
-    set_tolerance(back, scene, settings);
+    set_tolerance(back, scene, settings, codec.can.transforms);
     back.position_error = position_error(scene, back.scene, back.tolerance, dropped_faces == 0);
     if (back.position_error > back.tolerance)
         refuse(fmt::format("a vertex moved farther than {}", back.tolerance));

@@ -245,7 +245,8 @@ TEST_CASE("a textured OBJ beside a glTF keeps both", "[stages]") {
     Loaded obj = load_quad(dir, "map_Kd red.png\n");
     io::ReadLog log;
     const Scene box = io::read_scene(
-        io::Input::of("box.glb", written(scene_in_metres(shapes::cube(), "box"), "glb").files[0].bytes), {}, log);
+        io::Input::of("box.glb", written(scene_in_metres(shapes::cube(), "box"), "glb").files[0].bytes), {},
+        log);
     Scene scene = obj.scene;
     scene.unit = Unit::m;
     scene.up = UpAxis::y;
