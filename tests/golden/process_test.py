@@ -362,7 +362,7 @@ class Process(Case):
         self.write("p.yaml", "facetmill: 1\nstages: [{load: t.off}, {relax: 3}]\n")
         self.assertIn("W-NOTHING", self.mill("check", "p.yaml").stderr)
         self.assertIn("W-NOTHING", self.mill("plan", "p.yaml").stderr)
-        for line in (["measure"], ["validate"], ["write", "a.ply"], ["relax", "--ensure.faces", "1"]):
+        for line in (["measure"], ["validate", "--faces", "1"], ["write", "a.ply"], ["relax", "--ensure.faces", "1"]):
             self.assertNotIn("W-NOTHING", self.mill("pipe", "load", "t.off", "!", *line).stderr)
 
     def test_many_quiet_runs(self):

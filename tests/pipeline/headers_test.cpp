@@ -96,7 +96,7 @@ TEST_CASE("a physical length on a scene without a unit is found before anything 
 }
 
 TEST_CASE("so is the length in the short form of a plane, where it stands", "[pipeline]") {
-    Ground ground;
+    Folder ground;
     for (const std::string planes : {"plane: z=5mm", "planes: [x=10%, z=5mm]"}) {
         const auto errors = ground.errors("  - load: good.off\n  - clip: {" + planes + "}\n");
         REQUIRE(errors.size() == 1);
