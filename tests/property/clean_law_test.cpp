@@ -9,7 +9,7 @@
 #include <cstdio>
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 using test::broken_clean_law;
 
 namespace {

@@ -12,7 +12,7 @@
 #include <numeric>
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 
 namespace {
 

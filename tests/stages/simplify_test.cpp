@@ -282,3 +282,43 @@ TEST_CASE("parts share the samples of the deviation by area and number of triang
     CHECK(samples(1) == Approx(100000 * (1.0 / 6 + 4.0 / 12)).margin(1));
     CHECK(samples(2) == samples(0));
 }
+
+TEST_CASE("simplify: a bare ratio, and what is reported", "[stages]") {
+    const auto r = run_stage("simplify", Value::scalar("25%"), scene_of(shapes::icosphere(3)));
+    CHECK(r.mesh().face_count() == 320);
+    const Json& part = r.record.result["parts"][0];
+    CHECK(part["triangles_before"] == 1280);
+    CHECK(part["triangles_after"] == 320);
+    CHECK(part["stopped_by"] == "ratio");
+    CHECK(r.warnings().empty());
+}
+
+TEST_CASE("simplify: a target at or above the input is said, and is no failure", "[stages]") {
+    const auto r = run_stage("simplify", options({{"faces", "5000"}}), scene_of(shapes::cube()));
+    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-NOTHING"});
+    CHECK(r.record.warnings[0].message ==
+          "part 'part' has 12 triangles and 8 vertices, at or below the target: nothing to do");
+    CHECK(test::same(r.mesh(), shapes::cube()));
+}
+
+TEST_CASE("simplify: what topology does not allow is said, and is no failure", "[stages]") {
+    const auto r = run_stage("simplify", options({{"faces", "2"}}), scene_of(shapes::tetrahedron()));
+    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-STOPPED"});
+    CHECK(r.record.warnings[0].message ==
+          "part 'part' stopped at 4 triangles, above the target: of the edges left, 6 by topology");
+    CHECK(r.record.result["parts"][0]["stopped_by"] == "stuck");
+}
+
+TEST_CASE("simplify: a count is shared among the parts", "[stages]") {
+    Scene scene = scene_of(shapes::icosphere(3));
+    scene.parts.push_back(scene_of(shapes::icosphere(2)).parts.front());
+    const auto r = run_stage("simplify", options({{"faces", "400"}}), scene);
+    CHECK(r.scene.parts[0].mesh.face_count() == 320);
+    CHECK(r.scene.parts[1].mesh.face_count() == 80);
+}
+
+TEST_CASE("simplify: needs a target, and a bare 1 or 5000 is no ratio", "[stages]") {
+    CHECK(problems_of("simplify", {}) != "");
+    CHECK(problems_of("simplify", Value::scalar("1")) != "");
+    CHECK(problems_of("simplify", Value::scalar("5000")) != "");
+}

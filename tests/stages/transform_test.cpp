@@ -260,7 +260,7 @@ TEST_CASE("thicken takes its thickness in the world, and reports it as measured"
     CHECK(inspect(run.scene).volume.value() == Approx(400));
     CHECK(run.record.result["parts"][0]["wall_thickness"]["min"].get<double>() == Approx(1));
     CHECK(run.record.result["parts"][0]["self_intersections"] == 0);
-    const auto thick = run_stage("thicken", "0.5", scene_of(testing::noisy_icosphere(2, 0.3, 1)));
+    const auto thick = run_stage("thicken", "0.5", scene_of(test::noisy_icosphere(2, 0.3, 1)));
     REQUIRE(thick.record.warnings.size() > 0);
     CHECK(thick.record.warnings.back().id == "W-THICKEN");
     CHECK(run_stage("thicken", "{thickness: 0.1, mode: edges}", scene_of(shapes::cube()))

@@ -14,7 +14,7 @@
 #include <numeric>
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 using test::failure;
 using test::run_stage;
 using test::scene_of;

@@ -2,6 +2,7 @@
 // Plain, slow measurements of meshes, independent of what they test.
 
 #include "mesh/mesh.hpp"
+#include "mesh/scene.hpp"
 
 #include <map>
 #include <set>
@@ -62,6 +63,13 @@ inline long euler(const Mesh& mesh) {
     for (Index c = 0; c < mesh.corner_count(); ++c) used.insert(mesh.vertex(c));
     return static_cast<long>(used.size()) - static_cast<long>(edge_uses(mesh).size()) +
            static_cast<long>(mesh.face_count());
+}
+
+/// Of all parts, each in its own space.
+inline double area(const Scene& scene) {
+    double sum = 0;
+    for (const Part& part : scene.parts) sum += area(part.mesh);
+    return sum;
 }
 
 } // namespace facetmill::test

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <map>
 
-namespace facetmill::testing {
+namespace facetmill::test {
 
 /// A number in (low, high) for a seed and a key.
 inline double between(double low, double high, std::uint64_t seed, std::uint64_t key) {
@@ -119,4 +119,4 @@ inline Mesh random_triangles(std::size_t count, double size, std::uint64_t seed)
     return mesh;
 }
 
-} // namespace facetmill::testing
+} // namespace facetmill::test

@@ -7,7 +7,7 @@
 #include <deque>
 #include <vector>
 
-namespace facetmill::samples {
+namespace facetmill::test {
 
 inline std::vector<Vec2> square(double x, double y, double side) {
     return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
@@ -66,4 +66,4 @@ inline double sum_of(const polygon::Triangulation& t, const std::vector<std::vec
     return sum;
 }
 
-} // namespace facetmill::samples
+} // namespace facetmill::test

@@ -3,6 +3,7 @@
 
 #include "pipeline/document.hpp"
 #include "stage/stage.hpp"
+#include "support/failure.hpp"
 
 #include <memory>
 #include <stdexcept>
@@ -85,6 +86,15 @@ inline Value options(std::vector<std::pair<std::string, std::string>> pairs) {
     Value map = Value::map({});
     for (auto& [key, text] : pairs) map.set(key, Value::scalar(text));
     return map;
+}
+
+/// What a stage says when it refuses the options, without the place in their text, which is checked by the
+/// tests of the document.
+inline std::string refusal_of(const char* stage, const std::string& options, Scene scene) {
+    std::string text = failure([&] { run_stage(stage, options, std::move(scene)); });
+    const auto place = text.find("test.yaml:");
+    if (place != std::string::npos) text.erase(place, text.find(": ", place) + 2 - place);
+    return text;
 }
 
 } // namespace facetmill::test

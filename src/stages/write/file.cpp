@@ -133,7 +133,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
             "W-ROUNDED",
             fmt::format("'{}': points moved by up to {:.2g}, since 32-bit floats are {:.2g} apart so far "
                         "from the origin (the diagonal is {:.4g})",
-                        target.string(), back.position_error, back.float_step, back.diagonal),
+                        path.string(), back.position_error, back.float_step, back.diagonal),
             codec.can.full_precision && !settings.double_positions
                 ? "precision: full keeps all digits"
                 : "transform: {centre: true} before write brings the scene to the origin; PLY, OBJ and OFF "

@@ -8,7 +8,7 @@
 #include "mesh/topology.hpp"
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 
 namespace {
 

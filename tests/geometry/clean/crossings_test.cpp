@@ -9,7 +9,7 @@
 #include "geometry/inspect/inspect.hpp"
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 
 namespace {
 

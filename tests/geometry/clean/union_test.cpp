@@ -15,7 +15,7 @@
 #include <algorithm>
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 
 namespace {
 

@@ -81,10 +81,10 @@ TEST_CASE("a turned box leaves closed meshes closed on both sides", "[geometry]"
     const std::vector<std::pair<std::string, Mesh>> meshes{
         {"sphere", sphere},
         {"torus", shapes::torus(30, 20)},
-        {"seams", testing::moved(shapes::uv_cube(), {-0.4, -0.5, -0.6})},
+        {"seams", test::moved(shapes::uv_cube(), {-0.4, -0.5, -0.6})},
         {"hollow", both(sphere, inside_out(core))},
-        {"crossing", both(shapes::torus(10, 7), testing::moved(shapes::torus(10, 7), {0.5, 0.1, 0.2}))},
-        {"crossing seams", both(shapes::uv_cube(), testing::moved(shapes::uv_cube(), {0.25, 0.25, 0.125}))}};
+        {"crossing", both(shapes::torus(10, 7), test::moved(shapes::torus(10, 7), {0.5, 0.1, 0.2}))},
+        {"crossing seams", both(shapes::uv_cube(), test::moved(shapes::uv_cube(), {0.25, 0.25, 0.125}))}};
     for (const auto& [name, mesh] : meshes) {
         CAPTURE(name);
         const ClipResult r = clip(mesh, at_box(turned()));
@@ -99,7 +99,7 @@ TEST_CASE("a turned box leaves closed meshes closed on both sides", "[geometry]"
 }
 
 TEST_CASE("caps around a box look into it, with numbers and normals of their own", "[geometry]") {
-    const Mesh body = testing::moved(shapes::uv_cube(), {-0.4, -0.5, -0.6});
+    const Mesh body = test::moved(shapes::uv_cube(), {-0.4, -0.5, -0.6});
     const ClipResult r = clip(body, at_box(corners({-0.2, -0.2, -0.2}, {0.2, 0.2, 5})));
     const Attribute *normals = r.back.find("NORMAL", Domain::wedge),
                     *cut = r.back.find("cut_id", Domain::face);

@@ -12,7 +12,7 @@
 using namespace facetmill;
 
 TEST_CASE("a surface does not deviate from itself", "[geometry]") {
-    const Mesh mesh = testing::noisy_icosphere(3, 0.1, 1);
+    const Mesh mesh = test::noisy_icosphere(3, 0.1, 1);
     const auto d = deviation(mesh, mesh, {.samples = 2000, .certify = true});
     CHECK(d.maximum() == 0);
     CHECK(d.rms() == 0);
@@ -22,7 +22,7 @@ TEST_CASE("a surface does not deviate from itself", "[geometry]") {
 }
 
 TEST_CASE("a lifted sheet is apart by the lift, both ways", "[geometry]") {
-    const auto d = deviation(shapes::grid(4, 3), testing::moved(shapes::grid(4, 3), {0, 0, 0.25}));
+    const auto d = deviation(shapes::grid(4, 3), test::moved(shapes::grid(4, 3), {0, 0, 0.25}));
     for (const auto* way : {&d.forward, &d.backward}) {
         CHECK(way->maximum == Approx(0.25));
         CHECK(way->rms == Approx(0.25));
@@ -71,7 +71,7 @@ TEST_CASE("with no work to spend the bound is loose but holds", "[geometry]") {
 }
 
 TEST_CASE("the samples depend on the seed and not on the threads", "[geometry]") {
-    const Mesh a = testing::noisy_icosphere(3, 0.1, 1), b = testing::noisy_icosphere(3, 0.1, 2);
+    const Mesh a = test::noisy_icosphere(3, 0.1, 1), b = test::noisy_icosphere(3, 0.1, 2);
     const auto one = deviation(a, b, {.samples = 5000, .certify = true});
     set_threads(1);
     const auto same = deviation(a, b, {.samples = 5000, .certify = true});

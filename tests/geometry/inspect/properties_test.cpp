@@ -7,7 +7,7 @@
 #include <set>
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "oracle/insides_oracle.hpp"
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "mesh/shapes.hpp"
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 
 namespace {
 

@@ -108,7 +108,7 @@ TEST_CASE("a surface doubled on itself has no volume, whatever the rounding", "[
 }
 
 TEST_CASE("the volume is that of the inspection", "[geometry]") {
-    const Mesh mesh = testing::noisy_torus(40, 20, 0.02, 3);
+    const Mesh mesh = test::noisy_torus(40, 20, 0.02, 3);
     CHECK(measure_mass(mesh).solid->volume == Approx(*inspect(mesh).volume).epsilon(1e-13));
     CHECK(measure_mass(mesh).shell.area == Approx(inspect(mesh).area).epsilon(1e-13));
 }
@@ -292,7 +292,7 @@ TEST_CASE("statistics leave out what is no number", "[geometry]") {
 }
 
 TEST_CASE("measures are the same for any number of threads", "[geometry]") {
-    const Mesh mesh = testing::noisy_icosphere(5, 0.1, 2);
+    const Mesh mesh = test::noisy_icosphere(5, 0.1, 2);
     const auto many = measure_mass(mesh);
     const auto bent = measure_curvature(mesh);
     set_threads(1);

@@ -9,7 +9,7 @@
 #include "mesh/invariants.hpp"
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 
 namespace {
 

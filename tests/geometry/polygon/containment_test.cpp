@@ -7,7 +7,7 @@
 
 using namespace facetmill;
 using namespace facetmill::polygon;
-using namespace facetmill::samples;
+using namespace facetmill::test;
 
 TEST_CASE("the crossing rule counts shared ends once", "[geometry]") {
     const std::vector<Vec2> diamond{{0, -1}, {1, 0}, {0, 1}, {-1, 0}};

@@ -6,7 +6,7 @@
 
 using namespace facetmill;
 using namespace facetmill::polygon;
-using namespace facetmill::samples;
+using namespace facetmill::test;
 
 namespace {
 

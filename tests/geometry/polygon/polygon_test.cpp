@@ -11,7 +11,7 @@
 
 using namespace facetmill;
 using namespace facetmill::polygon;
-using namespace facetmill::samples;
+using namespace facetmill::test;
 
 TEST_CASE("area and centroid of closed forms, far from the origin too", "[geometry]") {
     CHECK(signed_area(square(0, 0, 2)) == 4);

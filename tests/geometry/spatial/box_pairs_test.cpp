@@ -7,7 +7,7 @@
 #include <set>
 
 using namespace facetmill;
-using testing::between;
+using test::between;
 
 namespace {
 

@@ -57,13 +57,13 @@ TEST_CASE("the closest point of a degenerate triangle is on its segment or point
 }
 
 TEST_CASE("the tree finds what trying every triangle finds", "[geometry]") {
-    const Mesh shape = GENERATE(as<Mesh>{}, testing::noisy_icosphere(2, 0.1, 3), shapes::quad_cube(),
+    const Mesh shape = GENERATE(as<Mesh>{}, test::noisy_icosphere(2, 0.1, 3), shapes::quad_cube(),
                                 shapes::torus(20, 9), shapes::tetrahedron());
     const Surface surface = surface_of(shape);
     for (const FaceTree& tree : trees_of(surface)) {
         REQUIRE(tree.triangles.size() == surface.size());
         for (std::uint64_t k = 0; k < 200; ++k) {
-            const Vec3 p = testing::random_point(k % 2 ? 1.5 : 30, 5, k);
+            const Vec3 p = test::random_point(k % 2 ? 1.5 : 30, 5, k);
             const Closest found = closest_point(tree, p);
             CHECK(found.distance == Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-14));
             CHECK(found.distance == Approx(length(found.point - p)));
@@ -73,10 +73,10 @@ TEST_CASE("the tree finds what trying every triangle finds", "[geometry]") {
 }
 
 TEST_CASE("a hint and a distance that is enough never hide what is farther", "[geometry]") {
-    const Surface surface = surface_of(testing::noisy_icosphere(4, 0.05, 6));
+    const Surface surface = surface_of(test::noisy_icosphere(4, 0.05, 6));
     for (const FaceTree& tree : trees_of(surface))
         for (std::uint64_t k = 0; k < 500; ++k) {
-            const Vec3 p = testing::random_point(1.2, 5, k);
+            const Vec3 p = test::random_point(1.2, 5, k);
             const auto hint = static_cast<Index>(k * 7919 % tree.triangles.size());
             const double distance = closest_point(tree, p).distance;
             CHECK(closest_point(tree, p, hint).distance == distance);
@@ -89,7 +89,7 @@ TEST_CASE("a hint and a distance that is enough never hide what is farther", "[g
 
 TEST_CASE("triangles far away from the others change no distance", "[geometry]") {
     const double far = GENERATE(1.0, 1e3, 1e5, 1e8, 1e15);
-    Surface surface = surface_of(testing::noisy_icosphere(3, 0.05, 4));
+    Surface surface = surface_of(test::noisy_icosphere(3, 0.05, 4));
     for (const Vec3& at : {Vec3{far, far, far}, Vec3{-far, 0, far / 2}})
         for (const Vec3& off : {Vec3{}, Vec3{0.02, 0, 0}, Vec3{0, 0.02, 0.01}}) {
             surface.corners.push_back(static_cast<Index>(surface.positions.size()));
@@ -97,10 +97,10 @@ TEST_CASE("triangles far away from the others change no distance", "[geometry]")
         }
     std::vector<Vec3> points;
     for (std::uint64_t k = 0; k < 40; ++k) {
-        points.push_back(testing::random_point(1.2, 5, 4 * k));
-        points.push_back(surface.positions[k] + testing::random_point(1e-4, 5, 4 * k + 1));
-        points.push_back(Vec3{far, far, far} + testing::random_point(1, 5, 4 * k + 2));
-        points.push_back(testing::random_point(4 * far, 5, 4 * k + 3));
+        points.push_back(test::random_point(1.2, 5, 4 * k));
+        points.push_back(surface.positions[k] + test::random_point(1e-4, 5, 4 * k + 1));
+        points.push_back(Vec3{far, far, far} + test::random_point(1, 5, 4 * k + 2));
+        points.push_back(test::random_point(4 * far, 5, 4 * k + 3));
     }
     for (const FaceTree& tree : trees_of(surface)) {
         const auto found = closest_points(tree, points);
@@ -111,9 +111,9 @@ TEST_CASE("triangles far away from the others change no distance", "[geometry]")
 }
 
 TEST_CASE("batches give what single queries give, whatever the number of threads", "[geometry]") {
-    const FaceTree tree(surface_of(testing::noisy_icosphere(3, 0.2, 9)));
+    const FaceTree tree(surface_of(test::noisy_icosphere(3, 0.2, 9)));
     std::vector<Vec3> points;
-    for (std::uint64_t k = 0; k < 5000; ++k) points.push_back(testing::random_point(2, 5, k));
+    for (std::uint64_t k = 0; k < 5000; ++k) points.push_back(test::random_point(2, 5, k));
     const auto all = closest_points(tree, points);
     set_threads(1);
     const auto alone = closest_points(tree, points);
@@ -163,7 +163,7 @@ TEST_CASE("tiny, huge and far surfaces lose nothing", "[geometry]") {
         const Surface surface = surface_of(mesh);
         const FaceTree tree(surface);
         for (std::uint64_t k = 0; k < 50; ++k) {
-            const Vec3 p = (testing::random_point(2, 5, k) + Vec3{1000, -2000, 500}) * size;
+            const Vec3 p = (test::random_point(2, 5, k) + Vec3{1000, -2000, 500}) * size;
             CHECK(closest_point(tree, p).distance ==
                   Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-11 * size));
         }
@@ -197,11 +197,11 @@ TEST_CASE("neighbours on the curve are neighbours in space", "[geometry]") {
 }
 
 TEST_CASE("from far away the closest point is still the closest", "[geometry]") {
-    const Surface surface = surface_of(testing::noisy_icosphere(3, 0.05, 4));
+    const Surface surface = surface_of(test::noisy_icosphere(3, 0.05, 4));
     const FaceTree tree(surface);
     for (const double far : {50.0, 70.0, 1e3, 1e5, 1e7})
         for (std::uint64_t k = 0; k < 20; ++k) {
-            const Vec3 p = testing::random_point(far, 5, k);
+            const Vec3 p = test::random_point(far, 5, k);
             CHECK(closest_point(tree, p).distance == Approx(distance_by_trial(surface, p)).epsilon(1e-14));
         }
     const Closest found = closest_point(tree, {1e300, 0, 0});
@@ -213,9 +213,9 @@ TEST_CASE("slivers, folds and needles are as close as trying each says", "[geome
     // Long thin triangles in all directions, some without area.
     Mesh mesh;
     for (std::uint64_t k = 0; k < 300; ++k) {
-        const Vec3 a = testing::random_point(1, 5, 7 * k), b = a + testing::random_point(0.5, 5, 7 * k + 1);
+        const Vec3 a = test::random_point(1, 5, 7 * k), b = a + test::random_point(0.5, 5, 7 * k + 1);
         const Vec3 c =
-            mix(a, b, testing::between(0, 1, 8, k)) + testing::random_point(k % 3 ? 1e-7 : 0, 5, 7 * k + 2);
+            mix(a, b, test::between(0, 1, 8, k)) + test::random_point(k % 3 ? 1e-7 : 0, 5, 7 * k + 2);
         for (const Vec3& p : {a, b, c}) {
             mesh.corners.push_back(static_cast<Index>(mesh.positions.size()));
             mesh.positions.push_back(p);
@@ -224,7 +224,7 @@ TEST_CASE("slivers, folds and needles are as close as trying each says", "[geome
     const Surface surface = surface_of(mesh);
     const FaceTree tree(surface);
     for (std::uint64_t k = 0; k < 500; ++k) {
-        const Vec3 p = testing::random_point(1.2, 5, 9000 + k);
+        const Vec3 p = test::random_point(1.2, 5, 9000 + k);
         CHECK(closest_point(tree, p).distance ==
               Approx(distance_by_trial(surface, p)).epsilon(0).margin(1e-14));
     }

@@ -12,8 +12,8 @@ using namespace facetmill;
 namespace {
 
 std::vector<Mesh> meshes() {
-    return {testing::noisy_icosphere(4, 0.1, 1), testing::noisy_torus(40, 24, 0.05, 2),
-            testing::random_triangles(400, 0.3, 3), shapes::cube()};
+    return {test::noisy_icosphere(4, 0.1, 1), test::noisy_torus(40, 24, 0.05, 2),
+            test::random_triangles(400, 0.3, 3), shapes::cube()};
 }
 
 } // namespace
@@ -25,9 +25,9 @@ TEST_CASE("closest points are as far as CGAL's", "[geometry]") {
         const oracle::Tree other(mesh);
         std::vector<Vec3> points = mesh.positions; // on the surface, near it, anywhere, far away
         for (std::uint64_t k = 0; k < 500; ++k) {
-            points.push_back(mesh.positions[k % mesh.vertex_count()] + testing::random_point(0.01, 8, k));
-            points.push_back(testing::random_point(2, 8, k));
-            points.push_back(testing::random_point(200, 8, k));
+            points.push_back(mesh.positions[k % mesh.vertex_count()] + test::random_point(0.01, 8, k));
+            points.push_back(test::random_point(2, 8, k));
+            points.push_back(test::random_point(200, 8, k));
         }
         const auto found = closest_points(tree, points);
         for (std::size_t i = 0; i < points.size(); ++i)
@@ -43,7 +43,7 @@ TEST_CASE("segments meet what they meet in CGAL's tree", "[geometry]") {
         const FaceTree tree(surface_of(mesh));
         const oracle::Tree other(mesh);
         for (std::uint64_t k = 0; k < 1500; ++k) { // random ones: through no edge and no vertex
-            const Line line{testing::random_point(1.5, 8, 2 * k), testing::random_point(1.5, 8, 2 * k + 1)};
+            const Line line{test::random_point(1.5, 8, 2 * k), test::random_point(1.5, 8, 2 * k + 1)};
             const auto found = all_hits(tree, line);
             REQUIRE(found.size() == other.met_by(line.from, line.to));
             REQUIRE(first_hit(tree, line).has_value() == !found.empty());
@@ -54,8 +54,8 @@ TEST_CASE("segments meet what they meet in CGAL's tree", "[geometry]") {
 }
 
 TEST_CASE("deviation and its bound hold the Hausdorff distance between them", "[geometry]") {
-    const Mesh ball = shapes::icosphere(3), rough = testing::noisy_icosphere(2, 0.1, 4),
-               ring = testing::noisy_torus(30, 16, 0.03, 5);
+    const Mesh ball = shapes::icosphere(3), rough = test::noisy_icosphere(2, 0.1, 4),
+               ring = test::noisy_torus(30, 16, 0.03, 5);
     const std::pair<const Mesh*, const Mesh*> pairs[] = {
         {&ball, &rough}, {&rough, &ball}, {&ball, &ring}, {&ring, &ball}};
     for (const auto& [from, to] : pairs) {

@@ -16,7 +16,7 @@ std::vector<CentredItem> random_items(std::size_t count) {
         items[i].item = static_cast<Index>(i);
         for (std::size_t axis = 0; axis < 3; ++axis) // few different coordinates: many are equal
             items[i].centre[axis] =
-                static_cast<float>(static_cast<int>(testing::between(0, 40, 8, 3 * i + axis)));
+                static_cast<float>(static_cast<int>(test::between(0, 40, 8, 3 * i + axis)));
     }
     return items;
 }

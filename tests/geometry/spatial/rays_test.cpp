@@ -76,12 +76,12 @@ TEST_CASE("segments end, rays do not; an end on the surface meets it", "[geometr
 }
 
 TEST_CASE("the tree meets what trying every triangle meets", "[geometry]") {
-    const Mesh mesh = testing::noisy_icosphere(3, 0.2, 5);
+    const Mesh mesh = test::noisy_icosphere(3, 0.2, 5);
     const FaceTree tree = tree_of(mesh);
     for (std::uint64_t k = 0; k < 300; ++k) {
         const bool ray = k % 2;
-        const Line line{testing::random_point(k % 3 ? 1.5 : 200, 6, 2 * k),
-                        testing::random_point(1.5, 6, 2 * k + 1), ray};
+        const Line line{test::random_point(k % 3 ? 1.5 : 200, 6, 2 * k),
+                        test::random_point(1.5, 6, 2 * k + 1), ray};
         std::size_t expected = 0;
         for (const auto& t : tree.triangles) {
             const int way = passes(line.from, line.to, t.a, t.b, t.c);
@@ -101,7 +101,7 @@ TEST_CASE("lists of hits are those of single lines, whatever the number of threa
     const FaceTree tree = tree_of(shapes::torus(40, 20));
     std::vector<Line> lines;
     for (std::uint64_t k = 0; k < 2000; ++k)
-        lines.push_back({testing::random_point(2, 6, 2 * k), testing::random_point(2, 6, 2 * k + 1)});
+        lines.push_back({test::random_point(2, 6, 2 * k), test::random_point(2, 6, 2 * k + 1)});
     // Lines that are none, among the others and all of a piece at the end.
     const double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 40; ++i) lines[37 * i].to = i % 2 ? lines[37 * i].from : Vec3{infinity, 0, 0};
@@ -121,16 +121,16 @@ TEST_CASE("lists of hits are those of single lines, whatever the number of threa
 }
 
 TEST_CASE("the winding number is 1 inside, 0 outside, and adds up", "[geometry]") {
-    const Mesh ball = testing::noisy_icosphere(3, 0.1, 7);
+    const Mesh ball = test::noisy_icosphere(3, 0.1, 7);
     const FaceTree tree = tree_of(ball);
     for (std::uint64_t k = 0; k < 300; ++k) {
-        const Vec3 p = testing::random_point(1.3, 6, k);
+        const Vec3 p = test::random_point(1.3, 6, k);
         const double r = length(p);
         if (r < 0.89) CHECK(winding(tree, p) == 1);
         if (r > 1.11) CHECK(winding(tree, p) == 0);
         // A ray in any other direction says the same.
         CHECK(winding(tree, p) ==
-              sum_of_ways(all_hits(tree, {p, p + testing::random_point(1, 6, 1000 + k), true})));
+              sum_of_ways(all_hits(tree, {p, p + test::random_point(1, 6, 1000 + k), true})));
     }
     Mesh twice = ball;
     append(twice, ball);
@@ -145,13 +145,13 @@ TEST_CASE("many points, each asked from the one before, get what each gets alone
     Mesh other = shapes::cube(); // overlaps the first, and lies in its planes
     for (auto& p : other.positions) p = {p.x * 0.5 + 0.5, p.y * 0.5, p.z * 2};
     append(mesh, other);
-    append(mesh, testing::noisy_icosphere(2, 0.1, 5));
+    append(mesh, test::noisy_icosphere(2, 0.1, 5));
     const FaceTree tree = tree_of(mesh);
     std::vector<Vec3> points{{1e300, 0.5, 0.5}, {1e6, 0.5, 0.5}, {0.75, 0.25, -1e9}};
     for (int x = -2; x <= 10; ++x)
         for (int y = -2; y <= 10; ++y)
             for (int z = -2; z <= 18; ++z) points.push_back({x * 0.125, y * 0.125, z * 0.125});
-    for (std::uint64_t k = 0; k < 2000; ++k) points.push_back(testing::random_point(2.5, 6, k));
+    for (std::uint64_t k = 0; k < 2000; ++k) points.push_back(test::random_point(2.5, 6, k));
     const auto answers = probe_points(tree, points);
     std::set<int> numbers;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -216,7 +216,7 @@ TEST_CASE("an open surface has no inside, nothing has no hits", "[geometry]") {
 }
 
 TEST_CASE("lines from far away and of any length meet the same", "[geometry]") {
-    const FaceTree tree = tree_of(testing::noisy_icosphere(2, 0.1, 3));
+    const FaceTree tree = tree_of(test::noisy_icosphere(2, 0.1, 3));
     for (const double far : {10.0, 1e4, 1e8}) {
         CHECK(all_hits(tree, {{far, 0.01, 0.02}, {0, 0.01, 0.02}, true}).size() == 2);
         CHECK(all_hits(tree, {{far, 0.01, 0.02}, {-far, 0.01, 0.02}}).size() == 2);

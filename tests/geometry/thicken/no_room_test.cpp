@@ -10,7 +10,7 @@
 #include "mesh/transform.hpp"
 
 using namespace facetmill;
-using namespace facetmill::testing;
+using namespace facetmill::test;
 
 namespace {
 

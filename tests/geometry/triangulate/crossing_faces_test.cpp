@@ -105,13 +105,13 @@ TEST_CASE("a bow-tie has the area of its two triangles", "[geometry]") {
     CHECK(test::area(triangles_of(face_of({{0, 0}, {4, 0}, {3, 4}, {1, 4}}))) == Approx(12)); // no crossing
     CHECK(test::area(triangles_of(face_of({{0, 0}, {6, 0}, {2, 4}, {4, 4}}))) == Approx(9 + 1));
     const double middle = 2.5 * std::sin(2 * M_PI / 5) * std::pow((3 - std::sqrt(5.0)) / 2, 2); // wound twice
-    CHECK(test::area(triangles_of(face_of(samples::pentagram()))) ==
-          Approx(polygon::signed_area(samples::pentagram()) - middle));
+    CHECK(test::area(triangles_of(face_of(test::pentagram()))) ==
+          Approx(polygon::signed_area(test::pentagram()) - middle));
 }
 
 TEST_CASE("prisms over rings that cross themselves stay closed", "[geometry]") {
     for (const auto& ring :
-         {std::vector<Vec2>{{0, 0}, {6, 0}, {2, 4}, {4, 4}}, samples::pentagram(), samples::figure_eight()}) {
+         {std::vector<Vec2>{{0, 0}, {6, 0}, {2, 4}, {4, 4}}, test::pentagram(), test::figure_eight()}) {
         const Mesh prism = prism_of(ring);
         REQUIRE(inspect(prism).closed);
         const auto filled = fill_crossing_faces(prism);
@@ -152,7 +152,7 @@ TEST_CASE("faces that cross themselves in no plane, or not at all, are left alon
     skew.positions[2].z = 3;
     CHECK_FALSE(fill_crossing_faces(skew));
     CHECK_FALSE(fill_crossing_faces(shapes::quad_cube()));
-    CHECK_FALSE(fill_crossing_faces(face_of(samples::keyhole())));
+    CHECK_FALSE(fill_crossing_faces(face_of(test::keyhole())));
     CHECK_FALSE(fill_crossing_faces(face_of({{0, 0}, {1, 1}, {3, 3}, {2, 2}})));
     const Mesh cube = shapes::quad_cube();
     CHECK(triangles_of(cube).corners == triangulated(cube).corners);

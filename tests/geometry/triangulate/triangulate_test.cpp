@@ -62,8 +62,7 @@ TEST_CASE("quads that share two edges are cut so that their halves do not coinci
 }
 
 TEST_CASE("every kind of face becomes its corners less two triangles", "[geometry]") {
-    for (const auto& ring :
-         {samples::square(0, 0, 2), samples::l_shape(), samples::regular(9, 1), samples::keyhole()}) {
+    for (const auto& ring : {test::square(0, 0, 2), test::l_shape(), test::regular(9, 1), test::keyhole()}) {
         const auto result = triangulate(face(ring));
         CHECK(broken_invariants(result.mesh).empty());
         CHECK(result.mesh.face_count() == ring.size() - 2);
@@ -75,15 +74,15 @@ TEST_CASE("every kind of face becomes its corners less two triangles", "[geometr
 }
 
 TEST_CASE("a face that intersects itself is cut as a fan", "[geometry]") {
-    const auto result = triangulate(face(samples::pentagram()));
+    const auto result = triangulate(face(test::pentagram()));
     CHECK(result.fans == 1);
     CHECK(result.mesh.face_count() == 3);
-    CHECK(area_sum(result.mesh) == Approx(polygon::signed_area(samples::pentagram())));
+    CHECK(area_sum(result.mesh) == Approx(polygon::signed_area(test::pentagram())));
 }
 
 TEST_CASE("coincident corners keep their own vertices, so what is around them stays closed", "[geometry]") {
     // A slab with a square hole: top and bottom are keyholes of ten corners, walls join what they must.
-    const auto ring = samples::keyhole();
+    const auto ring = test::keyhole();
     Mesh slab;
     const auto n = static_cast<Index>(ring.size());
     for (const double z : {0.0, 1.0})
@@ -120,8 +119,8 @@ TEST_CASE("faces that are not planar are cut as seen along their normal's axis",
 TEST_CASE("the census of faces", "[geometry]") {
     Mesh mesh = shapes::quad_cube();
     append(mesh, shapes::tetrahedron());
-    for (const auto& ring : {samples::l_shape(), samples::regular(6, 1), samples::keyhole(),
-                             samples::pentagram(), std::vector<Vec2>{{0, 0}, {1, 1}, {2, 2}}})
+    for (const auto& ring : {test::l_shape(), test::regular(6, 1), test::keyhole(), test::pentagram(),
+                             std::vector<Vec2>{{0, 0}, {1, 1}, {2, 2}}})
         append(mesh, face(ring));
     const FaceKinds kinds = face_kinds(mesh);
     CHECK(kinds.of_kind == std::array<std::size_t, polygon::kinds>{4, 6, 1, 1, 1, 1, 1});

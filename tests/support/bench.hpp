@@ -1,0 +1,34 @@
+#pragma once
+// Single stages one after the other, with a directory for what they read and write.
+
+#include "support/run_stage.hpp"
+#include "support/temporary.hpp"
+
+namespace facetmill::test {
+
+/// A run of single stages in a directory of its own.
+struct Bench {
+    TemporaryDirectory dir;
+    RunState state;
+    report::StageRecord record;
+    Scene scene;
+
+    Bench() {
+        state.places = {dir.path(), dir.path()};
+        state.record.inputs.clear();
+    }
+
+    void run(const char* stage, Value given) {
+        const StageInfo& info = *stage_named(stage);
+        const auto options = info.make_options();
+        Problems problems;
+        info.options->parse(given, options.get(), stage, problems);
+        if (info.verify) info.verify(options.get(), given, problems);
+        problems.throw_if_any(ErrorKind::usage);
+        const PartFilter all;
+        Context context(state, record, all, scene.bounds(), {});
+        scene = info.run(std::move(scene), options.get(), context);
+    }
+};
+
+} // namespace facetmill::test
