@@ -13,7 +13,6 @@
 #include <CGAL/hilbert_sort.h>
 #include <CGAL/property_map.h>
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -280,10 +279,12 @@ class ContactFinder {
             }
             const auto path = t_.insert_constraint(vertices_[low], vertices_[high]);
             if (t_.number_of_vertices() > count_) return polygon::Contact::crossing;
-            const auto last = std::prev(t_.vertices_in_constraint_end(path));
-            for (auto v = std::next(t_.vertices_in_constraint_begin(path)); v != last; ++v) {
+            const auto end = t_.vertices_in_constraint_end(path);
+            for (auto v = t_.vertices_in_constraint_begin(path); v != end; ++v) {
+                const Index through = (*v)->info();
+                if (through == low || through == high) continue;
                 touching = true;
-                if (crosses_at((*v)->info(), e)) return polygon::Contact::crossing;
+                if (crosses_at(through, e)) return polygon::Contact::crossing;
             }
         }
         return touching ? polygon::Contact::touching : polygon::Contact::none;

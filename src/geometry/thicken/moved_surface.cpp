@@ -15,13 +15,17 @@ namespace facetmill {
 
 namespace {
 
+/// What is left of a face at most when it is nothing but the rounding of its corners: a share of its area.
+constexpr double rounding = 0x1p-40;
+
 /// The triangle's map: its determinant and trace, times twice the triangle's area squared.
 bool is_turned(const Vec3& u, const Vec3& v, const Vec3& moved_u, const Vec3& moved_v) {
     const Vec3 normal = cross(u, v);
-    if (!(dot(normal, normal) > 0)) return false;
+    const double whole = dot(normal, normal);
+    if (!(whole > 0)) return false;
     const double determinant = dot(normal, cross(moved_u, moved_v));
     const double trace = dot(normal, cross(u, moved_v) + cross(moved_u, v));
-    return determinant <= 0 || trace <= 0;
+    return determinant <= rounding * whole || trace <= rounding * whole;
 }
 
 /// A cube, and how far its points can be from the surface at most.

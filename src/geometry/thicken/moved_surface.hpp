@@ -11,7 +11,8 @@ namespace facetmill {
 
 /// [faces] 1 where the move turns a face over. With L the linear map that takes the sides of a triangle to
 /// where they are moved, seen along its normal (polygons: of one of the triangles that it is cut into), a
-/// face is turned when an eigenvalue of L has no positive real part: determinant or trace is zero or less.
+/// face is turned when an eigenvalue of L has no positive real part: determinant or trace is zero or
+/// less, or no more than 2^-40, which is rounding.
 /// Then it shrank to nothing somewhere on the way, in one direction or in both: where the faces of a focal
 /// set meet. Faces without area are not turned. moved: the places of the vertices; both in one space.
 std::vector<std::uint8_t> turned_faces(const Mesh& mesh, const std::vector<Vec3>& moved);
