@@ -306,10 +306,15 @@ class Process(Case):
         self.write("p.yaml", "facetmill: 1\nstages: [{load: t.gltf}, {write: o.glb}]\nreport: r.json\n")
         self.assertEqual(self.mill("plan", "p.yaml", "--inputs").stdout.split(), ["t.gltf", "t.bin", "tex.png"])
         planned = self.mill("plan", "p.yaml", "--outputs", "-o", "out").stdout.split()
-        self.assertEqual(planned, ["out/o.glb", "out/tex.png", "out/r.json"])
+        self.assertEqual(planned, ["out/o.glb", "out/r.json"])
         self.assertEqual(json.loads(self.mill("plan", "p.yaml", "--json", "-o", "out").stdout)["reports"], ["out/r.json"])
         self.mill("run", "p.yaml", "-o", "out", "--report", "more.txt")
-        self.assertEqual(sorted(self.files(self.dir / "out")), ["more.txt", "o.glb", "r.json", "tex.png"])
+        self.assertEqual(sorted(self.files(self.dir / "out")), ["more.txt", "o.glb", "r.json"])
+        self.write("q.yaml", "facetmill: 1\nstages: [{load: t.gltf}, {write: o.gltf}]\n")
+        planned = self.mill("plan", "q.yaml", "--outputs", "-o", "beside").stdout.split()
+        self.assertEqual(planned, ["beside/o.gltf", "beside/o.bin", "beside/o.tex.png"])
+        self.mill("run", "q.yaml", "-o", "beside")
+        self.assertEqual(sorted(self.files(self.dir / "beside")), ["o.bin", "o.gltf", "o.tex.png"])
 
     def test_warnings_name_their_input_and_can_be_allowed(self):
         self.write("t.off", TRIANGLE)
@@ -342,9 +347,9 @@ class Process(Case):
 
     def test_reports_name_outputs_from_their_folder(self):
         self.gltf_with_neighbours()
-        self.mill("pipe", "-o", "out", "--report", "r.json", "load", "t.gltf", "!", "write", "sub/../o.glb")
+        self.mill("pipe", "-o", "out", "--report", "r.json", "load", "t.gltf", "!", "write", "sub/../o.gltf")
         report = json.loads((self.dir / "out/r.json").read_text())
-        self.assertEqual([file["path"] for file in report["outputs"]], ["o.glb", "tex.png"])
+        self.assertEqual([file["path"] for file in report["outputs"]], ["o.gltf", "o.bin", "o.tex.png"])
 
     def test_one_error_is_told_once(self):
         self.write("t.off", TRIANGLE)

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 FACETMILL = pathlib.Path(os.environ.get("FACETMILL", SOURCE / "build/release/facetmill")).resolve()
@@ -18,6 +19,15 @@ SCAN = SOURCE / "examples/data/nefertiti.ply"
 STRICT = os.environ.get("FACETMILL_REQUIRE_VALIDATOR") == "1"
 # Under sanitizers everything is ten times slower; the variants of a run are compared in the release build.
 SLOW = os.environ.get("FACETMILL_SLOW") == "1"
+
+
+def png(red, green, blue):
+    """A picture of one pixel."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(bytes([0, red, green, blue]))) + chunk(b"IEND", b""))
 
 
 class Case(unittest.TestCase):
@@ -51,7 +61,7 @@ class Case(unittest.TestCase):
         """t.gltf with t.bin and tex.png beside it."""
         folder = folder or self.dir
         (folder / "t.bin").write_bytes(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
-        (folder / "tex.png").write_bytes(b"no picture, and nobody looks")
+        (folder / "tex.png").write_bytes(png(200, 30, 30))
         (folder / "t.gltf").write_text(json.dumps({
             "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],

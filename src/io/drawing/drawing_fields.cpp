@@ -165,12 +165,7 @@ void declare_contour(DeclareFields<SectionContour>& d) {
     };
     d.object("centroid", centroid, "Its centroid.", declare_centroid)
         .only_when(closed)
-        .null_when("the contour intersects itself");
-    const auto why = [](const SectionContour& c) -> std::optional<const char*> {
-        if (!c.closed() || c.contour->moments) return {};
-        return "the contour intersects itself, so its centroid and moments would mean nothing";
-    };
-    d.field("why", why, "Why there is no centroid.").only_when("the centroid is null");
+        .null_when("the contour covers no area");
     declare_moments(d, &SectionContour::moments);
 }
 
