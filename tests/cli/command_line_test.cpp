@@ -55,12 +55,6 @@ TEST_CASE("options before the command are answered with where they go", "[cli]")
           "  hint: options come after the command: facetmill run ... --quiet\n");
 }
 
-TEST_CASE("an unknown stage in a one-liner is pointed out", "[cli]") {
-    const std::string text = message({"pipe", "load", "a.stl", "!", "simpilfy", "10%"});
-    CHECK(text.starts_with("command line:1:29: error[E-STAGE]: "));
-    CHECK(text.find("simplify") != text.npos);
-}
-
 TEST_CASE("one JSON document names the release and its libraries", "[cli]") {
     CHECK(version_text(false) == "facetmill " FACETMILL_VERSION "\n");
     CHECK(version_text(true).find("\"CGAL\"") != std::string::npos);

@@ -351,6 +351,11 @@ class Process(Case):
         report = json.loads((self.dir / "out/r.json").read_text())
         self.assertEqual([file["path"] for file in report["outputs"]], ["o.gltf", "o.bin", "o.tex.png"])
 
+    def test_an_unknown_stage_in_a_one_liner_is_pointed_out(self):
+        said = self.mill("pipe", "load", "a.stl", "!", "simpilfy", "10%", expect=2).stderr
+        self.assertIn("command line:1:29: error[E-STAGE]: ", said)
+        self.assertIn("did you mean 'simplify'?", said)
+
     def test_one_error_is_told_once(self):
         self.write("t.off", TRIANGLE)
         run = self.mill("pipe", "load", "t.off", "!", "validate", "--closed", expect=1)

@@ -161,9 +161,9 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "                       ^~~~~~~~~~~~~~\n"
          "  hint: foreach writes it for every value: 2.${b.index}.glb"},
         {stages("  - foreach: {keep: [3, 4, 5]}\n    do: [test-cut: {faces: \"${keep}\", cap: Yes}]\n"),
-         "p.yaml:5:45: error[E-TYPE]: expected true or false, found 'Yes'\n"
+         "p.yaml:5:44: error[E-TYPE]: expected true or false, found 'Yes'\n"
          "      do: [test-cut: {faces: \"${keep}\", cap: Yes}]\n"
-         "                                              ^~~\n"
+         "                                             ^~~\n"
          "  hint: write true"},
         {stages("  - test-cut: 2k\n"), "p.yaml:4:15: error[E-TYPE]: expected an integer, found '2k'\n"
                                        "    - test-cut: 2k\n"

@@ -1,8 +1,5 @@
 #include "geometry/cgal/triangulate_polygon.hpp"
 
-#include "base/predicates.hpp"
-#include "geometry/cgal/contour_contact.hpp"
-
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -15,7 +12,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 #include <type_traits>
 
 namespace facetmill {
@@ -254,69 +250,7 @@ class Filler {
         along_; ///< the contours' count from the lower to the higher number
 };
 
-/// Adds edges one after the other, and sees how each meets those before.
-class ContactFinder {
-    using T = Rounded;
-
-  public:
-    explicit ContactFinder(const Contours& contours)
-        : in_(contours), same_(lowest_at_same_place(in_.points)),
-          vertices_(insert_points<T>(t_, in_.points, same_)), count_(t_.number_of_vertices()),
-          through_(in_.points.size(), none) {
-        for (Index i = 0; i < vertices_.size(); ++i)
-            if (same_[i] == i) vertices_[i]->info() = i;
-    }
-
-    polygon::Contact run() {
-        bool touching = false;
-        for (Index i = 0; i < same_.size(); ++i) touching |= same_[i] != i;
-        std::set<std::pair<Index, Index>> seen;
-        for (Index e = 0; e < in_.edges.size(); ++e) {
-            const auto [low, high] = std::minmax(same_[in_.edges[e].from], same_[in_.edges[e].to]);
-            if (low == high || !seen.insert({low, high}).second) {
-                touching = true;
-                continue;
-            }
-            const auto path = t_.insert_constraint(vertices_[low], vertices_[high]);
-            if (t_.number_of_vertices() > count_) return polygon::Contact::crossing;
-            const auto end = t_.vertices_in_constraint_end(path);
-            for (auto v = t_.vertices_in_constraint_begin(path); v != end; ++v) {
-                const Index through = (*v)->info();
-                if (through == low || through == high) continue;
-                touching = true;
-                if (crosses_at(through, e)) return polygon::Contact::crossing;
-            }
-        }
-        return touching ? polygon::Contact::touching : polygon::Contact::none;
-    }
-
-  private:
-    int side(Index e, Index point) const {
-        const Vec2 &a = in_.points[in_.edges[e].from], &b = in_.points[in_.edges[e].to],
-                   &c = in_.points[point];
-        return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y);
-    }
-
-    /// Edge e passes through a point. It crosses what it met beside the point, when that is where the meeting
-    /// was rounded to, and edges through the point that are not on its line.
-    bool crosses_at(Index point, Index e) {
-        if (side(e, point) != 0) return true;
-        Index& before = through_[point];
-        if (before == none) before = e;
-        return side(before, in_.edges[e].from) != 0 || side(before, in_.edges[e].to) != 0;
-    }
-
-    const Contours& in_;
-    std::vector<Index> same_;
-    T::Triangulation t_;
-    std::vector<T::Vertex> vertices_;
-    std::size_t count_;
-    std::vector<Index> through_; ///< [points] the first edge through it
-};
-
 } // namespace
-
-polygon::Contact contact_of(const Contours& contours) { return ContactFinder(contours).run(); }
 
 Filling fill(const Contours& contours) {
     if (auto filling = Filler<Rounded>(contours).run()) return std::move(*filling);

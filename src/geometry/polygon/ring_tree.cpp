@@ -1,8 +1,6 @@
 #include "geometry/polygon/ring_tree.hpp"
 
 #include "base/predicates.hpp"
-#include "geometry/cgal/contour_contact.hpp"
-#include "geometry/polygon/contours_of.hpp"
 
 #include <algorithm>
 #include <array>
@@ -94,30 +92,17 @@ bool share_an_end(const Edge& e, const Edge& f) {
     return e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b;
 }
 
-/// How many pairs of edges with boxes that meet are looked at, before edges are taken to be many and long (a
-/// star, a comb) and a triangulation decides instead.
-std::size_t most_pairs(std::size_t edges) { return 1000 + 16 * edges; }
-
 /// Whether two of the edges cross. Edges with a common end never do.
-bool any_cross(const std::vector<Edge>& different) {
-    const RingTree tree(different);
+bool any_cross(const RingTree& tree) {
     const auto& edges = tree.edges();
     bool cross = false;
-    std::size_t left = most_pairs(edges.size());
-    for (Index i = 0; i < edges.size() && !cross && left > 0; ++i)
+    for (Index i = 0; i < edges.size() && !cross; ++i)
         tree.query(RingTree::bounds(edges[i]), [&](Index j) {
             cross = j > i && !share_an_end(edges[i], edges[j]) &&
                     contact_of(edges[i], edges[j]) == Contact::crossing;
-            return !cross && --left > 0;
+            return !cross;
         });
-    if (cross || left > 0) return cross;
-    Contours contours;
-    for (const Edge& e : edges) {
-        const auto first = static_cast<Index>(contours.points.size());
-        contours.points.insert(contours.points.end(), {e.a, e.b});
-        contours.edges.push_back({first, first + 1, 1});
-    }
-    return facetmill::contact_of(contours) == Contact::crossing;
+    return cross;
 }
 
 } // namespace
@@ -127,15 +112,14 @@ Contact contact(Rings rings) {
     const auto& edges = tree.edges();
     std::vector<Edge> different;
     if (contact_of_equals(edges, different) != Contact::none) // a ring may run over few edges many times
-        return any_cross(different) ? Contact::crossing : Contact::touching;
+        return any_cross(RingTree(std::move(different))) ? Contact::crossing : Contact::touching;
     Contact worst = Contact::none;
-    std::size_t left = most_pairs(edges.size());
-    for (Index i = 0; i < edges.size() && worst != Contact::crossing && left > 0; ++i)
+    for (Index i = 0; i < edges.size() && worst != Contact::crossing; ++i)
         tree.query(RingTree::bounds(edges[i]), [&](Index j) {
             if (j > i) worst = std::max(worst, contact_of(edges, i, j));
-            return worst != Contact::crossing && --left > 0;
+            return worst != Contact::crossing;
         });
-    return left > 0 || worst == Contact::crossing ? worst : facetmill::contact_of(contours_of(rings));
+    return worst;
 }
 
 } // namespace facetmill::polygon

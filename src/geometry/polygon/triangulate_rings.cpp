@@ -1,13 +1,23 @@
 #include "geometry/polygon/triangulate_rings.hpp"
 
 #include "base/predicates.hpp"
-#include "geometry/polygon/contours_of.hpp"
+#include "geometry/cgal/triangulate_polygon.hpp"
 
 #include <algorithm>
 
 namespace facetmill::polygon {
 
 namespace {
+
+Contours contours_of(Rings rings) {
+    Contours contours;
+    for (const Ring ring : rings) {
+        const auto first = static_cast<Index>(contours.points.size()), n = static_cast<Index>(ring.size());
+        contours.points.insert(contours.points.end(), ring.begin(), ring.end());
+        for (Index i = 0; i < n; ++i) contours.edges.push_back({first + i, first + (i + 1) % n, 1});
+    }
+    return contours;
+}
 
 /// Turns a triangle the right way round, its lowest corner first; true when it was clockwise.
 bool turn_left(std::array<Index, 3>& t, const std::vector<Vec2>& points) {
@@ -19,16 +29,6 @@ bool turn_left(std::array<Index, 3>& t, const std::vector<Vec2>& points) {
 }
 
 } // namespace
-
-Contours contours_of(Rings rings) {
-    Contours contours;
-    for (const Ring ring : rings) {
-        const auto first = static_cast<Index>(contours.points.size()), n = static_cast<Index>(ring.size());
-        contours.points.insert(contours.points.end(), ring.begin(), ring.end());
-        for (Index i = 0; i < n; ++i) contours.edges.push_back({first + i, first + (i + 1) % n, 1});
-    }
-    return contours;
-}
 
 Triangulation triangulate_rings(Rings rings) {
     Contours contours = contours_of(rings);

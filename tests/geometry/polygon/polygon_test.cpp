@@ -1,7 +1,5 @@
 #include "support/catch.hpp"
 
-#include "geometry/cgal/contour_contact.hpp"
-#include "geometry/polygon/contours_of.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
 #include "support/polygons.hpp"
@@ -229,66 +227,4 @@ TEST_CASE("a ring of 200,000 corners over three points is seen through at once",
         ring.push_back(i % 3 == 0 ? Vec2{0, 0} : i % 3 == 1 ? Vec2{1, 0} : Vec2{0, 1});
     const Ring one = ring;
     CHECK(contact(std::span(&one, 1)) == Contact::touching);
-}
-
-TEST_CASE("how rings meet themselves, by triangulation", "[geometry]") {
-    std::uint32_t state = 7;
-    const auto next = [&](std::uint32_t below) {
-        state = state * 1664525 + 1013904223;
-        return (state >> 16) % below;
-    };
-    for (int round = 0; round < 3000; ++round) {
-        std::vector<Vec2> ring(3 + next(8));
-        const std::uint32_t side = 2 + next(9);
-        for (Vec2& p : ring) p = {static_cast<double>(next(side)), static_cast<double>(next(side))};
-        const Ring one = ring;
-        INFO(round);
-        REQUIRE(contact_of(contours_of(std::span(&one, 1))) == contact_by_pairs(ring));
-    }
-}
-
-TEST_CASE("how stars and combs meet themselves, whose edges' boxes nearly all overlap", "[geometry]") {
-    // Whole numbers, so that contact_by_pairs is exact; bent: one corner far enough aside to cross a spike.
-    const auto star = [](int spikes) {
-        std::vector<Vec2> ring;
-        for (int i = 0; i < 2 * spikes; ++i) {
-            const double angle = M_PI * i / spikes, radius = i % 2 == 0 ? 1e6 : 1e4;
-            ring.push_back({std::round(radius * std::cos(angle)), std::round(radius * std::sin(angle))});
-        }
-        return ring;
-    };
-    const auto comb = [](int teeth) { // slanted, so that boxes overlap
-        std::vector<Vec2> ring;
-        for (int i = 0; i < teeth; ++i) {
-            ring.push_back({10.0 * i, 0});
-            ring.push_back({10.0 * i + 20000, 20000});
-            ring.push_back({10.0 * i + 20004, 20000});
-            ring.push_back({10.0 * i + 4, 0});
-        }
-        ring.push_back({10.0 * teeth, -10});
-        ring.push_back({0, -10});
-        return ring;
-    };
-    for (const auto& ring : {star(400), comb(200)}) {
-        std::array<int, 3> seen{};
-        for (std::size_t moved = 0; moved < ring.size(); moved += 37)
-            for (const Vec2& by :
-                 {Vec2{0, 0}, Vec2{300, -450}, ring[(moved + 3) % ring.size()] - ring[moved]}) {
-                auto bent = ring;
-                bent[moved] = bent[moved] + by;
-                const Contact wanted = contact_by_pairs(bent);
-                const Ring one = bent;
-                CHECK(contact(std::span(&one, 1)) == wanted);
-                ++seen[static_cast<std::size_t>(wanted)];
-            }
-        CHECK(seen[0] > 0);
-        CHECK(seen[2] > 0);
-    }
-    std::vector<Vec2> large; // 2e8 pairs of edges, of which most have boxes that meet
-    for (int i = 0; i < 20'000; ++i) {
-        const double angle = M_PI * i / 10'000, radius = i % 2 == 0 ? 1 : 0.01;
-        large.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
-    const Ring one = large;
-    CHECK(contact(std::span(&one, 1)) == Contact::none);
 }
