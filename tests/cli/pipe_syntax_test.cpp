@@ -161,7 +161,8 @@ TEST_CASE("options of pipe itself come before the first stage", "[cli]") {
           "                                      ^~~~~~~~\n"
           "  hint: it comes before the first stage: facetmill pipe --report ... load ...\n");
     CHECK(problems("load a -q ! relax")
-              .find("command line:1:23: error[E-PIPE]: '-q' is an option of pipe itself") != std::string::npos);
+              .find("command line:1:23: error[E-PIPE]: '-q' is an option of pipe itself") !=
+          std::string::npos);
 }
 
 TEST_CASE("no line of brackets, separators and options crashes the parser", "[cli][property]") {
