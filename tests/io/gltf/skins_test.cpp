@@ -77,8 +77,7 @@ TEST_CASE("a skinned part that is moved plays as before, where it is now", "[io]
         CHECK(written.warnings.empty());
         const Scene again = test::read_bytes(written.files.at(0).bytes, "glb");
         CHECK(again.parts.at(0).skinned);
-        for (const std::vector<double> knee :
-             {std::vector<double>{0, 1, 0}, std::vector<double>{0.5, 2, 1}}) {
+        for (const auto& knee : {std::vector<double>{0, 1, 0}, std::vector<double>{0.5, 2, 1}}) {
             std::vector<Vec3> wanted = posed(scene, knee);
             for (Vec3& p : wanted) p = part.transform.point(p);
             check_same(posed(again, knee), wanted);
