@@ -1,6 +1,13 @@
-# cmake --install and the Debian package: the executable, manual pages, shell completions, ready pipelines as examples.
+# cmake --install and the Debian package: the executable, manual pages, shell completions, ready pipelines as examples,
+# and what find_package(facetmill) reads.
 include(GNUInstallDirs)
-install(TARGETS facetmill RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS facetmill EXPORT facetmill RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/facetmill)
+write_basic_package_version_file(facetmillConfigVersion.cmake COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+install(EXPORT facetmill NAMESPACE facetmill:: FILE facetmillTargets.cmake DESTINATION ${package_dir})
+install(FILES cmake/facetmillConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/facetmillConfigVersion.cmake
+        DESTINATION ${package_dir})
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY pipelines examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES man/facetmill.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)

@@ -251,5 +251,96 @@ class Folders(Case):
         self.assertEqual([p.read_text() for p in (self.dir / "out").iterdir()], ["older"])
 
 
+class Assets(Case):
+    """facetmill_add_assets of find_package(facetmill): many inputs, two pipelines of which one only checks."""
+
+    TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"
+    LISTS = """cmake_minimum_required(VERSION 3.21)
+project(assets LANGUAGES NONE)
+find_package(facetmill REQUIRED)
+file(GLOB_RECURSE scans CONFIGURE_DEPENDS scans/*)
+facetmill_add_assets(models PIPELINE web.yaml INPUTS ${scans} BASE scans PARAMS "unit=cm" OUTPUT_DIR web
+                     THREADS 1 DESTINATION share/models)
+facetmill_add_assets(checks PIPELINE check.yaml INPUTS ${scans})
+message(STATUS "outputs: ${models_OUTPUTS}")
+"""
+
+    def setUp(self):
+        super().setUp()
+        self.prefix = self.installed()
+        self.write("src/CMakeLists.txt", self.LISTS)
+        self.write("src/web.yaml", "facetmill: 1\nparams: {input: {type: path}, unit: {type: text}}\nstages:\n"
+                                   "  - load: {path: '${input}', unit: '${unit}'}\n  - write: '${input.stem}.glb'\n"
+                                   "report: '${input.stem}.json'\n")
+        self.write("src/check.yaml", "facetmill: 1\nparams: {input: {type: path}}\n"
+                                     "stages: [{load: '${input}'}, {validate: {closed: true}}]\n")
+
+    def scan(self, name, text=TETRAHEDRON):
+        return self.write(f"src/scans/{name}.off", text)
+
+    def cmake(self, *arguments, expect=0):
+        run = subprocess.run(["cmake", *map(str, arguments)], cwd=self.dir, capture_output=True, text=True, timeout=300)
+        said = run.stdout + run.stderr
+        self.assertEqual(run.returncode == 0, expect == 0, said)
+        return said
+
+    def configure(self, generator, expect=0):
+        return self.cmake("-G", generator, "-S", "src", "-B", "b", f"-DCMAKE_PREFIX_PATH={self.prefix}", expect=expect)
+
+    def build(self, *arguments, expect=0):
+        """How often facetmill ran."""
+        self.said = self.cmake("--build", "b", *arguments, expect=expect)
+        return self.said.count("Milling")
+
+    def touch(self, path):
+        time.sleep(0.02)
+        os.utime(path)
+
+    def check(self, generator, keep_going):
+        odd = ["two words", "it's", "Zürich $5 #1 & 100%", "(x) *y?"]
+        for name in ("a/one", "b/one", *odd):
+            self.scan(name)
+        self.assertIn("web/a/one.glb", self.configure(generator))
+        runs = 2 * (2 + len(odd))
+        self.assertEqual([self.build(), self.build()], [runs, 0], self.said)
+        made = self.files(self.dir / "b/web")
+        self.assertEqual(set(made), {f"{n}.{s}" for n in ("a/one", "b/one", *odd) for s in ("glb", "json")})
+        for path, due in (("src/scans/a/one.off", 2), ("src/scans/Zürich $5 #1 & 100%.off", 2), ("src/check.yaml", runs // 2),
+                          ("prefix/bin/facetmill", runs)):
+            self.touch(self.dir / path)
+            self.assertEqual([self.build(), self.build()], [due, 0], path + self.said)
+        self.cmake("--install", "b", "--prefix", "installed")
+        self.assertEqual(self.files(self.dir / "installed/share/models"), made)
+        # One broken input stops itself only.
+        good = (self.dir / "src/scans/b/one.off").read_text()
+        self.scan("b/one", "no mesh")
+        self.scan("a/one", good.replace("1 0 0", "2 0 0"))
+        self.build("--", keep_going, expect=1)
+        self.assertNotEqual(self.files(self.dir / "b/web")["a/one.glb"], made["a/one.glb"])
+        self.scan("b/one", good)
+        self.assertEqual([self.build(), self.build()], [2, 0], self.said)
+
+    def test_ninja(self):
+        self.need("ninja")
+        self.check("Ninja", "-k0")
+
+    def test_make(self):
+        self.check("Unix Makefiles", "-k")
+
+    def test_what_is_refused_says_why(self):
+        for name, why in (("x;y", "cannot work with"), ("x|y", "cannot work with"), ('x"y', "cannot work with")):
+            scan = self.scan(name)
+            self.assertIn(why, self.configure("Unix Makefiles", expect=1))
+            scan.unlink()
+        self.scan("a/one")
+        self.scan("b/one")
+        self.write("src/CMakeLists.txt", self.LISTS.replace(" BASE scans", ""))
+        self.assertIn("BASE to keep the folders", self.configure("Unix Makefiles", expect=1))
+        self.write("src/CMakeLists.txt", self.LISTS.replace("PIPELINE web.yaml", "PIPELINE wbe.yaml"))
+        self.assertIn("wbe.yaml", self.configure("Unix Makefiles", expect=1))
+        self.write("src/CMakeLists.txt", self.LISTS.replace("BASE scans", "BAES scans"))
+        self.assertIn("BAES", self.configure("Unix Makefiles", expect=1))
+
+
 if __name__ == "__main__":
     main()

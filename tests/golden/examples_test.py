@@ -64,10 +64,11 @@ class Examples(Case):
         self.assertIn("facetmill run", self.run_in("make", "make"))
 
     def test_cmake(self):
+        prefix = self.installed()
         for generator, nothing in (("Ninja", "no work to do"), ("Unix Makefiles", "")):
-            self.run_in("cmake", "cmake", "-G", generator, "-B", generator)
+            self.run_in("cmake", "cmake", "-G", generator, "-B", generator, f"-DCMAKE_PREFIX_PATH={prefix}")
             self.assertIn("Milling", self.run_in("cmake", "cmake", "--build", generator))
-            self.assertLessEqual({"bust.glb", "bust.json"}, self.made(f"cmake/{generator}"))
+            self.assertLessEqual({"nefertiti.glb", "nefertiti.json"}, self.made(f"cmake/{generator}"))
             again = self.run_in("cmake", "cmake", "--build", generator)
             self.assertIn(nothing, again)
             self.assertNotIn("Milling", again)

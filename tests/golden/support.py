@@ -71,6 +71,14 @@ class Case(unittest.TestCase):
                            "max": [1, 1, 0]}],
             "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "t.bin", "byteLength": 36}]}))
 
+    def installed(self):
+        """Where facetmill is installed as `make install` does it: what find_package(facetmill) looks for."""
+        prefix = self.dir / "prefix"
+        run = subprocess.run([self.need("cmake"), "--install", os.environ.get("FACETMILL_BUILD", FACETMILL.parent),
+                              "--prefix", prefix], capture_output=True, text=True, timeout=600)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return prefix
+
     def need(self, tool):
         """The path of an optional tool. Without it the test is skipped, with a notice, unless CI forbids that."""
         path = shutil.which(tool)
