@@ -2,7 +2,7 @@
 # deps.sh [--list] [--all] [--bench]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
-# shells, a second Draco reader, node for the glTF validator, and clang for the style; --bench adds what the benchmarks use.
+# shells and Meson, a second Draco reader, node for the glTF validator, and clang for the style; --bench adds what the benchmarks use.
 set -eu
 
 build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
@@ -10,7 +10,7 @@ build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohman
     libpng-dev libjpeg-dev"
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
-optional="ccache zsh fish draco nodejs npm mandoc clang clang-format"
+optional="ccache zsh fish draco nodejs npm mandoc meson clang clang-format"
 
 list=no wanted="$build $test"
 for argument in "$@"; do

@@ -83,6 +83,24 @@ class Examples(Case):
         self.touch_scan()
         self.assertNotIn("no work to do", self.run_in("ninja", "ninja"))
 
+    def test_meson(self):
+        self.need("meson")
+        self.need("ninja")
+        self.run_in("meson", "meson", "setup", "b")
+        self.run_in("meson", "ninja", "-C", "b")
+        self.assertLessEqual({"nefertiti.glb", "nefertiti.json"}, self.made("meson/b"))
+        self.assertIn("no work to do", self.run_in("meson", "ninja", "-C", "b"))
+        self.touch_scan()
+        self.assertNotIn("no work to do", self.run_in("meson", "ninja", "-C", "b"))
+
+    def test_snakemake(self):
+        self.need("snakemake", in_ci=False)  # 78 packages on Debian 12
+        self.run_in("snakemake", "snakemake", "-j1")
+        self.assertLessEqual({"nefertiti.glb", "nefertiti.json"}, self.made("snakemake"))
+        self.assertIn("Nothing to be done", self.run_in("snakemake", "snakemake", "-j1"))
+        self.touch_scan()
+        self.assertIn("rule mill", self.run_in("snakemake", "snakemake", "-j1"))
+
 
 if __name__ == "__main__":
     main()
