@@ -26,9 +26,9 @@ class Examples(Case):
     def made(self, folder):
         return {p.name for p in (self.dir / "examples" / folder).rglob("*") if p.is_file()}
 
-    def touch_scan(self, name="nefertiti.ply"):
-        later = time.time() + 10
-        os.utime(self.dir / "examples/data" / name, (later, later))
+    def touch_scan(self, later=10):
+        at = time.time() + later
+        os.utime(self.dir / "examples/data/nefertiti.ply", (at, at))
 
     def shell(self, shell):
         path = self.need(shell)
@@ -98,8 +98,27 @@ class Examples(Case):
         self.run_in("snakemake", "snakemake", "-j1")
         self.assertLessEqual({"nefertiti.glb", "nefertiti.json"}, self.made("snakemake"))
         self.assertIn("Nothing to be done", self.run_in("snakemake", "snakemake", "-j1"))
-        self.touch_scan()
+        self.touch_scan(later=0)  # outputs older than their inputs are taken for broken
         self.assertIn("rule mill", self.run_in("snakemake", "snakemake", "-j1"))
+
+    def test_dvc(self):
+        self.need("dvc", in_ci=False)  # not in Debian
+        self.run_in(".", "git", "init", "-q", ".")
+        self.run_in(".", "dvc", "init", "-q", "--subdir")
+        self.run_in("dvc", "dvc", "repro")
+        self.assertLessEqual({"nefertiti.glb", "nefertiti.json"}, self.made("dvc"))
+        self.assertIn("didn't change, skipping", self.run_in("dvc", "dvc", "repro"))
+
+    def test_bazel(self):
+        self.need("bazel", in_ci=False)  # a virtual machine for Java comes with it
+        build = ("bazel", f"--output_user_root={self.dir}/bazel", "build", f"--action_env=PATH={self.env['PATH']}", ":all")
+        self.addCleanup(subprocess.run, ("bazel", f"--output_user_root={self.dir}/bazel", "shutdown"),
+                        cwd=self.dir / "examples/bazel", capture_output=True)
+        self.assertIn("bazel-bin/nefertiti.glb", self.run_in("bazel", *build))
+        self.assertIn("1 total action", self.run_in("bazel", *build))
+        with (self.dir / "examples/web.yaml").open("a") as pipeline:
+            pipeline.write("x-more: 1\n")
+        self.assertIn("2 total actions", self.run_in("bazel", *build))
 
 
 if __name__ == "__main__":
