@@ -328,9 +328,9 @@ message(STATUS "outputs: ${models_OUTPUTS}")
         self.check("Unix Makefiles", "-k")
 
     def test_what_is_refused_says_why(self):
-        for name, why in (("x;y", "cannot work with"), ("x|y", "cannot work with"), ('x"y', "cannot work with")):
+        for name in ("x|y", 'x"y', "$(x)"):
             scan = self.scan(name)
-            self.assertIn(why, self.configure("Unix Makefiles", expect=1))
+            self.assertIn("cannot work with", self.configure("Unix Makefiles", expect=1))
             scan.unlink()
         self.scan("a/one")
         self.scan("b/one")
