@@ -280,7 +280,7 @@ message(STATUS "outputs: ${models_OUTPUTS}")
 
     def cmake(self, *arguments, expect=0):
         run = subprocess.run(["cmake", *map(str, arguments)], cwd=self.dir, capture_output=True, text=True, timeout=300)
-        said = run.stdout + run.stderr
+        said = " ".join((run.stdout + run.stderr).split())  # CMake breaks lines where it likes
         self.assertEqual(run.returncode == 0, expect == 0, said)
         return said
 
