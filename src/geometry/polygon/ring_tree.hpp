@@ -36,8 +36,6 @@ class RingTree {
     };
 
     explicit RingTree(Rings rings);
-    /// Of edges in the order that they have; what they say of neighbours is left alone.
-    explicit RingTree(std::vector<Edge> edges);
 
     const std::vector<Edge>& edges() const { return edges_; }
     static Bounds bounds(const Edge& e) {
@@ -53,7 +51,6 @@ class RingTree {
     }
 
   private:
-    void index();
     template <class Visit>
     bool query(std::size_t node, std::size_t first, std::size_t width, const Bounds& box,
                Visit& visit) const {

@@ -5,7 +5,6 @@
 #include "support/polygons.hpp"
 
 #include <algorithm>
-#include <array>
 
 using namespace facetmill;
 using namespace facetmill::polygon;
@@ -169,62 +168,4 @@ TEST_CASE("triangles times windings have the area of a ring that crosses itself"
     REQUIRE(eight.added.size() == 1);
     CHECK(eight.added[0].at == Vec2{1, 1});
     CHECK(eight.added[0].t == 0.5);
-}
-
-namespace {
-
-/// All pairs, as the words of Contact say.
-Contact contact_by_pairs(const std::vector<Vec2>& ring) {
-    const std::size_t n = ring.size();
-    const auto turn = [](const Vec2& a, const Vec2& b, const Vec2& c) {
-        const double area = cross(b - a, c - a); // small integers: exact
-        return (area > 0) - (area < 0);
-    };
-    const auto on = [&](const Vec2& p, const Vec2& a, const Vec2& b) {
-        return turn(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) &&
-               std::min(a.y, b.y) <= p.y && p.y <= std::max(a.y, b.y);
-    };
-    Contact worst = Contact::none;
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = i + 1; j < n; ++j) {
-            const Vec2 a = ring[i], b = ring[(i + 1) % n], c = ring[j], d = ring[(j + 1) % n];
-            if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0)
-                return Contact::crossing;
-            const bool after = (i + 1) % n == j, before = (j + 1) % n == i;
-            const bool back = (after && turn(a, b, d) == 0 && dot(b - a, d - c) < 0) ||
-                              (before && turn(c, d, b) == 0 && dot(d - c, b - a) < 0);
-            const bool touch = on(a, c, d) || on(b, c, d) || on(c, a, b) || on(d, a, b);
-            if (after || before ? back : touch) worst = Contact::touching;
-        }
-    return worst;
-}
-
-} // namespace
-
-TEST_CASE("how a ring meets itself, also when it runs over the same edges often", "[geometry]") {
-    std::uint32_t state = 1;
-    const auto next = [&](std::uint32_t below) {
-        state = state * 1664525 + 1013904223;
-        return (state >> 16) % below;
-    };
-    std::array<int, 3> seen{};
-    for (int round = 0; round < 4000; ++round) {
-        std::vector<Vec2> ring(3 + next(6));
-        const std::uint32_t side = 2 + next(4);
-        for (Vec2& p : ring) p = {static_cast<double>(next(side)), static_cast<double>(next(side))};
-        const Contact wanted = contact_by_pairs(ring);
-        const Ring one = ring;
-        INFO(round);
-        REQUIRE(contact(std::span(&one, 1)) == wanted);
-        ++seen[static_cast<std::size_t>(wanted)];
-    }
-    for (const int count : seen) CHECK(count > 100);
-}
-
-TEST_CASE("a ring of 200,000 corners over three points is seen through at once", "[geometry]") {
-    std::vector<Vec2> ring;
-    for (int i = 0; i < 200001; ++i)
-        ring.push_back(i % 3 == 0 ? Vec2{0, 0} : i % 3 == 1 ? Vec2{1, 0} : Vec2{0, 1});
-    const Ring one = ring;
-    CHECK(contact(std::span(&one, 1)) == Contact::touching);
 }
