@@ -5,6 +5,7 @@
 #include <atomic>
 #include <csignal>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <unistd.h>
 
@@ -99,7 +100,12 @@ void keep(CleanUp* entry) {
     if (entry) entry->active = false;
 }
 
+namespace {
+std::mutex holders; ///< runs of several threads commit one after another
+}
+
 HoldSignals::HoldSignals() {
+    holders.lock();
     int expected = idle;
     if (!state.compare_exchange_strong(expected, held)) wait_for_the_end();
 }
@@ -107,6 +113,7 @@ HoldSignals::HoldSignals() {
 HoldSignals::~HoldSignals() {
     state = idle;
     if (const int number = waiting_signal.exchange(0)) ::raise(number);
+    holders.unlock();
 }
 
 void clean_up_on_signals() {

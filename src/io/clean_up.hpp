@@ -16,7 +16,8 @@ CleanUp* clean_up_directory(const std::filesystem::path& path);
 /// The entry is done with: a signal leaves it alone from now on.
 void keep(CleanUp* entry);
 
-/// While one lives, a signal waits: the process ends when it goes. For the renames of a commit.
+/// While one lives, a signal waits: the process ends when it goes. For the renames of a commit. A second
+/// thread that makes one waits for the first; a thread has one at a time.
 class HoldSignals {
   public:
     HoldSignals();

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <mutex>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -52,11 +54,19 @@ Outputs::~Outputs() { discard(); }
 
 void Outputs::make_directory(const fs::path& directory) {
     std::error_code error;
-    if (directory.empty() || fs::is_directory(directory, error)) return;
-    make_directory(directory.parent_path());
-    if (::mkdir(directory.c_str(), 0777) == 0) {
-        made_directories_.push_back({directory, clean_up_directory(directory)});
-    } else if (const int why = errno; !fs::is_directory(directory, error)) {
+    constexpr int most_attempts = 1000;
+    for (int attempt = 0; !directory.empty() && !fs::is_directory(directory, error); ++attempt) {
+        make_directory(directory.parent_path());
+        if (::mkdir(directory.c_str(), 0777) == 0) {
+            made_directories_.push_back({directory, clean_up_directory(directory)});
+            return;
+        }
+        const int why = errno;
+        if (fs::is_directory(directory, error)) return;
+        // Another run that failed may have removed this folder or one above, which it had made.
+        const bool vanished =
+            why == ENOENT || (why == EEXIST && !fs::exists(fs::symlink_status(directory, error)));
+        if (vanished && attempt < most_attempts) continue;
         throw Error(ErrorKind::output, why == ENOSPC ? "E-SPACE" : "E-DIRECTORY",
                     fmt::format("the directory '{}' cannot be made: {}", directory.string(),
                                 why == EEXIST ? "a file has its name" : std::strerror(why)),
@@ -64,8 +74,26 @@ void Outputs::make_directory(const fs::path& directory) {
     }
 }
 
+namespace {
+
+/// Whether a run of this process swept the directory a short while ago: each of a thousand runs would list
+/// the outputs of all.
+bool swept_lately(const fs::path& directory) {
+    static std::mutex guard;
+    static std::map<fs::path, std::chrono::steady_clock::time_point> times;
+    constexpr std::chrono::seconds a_while(10);
+    const auto now = std::chrono::steady_clock::now();
+    const std::lock_guard lock(guard);
+    const auto [known, is_new] = times.emplace(directory, now);
+    if (!is_new && now - known->second < a_while) return true;
+    known->second = now;
+    return false;
+}
+
+} // namespace
+
 void Outputs::remove_stale(const fs::path& directory) {
-    if (!swept_.insert(directory).second) return;
+    if (!swept_.insert(directory).second || swept_lately(directory)) return;
     std::error_code error;
     for (fs::directory_iterator it(directory.empty() ? "." : directory, error), end; !error && it != end;
          it.increment(error)) {
@@ -76,6 +104,7 @@ void Outputs::remove_stale(const fs::path& directory) {
 
 void Outputs::stage(File& file, Span bytes) {
     const fs::path directory = file.resolved.parent_path();
+    constexpr int most_attempts = 1000;
     for (int attempt = 0;; ++attempt) {
         file.temporary = directory / temporary_name(file.resolved, attempt);
         file.clean_up = clean_up_file(file.temporary);
@@ -83,7 +112,8 @@ void Outputs::stage(File& file, Span bytes) {
         if (file.lock >= 0) break;
         const int why = errno;
         keep(file.clean_up);
-        if (why != EEXIST) cannot_write(file, why);
+        if (attempt >= most_attempts || (why != EEXIST && why != ENOENT)) cannot_write(file, why);
+        if (why == ENOENT) make_directory(directory); // another run that failed had made it, and removed it
     }
     try {
         ::flock(file.lock, LOCK_EX | LOCK_NB);

@@ -4,10 +4,12 @@
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <thread>
 
 using namespace facetmill;
 using namespace facetmill::test;
@@ -187,4 +189,40 @@ TEST_CASE("one file at once", "[io]") {
     const TemporaryDirectory dir;
     io::write_now(dir / "reports/r.json", bytes_of("{}"));
     CHECK(get(dir / "reports/r.json") == "{}");
+}
+
+TEST_CASE("runs on several threads share folders that failing ones remove", "[io]") {
+    const TemporaryDirectory dir;
+    constexpr int rounds = 300;
+    std::atomic<int> failures{0};
+    const auto fail = [&] {
+        for (int i = 0; i < rounds; ++i) {
+            try {
+                Outputs outputs;
+                outputs.add(dir / "made/below/failed", bytes_of("new"));
+            } catch (const Error&) {
+                ++failures;
+            }
+        }
+    };
+    const auto succeed = [&](const std::string& name) {
+        for (int i = 0; i < rounds; ++i) {
+            try {
+                Outputs outputs;
+                outputs.add(dir / ("made/below/" + name), bytes_of("new"));
+                outputs.commit();
+                fs::remove(dir / ("made/below/" + name));
+                std::error_code ignored;
+                fs::remove(dir / "made/below", ignored);
+                fs::remove(dir / "made", ignored);
+            } catch (const Error&) {
+                ++failures;
+            }
+        }
+    };
+    std::thread first(fail), second(succeed, "a"), third(succeed, "b");
+    first.join();
+    second.join();
+    third.join();
+    CHECK(failures == 0);
 }
