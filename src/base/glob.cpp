@@ -83,7 +83,8 @@ bool glob_matches(std::string_view pattern, std::string_view text) {
 }
 
 std::vector<fs::path> expand_glob(const fs::path& pattern) {
-    if (!is_glob(pattern.string())) return {pattern};
+    std::error_code ignored;
+    if (!is_glob(pattern.string()) || fs::exists(pattern, ignored)) return {pattern};
     const fs::path below = pattern.relative_path();
     const std::vector<fs::path> components(below.begin(), below.end());
     std::vector<fs::path> found;

@@ -16,7 +16,7 @@ bool glob_matches(std::string_view pattern, std::string_view text);
 
 /// The files that a path with patterns in any of its components names, sorted by their bytes; ** stands for
 /// any number of directories. Hidden files only match a pattern that starts with a dot. A path without
-/// patterns is itself, whether it exists or not.
+/// patterns is itself, whether it exists or not, and so is the name of a file that is there ("[a].ply").
 std::vector<std::filesystem::path> expand_glob(const std::filesystem::path& pattern);
 
 } // namespace facetmill

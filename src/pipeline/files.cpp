@@ -32,8 +32,7 @@ void add_files(const Step& step, const Places& places, std::vector<PlannedFile>&
     for (const auto& input : named.inputs) {
         if (input.text.empty()) continue; // known only at run time
         const fs::path path = places.input(input.text);
-        std::error_code ignored;
-        const auto matches = fs::exists(path, ignored) ? std::vector<fs::path>{path} : expand_glob(path);
+        const auto matches = expand_glob(path);
         if (matches.empty()) files.push_back({path, where(input), false});
         for (const auto& match : matches) files.push_back({match, where(input), false});
     }

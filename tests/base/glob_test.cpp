@@ -47,3 +47,13 @@ TEST_CASE("a path with patterns names files in the order of their bytes", "[base
     CHECK(names("missing.ply") == std::vector<std::string>{"missing.ply"});
     fs::remove_all(folder);
 }
+
+TEST_CASE("a file whose name looks like a pattern is itself", "[base]") {
+    const auto folder = fs::temp_directory_path() / "facetmill-glob-literal";
+    fs::create_directories(folder);
+    for (const char* name : {"[a].ply", "a.ply"}) std::ofstream(folder / name) << "x";
+    CHECK(expand_glob(folder / "[a].ply") == std::vector{folder / "[a].ply"});
+    fs::remove(folder / "[a].ply");
+    CHECK(expand_glob(folder / "[a].ply") == std::vector{folder / "a.ply"});
+    fs::remove_all(folder);
+}
