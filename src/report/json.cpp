@@ -1,24 +1,12 @@
+#include "report/diagnostics_json.hpp"
 #include "report/render.hpp"
 
 namespace facetmill::report {
 
 namespace {
 
-Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
-
 const char* to_string(Severity severity) {
     return severity == Severity::error ? "error" : severity == Severity::warning ? "warning" : "note";
-}
-
-template <class Diagnostics>
-Json diagnostics_json(const Diagnostics& diagnostics) {
-    Json all = Json::array();
-    for (const auto& d : diagnostics)
-        all.push_back({{"id", d.id},
-                       {"message", d.message},
-                       {"where", text_or_null(facetmill::to_string(d.where))},
-                       {"hint", text_or_null(d.hint)}});
-    return all;
 }
 
 Json files_json(const std::vector<FileRecord>& files, bool read_back) {

@@ -1,0 +1,22 @@
+#pragma once
+// What the pages of reports are made of. Texts that are not HTML yet go through escaped() or code().
+
+#include <initializer_list>
+#include <string>
+
+namespace facetmill::report {
+
+/// From the doctype to the title; title and about are plain text.
+std::string html_begin(const std::string& title, const std::string& about);
+/// The version, and the end of the page.
+std::string html_end();
+
+std::string code(const std::string& text);
+std::string cell(const std::string& html);
+std::string number_cell(const std::string& html);
+/// A row of headings; a leading # marks a column of numbers.
+std::string heads(std::initializer_list<const char*> titles);
+/// A section with a table; nothing when there are no rows.
+std::string table(const std::string& title, const std::string& header, const std::string& rows);
+
+} // namespace facetmill::report
