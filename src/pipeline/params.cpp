@@ -15,6 +15,18 @@ Mark command_line_mark(const std::string& option, const std::string& text, std::
             static_cast<int>(text.size() - std::min(from, text.size()))};
 }
 
+namespace {
+
+/// Where the value of a parameter stands: in a table, or after its name on the command line.
+Mark mark_of_define(const PlanSettings& settings, const std::string& name, const std::string& text,
+                    std::size_t from) {
+    const auto place = settings.defined_at.find(name);
+    if (place != settings.defined_at.end()) return place->second;
+    return command_line_mark("-D", fmt::format("{}={}", name, text), from);
+}
+
+} // namespace
+
 Json value_json(const Value& value) {
     Json out;
     switch (value.kind) {
@@ -185,9 +197,9 @@ class Params {
         Value out;
         const Value* default_value = entry.value.is_map() ? entry.value.find("default") : nullptr;
         if (const auto* define = defined(entry.key)) {
-            const std::string text = fmt::format("{}={}", define->first, define->second);
-            out = Value::scalar(define->second, command_line_mark("-D", text, define->first.size() + 1),
-                                options.type == Type::text);
+            const Mark mark =
+                mark_of_define(settings_, define->first, define->second, define->first.size() + 1);
+            out = Value::scalar(define->second, mark, options.type == Type::text);
             shown = value_json(out);
             if (options.type == Type::path) out.text = from_working_directory(out.text, settings_);
         } else if (default_value && !default_value->is_null()) {
@@ -276,7 +288,7 @@ void refuse_repeated(const PlanSettings& settings, Problems& problems) {
     std::map<std::string, std::string> first;
     for (const auto& [name, text] : settings.defines)
         if (const auto [known, is_new] = first.emplace(name, text); !is_new)
-            problems.add(command_line_mark("-D", fmt::format("{}={}", name, text)), "E-PARAM",
+            problems.add(mark_of_define(settings, name, text, 0), "E-PARAM",
                          fmt::format("the parameter '{}' is given twice", name),
                          fmt::format("it was '{}' before; leave one out", known->second));
 }
@@ -295,7 +307,7 @@ Scope read_params(const Value* params, const PlanSettings& settings, Json& json,
     for (const auto& variable : all.scope) names.push_back(variable.name);
     for (const auto& [name, text] : settings.defines)
         if (!find_variable(all.scope, name))
-            problems.add(command_line_mark("-D", fmt::format("{}={}", name, text)), "E-PARAM",
+            problems.add(mark_of_define(settings, name, text, 0), "E-PARAM",
                          fmt::format("the pipeline has no parameter '{}'", name),
                          names.empty() ? "it declares none" : suggestion(name, names));
     refuse_repeated(settings, problems);

@@ -213,13 +213,19 @@ Plan plan_text(std::string text, const PlanSettings& settings, Problems& problem
     return make_plan(document, settings, problems);
 }
 
-Plan load_plan(const fs::path& file, PlanSettings settings, Problems& problems) {
+PipelineSource read_pipeline(const fs::path& file) {
     const auto input = io::Input::open(file);
+    return {std::string(io::as_text(input.bytes())), file};
+}
+
+Plan plan_source(const PipelineSource& source, PlanSettings settings, Problems& problems) {
+    const fs::path& file = source.file;
+    if (file.empty()) return plan_text(source.text, settings, problems);
     const bool streamed = file == "-";
     if (!streamed) settings.others.push_back({file, {}, false});
     if (settings.name.empty()) settings.name = streamed ? "standard input" : file.string();
     if (settings.places.input_base.empty() && !streamed) settings.places.input_base = file.parent_path();
-    Plan plan = plan_text(std::string(io::as_text(input.bytes())), settings, problems);
+    Plan plan = plan_text(source.text, settings, problems);
     for (const auto& read : planned_files(plan.steps, plan.places))
         if (streamed && !read.written && read.path == "-") {
             plan.files_collide = true;
@@ -228,6 +234,10 @@ Plan load_plan(const fs::path& file, PlanSettings settings, Problems& problems) 
                          "give one of the two as a file");
         }
     return plan;
+}
+
+Plan load_plan(const fs::path& file, PlanSettings settings, Problems& problems) {
+    return plan_source(read_pipeline(file), std::move(settings), problems);
 }
 
 } // namespace facetmill::pipeline

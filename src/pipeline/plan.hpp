@@ -5,6 +5,8 @@
 #include "stage/contract.hpp"
 #include "stage/stage.hpp"
 
+#include <map>
+
 namespace facetmill::pipeline {
 
 struct Step;
@@ -60,7 +62,8 @@ struct PlannedFile {
 struct PlanSettings {
     std::string name; ///< of the pipeline, for messages and the report
     std::vector<std::pair<std::string, std::string>> defines; ///< -D
-    std::vector<std::pair<std::string, std::string>> sets;    ///< --set stage.option=value
+    std::map<std::string, Mark> defined_at; ///< where values of defines stand that are not of -D: in a table
+    std::vector<std::pair<std::string, std::string>> sets; ///< --set stage.option=value
     bool update_baselines = false; ///< --update-baseline: stages with a baseline write it
     Places places;
     std::filesystem::path working_directory; ///< what -D paths are relative to
@@ -87,7 +90,16 @@ struct Plan {
 Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems);
 /// Parses and plans a pipeline; settings.name is what its text is called in messages.
 Plan plan_text(std::string text, const PlanSettings& settings, Problems& problems);
-/// Reads a pipeline file ("-": standard input) and plans it. An unreadable file throws missing.
+/// A pipeline as text, to be planned once or for many assets.
+struct PipelineSource {
+    std::string text;
+    std::filesystem::path file; ///< "-": standard input; empty: none
+};
+/// Reads a pipeline file ("-": standard input). An unreadable file throws missing.
+PipelineSource read_pipeline(const std::filesystem::path& file);
+/// Plans it: what the file reads is relative to it, and it is an input itself.
+Plan plan_source(const PipelineSource& source, PlanSettings settings, Problems& problems);
+/// Both.
 Plan load_plan(const std::filesystem::path& file, PlanSettings settings, Problems& problems);
 
 /// The files of these steps in their order, as far as they are known (globs expanded); without those of a

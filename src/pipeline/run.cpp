@@ -107,6 +107,8 @@ class Runner {
         if (!failures_.any() && run_steps(plan_.steps, scene, true) && !plan_.reports.empty())
             failures_.guarded({}, "the inspection at the end",
                               [&] { record().final_properties = report::scene_json(scene, inspect(scene)); });
+        if (settings_.last_picture && !takes_pictures_ && !failures_.any() && !record().stages.empty())
+            add_small_picture(scene, record().stages.back());
         finish_outputs();
         if (settings_.progress) settings_.progress->done();
         record().seconds = seconds_since(start);
@@ -219,6 +221,15 @@ class Runner {
             picture_bytes_ += picture.size();
             last_picture_ = stage.picture = std::move(picture);
         });
+    }
+
+    /// One of many in an index.
+    void add_small_picture(const Scene& scene, report::StageRecord& stage) {
+        PictureSettings small;
+        small.width = 160;
+        small.height = 120;
+        failures_.guarded({}, "a picture",
+                          [&] { stage.picture = io::base64(io::png(picture_of(scene, small))); });
     }
 
     static void warn_of_empty_selection(const Step& step, const Scene& scene, Context& context) {

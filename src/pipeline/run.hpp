@@ -11,6 +11,7 @@ struct RunSettings {
     std::vector<std::string> strict; ///< ids of warnings that fail; "*": all
     bool read_back = true;
     bool check_invariants = false; ///< mesh/invariants.hpp after every stage (tests)
+    bool last_picture = false; ///< the record of the last stage gets a small picture, whatever the reports
     /// Called after each stage, with what its options were resolved to.
     std::function<void(const report::StageRecord&)> on_stage = {};
     /// Called for every warning as it arises.
