@@ -12,10 +12,10 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "options", "mesh", "geometry", "io", "report", "diff", "stage", "stages", "pipeline", "docs", "cli"]
+LAYERS = ["base", "options", "mesh", "geometry", "io", "report", "diff", "stage", "stages", "pipeline", "docs", "batch", "cli"]
 
 # A layer that must not include another although it stands below it.
-FORBIDDEN = {"pipeline": {"stages"}, "docs": {"stages"}, "cli": {"stages"}}
+FORBIDDEN = {"pipeline": {"stages"}, "docs": {"stages"}, "batch": {"stages"}, "cli": {"stages"}}
 
 # Layers whose folders are rooms.
 ROOMED = ("geometry", "io", "stages")

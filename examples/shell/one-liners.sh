@@ -24,3 +24,6 @@ cat ../data/nefertiti.ply | facetmill pipe --quiet load - --unit mm ! simplify 2
 # Save the pipeline for later.
 facetmill pipe --save kept.yaml load ../data/nefertiti.ply --unit mm ! simplify 2% ! write kept.glb
 facetmill run kept.yaml
+
+# Every scan of a folder, in one process; a second time nothing is left to do.
+facetmill batch scan-to-web --input '../data/*.ply' -D unit=mm -D keep=2% --output-dir many

@@ -33,6 +33,10 @@ const std::vector<MessageId>& message_ids() {
          {Kind::bug},
          "Something happened in facetmill that never should.",
          "Report this bug, with the pipeline and the input."},
+        {"E-BUSY",
+         {Kind::output},
+         "Another batch of this pipeline is at work in the output folder.",
+         "Wait for its end, or write elsewhere with `--output-dir`."},
         {"E-CHECK",
          {Kind::check},
          "A check of validate or ensure does not hold.",
@@ -87,7 +91,8 @@ const std::vector<MessageId>& message_ids() {
         {"E-DUPLICATE-INPUT", {Kind::usage}, "Standard input is read twice.", "Give one of them as a file."},
         {"E-DUPLICATE-OUTPUT",
          {Kind::usage, Kind::output},
-         "Two stages, reports or pipelines write the same file (names that differ only in case count as the "
+         "Two stages, reports, pipelines or assets of a batch write the same file (names that differ only in "
+         "case count as the "
          "same).",
          "Give each file its own name; in a foreach, use the index of the variable: `${lod.index}`."},
         {"E-DXF",
@@ -322,6 +327,12 @@ const std::vector<MessageId>& message_ids() {
          {Kind::usage, Kind::check},
          "A warning fails because of `--strict`, or `--strict` is given an unknown id.",
          "Check the warning; `facetmill explain` lists the ids."},
+        {"E-TABLE",
+         {Kind::malformed},
+         "A table of params for a batch cannot be read: a row has too few or too many cells, a quote is not "
+         "closed, or a column has no name or that of another.",
+         "Mend the place that the message names. CSV has a heading that names params; YAML is a list of "
+         "maps."},
         {"E-THICKEN",
          {Kind::stage},
          "A part cannot get a thickness: its node flattens it, or the thickness is 0.",
@@ -586,6 +597,10 @@ const std::vector<MessageId>& message_ids() {
          {},
          "split stopped before max_edge or min_angle was reached.",
          "Allow more passes or a longer max_edge; `relax` evens out narrow faces, which a split cannot."},
+        {"W-STATE",
+         {},
+         "A batch cannot note in the output folder what is done, so that the next one will do it again.",
+         "Free some space there; the outputs themselves are whole."},
         {"W-SURFACE-LOST",
          {},
          "A stage left none of the faces of a part, or took more of its area than the stage is expected to: "

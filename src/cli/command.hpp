@@ -46,6 +46,7 @@ struct Command {
 const std::vector<Command>& commands();
 
 Command run_command();
+Command batch_command();
 Command plan_command();
 Command pipe_command();
 Command check_command();

@@ -53,7 +53,7 @@ Words plain(const std::vector<std::string>& texts) {
 /// What a bare argument of the command may be, besides a file.
 Words values_of_command(const std::string& command, const Argument& argument) {
     Words words = plain(argument.choices);
-    if (command == "run" || command == "plan" || command == "check")
+    if (command == "run" || command == "batch" || command == "plan" || command == "check")
         for (const auto& ready : docs::ready_pipelines())
             words.push_back({std::string(ready.name), "a ready pipeline"});
     if (command == "stages") words = stage_words();

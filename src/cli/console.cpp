@@ -126,10 +126,12 @@ void Console::event(Json object) const {
     if (json && !quiet) line(object);
 }
 
+bool Console::redraws() const { return !quiet && !verbose && !json && terminal(); }
+
 std::unique_ptr<Progress> Console::progress() const {
     if (quiet) return {};
     if (verbose) return std::make_unique<Lines>(json);
-    if (!json && terminal()) return std::make_unique<Bar>();
+    if (redraws()) return std::make_unique<Bar>();
     return {};
 }
 

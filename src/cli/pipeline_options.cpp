@@ -29,11 +29,23 @@ void add_message_options(Arguments& arguments, Console& console) {
         .under("Messages");
 }
 
-void add_value_options(Arguments& arguments, PipelineOptions& options) {
+void add_param_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("-D,--define", &options.defines, "A param of the pipeline: -D name=value.");
     arguments.add("--set", &options.sets, "An option of a stage: --set simplify.ratio=10%.");
+}
+
+void add_value_options(Arguments& arguments, PipelineOptions& options) {
+    add_param_options(arguments, options);
     arguments.add("--update-baseline", &options.update_baseline,
                   "Stages with a baseline write the current failures to it, and pass.");
+}
+
+void add_warning_options(Arguments& arguments, PipelineOptions& options) {
+    arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
+    arguments.add("--allow", &options.allowed,
+                  "A warning that is not told, by its id, and that --strict lets pass; also --quiet=ID.");
+    arguments.add("--check-invariants", &options.check_invariants, "Check every mesh after every stage.")
+        .hidden();
 }
 
 void add_run_options(Arguments& arguments, PipelineOptions& options) {
@@ -51,11 +63,7 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");
     arguments.add("--depfile-target", &options.depfile_target,
                   "The target of that rule. Default: the first file that is written.");
-    arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
-    arguments.add("--allow", &options.allowed,
-                  "A warning that is not told, by its id, and that --strict lets pass; also --quiet=ID.");
-    arguments.add("--check-invariants", &options.check_invariants, "Check every mesh after every stage.")
-        .hidden();
+    add_warning_options(arguments, options);
 }
 
 namespace {
@@ -123,14 +131,19 @@ namespace {
 
 } // namespace
 
-pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems) {
+std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline) {
     std::error_code ignored;
-    const auto* ready =
-        pipeline == "-" || fs::exists(pipeline, ignored) ? nullptr : docs::ready_pipeline(pipeline);
-    if (pipeline != "-" && !ready && !fs::exists(pipeline, ignored)) refuse_unknown(pipeline);
-    if (!ready) return pipeline::load_plan(pipeline, std::move(settings), problems);
-    settings.name = pipeline;
-    return pipeline::plan_text(std::string(ready->text), settings, problems);
+    const bool is_file = pipeline == "-" || fs::exists(pipeline, ignored);
+    const auto* ready = is_file ? nullptr : docs::ready_pipeline(pipeline);
+    if (!is_file && !ready) refuse_unknown(pipeline);
+    if (ready) return {{std::string(ready->text), {}}, pipeline};
+    return {pipeline::read_pipeline(pipeline), ""};
+}
+
+pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings settings, Problems& problems) {
+    auto [source, name] = source_of(pipeline);
+    settings.name = name;
+    return pipeline::plan_source(source, std::move(settings), problems);
 }
 
 namespace {

@@ -14,14 +14,22 @@ struct PipelineOptions {
     bool check_invariants = false, update_baseline = false;
 };
 
-/// -D, --set and --update-baseline.
+/// -D and --set.
+void add_param_options(Arguments& arguments, PipelineOptions& options);
+/// ... and --update-baseline.
 void add_value_options(Arguments& arguments, PipelineOptions& options);
+/// --strict, --allow, --check-invariants.
+void add_warning_options(Arguments& arguments, PipelineOptions& options);
 /// -j, --output-dir, --report, --depfile, --depfile-target, --strict, --allow.
 void add_run_options(Arguments& arguments, PipelineOptions& options);
 
 /// Settings for a plan: values split at "=", with problems that point into the command line.
 pipeline::PlanSettings plan_settings(const PipelineOptions& options, const CommandLine& line,
                                      Problems& problems);
+
+/// The text of a file, of standard input ("-"), or of a ready pipeline by name, and what it is called. Throws
+/// missing when there is none.
+std::pair<pipeline::PipelineSource, std::string> source_of(const std::string& pipeline);
 
 /// The plan of a file, of standard input ("-"), or of a ready pipeline by name. Problems are added; a file
 /// that cannot be read throws missing.

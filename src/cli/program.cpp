@@ -11,10 +11,10 @@
 namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
-    static const std::vector<Command> all{run_command(),     plan_command(),       pipe_command(),
-                                          check_command(),   info_command(),       diff_command(),
-                                          stages_command(),  schema_command(),     formats_command(),
-                                          explain_command(), completions_command()};
+    static const std::vector<Command> all{run_command(),     batch_command(),   plan_command(),
+                                          pipe_command(),    check_command(),   info_command(),
+                                          diff_command(),    stages_command(),  schema_command(),
+                                          formats_command(), explain_command(), completions_command()};
     return all;
 }
 
@@ -38,6 +38,7 @@ std::string help_text() {
     return text + "\n  --help, --version, --version --json\n\nExamples\n"
                   "  facetmill pipe load scan.ply ! simplify 25% ! write web.glb\n"
                   "  facetmill run pipeline.yaml -D input=scan.ply --output-dir out\n"
+                  "  facetmill batch pipeline.yaml --input 'scans/**/*.ply' --output-dir out\n"
                   "  facetmill info scan.ply\n"
                   "  facetmill diff scan.ply web.glb --max 0.5%\n"
                   "  facetmill stages simplify\n\n"

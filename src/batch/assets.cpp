@@ -1,0 +1,131 @@
+// What the assets of a batch are.
+
+#include "base/glob.hpp"
+#include "batch/batch.hpp"
+#include "batch/table.hpp"
+#include "io/bytes.hpp"
+
+#include <fmt/format.h>
+#include <set>
+
+namespace facetmill::batch {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* input_param = "input";
+
+/// What of a pattern stands before its first wildcard; of a file, its folder.
+fs::path fixed_prefix(const fs::path& pattern) {
+    fs::path prefix;
+    for (const auto& component : pattern.parent_path()) {
+        if (is_glob(component.string())) break;
+        prefix /= component;
+    }
+    return prefix;
+}
+
+/// The folder of the input from the base; empty beyond it.
+fs::path mirrored(const fs::path& input, const fs::path& base) {
+    const auto whole = [](const fs::path& folder) {
+        return (folder.empty() ? fs::current_path() : fs::absolute(folder)).lexically_normal();
+    };
+    const fs::path near = whole(input.parent_path() / ".").lexically_relative(whole(base / "."));
+    if (near.empty() || near == "." || *near.begin() == "..") return {};
+    return near.has_filename() ? near : near.parent_path(); // without a slash at its end
+}
+
+class AssetFinder {
+  public:
+    explicit AssetFinder(const Sources& sources) : sources_(sources) {}
+
+    std::vector<Asset> find() {
+        for (const auto& pattern : sources_.patterns) add_pattern(pattern);
+        for (const auto& list : sources_.lists) add_list(list);
+        if (!sources_.table.empty()) add_table();
+        if (!missing_.empty()) throw Error(ErrorKind::missing, std::move(missing_));
+        return std::move(assets_);
+    }
+
+  private:
+    void add_pattern(const std::string& pattern) {
+        std::error_code ignored;
+        const bool is_file = fs::exists(pattern, ignored); // a name may hold what looks like a wildcard
+        const fs::path base = sources_.base.empty()
+                                  ? (is_file ? fs::path(pattern).parent_path() : fixed_prefix(pattern))
+                                  : fs::path(sources_.base);
+        auto files = expand_glob(pattern);
+        if (!is_file && !is_glob(pattern)) files.clear();
+        if (files.empty())
+            missing_.push_back({Severity::error, "E-FILE", fmt::format("no file matches '{}'", pattern),
+                                sources_.place(pattern),
+                                is_glob(pattern) ? "** stands for any number of folders; the shell must not "
+                                                   "expand the pattern: quote it"
+                                                 : ""});
+        for (const auto& file : files) add_file(file, base);
+    }
+
+    void add_file(const fs::path& file, const fs::path& base) {
+        if (!seen_.insert(fs::absolute(file).lexically_normal()).second) return;
+        assets_.push_back(
+            {file.string(), file, mirrored(file, base), false, {{input_param, file.string()}}, {}});
+    }
+
+    /// Names on lines of their own, or each ended by a NUL as `find -print0` writes them.
+    void add_list(const std::string& list) {
+        const auto input = io::Input::open(list);
+        std::string_view text = io::as_text(input.bytes());
+        const bool nul = text.find('\0') != text.npos;
+        if (!nul && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3); // a byte order mark
+        bool any = false;
+        while (!text.empty()) {
+            const auto end = std::min(text.find(nul ? '\0' : '\n'), text.size());
+            std::string name(text.substr(0, end));
+            if (!nul && name.ends_with('\r')) name.pop_back();
+            if (!name.empty()) add_file(name, sources_.base);
+            any = any || !name.empty();
+            text.remove_prefix(std::min(end + 1, text.size()));
+        }
+        if (!any)
+            missing_.push_back({Severity::error, "E-FILE", fmt::format("'{}' names no file", list),
+                                sources_.place(list), "one name on each line, or each ended by a NUL"});
+    }
+
+    void add_table() {
+        const auto rows = read_params_table(sources_.table);
+        std::map<std::string, int> uses;
+        for (const auto& row : rows) ++uses[name_of(row)];
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            Asset asset;
+            asset.name = name_of(rows[r]);
+            if (uses[asset.name] > 1) asset.name += fmt::format(" (row {})", r + 1);
+            asset.of_table = true;
+            for (const auto& cell : rows[r]) {
+                if (cell.param == input_param) asset.input = cell.text;
+                asset.defines.emplace_back(cell.param, cell.text);
+                asset.defined_at[cell.param] = cell.where;
+            }
+            if (!asset.input.empty()) asset.folder = mirrored(asset.input, sources_.base);
+            assets_.push_back(std::move(asset));
+        }
+    }
+
+    /// Its input, else its first cell.
+    static std::string name_of(const Row& row) {
+        for (const auto& cell : row)
+            if (cell.param == input_param) return cell.text;
+        return row.front().text;
+    }
+
+    const Sources& sources_;
+    std::set<fs::path> seen_;
+    std::vector<Asset> assets_;
+    std::vector<Diagnostic> missing_;
+};
+
+} // namespace
+
+std::vector<Asset> find_assets(const Sources& sources) { return AssetFinder(sources).find(); }
+
+} // namespace facetmill::batch

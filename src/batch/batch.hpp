@@ -1,0 +1,123 @@
+#pragma once
+// Many assets through one pipeline in one process: what the assets are, a run of its own for each, with all
+// of them on shared threads, what an earlier batch has done already, and one summary.
+
+#include "pipeline/run.hpp"
+
+#include <map>
+
+namespace facetmill::batch {
+
+/// One run of the pipeline.
+struct Asset {
+    std::string name;             ///< unique: the input as it was given, or what names the row of the table
+    std::filesystem::path input;  ///< empty: a row without one
+    std::filesystem::path folder; ///< of its outputs, from the output folder
+    bool of_table = false;
+    std::vector<std::pair<std::string, std::string>> defines; ///< params of this asset
+    std::map<std::string, Mark> defined_at;                   ///< ... and where a table has them
+};
+
+/// Where assets are named.
+struct Sources {
+    std::vector<std::string> patterns; ///< --input: files or globs, each a value of the param `input`
+    std::vector<std::string> lists;    ///< --inputs-from: files of names ("-": standard input)
+    std::string table;                 ///< --table: a CSV or YAML file, a row an asset
+    std::string base;                  ///< --base: the folder that is mirrored; empty: see find_assets
+    std::function<Mark(const std::string&)> place; ///< of a value on the command line
+};
+
+/// The assets in the order of their sources, globs sorted by bytes, each file once. An asset's folder is that
+/// of its input from the base: by default what stands before the first wildcard of a pattern, and the working
+/// directory for lists and tables; beyond the base it is empty. Throws missing (E-FILE) when a pattern
+/// matches nothing, malformed (E-TABLE) for a table that cannot be read.
+std::vector<Asset> find_assets(const Sources& sources);
+
+struct Settings {
+    /// Plans the pipeline for an asset; problems are added.
+    std::function<pipeline::Plan(const Asset&, Problems&)> plan;
+    std::string pipeline;      ///< its name
+    std::string pipeline_text; ///< what makes results out of date when it changes, besides comments
+    std::filesystem::path output_dir;
+    std::vector<std::filesystem::path> others; ///< what the summary writes: no asset may write it
+    int jobs = 0;                              ///< assets and threads at a time; 0: see run
+    std::uint64_t memory = 0; ///< bytes for all assets that run at a time; 0: three quarters of what is there
+    bool keep_going = false;  ///< a failure does not keep those after it from running
+    bool prune = false;       ///< outputs go whose source is gone
+    bool pictures = false;    ///< outcomes have pictures
+    bool check_invariants = false;
+    std::vector<std::string> strict; ///< as RunSettings
+};
+
+/// An asset that was planned.
+struct Work {
+    Asset asset;
+    std::vector<std::filesystem::path> inputs; ///< as far as they are known before it runs
+    std::string digest; ///< of all options and what else a result depends on, besides the inputs' content
+    std::uint64_t memory = 0; ///< an estimate, in bytes
+};
+
+/// Plans every asset, so that nothing runs when one of them is wrong. Adds what planning adds;
+/// E-DUPLICATE-OUTPUT for a file that two assets, or an asset and the summary, would write (names that differ
+/// only in case are one); E-OVERWRITE for an output that is another's input. missing: the inputs that are not
+/// there.
+std::vector<Work> prepare(const std::vector<Asset>& assets, const Settings& settings, Problems& problems,
+                          std::vector<Diagnostic>& missing);
+
+/// How it went.
+struct Outcome {
+    enum class Verdict { ok, failed, interrupted, not_run };
+    Verdict verdict = Verdict::not_run;
+    bool kept = false; ///< an earlier batch has done it, and nothing has changed since
+    int exit_code = 0;
+    double seconds = 0;
+    std::uint64_t faces_in = 0, faces_out = 0; ///< as loaded first, and at the end
+    std::uint64_t bytes = 0;                   ///< of all outputs, without reports
+    std::vector<std::string> outputs;          ///< from the output folder of the batch
+    std::vector<Diagnostic> warnings, errors;
+    std::string picture; ///< a PNG in base64, or empty
+};
+
+struct Summary {
+    std::string pipeline;
+    std::vector<Asset> assets;
+    std::vector<Outcome> outcomes; ///< of the assets
+    std::vector<std::string> pruned;
+    std::vector<Diagnostic> warnings; ///< of the batch as a whole
+    int exit_code = 0;                ///< the gravest of all
+    int jobs = 0;
+    double seconds = 0;
+};
+
+/// What is told while a batch runs; never from two threads at a time.
+struct Listener {
+    std::function<void(const Asset&, const Outcome&, const Summary& so_far)> on_finished;
+    /// A signal ends the process when this returns.
+    std::function<void(const Summary&)> on_interrupt;
+};
+
+/// Runs the assets. jobs: of the settings, else one for each token of the jobserver that MAKEFLAGS offers,
+/// else default_threads(). The outputs of an asset appear together, and are the same bytes for any number of
+/// jobs. What is done is noted in the output folder, so that the next batch leaves alone whatever has not
+/// changed. Throws output (E-BUSY) when another batch of this pipeline is at work there.
+Summary run(std::vector<Work> works, const Settings& settings, const Listener& listener);
+
+/// Bytes that all assets together may take, if they may take all that is there.
+std::uint64_t memory_there();
+
+/// The graver of two exit codes: 70, 2, 4, 7, 5, 6, 3, 1, 0.
+int graver(int a, int b);
+
+/// The assets in the order of a summary: the gravest failures first, then those that were not run, then
+/// warnings.
+std::vector<std::size_t> worst_first(const Summary& summary);
+
+/// For a terminal: failures, and as many of the others as fit, or all of them.
+std::string to_terminal(const Summary& summary, bool colour, bool all);
+/// A report by its suffix: .json, .html, .xml (JUnit) or .txt. It has neither times nor what was kept, so
+/// that the same assets give the same text. Throws usage (E-REPORT) for another suffix.
+std::string render_for(const std::string& path, const Summary& summary);
+/// Times, threads, and what was kept, as JSON.
+std::string timings_text(const Summary& summary);
+
+} // namespace facetmill::batch

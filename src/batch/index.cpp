@@ -1,0 +1,83 @@
+// What a batch did, as a page.
+
+#include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
+#include "batch/words.hpp"
+#include "report/html_parts.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace facetmill::batch {
+
+namespace {
+
+using report::cell;
+using report::code;
+using report::number_cell;
+
+const char* kind_of(const Outcome& out) {
+    if (out.verdict == Outcome::Verdict::failed) return "bad";
+    return out.verdict == Outcome::Verdict::ok && out.warnings.empty() ? "good" : "warn";
+}
+
+std::string notes_of(const Outcome& out) {
+    std::string notes;
+    for (const auto& error : out.errors)
+        notes += fmt::format("<div class=\"bad\">{}: {}</div>", escaped(error.id), escaped(error.message));
+    for (const auto& warning : out.warnings)
+        notes +=
+            fmt::format("<div class=\"warn\">{}: {}</div>", escaped(warning.id), escaped(warning.message));
+    for (const auto& output : out.outputs) notes += fmt::format("<div>{}</div>", code(output));
+    return notes;
+}
+
+/// Pictures stay in the page, as long as it stays one that a browser opens at once.
+std::string picture_cell(const Asset& asset, const Outcome& out, std::size_t& bytes) {
+    constexpr std::size_t most = 32 << 20;
+    if (out.picture.empty() || bytes + out.picture.size() > most) return cell("");
+    bytes += out.picture.size();
+    return cell(fmt::format("<img alt=\"{}\" style=\"width: 10rem\" src=\"data:image/png;base64,{}\">",
+                            escaped(asset.name), out.picture));
+}
+
+} // namespace
+
+std::string to_html(const Summary& summary) {
+    std::string rows;
+    std::size_t bytes = 0;
+    for (const std::size_t i : worst_first(summary)) {
+        const Asset& asset = summary.assets[i];
+        const Outcome& out = summary.outcomes[i];
+        const std::string code_text =
+            out.verdict == Outcome::Verdict::ok || out.exit_code != 0 ? std::to_string(out.exit_code) : "";
+        rows += fmt::format(
+            "<tr>{}{}{}{}{}{}{}{}</tr>\n", picture_cell(asset, out, bytes),
+            cell(fmt::format("<span class=\"{}\">{}</span>", kind_of(out), verdict_word(out))),
+            cell(code(asset.name)), number_cell(code_text), number_cell(grouped(out.faces_in)),
+            number_cell(grouped(out.faces_out)), number_cell(sized(out.bytes)), cell(notes_of(out)));
+    }
+    const auto ok = count(summary, Outcome::Verdict::ok);
+    const bool good = ok == summary.assets.size();
+    std::string page = report::html_begin(summary.pipeline, fmt::format("{} assets", summary.assets.size()));
+    page += fmt::format("<p class=\"verdict {}\">{} of {} assets are ok; exit code {}</p>\n",
+                        good ? "good" : "bad", ok, summary.assets.size(), summary.exit_code);
+    page += report::table("Assets",
+                          report::heads({"", "", "asset", "#exit code", "#faces in", "#faces out", "#bytes",
+                                         "notes and outputs"}),
+                          rows);
+    return page + report::html_end();
+}
+
+std::string render_for(const std::string& path, const Summary& summary) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension == ".json")
+        return to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (extension == ".html") return to_html(summary);
+    if (extension == ".xml") return to_junit(summary);
+    if (extension == ".txt") return to_text(summary);
+    throw Error(ErrorKind::usage, "E-REPORT",
+                fmt::format("a report is .json, .html, .xml (JUnit) or .txt, found '{}'", path));
+}
+
+} // namespace facetmill::batch

@@ -1,0 +1,272 @@
+#include "batch/journal.hpp"
+
+#include "base/hash.hpp"
+#include "base/json.hpp"
+#include "io/bytes.hpp"
+#include "io/outputs.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace facetmill::batch {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::int64_t nanoseconds = 1'000'000'000;
+
+std::int64_t in_nanoseconds(const timespec& time) { return time.tv_sec * nanoseconds + time.tv_nsec; }
+
+Json stamps_json(const std::vector<Stamp>& stamps) {
+    Json all = Json::array();
+    for (const auto& s : stamps) all.push_back({s.path, s.bytes, s.time, s.sha256});
+    return all;
+}
+
+std::vector<Stamp> stamps_from(const Json& json) {
+    std::vector<Stamp> all;
+    for (const auto& one : json)
+        all.push_back({one.at(0).get<std::string>(), one.at(1).get<std::uint64_t>(),
+                       one.at(2).get<std::int64_t>(), one.at(3).get<std::string>()});
+    return all;
+}
+
+Json done_json(const Done& done) {
+    return {{"asset", done.asset},
+            {"digest", done.digest},
+            {"source", done.source},
+            {"of_table", done.of_table},
+            {"inputs", stamps_json(done.inputs)},
+            {"outputs", stamps_json(done.outputs)},
+            {"absent", done.absent},
+            {"former", done.former},
+            {"faces", {done.faces_in, done.faces_out}},
+            {"bytes", done.bytes},
+            {"written", done.written},
+            {"warnings", done.warnings},
+            {"picture", done.picture}};
+}
+
+Done done_from(const Json& json) {
+    Done done;
+    json.at("asset").get_to(done.asset);
+    json.at("digest").get_to(done.digest);
+    json.at("source").get_to(done.source);
+    json.at("of_table").get_to(done.of_table);
+    done.inputs = stamps_from(json.at("inputs"));
+    done.outputs = stamps_from(json.at("outputs"));
+    json.at("absent").get_to(done.absent);
+    json.at("former").get_to(done.former);
+    json.at("faces").at(0).get_to(done.faces_in);
+    json.at("faces").at(1).get_to(done.faces_out);
+    json.at("bytes").get_to(done.bytes);
+    json.at("written").get_to(done.written);
+    json.at("warnings").get_to(done.warnings);
+    json.at("picture").get_to(done.picture);
+    return done;
+}
+
+/// Whether the file is as it was, and its stamp as it is now. A file with another time is read.
+bool is_as_it_was(const fs::path& file, Stamp& stamp, bool& renewed) {
+    const auto now = stamp_of(file);
+    if (!now || now->bytes != stamp.bytes) return false;
+    if (now->time != 0 && now->time == stamp.time) return true;
+    try {
+        if (sha256(io::Input::open(file).stored()) != stamp.sha256) return false;
+    } catch (const Error&) {
+        return false;
+    }
+    renewed = renewed || now->time != stamp.time;
+    stamp.time = now->time;
+    return true;
+}
+
+} // namespace
+
+std::optional<Stamp> stamp_of(const fs::path& file) {
+    struct stat about {};
+    if (::stat(file.c_str(), &about) != 0 || !S_ISREG(about.st_mode)) return {};
+    timespec now{};
+    ::clock_gettime(CLOCK_REALTIME, &now);
+    // Kernels count the times of files in ticks of up to 10 ms, some file systems in steps of 2 s.
+    constexpr std::int64_t recent = 2 * nanoseconds;
+    const std::int64_t time = in_nanoseconds(about.st_mtim);
+    const bool settled = in_nanoseconds(now) - time > recent;
+    return Stamp{file.string(), static_cast<std::uint64_t>(about.st_size), settled ? time : 0, {}};
+}
+
+fs::path Journal::path_in(const fs::path& folder, const std::string& name) {
+    const std::string stem = name == "-" ? "stdin" : fs::path(name).stem().string();
+    return folder / fmt::format(".facetmill-batch.{}.jsonl", stem);
+}
+
+Journal::Journal(const fs::path& folder, const std::string& name)
+    : folder_(folder), path_(path_in(folder, name)) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+        throw Error(ErrorKind::output, "E-DIRECTORY",
+                    fmt::format("the directory '{}' cannot be made: {}", folder.string(), error.message()));
+    open_locked();
+    read();
+}
+
+Journal::~Journal() {
+    if (fd_ >= 0) ::close(fd_);
+}
+
+void Journal::open_locked() {
+    while (true) {
+        fd_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+        if (fd_ < 0)
+            throw Error(ErrorKind::output, "E-WRITE",
+                        fmt::format("'{}' cannot be written: {}", path_.string(), std::strerror(errno)),
+                        "a batch notes there what is done; --output-dir names another folder");
+        if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) {
+            ::close(std::exchange(fd_, -1));
+            throw Error(ErrorKind::output, "E-BUSY",
+                        fmt::format("another batch of this pipeline is at work in '{}'", folder_.string()),
+                        "wait for its end, or write elsewhere with --output-dir");
+        }
+        struct stat held {
+        }, named{};
+        ::fstat(fd_, &held);
+        if (::stat(path_.c_str(), &named) == 0 && held.st_ino == named.st_ino && held.st_dev == named.st_dev)
+            return;
+        ::close(fd_); // a batch that just ended wrote it anew
+    }
+}
+
+void Journal::read() {
+    const auto input = io::Input::open(path_);
+    std::string_view text = io::as_text(input.bytes());
+    bool whole = text.empty() || text.ends_with('\n');
+    while (!text.empty()) {
+        const auto end = std::min(text.find('\n'), text.size());
+        try {
+            Done done = done_from(Json::parse(text.substr(0, end)));
+            all_.insert_or_assign(done.asset, std::move(done));
+        } catch (const Json::exception&) { // cut short by a kill
+        }
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    if (!whole) [[maybe_unused]]
+        const auto ended = ::write(fd_, "\n", 1);
+}
+
+const Done* Journal::unchanged(const std::string& asset, const std::string& digest) {
+    const auto found = all_.find(asset);
+    if (found == all_.end() || found->second.digest != digest) return nullptr;
+    Done& done = found->second;
+    bool renewed = false;
+    std::error_code ignored;
+    for (const auto& path : done.absent)
+        if (fs::exists(path, ignored)) return nullptr;
+    for (auto& input : done.inputs)
+        if (!is_as_it_was(input.path, input, renewed)) return nullptr;
+    for (auto& output : done.outputs)
+        if (!is_as_it_was(folder_ / output.path, output, renewed)) return nullptr;
+    return &done;
+}
+
+std::optional<Diagnostic> Journal::unwritable(int error) {
+    if (std::exchange(told_, true)) return {};
+    return Diagnostic{
+        Severity::warning,
+        "W-STATE",
+        fmt::format("what is done cannot be noted in '{}': {}", path_.string(), std::strerror(error)),
+        {},
+        "the next batch will do it again"};
+}
+
+std::optional<Diagnostic> Journal::add(Done done) {
+    if (const auto before = all_.find(done.asset); before != all_.end()) {
+        done.former = before->second.former;
+        for (const auto& output : before->second.outputs)
+            done.former.emplace_back(output.path, output.sha256);
+    }
+    std::erase_if(done.former, [&](const auto& former) {
+        return std::any_of(done.outputs.begin(), done.outputs.end(),
+                           [&](const Stamp& output) { return output.path == former.first; });
+    });
+    std::string line;
+    try {
+        line = done_json(done).dump() + "\n";
+    } catch (const Json::exception&) {
+        return {}; // a name that is no UTF-8: it will be done again
+    }
+    const ssize_t n = ::write(fd_, line.data(), line.size());
+    const int error = n < 0 ? errno : ENOSPC;
+    all_.insert_or_assign(done.asset, std::move(done));
+    if (n == static_cast<ssize_t>(line.size())) return {};
+    return unwritable(error);
+}
+
+bool Journal::remove_output(const std::string& path, const std::string& sha) {
+    const fs::path file = folder_ / path;
+    Stamp stamp;
+    stamp.sha256 = sha;
+    const auto now = stamp_of(file);
+    if (!now) return false;
+    stamp.bytes = now->bytes;
+    bool renewed = false;
+    if (!is_as_it_was(file, stamp, renewed)) return false;
+    std::error_code error;
+    if (!fs::remove(file, error)) return false;
+    for (fs::path above = fs::path(path).parent_path(); !above.empty(); above = above.parent_path())
+        if (!fs::remove(folder_ / above, error)) break; // not empty
+    return true;
+}
+
+std::vector<std::string> Journal::remove_former(const std::string& asset,
+                                                const std::set<std::string>& current) {
+    std::vector<std::string> removed;
+    const auto found = all_.find(asset);
+    if (found == all_.end()) return removed;
+    for (const auto& [path, sha] : std::exchange(found->second.former, {}))
+        if (!current.contains(path) && remove_output(path, sha)) removed.push_back(path);
+    return removed;
+}
+
+std::vector<std::string> Journal::remove_all(const std::string& asset, const std::set<std::string>& current) {
+    const auto found = all_.find(asset);
+    if (found == all_.end()) return {};
+    for (const auto& output : found->second.outputs)
+        found->second.former.emplace_back(output.path, output.sha256);
+    auto removed = remove_former(asset, current);
+    all_.erase(asset);
+    return removed;
+}
+
+std::optional<Diagnostic> Journal::compact() {
+    std::string text;
+    for (const auto& [asset, done] : all_) {
+        try {
+            text += done_json(done).dump() + "\n";
+        } catch (const Json::exception&) { // as in add
+        }
+    }
+    const fs::path part = path_.string() + ".part";
+    const int fd = ::open(part.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0666);
+    if (fd < 0) return unwritable(errno);
+    ::flock(fd, LOCK_EX | LOCK_NB); // nobody else has a name for it
+    const ssize_t n = ::write(fd, text.data(), text.size());
+    if (n != static_cast<ssize_t>(text.size()) || ::rename(part.c_str(), path_.c_str()) != 0) {
+        const int error = n < 0 ? errno : ENOSPC;
+        ::close(fd);
+        ::unlink(part.c_str());
+        return unwritable(error);
+    }
+    ::close(std::exchange(fd_, fd));
+    return {};
+}
+
+} // namespace facetmill::batch

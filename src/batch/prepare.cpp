@@ -1,0 +1,164 @@
+// Everything about a batch that is known before it runs: plans, files, memory.
+
+#include "base/hash.hpp"
+#include "batch/batch.hpp"
+#include "batch/build_id.hpp"
+#include "io/output_files.hpp"
+#include "pipeline/document.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fstream>
+
+namespace facetmill::batch {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string digest_of(const std::string& text) { return sha256(std::as_bytes(std::span(text))); }
+
+/// The pipeline without its comments and blanks.
+std::string content_of(const std::string& text) {
+    Problems ignored; // planning has told them
+    return pipeline::emit_yaml(
+        pipeline::parse_yaml(std::make_shared<const SourceText>(SourceText{"", text}), ignored));
+}
+
+/// What a result depends on besides the content of inputs: this program, the pipeline, what the plan resolves
+/// to. The pipeline is in it since values that depend on the names of parts have no text in a plan.
+std::string options_digest(const std::string& pipeline, const pipeline::Plan& plan,
+                           const Settings& settings) {
+    const Json all = {{"build", build_id()},
+                      {"pipeline", pipeline},
+                      {"plan", pipeline::describe_json(plan)},
+                      {"allowed", plan.allowed},
+                      {"strict", settings.strict}};
+    return digest_of(all.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+/// Whether the file is much smaller than what it holds.
+bool is_packed(const fs::path& file) {
+    const std::string extension = file.extension().string();
+    for (const char* packed : {".gz", ".zst", ".drc"})
+        if (extension == packed) return true;
+    if (extension != ".glb" && extension != ".gltf") return false;
+    std::string head(1 << 20, '\0'); // the document comes first
+    std::ifstream stream(file, std::ios::binary);
+    stream.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+    return head.find("KHR_draco_mesh_compression") != head.npos ||
+           head.find("EXT_meshopt_compression") != head.npos;
+}
+
+/// Bytes that a run may take for each byte of its inputs: 70,000 faces in a binary PLY of 1.3 MB took 48 MB
+/// in quickstart, which makes four faces of each.
+std::uint64_t memory_for(const std::vector<fs::path>& inputs) {
+    constexpr std::uint64_t least = 16 << 20, per_byte = 48, per_packed_byte = 300;
+    std::uint64_t bytes = least;
+    for (const auto& input : inputs) {
+        std::error_code error;
+        const auto size = fs::file_size(input, error);
+        if (!error) bytes += size * (is_packed(input) ? per_packed_byte : per_byte);
+    }
+    return bytes;
+}
+
+std::string lowered(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+/// The files of all assets, by what they are on a disk where case does not count.
+class FileOwners {
+  public:
+    explicit FileOwners(Problems& problems) : problems_(problems) {}
+
+    void add_other(const fs::path& path) { owners_[key(path)] = {"the batch itself", path, {}}; }
+
+    /// beside: what goes beside outputs because an input names it; assets of one folder share it.
+    void add(const Asset& asset, const std::vector<fs::path>& outputs, const std::vector<fs::path>& beside) {
+        for (const auto& path : outputs) claim(asset, path, false);
+        for (const auto& path : beside) claim(asset, path, true);
+    }
+
+    void check_input(const Asset& asset, const fs::path& input) {
+        if (input == "-")
+            return problems_.add({}, "E-DUPLICATE-INPUT", "standard input cannot be read by each asset",
+                                 "give the file by a param, or its name in the pipeline");
+        const auto owner = owners_.find(lowered(io::identity(input).string()));
+        if (owner == owners_.end() || io::identity(owner->second.path) != io::identity(input)) return;
+        if (owner->second.beside) return; // a texture that is copied to where it is stays as it is
+        problems_.add(
+            {}, "E-OVERWRITE",
+            fmt::format("'{}' would overwrite an input of {}", owner->second.path.string(), asset.name),
+            "write elsewhere with --output-dir");
+    }
+
+  private:
+    struct Owner {
+        std::string name;
+        fs::path path;
+        std::optional<fs::path> beside; ///< the folder of the input that names it
+    };
+
+    static std::string key(const fs::path& path) { return lowered(io::identity(path).string()); }
+
+    void claim(const Asset& asset, const fs::path& path, bool beside) {
+        if (io::is_stream(path) && path != "/dev/null") return refuse_stream(asset, path);
+        const Owner mine{asset.name, path,
+                         beside ? std::optional(asset.input.parent_path()) : std::optional<fs::path>()};
+        const auto [first, is_new] = owners_.emplace(key(path), mine);
+        if (is_new || first->second.name == asset.name || (beside && first->second.beside == mine.beside))
+            return;
+        const Owner& other = first->second;
+        const bool same = other.path.lexically_normal() == path.lexically_normal();
+        problems_.add(
+            {}, "E-DUPLICATE-OUTPUT",
+            same ? fmt::format("'{}' is written for {} and for {}", path.string(), other.name, asset.name)
+                 : fmt::format("'{}' for {} and '{}' for {} are one file where case does not count",
+                               other.path.string(), other.name, path.string(), asset.name),
+            "name outputs by a param that differs: write: \"${input.stem}.glb\"; --base sets the "
+            "folder that is mirrored");
+    }
+
+    void refuse_stream(const Asset& asset, const fs::path& path) {
+        problems_.add({}, "E-DUPLICATE-OUTPUT",
+                      fmt::format("'{}' cannot take the outputs of a batch ({})", path.string(), asset.name),
+                      "write files");
+    }
+
+    Problems& problems_;
+    std::map<std::string, Owner> owners_;
+};
+
+} // namespace
+
+std::vector<Work> prepare(const std::vector<Asset>& assets, const Settings& settings, Problems& problems,
+                          std::vector<Diagnostic>& missing) {
+    const std::string pipeline = content_of(settings.pipeline_text);
+    std::vector<Work> works;
+    FileOwners owners(problems);
+    for (const auto& path : settings.others) owners.add_other(path);
+    for (const auto& asset : assets) {
+        Problems of_asset;
+        const auto plan = settings.plan(asset, of_asset);
+        for (const auto& d : of_asset.all()) // warnings come with the run
+            if (d.severity == Severity::error) problems.add(d.where, d.id, d.message, d.hint);
+        if (of_asset.any_errors()) continue;
+        const auto headers = pipeline::read_headers(plan);
+        owners.add(asset, pipeline::planned_outputs(plan), headers.more_outputs);
+        for (auto& d : pipeline::missing_inputs(plan))
+            missing.push_back(pipeline::about_input(plan, std::move(d)));
+        Work work{asset, pipeline::planned_inputs(plan, headers), {}, 0};
+        work.digest = options_digest(pipeline, plan, settings);
+        work.memory = memory_for(work.inputs);
+        works.push_back(std::move(work));
+    }
+    for (const auto& work : works)
+        for (const auto& input : work.inputs) owners.check_input(work.asset, input);
+    return works;
+}
+
+} // namespace facetmill::batch

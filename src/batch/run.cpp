@@ -1,0 +1,348 @@
+// A batch from its planned assets to its summary.
+
+#include "base/cores.hpp"
+#include "base/hash.hpp"
+#include "base/memory.hpp"
+#include "base/parallel.hpp"
+#include "batch/batch.hpp"
+#include "batch/interrupts.hpp"
+#include "batch/jobserver.hpp"
+#include "batch/journal.hpp"
+#include "batch/pool.hpp"
+#include "io/bytes.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <set>
+
+namespace facetmill::batch {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using BatchClock = std::chrono::steady_clock;
+using Verdict = Outcome::Verdict;
+
+double elapsed(BatchClock::time_point start) {
+    return std::chrono::duration<double>(BatchClock::now() - start).count();
+}
+
+std::uint64_t faces_in_brief(const Json& brief) {
+    return brief.is_object() ? brief.value("faces", std::uint64_t{0}) : 0;
+}
+
+/// From the output folder of the batch.
+std::string from_folder(const Asset& asset, const std::string& output) {
+    return (fs::path(output).is_absolute() ? fs::path(output) : asset.folder / output)
+        .lexically_normal()
+        .string();
+}
+
+std::string absolute_name(const fs::path& path) { return fs::absolute(path).lexically_normal().string(); }
+
+Outcome outcome_of(const Asset& asset, report::RunRecord& record) {
+    Outcome out;
+    out.exit_code = record.exit_code;
+    out.verdict = record.exit_code == 0 ? Verdict::ok : Verdict::failed;
+    out.seconds = record.seconds;
+    for (const auto& stage : record.stages) {
+        if (stage.after.is_null()) continue;
+        const auto faces = faces_in_brief(stage.after);
+        if (out.faces_in == 0) out.faces_in = faces;
+        out.faces_out = faces;
+    }
+    for (const auto& file : record.outputs) {
+        out.bytes += file.bytes;
+        out.outputs.push_back(from_folder(asset, file.path));
+    }
+    for (auto& stage : record.stages)
+        if (!stage.picture.empty()) out.picture = std::move(stage.picture);
+    return out;
+}
+
+Outcome failure(ErrorKind kind, std::string id, std::string message, std::string hint = {}) {
+    Outcome out;
+    out.verdict = Verdict::failed;
+    out.exit_code = static_cast<int>(kind);
+    out.errors.push_back({Severity::error, std::move(id), std::move(message), {}, std::move(hint)});
+    return out;
+}
+
+/// The diagnostic with the asset in its message.
+Diagnostic about_asset(const Asset& asset, Diagnostic d) {
+    if (d.message.find(asset.name) == std::string::npos)
+        d.message = fmt::format("{}: {}", asset.name, d.message);
+    return d;
+}
+
+class BatchRun {
+  public:
+    BatchRun(std::vector<Work> works, const Settings& settings, const Listener& listener)
+        : settings_(settings), listener_(listener), works_(std::move(works)),
+          journal_(settings.output_dir, settings.pipeline) {
+        summary_.pipeline = settings.pipeline;
+        for (const auto& work : works_) summary_.assets.push_back(work.asset);
+        summary_.outcomes.resize(works_.size());
+        started_.resize(works_.size());
+    }
+
+    Summary run() {
+        const Interrupts interrupts([this] { interrupted(); });
+        choose_jobs();
+        const auto keeping = find_kept();
+        std::vector<Job> jobs;
+        for (std::size_t i = 0; i < works_.size(); ++i)
+            if (!keeping[i])
+                jobs.push_back({i, works_[i].memory, false});
+            else
+                finish(i, kept_outcome(*keeping[i]), nullptr);
+        const PoolSettings pool{summary_.jobs, memory(), tokens_.get()};
+        Pool(pool, std::move(jobs), [this](const Job& job, const auto& beside) {
+            return work(job, beside);
+        }).run();
+        const std::lock_guard lock(guard_);
+        if (settings_.prune) prune();
+        if (auto warning = journal_.compact()) summary_.warnings.push_back(std::move(*warning));
+        close_summary();
+        over_ = true;
+        return std::move(summary_);
+    }
+
+  private:
+    void choose_jobs() {
+        const char* makeflags = std::getenv("MAKEFLAGS");
+        if (settings_.jobs == 0 && makeflags) tokens_ = Jobserver::offered(makeflags);
+        summary_.jobs = settings_.jobs > 0 ? settings_.jobs : tokens_ ? allowed_cores() : default_threads();
+        set_threads(summary_.jobs);
+    }
+
+    std::uint64_t memory() const { return settings_.memory > 0 ? settings_.memory : memory_there() / 4 * 3; }
+
+    std::vector<const Done*> find_kept() {
+        std::vector<const Done*> kept(works_.size());
+        const auto look = [&](std::size_t i) {
+            kept[i] = journal_.unchanged(works_[i].asset.name, works_[i].digest);
+        };
+        if (tokens_) // there is one thread so far
+            for (std::size_t i = 0; i < works_.size(); ++i) look(i);
+        else
+            parallel_for(works_.size(), look, 1);
+        return kept;
+    }
+
+    static Outcome kept_outcome(const Done& done) {
+        Outcome out;
+        out.verdict = Verdict::ok;
+        out.kept = true;
+        out.faces_in = done.faces_in;
+        out.faces_out = done.faces_out;
+        out.bytes = done.bytes;
+        out.outputs = done.written;
+        for (const auto& [id, message] : done.warnings)
+            out.warnings.push_back({Severity::warning, id, message, {}, {}});
+        out.picture = done.picture;
+        return out;
+    }
+
+    /// On a thread of the pool.
+    Next work(const Job& job, const std::function<bool()>& beside_others) {
+        {
+            const std::lock_guard lock(guard_);
+            started_[job.index] = true;
+        }
+        const auto start = BatchClock::now();
+        std::optional<Done> done;
+        Outcome out;
+        try {
+            out = run_asset(works_[job.index], done);
+        } catch (const std::bad_alloc&) {
+            out = failure(ErrorKind::limit, "E-MEMORY", "not enough memory");
+        } catch (const Error& e) {
+            out = failure(e.kind(), e.diagnostics().front().id, e.diagnostics().front().message,
+                          e.diagnostics().front().hint);
+        } catch (const std::exception& e) {
+            out = failure(ErrorKind::bug, "E-BUG", e.what(),
+                          "please report it, with the pipeline and the input");
+        }
+        const bool out_of_memory = std::any_of(out.errors.begin(), out.errors.end(),
+                                               [](const Diagnostic& d) { return d.id == "E-MEMORY"; });
+        if (out_of_memory && !job.alone && beside_others()) return Next::again_alone;
+        out.seconds = elapsed(start);
+        const bool failed = out.verdict == Verdict::failed;
+        finish(job.index, std::move(out), done ? &*done : nullptr);
+        return failed && !settings_.keep_going ? Next::stop : Next::go_on;
+    }
+
+    Outcome run_asset(const Work& work, std::optional<Done>& done) {
+        Problems problems;
+        const auto plan = settings_.plan(work.asset, problems);
+        problems.throw_if_any(ErrorKind::usage); // it was planned before, and the pipeline has changed since
+        std::vector<Stamp> before;               // what changes while it is read is not the same afterwards
+        for (const auto& input : work.inputs)
+            if (const auto stamp = stamp_of(input)) before.push_back(*stamp);
+        std::vector<Diagnostic> warnings;
+        pipeline::RunSettings run;
+        run.strict = settings_.strict;
+        run.check_invariants = settings_.check_invariants;
+        run.last_picture = settings_.pictures;
+        run.on_warning = [&](const Diagnostic& d) { warnings.push_back(about_asset(work.asset, d)); };
+        auto record = pipeline::run_plan(plan, run);
+        Outcome out = outcome_of(work.asset, record);
+        out.warnings = std::move(warnings);
+        for (const auto& error : record.errors) out.errors.push_back(about_asset(work.asset, error));
+        if (record.exit_code == 0) done = done_of(work, before, record, out);
+        return out;
+    }
+
+    Done done_of(const Work& work, const std::vector<Stamp>& before, const report::RunRecord& record,
+                 const Outcome& out) const {
+        Done done;
+        done.asset = work.asset.name;
+        done.digest = work.digest;
+        done.of_table = work.asset.of_table;
+        if (!work.asset.input.empty()) done.source = absolute_name(work.asset.input);
+        std::map<std::string, std::string> sums;
+        for (const auto& input : record.inputs) sums[absolute_name(input.path)] = input.sha256;
+        for (const auto& input : work.inputs) // a baseline is read, and no record tells it
+            if (input != "-") sums.emplace(absolute_name(input), "");
+        for (auto& [path, sum] : sums) {
+            Stamp stamp{path, 0, 0, sum};
+            for (const auto& known : before)
+                if (absolute_name(known.path) == path) stamp.time = known.time;
+            complete(stamp, path);
+            done.inputs.push_back(std::move(stamp));
+        }
+        for (const auto& absent : record.absent) done.absent.push_back(absolute_name(absent));
+        for (const auto& file : record.outputs)
+            done.outputs.push_back(complete({from_folder(work.asset, file.path), 0, 0, file.sha256}));
+        for (const auto& report : record.reports)
+            done.outputs.push_back(complete({from_folder(work.asset, report), 0, 0, ""}));
+        done.faces_in = out.faces_in;
+        done.faces_out = out.faces_out;
+        done.bytes = out.bytes;
+        done.written = out.outputs;
+        for (const auto& warning : out.warnings) done.warnings.emplace_back(warning.id, warning.message);
+        done.picture = out.picture;
+        return done;
+    }
+
+    /// With the size of the file, and its digest where that is not known.
+    static void complete(Stamp& stamp, const fs::path& file) {
+        std::error_code error;
+        const auto size = fs::file_size(file, error);
+        stamp.bytes = error ? 0 : size;
+        try {
+            if (stamp.sha256.empty()) stamp.sha256 = sha256(io::Input::open(file).stored());
+        } catch (const Error&) { // it is gone: then it is never as it was
+        }
+    }
+    Stamp complete(Stamp stamp) const {
+        complete(stamp, settings_.output_dir / stamp.path);
+        return stamp;
+    }
+
+    void finish(std::size_t index, Outcome out, Done* done) {
+        const std::lock_guard lock(guard_);
+        if (done) refuse_shared(summary_.assets[index], *done, out);
+        if (done && out.verdict == Verdict::ok)
+            if (auto warning = journal_.add(std::move(*done)))
+                summary_.warnings.push_back(std::move(*warning));
+        summary_.outcomes[index] = std::move(out);
+        started_[index] = false;
+        summary_.exit_code = graver(summary_.exit_code, summary_.outcomes[index].exit_code);
+        summary_.seconds = elapsed(start_);
+        if (listener_.on_finished)
+            listener_.on_finished(works_[index].asset, summary_.outcomes[index], summary_);
+    }
+
+    /// Names that are known only at run time (of parts) may lead two assets to one file.
+    void refuse_shared(const Asset& asset, const Done& done, Outcome& out) {
+        for (const auto& output : done.outputs) {
+            const auto [first, is_new] = written_.emplace(output.path, std::pair(asset.name, output.sha256));
+            if (is_new || first->second.second == output.sha256) continue;
+            out.verdict = Verdict::failed;
+            out.exit_code = static_cast<int>(ErrorKind::output);
+            out.errors.push_back({Severity::error,
+                                  "E-DUPLICATE-OUTPUT",
+                                  fmt::format("{}: '{}' was written for {}, too, with other contents",
+                                              asset.name, output.path, first->second.first),
+                                  {},
+                                  "name it by the asset: ${input.stem}"});
+        }
+    }
+
+    /// Outputs of assets that are gone, and those that assets no longer have.
+    void prune() {
+        std::set<std::string> current, names;
+        bool table = false;
+        for (const auto& work : works_) {
+            names.insert(work.asset.name);
+            table = table || work.asset.of_table;
+            const auto done = journal_.all().find(work.asset.name);
+            if (done == journal_.all().end()) continue;
+            for (const auto& output : done->second.outputs) current.insert(output.path);
+        }
+        std::vector<std::string> gone;
+        for (const auto& [name, done] : journal_.all()) {
+            std::error_code ignored;
+            const bool without_file = !done.source.empty() && !fs::exists(done.source, ignored);
+            if (names.contains(name)) continue;
+            if (without_file || (table && done.of_table))
+                gone.push_back(name);
+            else
+                for (const auto& output : done.outputs) current.insert(output.path);
+        }
+        const auto note = [&](std::vector<std::string> removed) {
+            for (auto& path : removed) summary_.pruned.push_back(std::move(path));
+        };
+        for (const auto& name : gone) note(journal_.remove_all(name, current));
+        for (std::size_t i = 0; i < works_.size(); ++i)
+            if (summary_.outcomes[i].verdict == Verdict::ok)
+                note(journal_.remove_former(works_[i].asset.name, current));
+        std::sort(summary_.pruned.begin(), summary_.pruned.end());
+    }
+
+    void close_summary() {
+        for (std::size_t i = 0; i < started_.size(); ++i)
+            if (started_[i]) summary_.outcomes[i].verdict = Verdict::interrupted;
+        summary_.seconds = elapsed(start_);
+    }
+
+    /// A signal ends the process after this: the guard stays locked, so that nothing is told afterwards.
+    void interrupted() {
+        guard_.lock();
+        if (over_) return; // the summary is with whoever called
+        close_summary();
+        if (listener_.on_interrupt) listener_.on_interrupt(summary_);
+        if (tokens_) tokens_->give_all();
+    }
+
+    const Settings& settings_;
+    const Listener& listener_;
+    const BatchClock::time_point start_ = BatchClock::now();
+    const std::vector<Work> works_;
+    std::unique_ptr<Jobserver> tokens_;
+    std::mutex guard_; ///< of all that follows
+    Journal journal_;
+    Summary summary_;
+    std::vector<bool> started_; ///< and not yet ended
+    bool over_ = false;
+    std::map<std::string, std::pair<std::string, std::string>>
+        written_; ///< outputs: whose, and their digests
+};
+
+} // namespace
+
+std::uint64_t memory_there() {
+    constexpr std::uint64_t of_unknown = std::uint64_t{1} << 32;
+    return available_memory().value_or(of_unknown);
+}
+
+Summary run(std::vector<Work> works, const Settings& settings, const Listener& listener) {
+    return BatchRun(std::move(works), settings, listener).run();
+}
+
+} // namespace facetmill::batch

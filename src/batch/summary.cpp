@@ -1,0 +1,230 @@
+// What a batch did, as text, JSON and JUnit.
+
+#include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
+#include "batch/batch.hpp"
+#include "batch/words.hpp"
+#include "report/diagnostics_json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace facetmill::batch {
+
+namespace {
+
+/// The gravest last: what is wrong with the asset, with the machine, with the pipeline, with the program.
+constexpr std::array by_gravity{0, 1, 3, 6, 5, 7, 4, 2, 70};
+
+std::size_t gravity(int code) {
+    return static_cast<std::size_t>(std::find(by_gravity.begin(), by_gravity.end(), code) -
+                                    by_gravity.begin());
+}
+
+/// Where an outcome stands in a summary.
+std::size_t place_of(const Outcome& out) {
+    const std::size_t codes = by_gravity.size();
+    switch (out.verdict) {
+    case Outcome::Verdict::failed:
+        return codes - std::min(codes, gravity(out.exit_code));
+    case Outcome::Verdict::interrupted:
+        return codes + 1;
+    case Outcome::Verdict::not_run:
+        return codes + 2;
+    case Outcome::Verdict::ok:
+        break;
+    }
+    return out.warnings.empty() ? codes + 4 : codes + 3;
+}
+
+enum class BatchForm { report, terminal };
+
+std::string paint(bool colour, const char* code, const std::string& text) {
+    return colour ? fmt::format("\033[{}m{}\033[0m", code, text) : text;
+}
+
+/// A line of the table, and the errors below it.
+std::string line_of(const Asset& asset, const Outcome& out, BatchForm form, bool colour) {
+    const bool terminal = form == BatchForm::terminal;
+    const std::string word = terminal && out.kept ? "kept" : verdict_word(out);
+    const bool bad = out.verdict == Outcome::Verdict::failed || out.verdict == Outcome::Verdict::interrupted;
+    std::string text = fmt::format(
+        "  {}  {}", paint(colour, bad ? "1;31" : "32", fmt::format("{:<11}", word)), one_line(asset.name));
+    if (out.verdict == Outcome::Verdict::failed) text += fmt::format("  exit code {}", out.exit_code);
+    if (out.verdict == Outcome::Verdict::ok && out.faces_in + out.faces_out > 0)
+        text += fmt::format("  {} -> {} faces", grouped(out.faces_in), grouped(out.faces_out));
+    if (out.verdict == Outcome::Verdict::ok && !out.outputs.empty())
+        text += fmt::format("  {}", sized(out.bytes));
+    if (terminal && out.seconds > 0) text += fmt::format("  {}", timed(out.seconds));
+    if (!out.warnings.empty())
+        text += fmt::format("  {} warning{}", out.warnings.size(), out.warnings.size() == 1 ? "" : "s");
+    text += "\n";
+    for (const auto& error : out.errors)
+        text += fmt::format("{:15}[{}] {}\n", "", error.id, one_line(error.message));
+    return text;
+}
+
+std::string totals(const Summary& summary, BatchForm form) {
+    std::size_t kept = 0;
+    for (const auto& out : summary.outcomes) kept += out.kept;
+    std::string text =
+        fmt::format("{} assets: {} ok", summary.assets.size(), count(summary, Outcome::Verdict::ok));
+    if (form == BatchForm::terminal && kept > 0) text += fmt::format(" ({} kept from before)", kept);
+    for (const auto& [verdict, word] : {std::pair{Outcome::Verdict::failed, "failed"},
+                                        std::pair{Outcome::Verdict::interrupted, "interrupted"},
+                                        std::pair{Outcome::Verdict::not_run, "not run"}})
+        if (const auto n = count(summary, verdict); n > 0) text += fmt::format(", {} {}", n, word);
+    return text;
+}
+
+} // namespace
+
+int graver(int a, int b) { return gravity(a) < gravity(b) ? b : a; }
+
+std::vector<std::size_t> worst_first(const Summary& summary) {
+    std::vector<std::size_t> order(summary.assets.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return place_of(summary.outcomes[a]) < place_of(summary.outcomes[b]);
+    });
+    return order;
+}
+
+std::size_t count(const Summary& summary, Outcome::Verdict verdict) {
+    return static_cast<std::size_t>(
+        std::count_if(summary.outcomes.begin(), summary.outcomes.end(),
+                      [&](const Outcome& out) { return out.verdict == verdict; }));
+}
+
+const char* verdict_word(const Outcome& out) {
+    constexpr const char* words[] = {"ok", "failed", "interrupted", "not run"};
+    return words[static_cast<int>(out.verdict)];
+}
+
+std::string one_line(std::string_view text) {
+    std::string out;
+    for (const char c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+            out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+        else
+            out += c;
+    return out;
+}
+
+std::string to_terminal(const Summary& summary, bool colour, bool all) {
+    constexpr std::size_t most = 40; // of what went well
+    std::string text;
+    std::size_t good = 0;
+    for (const std::size_t i : worst_first(summary)) {
+        const Outcome& out = summary.outcomes[i];
+        const bool went_well =
+            out.verdict == Outcome::Verdict::ok || out.verdict == Outcome::Verdict::not_run;
+        if (went_well && ++good > most && !all) continue;
+        text += line_of(summary.assets[i], out, BatchForm::terminal, colour);
+    }
+    if (good > most && !all)
+        text += fmt::format("  ... and {} more (-v or --report tells all)\n", good - most);
+    for (const auto& path : summary.pruned) text += fmt::format("removed {}\n", one_line(path));
+    text += totals(summary, BatchForm::terminal);
+    text += fmt::format("; {}, {} at a time", timed(summary.seconds), summary.jobs);
+    return text + (summary.exit_code != 0 ? fmt::format("; exit code {}\n", summary.exit_code) : "\n");
+}
+
+std::string to_text(const Summary& summary) {
+    std::string text = summary.pipeline + "\n";
+    for (const std::size_t i : worst_first(summary))
+        text += line_of(summary.assets[i], summary.outcomes[i], BatchForm::report, false);
+    return text + fmt::format("{}; exit code {}\n", totals(summary, BatchForm::report), summary.exit_code);
+}
+
+namespace {
+
+/// Without places, which are not known of an asset that was kept.
+Json warnings_json(const Outcome& out) {
+    Json all = Json::array();
+    for (const auto& warning : out.warnings)
+        all.push_back({{"id", warning.id}, {"message", warning.message}});
+    return all;
+}
+
+} // namespace
+
+Json to_json(const Summary& summary) {
+    Json assets = Json::array();
+    for (const std::size_t i : worst_first(summary)) {
+        const Outcome& out = summary.outcomes[i];
+        assets.push_back({{"asset", summary.assets[i].name},
+                          {"verdict", verdict_word(out)},
+                          {"exit_code", out.exit_code},
+                          {"faces_in", out.faces_in},
+                          {"faces_out", out.faces_out},
+                          {"bytes", out.bytes},
+                          {"outputs", out.outputs},
+                          {"errors", report::diagnostics_json(out.errors)},
+                          {"warnings", warnings_json(out)}});
+    }
+    return {
+        {"format", 1},
+        {"tool", {{"name", "facetmill"}, {"version", FACETMILL_VERSION}}},
+        {"pipeline", summary.pipeline},
+        {"passed", summary.exit_code == 0 && count(summary, Outcome::Verdict::ok) == summary.assets.size()},
+        {"exit_code", summary.exit_code},
+        {"counts",
+         {{"assets", summary.assets.size()},
+          {"ok", count(summary, Outcome::Verdict::ok)},
+          {"failed", count(summary, Outcome::Verdict::failed)},
+          {"interrupted", count(summary, Outcome::Verdict::interrupted)},
+          {"not_run", count(summary, Outcome::Verdict::not_run)}}},
+        {"assets", std::move(assets)}};
+}
+
+std::string timings_text(const Summary& summary) {
+    Json assets = Json::array();
+    for (std::size_t i = 0; i < summary.assets.size(); ++i)
+        assets.push_back({{"asset", summary.assets[i].name},
+                          {"seconds", summary.outcomes[i].seconds},
+                          {"kept", summary.outcomes[i].kept}});
+    const Json all = {{"format", 1},          {"pipeline", summary.pipeline}, {"seconds", summary.seconds},
+                      {"jobs", summary.jobs}, {"removed", summary.pruned},    {"assets", std::move(assets)}};
+    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+std::string junit_case(const Asset& asset, const Outcome& out) {
+    const std::string head =
+        fmt::format("    <testcase classname=\"asset\" name=\"{}\"", escaped(asset.name));
+    if (out.verdict == Outcome::Verdict::ok) return head + "/>\n";
+    if (out.verdict != Outcome::Verdict::failed)
+        return fmt::format("{}>\n      <skipped message=\"{}\"/>\n    </testcase>\n", head,
+                           verdict_word(out));
+    const char* kind = out.exit_code == static_cast<int>(ErrorKind::check) ? "failure" : "error";
+    std::string body;
+    for (const auto& error : out.errors)
+        body += escaped(fmt::format("[{}] {} {}\n", error.id, error.message, to_string(error.where)));
+    return fmt::format("{0}>\n      <{1} message=\"exit code {2}\">{3}</{1}>\n    </testcase>\n", head, kind,
+                       out.exit_code, body);
+}
+
+} // namespace
+
+std::string to_junit(const Summary& summary) {
+    std::string cases;
+    std::size_t failures = 0, errors = 0;
+    for (const std::size_t i : worst_first(summary)) {
+        const Outcome& out = summary.outcomes[i];
+        cases += junit_case(summary.assets[i], out);
+        if (out.verdict != Outcome::Verdict::failed) continue;
+        ++(out.exit_code == static_cast<int>(ErrorKind::check) ? failures : errors);
+    }
+    const std::size_t skipped =
+        count(summary, Outcome::Verdict::not_run) + count(summary, Outcome::Verdict::interrupted);
+    return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"{}\" "
+                       "tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n"
+                       "</testsuites>\n",
+                       escaped(summary.pipeline), summary.assets.size(), failures, errors, skipped, cases);
+}
+
+} // namespace facetmill::batch

@@ -1,0 +1,157 @@
+#include "batch/table.hpp"
+
+#include "base/error.hpp"
+#include "io/bytes.hpp"
+#include "pipeline/document.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+
+namespace facetmill::batch {
+
+namespace {
+
+[[noreturn]] void refuse_table(const Mark& where, std::string message, std::string hint = {}) {
+    throw Error(ErrorKind::malformed, "E-TABLE", std::move(message), std::move(hint), where);
+}
+
+/// The records of a CSV text.
+class CsvReader {
+  public:
+    explicit CsvReader(std::shared_ptr<const SourceText> source) : source_(std::move(source)) {
+        const std::string& text = source_->text;
+        const std::string heading = text.substr(0, text.find_first_of("\r\n"));
+        for (const char c : {'\t', ';', ','})
+            if (heading.find(c) != heading.npos) delimiter_ = c;
+    }
+
+    /// The next record, its cells with their places; false at the end. Empty lines are none.
+    bool next(std::vector<Cell>& record) {
+        const std::string& text = source_->text;
+        while (at_ < text.size() && (text[at_] == '\n' || text[at_] == '\r')) advance();
+        if (at_ >= text.size()) return false;
+        record.clear();
+        while (true) {
+            record.push_back(cell());
+            if (at_ >= text.size() || text[at_] != delimiter_) break;
+            advance();
+        }
+        return true;
+    }
+
+  private:
+    /// A character that is not the second byte of one moves the column on.
+    void advance() {
+        const char c = source_->text[at_++];
+        if (c == '\n') {
+            ++line_;
+            column_ = 1;
+        } else if ((static_cast<unsigned char>(c) & 0xC0) != 0x80)
+            ++column_;
+    }
+
+    Cell cell() {
+        const std::string& text = source_->text;
+        Cell out;
+        out.where = {source_, line_, column_};
+        if (at_ < text.size() && text[at_] == '"')
+            quoted(out);
+        else
+            while (at_ < text.size() && text[at_] != delimiter_ && text[at_] != '\n' && text[at_] != '\r') {
+                out.text += text[at_];
+                advance();
+            }
+        out.where.length = std::max(1, column_ - out.where.column);
+        return out;
+    }
+
+    void quoted(Cell& out) {
+        const std::string& text = source_->text;
+        advance();
+        while (true) {
+            if (at_ >= text.size()) refuse_table(out.where, "a quote is not closed");
+            if (text[at_] == '"') {
+                advance();
+                if (at_ >= text.size() || text[at_] != '"') break;
+            }
+            out.text += text[at_];
+            advance();
+        }
+        if (at_ < text.size() && text[at_] != delimiter_ && text[at_] != '\n' && text[at_] != '\r')
+            refuse_table({source_, line_, column_}, "something follows a closing quote",
+                         "a quote inside quotes is doubled: \"\"");
+    }
+
+    std::shared_ptr<const SourceText> source_;
+    char delimiter_ = ',';
+    std::size_t at_ = 0;
+    int line_ = 1, column_ = 1;
+};
+
+std::vector<Row> csv_rows(std::shared_ptr<const SourceText> source) {
+    CsvReader reader(source);
+    std::vector<Cell> heading, record;
+    if (!reader.next(heading)) refuse_table({source}, "the table is empty", "its first line names params");
+    std::set<std::string> names;
+    for (const auto& cell : heading) {
+        if (cell.text.empty()) refuse_table(cell.where, "a column has no name");
+        if (!names.insert(cell.text).second)
+            refuse_table(cell.where, fmt::format("two columns are named '{}'", cell.text));
+    }
+    std::vector<Row> rows;
+    while (reader.next(record)) {
+        if (record.size() != heading.size())
+            refuse_table(record.front().where,
+                         fmt::format("{} cells in a row, expected {}", record.size(), heading.size()));
+        Row& row = rows.emplace_back();
+        for (std::size_t c = 0; c < record.size(); ++c) {
+            if (record[c].text.empty()) continue;
+            record[c].param = heading[c].text;
+            row.push_back(std::move(record[c]));
+        }
+    }
+    return rows;
+}
+
+std::vector<Row> yaml_rows(std::shared_ptr<const SourceText> source) {
+    Problems problems;
+    const Value all = pipeline::parse_yaml(std::move(source), problems);
+    problems.throw_if_any(ErrorKind::malformed);
+    if (!all.is_list())
+        refuse_table(all.mark, fmt::format("a table is a list of maps, found {}", all.described()),
+                     "- {input: a.ply, keep: 10%}");
+    std::vector<Row> rows;
+    for (const auto& item : all.items) {
+        if (!item.is_map())
+            refuse_table(item.mark,
+                         fmt::format("a row is a map of params to values, found {}", item.described()),
+                         "- {input: a.ply, keep: 10%}");
+        Row& row = rows.emplace_back();
+        for (const auto& entry : item.entries) {
+            if (entry.value.is_null()) continue;
+            if (!entry.value.is_scalar())
+                refuse_table(entry.value.mark, fmt::format("'{}' is a single value in a table, found {}",
+                                                           entry.key, entry.value.described()));
+            row.push_back({entry.key, entry.value.text, entry.value.mark});
+        }
+    }
+    return rows;
+}
+
+} // namespace
+
+std::vector<Row> read_params_table(const std::filesystem::path& file) {
+    std::string text(io::as_text(io::Input::open(file).bytes()));
+    const std::string extension = file.extension().string();
+    const bool yaml = extension == ".yaml" || extension == ".yml";
+    if (!yaml && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3); // a byte order mark
+    const std::string name = file == "-" ? "standard input" : file.string();
+    const auto source = std::make_shared<const SourceText>(SourceText{name, std::move(text)});
+    auto rows = yaml ? yaml_rows(source) : csv_rows(source);
+    std::erase_if(rows, [](const Row& row) { return row.empty(); });
+    if (rows.empty()) refuse_table({source}, "the table has no rows");
+    return rows;
+}
+
+} // namespace facetmill::batch

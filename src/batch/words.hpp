@@ -1,0 +1,19 @@
+#pragma once
+// What the renderers of a summary share.
+
+#include "batch/batch.hpp"
+
+namespace facetmill::batch {
+
+std::size_t count(const Summary& summary, Outcome::Verdict verdict);
+/// "ok", "failed", "interrupted", "not run".
+const char* verdict_word(const Outcome& out);
+/// Control characters, which names may hold, as \x0a.
+std::string one_line(std::string_view text);
+
+std::string to_text(const Summary& summary);
+Json to_json(const Summary& summary);
+std::string to_junit(const Summary& summary); ///< an asset is a test case
+std::string to_html(const Summary& summary);  ///< one self-contained page, with a picture an asset
+
+} // namespace facetmill::batch

@@ -1,0 +1,273 @@
+// facetmill batch: one pipeline over many assets, in one process.
+
+#include "batch/batch.hpp"
+#include "base/numbers.hpp"
+#include "base/readable_numbers.hpp"
+#include "cli/pipeline_options.hpp"
+#include "io/outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* batch_examples =
+    R"(Each input is a run of its own with the param `input`; each row of a table one with the params of its columns (a row
+goes before -D). The base of lists and tables is the working directory.
+Folders are mirrored: of 'scans/**/*.ply', scans/a/b.ply is written to OUT/a. The outputs of an asset appear
+together. What is done and has not changed since (inputs, options, outputs, this program) is left alone, also
+after a crash; OUT/.facetmill-batch.NAME.jsonl notes it. The exit code is the gravest that occurred, in this
+order: 70, 2, 4, 7, 5, 6, 3, 1.
+
+Examples
+  facetmill batch scan-to-web --input 'scans/**/*.ply' -D keep=10% --output-dir web
+  find scans -name '*.ply' -print0 | facetmill batch scan.yaml --inputs-from - -o web --keep-going
+  facetmill batch scan.yaml --table params.csv -o web --report index.html --report batch.json
+  facetmill batch scan.yaml --input 'scans/**/*.ply' -o web --prune      (removes what has no source any more)
+)";
+
+struct BatchOptions {
+    PipelineOptions common;
+    std::string pipeline, memory;
+    batch::Sources sources;
+    bool keep_going = false, prune = false;
+};
+
+void add_batch_options(Arguments& arguments, BatchOptions& options) {
+    arguments.add("PIPELINE", &options.pipeline, "A YAML file, - or a ready pipeline.").required();
+    arguments.add("--input", &options.sources.patterns,
+                  "A file, or a pattern in quotes; ** is any number of folders.");
+    arguments.add("--inputs-from", &options.sources.lists,
+                  "A file of names, or -: one on each line, or each ended by a NUL.");
+    arguments.add("--table", &options.sources.table,
+                  "CSV with a heading, or a YAML list of maps: a row an asset, a column a param.");
+    arguments.add("--base", &options.sources.base,
+                  "The folder that is mirrored. Default: what stands before a wildcard.");
+    arguments.add("-o,--output-dir", &options.common.output_dir, "The folder that written paths start from.")
+        .required();
+    add_param_options(arguments, options.common);
+    arguments
+        .add("-j,--jobs", &options.common.threads,
+             "Assets at a time, and threads for all. Default: jobserver, FACETMILL_JOBS, cores.")
+        .between(1, 4096);
+    arguments.add("--memory", &options.memory,
+                  "For all assets at a time: 8G, 500M, 50% of what there is. Default: 75%.");
+    arguments.add("-k,--keep-going", &options.keep_going,
+                  "Runs all assets. Default: none begins after one has failed.");
+    arguments.add("--prune", &options.prune,
+                  "Removes unchanged outputs of earlier batches whose source is gone.");
+    arguments.add("--report", &options.common.reports,
+                  "Also write the summary: F.json, F.html, F.xml (JUnit) or F.txt.");
+    arguments.add("--timings", &options.common.timings, "Write times, and what was left alone, to F.json.");
+    add_warning_options(arguments, options.common);
+}
+
+/// Bytes: "8G", "500M", "50%" of what is there; 0 when it is not given.
+std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
+    if (text.empty()) return 0;
+    constexpr double step = 1024;
+    const std::string units = "KMGT";
+    const char last = text.back();
+    const auto unit = units.find(static_cast<char>(std::toupper(static_cast<unsigned char>(last))));
+    const bool has_unit = unit != units.npos || last == '%';
+    const auto number = parse_real(std::string_view(text).substr(0, text.size() - (has_unit ? 1 : 0)));
+    if (!number || *number <= 0 || *number > 1e15)
+        throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--memory takes an amount, found '{}'", text),
+                    "8G, 500M, or 50%", line.value(text));
+    if (last == '%')
+        return static_cast<std::uint64_t>(static_cast<double>(batch::memory_there()) *
+                                          std::min(*number, 100.0) / 100);
+    const double factor = unit == units.npos ? 1 : std::pow(step, static_cast<double>(unit + 1));
+    return static_cast<std::uint64_t>(*number * factor);
+}
+
+void check_sources(const BatchOptions& options, const CommandLine& line, Problems& problems) {
+    const auto& sources = options.sources;
+    const bool files = !sources.patterns.empty() || !sources.lists.empty();
+    if (!files && sources.table.empty())
+        problems.add(line.mark(0), "E-ARGUMENT", "batch needs --input, --inputs-from or --table",
+                     "--input 'scans/**/*.ply'");
+    if (files && !sources.table.empty())
+        problems.add(line.find("--table"), "E-CONFLICT", "--table does not go with --input and --inputs-from",
+                     "its column input names the inputs");
+    int streams = options.pipeline == "-";
+    for (const auto& list : sources.lists) streams += list == "-";
+    streams += sources.table == "-";
+    if (streams > 1)
+        problems.add(line.mark(0), "E-DUPLICATE-INPUT", "standard input can be read only once",
+                     "give the pipeline or the list as a file");
+    for (const auto& report : options.common.reports) {
+        try {
+            batch::render_for(report, {});
+        } catch (Error& e) {
+            problems.add(e.at(line.value(report)));
+        }
+    }
+}
+
+/// The params of all assets, without those that the asset has of its own.
+pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSettings settings) {
+    std::erase_if(settings.defines, [&](const auto& define) {
+        return asset.of_table && asset.defined_at.contains(define.first);
+    });
+    settings.defines.insert(settings.defines.end(), asset.defines.begin(), asset.defines.end());
+    settings.defined_at = asset.defined_at;
+    settings.places.output_base /= asset.folder;
+    return settings;
+}
+
+/// A line that is drawn anew when an asset has ended: how far the batch is, and how long it will take.
+class BatchBar {
+  public:
+    explicit BatchBar(const Console& console) : shown_(console.redraws()) {}
+
+    void draw(const batch::Summary& so_far) {
+        if (!shown_) return;
+        std::size_t done = 0, worked = 0, failed = 0;
+        for (const auto& out : so_far.outcomes) {
+            done += out.verdict != batch::Outcome::Verdict::not_run;
+            worked += out.verdict != batch::Outcome::Verdict::not_run && !out.kept;
+            failed += out.verdict == batch::Outcome::Verdict::failed;
+        }
+        const std::size_t all = so_far.outcomes.size();
+        constexpr std::size_t width = 24;
+        const std::size_t filled = all == 0 ? width : width * done / all;
+        std::string text = fmt::format("\r\033[K[{}{}] {}/{}", std::string(filled, '#'),
+                                       std::string(width - filled, '.'), done, all);
+        if (failed > 0) text += fmt::format(", {} failed", failed);
+        if (worked > 0 && done < all)
+            text += fmt::format(", about {} left", timed(so_far.seconds / static_cast<double>(worked) *
+                                                         static_cast<double>(all - done)));
+        std::fwrite(text.data(), 1, text.size(), stderr);
+        std::fflush(stderr);
+    }
+    void clear() const {
+        if (shown_) std::fputs("\r\033[K", stderr);
+    }
+
+  private:
+    bool shown_;
+};
+
+/// What is told of an asset when it has ended, all at once.
+void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const Console& console) {
+    if (!out.kept)
+        for (const auto& warning : out.warnings) console.diagnostic(warning);
+    for (const auto& error : out.errors) console.diagnostic(error);
+    console.event({{"level", "info"},
+                   {"event", "asset"},
+                   {"asset", asset.name},
+                   {"exit_code", out.exit_code},
+                   {"kept", out.kept},
+                   {"outputs", out.outputs},
+                   {"seconds", out.seconds}});
+    if (console.verbose && !console.json && !out.kept)
+        console.say(
+            fmt::format("{}: {} in {:.2f} s", asset.name, out.exit_code == 0 ? "ok" : "failed", out.seconds));
+}
+
+/// Tells the summary and writes it.
+void tell_summary(const batch::Summary& summary, const PipelineOptions& options, const Places& places,
+                  const Console& console) {
+    for (const auto& warning : summary.warnings) console.diagnostic(warning);
+    console.event({{"level", "info"},
+                   {"event", "end"},
+                   {"pipeline", summary.pipeline},
+                   {"exit_code", summary.exit_code},
+                   {"seconds", summary.seconds}});
+    if (!console.json) console.say(batch::to_terminal(summary, console.colour(), console.verbose));
+    const auto write = [&](const std::string& path, const std::string& text) {
+        io::write_now(places.output(path), std::as_bytes(std::span(text)));
+        if (!console.json) console.say(fmt::format("wrote {}", places.output(path).string()));
+    };
+    for (const auto& report : options.reports) write(report, batch::render_for(report, summary));
+    if (!options.timings.empty()) write(options.timings, batch::timings_text(summary));
+}
+
+batch::Listener listener_for(const PipelineOptions& options, const Places& places, const Console& console,
+                             const std::shared_ptr<BatchBar>& bar) {
+    batch::Listener listener;
+    listener.on_finished = [&console, bar](const batch::Asset& asset, const batch::Outcome& out,
+                                           const batch::Summary& so_far) {
+        bar->clear();
+        tell_asset(asset, out, console);
+        bar->draw(so_far);
+    };
+    listener.on_interrupt = [&options, &places, &console, bar](const batch::Summary& summary) {
+        bar->clear();
+        try {
+            tell_summary(summary, options, places, console);
+        } catch (const Error& e) {
+            console.diagnostics(e);
+        }
+    };
+    return listener;
+}
+
+/// What the batch is to do, but for how an asset is planned.
+batch::Settings batch_settings(const BatchOptions& options, const CommandLine& line, const Places& places) {
+    batch::Settings settings;
+    settings.pipeline = options.pipeline;
+    settings.output_dir = options.common.output_dir;
+    settings.jobs = options.common.threads;
+    settings.memory = memory_bytes(options.memory, line);
+    settings.keep_going = options.keep_going;
+    settings.prune = options.prune;
+    settings.check_invariants = options.common.check_invariants;
+    settings.strict = options.common.strict;
+    for (const auto& report : options.common.reports) {
+        settings.others.push_back(places.output(report));
+        settings.pictures |= report.ends_with(".html");
+    }
+    if (!options.common.timings.empty()) settings.others.push_back(places.output(options.common.timings));
+    return settings;
+}
+
+int batch_work(BatchOptions options, const CommandLine& line, const Console& console) {
+    Problems problems;
+    check_sources(options, line, problems);
+    PipelineOptions common = options.common;
+    common.reports.clear(); // those of the options are the summary's
+    common.timings.clear();
+    const auto of_all = plan_settings(common, line, problems);
+    problems.throw_if_any(ErrorKind::usage);
+    options.sources.place = [&](const std::string& text) { return line.value(text); };
+
+    const auto named = source_of(options.pipeline);
+    batch::Settings settings = batch_settings(options, line, of_all.places);
+    settings.pipeline_text = named.first.text;
+    settings.plan = [&](const batch::Asset& asset, Problems& found) {
+        auto own = settings_for(asset, of_all);
+        own.name = named.second;
+        return pipeline::plan_source(named.first, std::move(own), found);
+    };
+    std::vector<Diagnostic> missing;
+    auto works = batch::prepare(batch::find_assets(options.sources), settings, problems, missing);
+    settle(problems, console);
+    if (!missing.empty() && !options.keep_going) throw Error(ErrorKind::missing, std::move(missing));
+    const auto bar = std::make_shared<BatchBar>(console);
+    const auto summary =
+        batch::run(std::move(works), settings, listener_for(options.common, of_all.places, console, bar));
+    bar->clear();
+    tell_summary(summary, options.common, of_all.places, console);
+    return summary.exit_code;
+}
+
+} // namespace
+
+Command batch_command() {
+    return {"batch", "Runs a pipeline for each of many inputs, in one process.", batch_examples, false,
+            [](Arguments& arguments, Console& console) {
+                auto options = std::make_shared<BatchOptions>();
+                add_batch_options(arguments, *options);
+                add_message_options(arguments, console);
+                return [=, &console](const Invocation& invocation) {
+                    return batch_work(*options, invocation.line, console);
+                };
+            }};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,295 @@
+"""facetmill batch: many assets in one process. What is written, what is left alone, what is refused, what a signal leaves."""
+
+import json
+import os
+import signal
+import subprocess
+import time
+
+from support import FACETMILL, SCAN, Case, main
+
+PIPELINE = """facetmill: 1
+allow: W-UNITS
+params:
+  input: {type: path}
+  n: {type: integer, default: 1}
+stages:
+  - load: "${input}"
+  - relax: "${n}"
+  - write: "${input.stem}.ply"
+report: "${input.stem}.json"
+"""
+STATE = ".facetmill-batch.p.jsonl"
+
+
+def tetrahedron(height=1):
+    return f"OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 {height}\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+
+
+class Batch(Case):
+    def setUp(self):
+        super().setUp()
+        self.write("p.yaml", PIPELINE)
+        for number, name in enumerate(("a.off", "sub/b.off", "sub/deep/c.off"), 1):
+            self.write(f"in/{name}", tetrahedron(number))
+
+    def batch(self, *arguments, expect=0, **how):
+        if not any(a in arguments for a in ("--input", "--inputs-from", "--table")):
+            arguments = ("--input", "in/**/*.off", *arguments)
+        return self.mill("batch", "p.yaml", "-o", "out", *arguments, expect=expect, **how)
+
+    def written(self, folder="out"):
+        return {n: s for n, s in self.files(self.dir / folder).items() if not n.startswith(".facetmill-batch")}
+
+    def done_anew(self, *arguments, expect=0):
+        """The assets that this batch did not leave alone."""
+        self.batch("--timings", "t.json", *arguments, expect=expect)
+        path = self.dir / "out/t.json"
+        timings = json.loads(path.read_text())
+        path.unlink()
+        return [a["asset"] for a in timings["assets"] if not a["kept"]]
+
+    def test_as_a_run_of_each(self):
+        self.batch()
+        for name in ("a", "sub/b", "sub/deep/c"):
+            self.mill("run", "p.yaml", "-D", f"input=in/{name}.off", "-o", self.dir / "each" / os.path.dirname(name))
+        self.assertEqual(self.written(), self.written("each"))
+        self.assertEqual(len(self.written()), 6)
+
+    def test_any_number_of_jobs(self):
+        for number in range(12):
+            self.write(f"in/{number}.off", tetrahedron(number + 1))
+        for jobs in (1, 3):
+            self.mill("batch", "p.yaml", "--input", "in/**/*.off", "--input", SCAN, "-D", "n=3", "-o", f"out{jobs}",
+                      "-j", jobs, "--report", "s.json", "--report", "s.html", "--report", "s.xml", "--report", "s.txt")
+        self.assertEqual(self.written("out1"), self.written("out3"))
+        self.assertEqual(len(self.written("out1")), 2 * 16 + 4)
+        self.assertIn("data:image/png", (self.dir / "out1/s.html").read_text())
+
+    def test_what_is_done_is_left_alone(self):
+        self.assertEqual(len(self.done_anew()), 3)
+        first = self.written()
+        self.assertEqual(self.done_anew(), [])
+        os.utime(self.dir / "in/a.off")
+        self.assertEqual(self.done_anew(), [], "its content is the same")
+        self.write("in/a.off", tetrahedron(7))
+        self.assertEqual(self.done_anew(), ["in/a.off"])
+        self.assertNotEqual(self.written()["a.ply"], first["a.ply"])
+        (self.dir / "out/sub/b.ply").unlink()
+        self.assertEqual(self.done_anew(), ["in/sub/b.off"])
+        (self.dir / "out/sub/b.ply").write_text("something else")
+        self.assertEqual(self.done_anew(), ["in/sub/b.off"])
+        self.assertEqual(self.written()["sub/b.ply"], first["sub/b.ply"])
+        self.write("p.yaml", "# a comment\n" + PIPELINE.replace("\nstages", "\n\nstages"))
+        self.assertEqual(self.done_anew(), [], "comments and blanks do not matter")
+        self.assertEqual(len(self.done_anew("-D", "n=2")), 3)
+
+    def test_a_report_of_what_was_kept(self):
+        self.write("in/bad.off", "bad")
+        reports = ("--report", "s.json", "--report", "s.xml", "--report", "s.txt", "-k")
+        self.batch(*reports, expect=6)
+        first = self.written()
+        self.batch(*reports, expect=6)
+        self.assertEqual(self.written(), first)
+
+    def test_kill_and_resume(self):
+        self.write("t.csv", "input,n\nin/a.off,1\nin/sub/b.off,1\n" + f"{SCAN},100000\n")
+        run = subprocess.Popen([str(FACETMILL), "batch", "p.yaml", "--table", "t.csv", "-o", "out", "-j1"], cwd=self.dir,
+                               stderr=subprocess.DEVNULL)
+        state = self.dir / "out" / STATE
+        deadline = time.monotonic() + 120
+        while not state.exists() or state.read_text().count("\n") < 2:
+            self.assertIsNone(run.poll(), "it ended early")
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        run.kill()
+        run.wait()
+        with open(state, "a") as torn:
+            torn.write('{"asset": "torn')
+        self.write("t.csv", "input,n\nin/a.off,1\nin/sub/b.off,1\n" + f"{SCAN},1\n")
+        self.assertEqual(self.done_anew("--table", "t.csv"), [str(SCAN)])
+        self.assertEqual(self.done_anew("--table", "t.csv"), [])
+        self.assertEqual(sorted(self.written()), ["in/a.json", "in/a.ply", "in/sub/b.json", "in/sub/b.ply",
+                                                  "nefertiti.json", "nefertiti.ply"])
+
+    def test_failures(self):
+        self.write("in/0.off", "bad")
+        self.write("in/gone.off", tetrahedron())
+        run = self.batch("-j1", "--report", "s.json", expect=6)
+        self.assertIn("1 failed, 4 not run", run.stderr)
+        self.assertNotIn("a.ply", self.written())
+        self.batch("-k", "--report", "s.json", "--report", "s.xml", "--report", "s.txt", expect=6)
+        summary = json.loads((self.dir / "out/s.json").read_text())
+        self.assertEqual(summary["counts"], {"assets": 5, "ok": 4, "failed": 1, "interrupted": 0, "not_run": 0})
+        self.assertEqual([a["asset"] for a in summary["assets"]][0], "in/0.off", "the worst is first")
+        self.assertFalse(summary["passed"])
+        self.assertIn('errors="1"', (self.dir / "out/s.xml").read_text())
+        self.assertIn("4 ok, 1 failed", (self.dir / "out/s.txt").read_text())
+
+    def test_the_gravest_exit_code(self):
+        self.write("p.yaml", PIPELINE.replace('- write', '- validate: {faces: 4}\n  - write'))
+        self.write("in/check.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        self.batch("-k", expect=1)
+        self.write("in/zz.off", "bad")
+        self.batch("-k", expect=6)
+
+    def test_what_is_missing_is_found_first(self):
+        self.write("list", "in/a.off\nin/none.off\n")
+        run = self.batch("--inputs-from", "list", expect=3)
+        self.assertIn("in/none.off", run.stderr)
+        self.assertFalse((self.dir / "out").exists())
+        self.batch("--inputs-from", "list", "-k", expect=3)
+        self.assertIn("in/a.ply", self.written())
+
+    def test_collisions_are_found_first(self):
+        self.write("in/A.off", tetrahedron())
+        run = self.batch(expect=2)
+        self.assertIn("E-DUPLICATE-OUTPUT", run.stderr)
+        self.assertIn("one file where case does not count", run.stderr)
+        (self.dir / "in/A.off").unlink()
+        self.write("p.yaml", PIPELINE.replace('"${input.stem}.ply"', "one.ply"))
+        run = self.batch("--base", "nowhere", expect=2)
+        self.assertIn("'out/one.ply' is written for in/a.off and for in/sub/b.off", run.stderr)
+        self.assertFalse((self.dir / "out").exists())
+        self.write("p.yaml", PIPELINE.replace(".ply", ".off").replace("report", "x-report"))
+        run = self.mill("batch", "p.yaml", "--input", "in/*.off", "-o", "in", expect=2)
+        self.assertIn("E-OVERWRITE", run.stderr)
+        self.write("p.yaml", PIPELINE)
+        self.assertIn("E-DUPLICATE-OUTPUT", self.batch("--report", "a.json", expect=2).stderr)
+
+    def test_nothing_matches(self):
+        run = self.batch("--input", "in/**/*.stl", expect=3)
+        self.assertIn("no file matches 'in/**/*.stl'", run.stderr)
+        self.assertIn("^~~", run.stderr)
+        self.assertIn("needs --input", self.mill("batch", "p.yaml", "-o", "out", expect=2).stderr)
+
+    def test_odd_names(self):
+        names = ["blank s", "$HOME", "#1", "100%", "'q'\"", "ünïcode", "[a]", "new\nline", "${input}", "a&b;c", "-dash"]
+        for name in names:
+            (self.dir / "odd").mkdir(exist_ok=True)
+            (self.dir / "odd" / f"{name}.off").write_text(tetrahedron())
+        self.mill("batch", "p.yaml", "--input", "odd/*.off", "-o", "glob")
+        found = b"\0".join(os.fsencode(f"odd/{name}.off") for name in names)
+        run = self.mill("batch", "p.yaml", "--inputs-from", "-", "-o", "list", "--base", "odd", stdin=found, text=False)
+        self.assertIn(b"new\\x0aline", run.stderr)
+        self.assertEqual(self.written("glob"), self.written("list"))
+        self.assertEqual(len(self.written("glob")), 2 * len(names))
+        run = self.mill("batch", "p.yaml", "--input", "odd/[[]a].off", "--input", "odd/[a].off", "-o", "one")
+        self.assertIn("1 assets: 1 ok", run.stderr)
+
+    def test_prune(self):
+        self.batch()
+        (self.dir / "in/sub/deep/c.off").unlink()
+        self.write("in/d.off", tetrahedron())
+        self.write("out/mine.txt", "not of a batch")
+        self.batch()
+        self.assertIn("sub/deep/c.ply", self.written(), "only --prune removes")
+        self.batch("--input", "in/sub/*.off", "--prune")
+        self.assertEqual(sorted(self.written()), ["a.json", "a.ply", "b.json", "b.ply", "d.json", "d.ply", "mine.txt"],
+                         "c has no source, b is at another place, a and d are not of this batch")
+        self.assertFalse((self.dir / "out/sub").exists())
+        (self.dir / "in/d.off").unlink()
+        (self.dir / "out/d.ply").write_text("changed by hand")
+        self.batch("--prune")
+        self.assertIn("d.ply", self.written())
+        self.assertNotIn("d.json", self.written())
+
+    def test_prune_of_outputs_that_have_another_name_now(self):
+        self.batch()
+        self.write("p.yaml", PIPELINE.replace(".ply", ".stl"))
+        self.batch("--prune")
+        self.assertEqual(sorted(self.written()), ["a.json", "a.stl", "sub/b.json", "sub/b.stl", "sub/deep/c.json",
+                                                  "sub/deep/c.stl"])
+
+    def test_tables(self):
+        self.write("t.csv", 'input,n\r\n"in/a.off",2\r\n\r\nin/sub/b.off,\r\n')
+        self.batch("--table", "t.csv", "-D", "n=3")
+        self.write("t.yaml", "- {input: in/a.off, n: 2}\n- {input: in/sub/b.off, n: 3}\n")
+        self.mill("batch", "p.yaml", "--table", "t.yaml", "-o", "yaml")
+        self.assertEqual(self.written(), self.written("yaml"))
+        self.assertEqual(json.loads((self.dir / "out/in/a.json").read_text())["params"]["n"], 2)
+        for text, said, code in (("input,n\nin/a.off,x\n", "t.csv:2:10", 2), ("input,n\nin/a.off\n", "t.csv:2:1", 6),
+                                 ('input,n\n"in/a.off,1\n', "a quote is not closed", 6), ("", "is empty", 6),
+                                 ("input,m\nin/a.off,1\n", "t.csv:2:10", 2), ("input,input\na,b\n", "t.csv:1:7", 6)):
+            self.write("t.csv", text)
+            self.assertIn(said, self.batch("--table", "t.csv", expect=code).stderr)
+
+    def test_an_interrupted_batch(self):
+        for number in (signal.SIGINT, signal.SIGTERM):
+            self.write("t.csv", f"input,n\nin/a.off,1\n{SCAN},100000\nin/sub/b.off,1\n")
+            run = subprocess.Popen([str(FACETMILL), "batch", "p.yaml", "--table", "t.csv", "-o", "out", "-j1", "--report",
+                                    "s.json"], cwd=self.dir, stderr=subprocess.PIPE, text=True)
+            state = self.dir / "out" / STATE
+            deadline = time.monotonic() + 120
+            while not state.exists() or not state.read_text():
+                self.assertIsNone(run.poll(), "it ended early")
+                self.assertLess(time.monotonic(), deadline)
+                time.sleep(0.01)
+            time.sleep(0.2)
+            run.send_signal(number)
+            said = run.communicate(timeout=60)[1]
+            self.assertEqual(run.returncode, -number)
+            self.assertIn("1 ok, 1 interrupted, 1 not run", said)
+            summary = json.loads((self.dir / "out/s.json").read_text())
+            self.assertEqual([a["verdict"] for a in summary["assets"]], ["interrupted", "not run", "ok"])
+            self.assertEqual(sorted(self.written()), ["in/a.json", "in/a.ply", "s.json"])
+            for path in (self.dir / "out").rglob("*"):
+                if path.is_file():
+                    path.unlink()
+
+    def test_two_batches_over_one_folder(self):
+        self.write("t.csv", f"input,n\nin/a.off,1\n{SCAN},100000\n")
+        first = subprocess.Popen([str(FACETMILL), "batch", "p.yaml", "--table", "t.csv", "-o", "out", "-j1"],
+                                 cwd=self.dir, stderr=subprocess.DEVNULL)
+        try:
+            state = self.dir / "out" / STATE
+            while not state.exists() or not state.read_text():
+                self.assertIsNone(first.poll(), "it ended early")
+                time.sleep(0.01)
+            self.assertIn("E-BUSY", self.batch(expect=4).stderr)
+        finally:
+            first.kill()
+            first.wait()
+        self.batch()
+
+    def test_a_jobserver(self):
+        fifo = self.dir / "fifo"
+        os.mkfifo(fifo)
+        both = os.open(fifo, os.O_RDWR | os.O_NONBLOCK)
+        self.addCleanup(os.close, both)
+        into = os.dup(both)
+        self.addCleanup(os.close, into)
+        os.set_inheritable(both, True)
+        os.set_inheritable(into, True)
+        for auth in (f"fifo:{fifo}", f"{both},{into}"):
+            os.write(both, b"xy")
+            run = subprocess.run([str(FACETMILL), "batch", "p.yaml", "--input", "in/**/*.off", "-o", "out" + auth[:1]],
+                                 cwd=self.dir, env={**os.environ, "MAKEFLAGS": f" -j3 --jobserver-auth={auth}"},
+                                 capture_output=True, text=True, pass_fds=(both, into), timeout=300)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(sorted(os.read(both, 9)), sorted(b"xy"), "the tokens are back as they were")
+
+    def test_under_make(self):
+        self.write("Makefile", f"all:\n\t+{FACETMILL} batch p.yaml --input 'in/**/*.off' -o out\n")
+        subprocess.run(["make", "-j2"], cwd=self.dir, check=True, capture_output=True, timeout=300)
+        self.assertEqual(len(self.written()), 6)
+
+    def test_arguments(self):
+        for arguments, said in ((("--memory", "much"), "--memory takes an amount"), (("--report", "r.pdf"), "E-REPORT"),
+                                (("--set", "relax.x=1"), "E-"), (("-j", "0"), "E-ARGUMENT")):
+            self.assertIn(said, self.batch(*arguments, expect=2).stderr)
+        self.assertIn("FACETMILL_JOBS", self.batch(env={"FACETMILL_JOBS": "many", "MAKEFLAGS": ""}, expect=2).stderr)
+        self.batch("--memory", "1K", "-j3", env={"FACETMILL_JOBS": "2"})
+        self.assertEqual(len(self.written()), 6, "each alone")
+
+    def test_the_pipeline_from_standard_input(self):
+        self.mill("batch", "-", "--input", "in/**/*.off", "-o", "out", stdin=PIPELINE)
+        self.assertEqual(len(self.written()), 6)
+        self.write("p.yaml", PIPELINE.replace('load: "${input}"', "load: '-'"))
+        self.assertIn("E-DUPLICATE-INPUT", self.batch(expect=2).stderr)
+        run = self.mill("batch", "-", "--inputs-from", "-", "-o", "out", stdin=PIPELINE, expect=2)
+        self.assertIn("E-DUPLICATE-INPUT", run.stderr)
+
+
+if __name__ == "__main__":
+    main()
