@@ -189,6 +189,10 @@ Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
         mend_attributes(part, input.name(), log);
         any |= part.mesh.vertex_count() > 0;
     }
+    for (Lines& lines : log.lines) {
+        if (lines.name.empty()) lines.name = stem_of(input);
+        any |= !lines.segments.empty();
+    }
     if (!any)
         throw Error(ErrorKind::malformed, "E-EMPTY",
                     fmt::format("'{}' has no mesh: not one vertex", input.name()));

@@ -3,6 +3,7 @@
 // opens no files itself (except a glTF's neighbours, through Neighbours) and writes none.
 
 #include "io/bytes.hpp"
+#include "mesh/lines.hpp"
 #include "mesh/scene.hpp"
 
 #include <functional>
@@ -20,7 +21,11 @@ struct ReadLog {
     std::vector<ReadWarning> warnings;
     std::vector<std::filesystem::path> files;  ///< neighbours that were read (buffers, images, .mtl)
     std::vector<std::filesystem::path> absent; ///< neighbours that the file names and that are not there
+    std::vector<Lines> lines;                  ///< of the file, when ReadSettings::lines asks for them
 };
+
+/// What a reader says to whoever might want the lines that it skipped.
+inline constexpr const char* hint_for_lines = "load: {path: ..., lines: 1%} makes tubes of the lines";
 
 /// Whether vertices at exactly the same place become one: as the format needs it (STL and glTF do), never, or
 /// always.
@@ -31,6 +36,7 @@ struct ReadSettings {
     std::optional<Unit> unit; ///< overrides what the format says
     std::optional<UpAxis> up;
     std::size_t max_vertices = std::size_t{1} << 31;
+    bool lines = false; ///< read lines, too, where the format has them
 };
 
 struct DracoSettings {

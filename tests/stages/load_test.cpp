@@ -85,3 +85,39 @@ TEST_CASE("load warns of sizes that products of coordinates cannot follow", "[st
         if (warns) CHECK(bench.record.warnings.at(0).id == "W-SIZE");
     }
 }
+
+TEST_CASE("load makes tubes of lines, parts of their own with the lines' materials", "[stages]") {
+    Bench b;
+    put(b.dir / "w.obj", "o frame\nusemtl steel\nv 0 0 0\nv 3 0 0\nv 3 4 0\nl 1 2 3\nusemtl glass\nf 1 2 3\n"
+                         "o stick\nv 0 0 9\nv 1 0 9\nv 2 0 9\nusemtl steel\nl 4 5\nusemtl brass\nl 5 6\n");
+    b.run("load", options({{"path", "w.obj"}, {"lines", "0.1"}}));
+    REQUIRE(b.scene.parts.size() == 3);
+    CHECK(b.scene.parts[0].name == "frame");
+    CHECK(b.scene.parts[1].name == "frame_lines");
+    CHECK(b.scene.parts[2].name == "stick");
+    const Mesh &frame = b.scene.parts[1].mesh, &stick = b.scene.parts[2].mesh;
+    CHECK(frame.face_count() == 18); // two lines of eight sides, two ends
+    REQUIRE(frame.primitives.size() == 1);
+    CHECK(b.scene.materials.at(frame.primitives[0].material).name == "steel");
+    CHECK(stick.primitives.size() == 2);
+    CHECK(b.record.warnings.empty());
+    CHECK(b.record.said == std::vector<std::string>{"4 lines became 3 tubes"});
+}
+
+TEST_CASE("the thickness of lines may be a share of the file, and must be more than nothing", "[stages]") {
+    Bench b;
+    put(b.dir / "w.obj", "v 0 0 0\nv 3 0 0\nv 3 4 0\nl 1 2 3\n");
+    put(b.dir / "t.stl", triangle_stl);
+    b.run("load", options({{"path", "w.obj"}, {"lines", "2%"}, {"line_sides", "4"}}));
+    REQUIRE(b.scene.parts.size() == 1);
+    CHECK(b.scene.parts[0].name == "w");
+    CHECK(b.record.resolved["lines"]["is"].get<double>() == Approx(0.1));
+    CHECK(b.scene.parts[0].mesh.face_count() == 10);
+    b.run("load", options({{"path", "t.stl"}, {"lines", "1"}}));
+    REQUIRE(b.record.warnings.size() == 1);
+    CHECK(b.record.warnings[0].id == "W-LINES");
+    put(b.dir / "p.obj", "v 1 1 1\nv 1 1 1\nl 1 2\n");
+    CHECK(failure([&] {
+              b.run("load", options({{"path", "p.obj"}, {"lines", "1%"}}));
+          }).starts_with("stage [E-LINES]"));
+}

@@ -2,6 +2,7 @@
 
 #include "base/memory.hpp"
 #include "io/gltf/container.hpp"
+#include "io/gltf/lines.hpp"
 #include "io/gltf/mesh.hpp"
 #include "io/gltf/nodes.hpp"
 #include "io/gltf/patch.hpp"
@@ -124,8 +125,8 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
             require_memory(bytes, "copying the meshes of nodes", "use a machine with more memory");
             part.mesh = scene.parts[known->second].mesh;
         } else {
-            DecodedMesh decoded =
-                decode_mesh(source, static_cast<std::size_t>(placement.mesh), settings.max_vertices);
+            DecodedMesh decoded = decode_mesh(source, static_cast<std::size_t>(placement.mesh),
+                                              settings.max_vertices, settings.lines);
             part.mesh = std::move(decoded.mesh);
             if (settings.weld == Weld::off) unmerge(part.mesh);
             log.warnings.insert(log.warnings.end(), decoded.warnings.begin(), decoded.warnings.end());
@@ -143,18 +144,24 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
         part.skinned = placement.skinned;
         scene.parts.push_back(std::move(part));
     }
+    if (settings.lines) log.lines = decode_lines(source, frames, settings.max_vertices);
 }
 
 /// Throws malformed (E-EMPTY) for a document of points and lines only.
 void refuse_without_faces(const Json& document, const std::string& name) {
     std::size_t primitives = 0;
-    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m)
-        primitives += item(document, "meshes", m).at("primitives").size();
+    bool lines = false;
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
+        const Place all = item(document, "meshes", m).at("primitives");
+        primitives += all.size();
+        for (std::size_t i = 0; i < all.size(); ++i) lines |= makes_lines(all.at(i));
+    }
     if (primitives > 0)
         throw Error(ErrorKind::malformed, "E-EMPTY",
                     fmt::format("'{}' has no faces: its {} primitive{} are placed nowhere or hold points and "
                                 "lines only",
-                                name, primitives, primitives == 1 ? "" : "s"));
+                                name, primitives, primitives == 1 ? "" : "s"),
+                    lines ? hint_for_lines : "");
 }
 
 Chunks chunks_of(const Input& input) {
@@ -181,7 +188,7 @@ Scene read_document(const Input& input, const ReadSettings& settings, ReadLog& l
         scene.materials.push_back(read_material(item(json, "materials", i), i));
     Source source(json, document->buffers);
     read_parts(scene, source, settings, log);
-    if (scene.parts.empty()) refuse_without_faces(json, input.name());
+    if (scene.parts.empty() && log.lines.empty()) refuse_without_faces(json, input.name());
     scene.documents.push_back(std::move(document));
     return scene;
 }

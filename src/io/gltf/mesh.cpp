@@ -3,6 +3,7 @@
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "io/gltf/draco/draco.hpp"
+#include "io/gltf/lines.hpp"
 #include "io/gltf/nodes.hpp"
 
 #include <cstring>
@@ -37,8 +38,8 @@ struct Merge {
         require_memory(bytes, "reading " + mesh_place.path(), "use a machine with more memory");
     }
 
-    void warn(const char* id, const std::string& message) {
-        out.warnings.push_back({Severity::warning, id, message, {}, ""});
+    void warn(const char* id, const std::string& message, const std::string& hint = {}) {
+        out.warnings.push_back({Severity::warning, id, message, {}, hint});
     }
 };
 
@@ -332,7 +333,7 @@ Role role_of(std::string_view semantic) {
     return starts("WEIGHTS_") ? Role::weights : Role::generic;
 }
 
-DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices) {
+DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices, bool with_lines) {
     Merge merge{source,
                 item(source.json(), "meshes", index),
                 std::min<std::size_t>(max_vertices, none - 1),
@@ -344,11 +345,14 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
                 0};
     const Place primitives = merge.mesh_place.at("primitives");
     std::size_t skipped = 0;
+    bool lines = false;
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-        if (makes_triangles(primitives.at(i)))
+        if (makes_triangles(primitives.at(i))) {
             add_primitive(merge, primitives.at(i));
-        else
+        } else if (!with_lines || !makes_lines(primitives.at(i))) {
             ++skipped;
+            lines |= makes_lines(primitives.at(i));
+        }
     }
     if (skipped > 0)
         merge.warn(
@@ -356,7 +360,8 @@ DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_verti
             fmt::format(
                 "{}: {} of points, lines or without positions kept in the document as written, not read",
                 merge.mesh_place.path(),
-                skipped == 1 ? "a primitive" : fmt::format("{} primitives", skipped)));
+                skipped == 1 ? "a primitive" : fmt::format("{} primitives", skipped)),
+            lines ? hint_for_lines : "");
     join_blocks(merge);
     Mesh& mesh = merge.out.mesh;
     if (!merge_as_told(source, merge.mesh_place, mesh, merge.out.warnings)) weld_exact(mesh);

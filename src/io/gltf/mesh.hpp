@@ -15,9 +15,10 @@ struct DecodedMesh {
 /// Decodes the triangles of mesh `index`: welded by exact position into vertices, or as EXT_mesh_manifold
 /// says; glTF's vertices become wedges, equal ones at a vertex one wedge. Points and lines are left to the
 /// document, with a warning (W-SKIPPED). Primitive::material is the document's material index. The same bytes
-/// give the same Mesh, so the writer decodes again to see whether a part is untouched. Throws malformed and
-/// limit.
-DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none);
+/// give the same Mesh, so the writer decodes again to see whether a part is untouched. with_lines: the lines
+/// are read by decode_lines, and no warning is due. Throws malformed and limit.
+DecodedMesh decode_mesh(Source& source, std::size_t index, std::size_t max_vertices = none,
+                        bool with_lines = false);
 
 /// The role that a glTF attribute name has.
 Role role_of(std::string_view semantic);

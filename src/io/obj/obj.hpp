@@ -11,7 +11,7 @@ namespace facetmill::io::obj {
 struct Event {
     enum class Kind { object, group, material, smoothing, library };
     Kind kind;
-    std::size_t face = 0, vertex = 0; ///< the first ones behind it
+    std::size_t face = 0, vertex = 0, line = 0; ///< the first ones behind it
     std::string text;
 };
 
@@ -24,12 +24,15 @@ struct Statements {
     std::vector<Index> corners;             ///< -> position
     std::vector<std::uint64_t> corner_keys; ///< uv << 32 | normal; empty when no corner has either
     std::vector<Index> face_offsets;
+    std::vector<Index> line_points;             ///< -> position; empty unless asked for
+    std::vector<Index> line_offsets;            ///< [lines + 1] into line_points
     std::vector<Event> events;                  ///< in the order of the file
     std::map<std::string, std::size_t> skipped; ///< how often each statement that cannot be kept was met
     std::size_t short_faces = 0;                ///< faces of fewer than three corners, left out
     std::size_t dangling = 0; ///< corners whose texture point or normal is not in the file: left without
 
     std::size_t faces() const { return face_offsets.size() - 1; }
+    std::size_t lines() const { return line_offsets.size() - 1; }
 };
 
 /// Parses the text, in parallel over chunks of lines. Malformed (E-OBJ, E-NAN) with the line.
@@ -37,7 +40,8 @@ Statements parse(const Input& input, const ReadSettings& settings);
 
 /// `o` makes parts, unless objects share vertices: then they stay one part, so that the surface stays whole,
 /// with the face attribute "object". Face attributes "group" and "smoothing_group" number the groups where
-/// there are several. `usemtl` makes materials and primitives. Texture points and normals make wedges.
+/// there are several. `usemtl` makes materials and primitives. Texture points and normals make wedges. Lines
+/// (`l`), when asked for, go to the log by object; vertices that no face uses are then left out.
 Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
 Written write(const Scene& scene, const WriteSettings& settings);
 

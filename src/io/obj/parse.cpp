@@ -3,9 +3,11 @@
 #include "base/parallel.hpp"
 #include "io/text.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <fmt/format.h>
+#include <initializer_list>
 #include <limits>
 
 namespace facetmill::io::obj {
@@ -26,17 +28,20 @@ struct Chunk {
     std::vector<Corner> corners;
     std::vector<std::uint8_t>
         relative; ///< a bit for each index of each corner; empty when all count from the start
+    std::vector<Corner> line_corners;
+    std::vector<std::uint8_t> line_relative; ///< whether the position's index counts from the chunk
     int lines = 0;
     std::optional<Error> error;
 };
 
 class ChunkParser {
   public:
-    ChunkParser(std::string_view text, const std::string& name, Chunk& chunk)
-        : text_(text, name, "E-OBJ", '#'), chunk_(chunk), out_(chunk.own) {}
+    ChunkParser(std::string_view text, const std::string& name, bool lines, Chunk& chunk)
+        : text_(text, name, "E-OBJ", '#'), lines_(lines), chunk_(chunk), out_(chunk.own) {}
 
     void parse() {
         out_.face_offsets.assign(1, 0);
+        out_.line_offsets.assign(1, 0);
         do {
             statement(text_.word_on_line());
         } while (text_.next_line());
@@ -48,6 +53,7 @@ class ChunkParser {
         if (word.empty()) return;
         if (word == "v") return vertex();
         if (word == "f" || word == "fo") return face();
+        if (word == "l" && lines_) return line();
         if (word == "vn") return numbers(out_.normals, 3, "normal");
         if (word == "vt") return texture_point();
         if (word == "usemtl") return event(Event::Kind::material);
@@ -91,15 +97,31 @@ class ChunkParser {
     }
 
     void event(Event::Kind kind) {
-        out_.events.push_back({kind, out_.faces(), out_.positions.size(), std::string(text_.rest_of_line())});
+        out_.events.push_back(
+            {kind, out_.faces(), out_.positions.size(), out_.lines(), std::string(text_.rest_of_line())});
+    }
+
+    void forget_corners(std::size_t first) {
+        chunk_.corners.resize(first);
+        if (!chunk_.relative.empty()) chunk_.relative.resize(first);
+    }
+
+    void line() {
+        const std::size_t first = chunk_.corners.size();
+        while (!text_.at_line_end()) corner();
+        for (std::size_t i = first; i < chunk_.corners.size(); ++i) {
+            chunk_.line_corners.push_back(chunk_.corners[i]);
+            chunk_.line_relative.push_back(!chunk_.relative.empty() && (chunk_.relative[i] & 1));
+        }
+        forget_corners(first);
+        out_.line_offsets.push_back(static_cast<Index>(chunk_.line_corners.size()));
     }
 
     void face() {
         const std::size_t first = chunk_.corners.size();
         while (!text_.at_line_end()) corner();
         if (chunk_.corners.size() - first < 3) {
-            chunk_.corners.resize(first);
-            if (!chunk_.relative.empty()) chunk_.relative.resize(first);
+            forget_corners(first);
             ++out_.short_faces;
         } else {
             out_.face_offsets.push_back(static_cast<Index>(chunk_.corners.size()));
@@ -136,6 +158,7 @@ class ChunkParser {
     }
 
     Text text_;
+    bool lines_; ///< are wanted
     Chunk& chunk_;
     Statements& out_;
 };
@@ -172,23 +195,26 @@ void rethrow_first(const std::vector<Chunk>& chunks, const std::string& name) {
     }
 }
 
-int line_of_face(const Input& input, std::size_t face) {
+/// The line of the file with the statement of that number among those of these words with so many corners or
+/// more.
+int line_of(const Input& input, std::initializer_list<std::string_view> words, int least,
+            std::size_t number) {
     Text text(as_text(input.bytes()), input.name(), "E-OBJ", '#');
     std::size_t met = 0;
     do {
         const std::string_view word = text.word_on_line();
         const int line = text.line();
-        if (word != "f" && word != "fo") continue;
+        if (std::find(words.begin(), words.end(), word) == words.end()) continue;
         int corners = 0;
         while (!text.word_on_line().empty()) ++corners;
-        if (corners >= 3 && met++ == face) return line;
+        if (corners >= least && met++ == number) return line;
     } while (text.next_line());
     return 0;
 }
 
 struct Counts {
     std::size_t element[3] = {0, 0, 0}; ///< positions, uvs, normals
-    std::size_t corners = 0, faces = 0;
+    std::size_t corners = 0, faces = 0, line_points = 0, lines = 0;
 };
 
 /// Joins the chunks; relative indices become absolute.
@@ -202,14 +228,17 @@ class Joiner {
             for (int k = 0; k < 3; ++k) before_[c + 1].element[k] = before_[c].element[k] + sizes[k];
             before_[c + 1].corners = before_[c].corners + chunks[c].corners.size();
             before_[c + 1].faces = before_[c].faces + own.faces();
+            before_[c + 1].line_points = before_[c].line_points + chunks[c].line_corners.size();
+            before_[c + 1].lines = before_[c].lines + own.lines();
         }
     }
 
     Statements join(const ReadSettings& settings) {
         const Counts& all = before_.back();
-        if (all.element[0] > settings.max_vertices || all.element[0] >= none || all.corners >= none)
+        if (all.element[0] > settings.max_vertices || all.element[0] >= none || all.corners >= none ||
+            all.line_points >= none)
             beyond_limit(input_.name(), fmt::format("{} vertices and {} corners are more than can be held",
-                                                    all.element[0], all.corners));
+                                                    all.element[0], all.corners + all.line_points));
         bool coloured = false, keyed = false;
         for (const auto& chunk : chunks_) coloured |= !chunk.own.colours.empty();
         for (const auto& chunk : chunks_)
@@ -222,11 +251,14 @@ class Joiner {
         out_.corners.resize(all.corners);
         out_.corner_keys.resize(keyed ? all.corners : 0);
         out_.face_offsets.resize(all.faces + 1);
+        out_.line_points.resize(all.line_points);
+        out_.line_offsets.resize(all.lines + 1);
         std::vector<std::size_t> bad(chunks_.size(), SIZE_MAX);
         parallel_for(
             chunks_.size(), [&](std::size_t c) { bad[c] = join_chunk(c); }, 1);
         for (const std::size_t corner : bad)
             if (corner != SIZE_MAX) refuse(corner);
+        for (std::size_t c = 0; c < chunks_.size(); ++c) join_lines(c);
         for (std::size_t c = 0; c < chunks_.size(); ++c) join_rest(c);
         for (const std::size_t count : dangling_) out_.dangling += count;
         return std::move(out_);
@@ -276,12 +308,32 @@ class Joiner {
         return true;
     }
 
+    void join_lines(std::size_t c) {
+        const Chunk& chunk = chunks_[c];
+        for (std::size_t l = 0; l < chunk.own.lines(); ++l) {
+            for (Index i = chunk.own.line_offsets[l]; i < chunk.own.line_offsets[l + 1]; ++i) {
+                const std::int64_t index =
+                    chunk.line_corners[i].index[0] +
+                    (chunk.line_relative[i] ? static_cast<std::int64_t>(before_[c].element[0]) : 0);
+                if (index < 0 || index >= static_cast<std::int64_t>(before_.back().element[0]))
+                    refuse("a line", line_of(input_, {"l"}, 0, before_[c].lines + l));
+                out_.line_points[before_[c].line_points + i] = static_cast<Index>(index);
+            }
+            out_.line_offsets[before_[c].lines + l + 1] =
+                static_cast<Index>(before_[c].line_points + chunk.own.line_offsets[l + 1]);
+        }
+    }
+
     [[noreturn]] void refuse(std::size_t corner) {
         const auto at =
             std::upper_bound(out_.face_offsets.begin(), out_.face_offsets.end(), static_cast<Index>(corner));
         const auto face = static_cast<std::size_t>(at - out_.face_offsets.begin()) - 1;
-        malformed(input_.name(), line_of_face(input_, face), "E-OBJ",
-                  fmt::format("a face names a vertex that is not there: the file has {}",
+        refuse("a face", line_of(input_, {"f", "fo"}, 3, face));
+    }
+
+    [[noreturn]] void refuse(const char* what, int line) {
+        malformed(input_.name(), line, "E-OBJ",
+                  fmt::format("{} names a vertex that is not there: the file has {}", what,
                               before_.back().element[0]));
     }
 
@@ -289,6 +341,7 @@ class Joiner {
         for (auto& e : chunks_[c].own.events) {
             e.face += before_[c].faces;
             e.vertex += before_[c].element[0];
+            e.line += before_[c].lines;
             out_.events.push_back(std::move(e));
         }
         for (const auto& [word, count] : chunks_[c].own.skipped) out_.skipped[word] += count;
@@ -311,7 +364,7 @@ Statements parse(const Input& input, const ReadSettings& settings) {
         texts.size(),
         [&](std::size_t c) {
             try {
-                ChunkParser(texts[c], input.name(), chunks[c]).parse();
+                ChunkParser(texts[c], input.name(), settings.lines, chunks[c]).parse();
             } catch (const Error& error) {
                 chunks[c].error = error;
             }

@@ -12,17 +12,19 @@ namespace facetmill::io::obj {
 
 namespace {
 
-/// Names in the order of their first face, and the name's number for every face.
+/// Names in the order of their first face (or line), and the name's number for every face.
 struct Naming {
     std::vector<std::string> names;
     std::vector<Index> of_face;
     std::map<std::string, Index> known;
 };
 
-/// What holds at each face of the events of a kind; faces before the first have the name `before`.
-Naming naming(const Statements& s, Event::Kind kind, const std::string& before) {
+/// What holds at each of so many elements of the events of a kind; those before the first have the name
+/// `before`.
+Naming naming(const Statements& s, Event::Kind kind, const std::string& before, std::size_t count,
+              std::size_t Event::*first) {
     Naming n;
-    n.of_face.resize(s.faces());
+    n.of_face.resize(count);
     const auto hold = [&](const std::string& name, std::size_t begin, std::size_t end) {
         if (begin >= end) return;
         const auto [at, fresh] = n.known.try_emplace(name, static_cast<Index>(n.names.size()));
@@ -34,12 +36,17 @@ Naming naming(const Statements& s, Event::Kind kind, const std::string& before) 
     std::size_t begin = 0;
     for (const auto& e : s.events) {
         if (e.kind != kind) continue;
-        hold(current, begin, e.face);
+        hold(current, begin, e.*first);
         current = e.text;
-        begin = e.face;
+        begin = e.*first;
     }
-    hold(current, begin, s.faces());
+    hold(current, begin, count);
     return n;
+}
+
+/// Of the faces.
+Naming naming(const Statements& s, Event::Kind kind, const std::string& before) {
+    return naming(s, kind, before, s.faces(), &Event::face);
 }
 
 Attribute numbers(const char* name, std::vector<Index> values) {
@@ -119,17 +126,26 @@ std::vector<std::string> attributes_of(const Mesh& mesh, bool with_uvs) {
     return names;
 }
 
+const std::string no_material; ///< usemtl without a name means the same
+
+bool has_names(const Naming& materials) {
+    return !materials.names.empty() && materials.names != std::vector{no_material};
+}
+
+/// Of the libraries that the file names, when a face or a line has a material.
+MaterialMaker maker_of_materials(const Statements& s, const Input& input, ReadLog& log) {
+    const bool named = has_names(naming(s, Event::Kind::material, no_material)) ||
+                       has_names(naming(s, Event::Kind::material, no_material, s.lines(), &Event::line));
+    return {input, named ? read_libraries(input, s.events, log) : std::map<std::string, Description>{}, log};
+}
+
 /// Materials of the scene and the primitives of the mesh, from usemtl. Faces without texture points are
 /// primitives of their own, with no texture coordinates and no textures.
-void add_materials(Scene& scene, Mesh& mesh, const Statements& s, const Input& input, ReadLog& log) {
-    static const std::string no_material; // usemtl without a name means the same
+void add_materials(Scene& scene, Mesh& mesh, const Statements& s, MaterialMaker& maker) {
     const Naming used = naming(s, Event::Kind::material, no_material);
     const std::vector<bool> with_uvs = faces_with_uvs(s);
     const bool uvs = mesh.find("TEXCOORD_0", Domain::wedge) != nullptr;
-    const bool nameless = used.names.empty() || used.names == std::vector{no_material};
-    if (nameless && with_uvs.empty()) return;
-    MaterialMaker maker(
-        input, nameless ? std::map<std::string, Description>{} : read_libraries(input, s.events, log), log);
+    if (!has_names(used) && with_uvs.empty()) return;
     std::vector<Index> primitive_of(2 * used.names.size(), none); // without and with texture points
     std::vector<Index> of_face(s.faces());
     for (std::size_t f = 0; f < of_face.size(); ++f) {
@@ -145,7 +161,6 @@ void add_materials(Scene& scene, Mesh& mesh, const Statements& s, const Input& i
         if (!with_uvs.empty()) primitive.attributes = attributes_of(mesh, with);
         mesh.primitives.push_back(std::move(primitive));
     }
-    maker.finish(scene);
     if (mesh.primitives.size() > 1)
         mesh.attributes.push_back(numbers(std::string(primitive_attribute).c_str(), std::move(of_face)));
 }
@@ -298,20 +313,58 @@ void add_parts(Scene& scene, Mesh mesh, const Statements& s) {
 }
 
 void report_skipped(const Statements& s, const std::string& file, ReadLog& log) {
-    const auto warn = [&](const char* id, std::string message) {
-        log.warnings.push_back({Severity::warning, id, std::move(message), file_mark(file), ""});
+    const auto warn = [&](const char* id, std::string message, std::string hint = {}) {
+        log.warnings.push_back({Severity::warning, id, std::move(message), file_mark(file), std::move(hint)});
     };
     std::vector<std::string> words;
     for (const auto& [word, count] : s.skipped)
         words.push_back(fmt::format("{} ({})", in_quotes(word), count));
     if (!words.empty())
         warn("W-SKIPPED",
-             fmt::format("statements that cannot be kept are skipped: {}", fmt::join(words, ", ")));
+             fmt::format("statements that cannot be kept are skipped: {}", fmt::join(words, ", ")),
+             s.skipped.contains("l") ? hint_for_lines : "");
     if (s.dangling > 0)
         warn("W-INDEX", fmt::format("{} corners name a texture point or normal that the file does not have",
                                     s.dangling));
     if (s.short_faces > 0)
         warn("W-FACES", fmt::format("{} faces of fewer than three corners are skipped", s.short_faces));
+}
+
+/// The lines of each object, with what they have of the file's points.
+void add_lines(Scene& scene, const Statements& s, const std::vector<Vec3>& positions, MaterialMaker& maker,
+               ReadLog& log) {
+    const Naming objects = naming(s, Event::Kind::object, "", s.lines(), &Event::line),
+                 used = naming(s, Event::Kind::material, no_material, s.lines(), &Event::line);
+    std::vector<Index> material;
+    for (const auto& name : used.names)
+        material.push_back(name.empty() ? none : maker.index_of(name, false, scene.materials));
+    const Shares by_object(objects.of_face, objects.names.size());
+    std::vector<Index> place(positions.size(), none); // among the points of the object
+    for (Index object = 0; object < objects.names.size(); ++object) {
+        Lines lines;
+        lines.name = objects.names[object];
+        std::vector<Index> taken;
+        const auto point = [&](Index v) {
+            if (place[v] == none) {
+                place[v] = static_cast<Index>(taken.size());
+                taken.push_back(v);
+                lines.points.push_back(positions[v]);
+            }
+            return place[v];
+        };
+        for (const Index l : by_object.of(object))
+            for (Index i = s.line_offsets[l]; i + 1 < s.line_offsets[l + 1]; ++i)
+                lines.segments.push_back(
+                    {point(s.line_points[i]), point(s.line_points[i + 1]), material[used.of_face[l]]});
+        for (const Index v : taken) place[v] = none;
+        if (!lines.segments.empty()) log.lines.push_back(std::move(lines));
+    }
+}
+
+/// Vertices of lines are no vertices of the surface, nor is a part of them a part.
+void drop_points(Scene& scene) {
+    for (Part& part : scene.parts) drop_unused(part.mesh);
+    std::erase_if(scene.parts, [](const Part& part) { return part.mesh.vertex_count() == 0; });
 }
 
 } // namespace
@@ -326,9 +379,13 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     mesh.face_offsets = s.face_offsets;
     add_wedges(mesh, s);
     normalise_offsets(mesh);
-    add_materials(scene, mesh, s, input, log);
+    MaterialMaker maker = maker_of_materials(s, input, log);
+    add_materials(scene, mesh, s, maker);
+    if (s.lines() > 0) add_lines(scene, s, mesh.positions, maker, log);
+    maker.finish(scene);
     add_groups(mesh, s, input.name(), log);
     add_parts(scene, std::move(mesh), s);
+    if (s.lines() > 0) drop_points(scene);
     return scene;
 }
 

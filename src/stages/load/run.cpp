@@ -6,6 +6,7 @@
 #include "stage/options/convention.hpp"
 #include "stage/stage.hpp"
 #include "stages/load/help.hpp"
+#include "stages/load/lines.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +20,8 @@ struct LoadOptions {
     UpAxis up = UpAxis::unknown;
     std::string format;
     io::Weld weld = io::Weld::automatic;
+    std::optional<Length> lines;
+    std::int64_t line_sides = 8;
 };
 
 void declare(Declare<LoadOptions>& d) {
@@ -40,6 +43,12 @@ void declare(Declare<LoadOptions>& d) {
          {"none", io::Weld::off, "never"},
          {"exact", io::Weld::exact, "always"}},
         "Whether vertices at exactly the same position are merged.");
+    d.option("lines", &LoadOptions::lines,
+             "Turns the lines of an OBJ or glTF file into tubes of this thickness (the diameter), parts of "
+             "their own; a percentage is of the diagonal of the file. Without it lines are skipped.")
+        .above(0);
+    d.option("line_sides", &LoadOptions::line_sides, "The number of sides of these tubes (a count).")
+        .between(3, 360);
 }
 
 void verify(const LoadOptions& o, const Value& given, Problems& problems) {
@@ -62,6 +71,7 @@ io::ReadSettings read_settings(const LoadOptions& o) {
     settings.weld = o.weld;
     if (o.unit != Unit::unknown) settings.unit = o.unit;
     if (o.up != UpAxis::unknown) settings.up = o.up;
+    settings.lines = o.lines.has_value();
     return settings;
 }
 
@@ -74,6 +84,7 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
         context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
     for (const auto& file : log.files) record_input(context, file.string(), io::Input::open(file).stored());
     for (const auto& file : log.absent) context.run().record.absent.push_back(file.string());
+    if (o.lines) add_tubes(more, log.lines, *o.lines, static_cast<int>(o.line_sides), context);
     const bool first = scene.parts.empty();
     const io::Conversion done = io::add_scene(scene, std::move(more));
     if (!first && done.unit_guessed)
@@ -106,7 +117,7 @@ const RegisterStage registered{make_stage<LoadOptions>(
      .about = help::load::about,
      .details = help::load::details,
      .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",
-                  "load: [body.obj, \"wheel_*.obj\"]"},
+                  "load: [body.obj, \"wheel_*.obj\"]", "load: {path: wires.obj, lines: 1%}"},
      .loads = true},
     declare, run, StageHooks<LoadOptions>{.files = files, .verify = verify, .header = header})};
 
