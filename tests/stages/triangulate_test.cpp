@@ -15,6 +15,17 @@ TEST_CASE("triangulate reports the kinds of faces that came in", "[stages]") {
     CHECK(run.record.warnings.empty());
 }
 
+TEST_CASE("triangulate loses nothing of a concave face, from whichever corner it begins", "[stages]") {
+    for (Index first = 0; first < 6; ++first) {
+        Mesh mesh;
+        mesh.positions = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+        std::vector<Index> corners;
+        for (Index i = 0; i < 6; ++i) corners.push_back((first + i) % 6);
+        add_face(mesh, corners);
+        CHECK(run_stage("triangulate", "", scene_of(mesh)).record.warnings.empty());
+    }
+}
+
 TEST_CASE("triangulate: quads pairs what is flat enough", "[stages]") {
     const auto run = run_stage("triangulate", "quads", scene_of(shapes::cube()));
     CHECK(run.scene.parts[0].mesh.face_count() == 6);

@@ -25,7 +25,7 @@ struct MoveSize {
 MoveSize move_size(const std::vector<Vec3>& before, const std::vector<Vec3>& after,
                    const Transform& to_world = {});
 
-/// Area and, when closed, signed volume, in world space; n-gons as fans from their first corner. Closed is
+/// Area (of a face, the length of its area vector) and, when closed, signed volume, in world space. Closed is
 /// decided by a 64-bit sum of hashed directed edges, which is zero when they cancel, unless it is known.
 /// O(corners), parallel.
 struct SurfaceSize {

@@ -17,11 +17,13 @@ template <class Place>
 void add_face(Sums& sums, const Mesh& mesh, Index f, Place&& place) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
     const Vec3 first = place(begin);
+    Vec3 twice;
     for (Index c = begin + 1; c + 1 < end; ++c) {
         const Vec3 a = place(c), b = place(c + 1), normal = cross(a - first, b - first);
-        sums.area += safe_length(normal) / 2;
+        twice += normal;
         sums.volume += dot(first, normal) / 6;
     }
+    sums.area += safe_length(twice) / 2; // together: of a concave face, parts of the fan run back
 }
 
 void add_boundary(Sums& sums, const Mesh& mesh, Index f) {

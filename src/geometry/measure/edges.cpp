@@ -2,6 +2,7 @@
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
 #include "geometry/measure/measure.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
@@ -91,6 +92,17 @@ EdgeResult edges_of(const Mesh& mesh, const EdgeSettings& settings) {
     return r;
 }
 
+double area_of_face(const Mesh& mesh, Index f, const Vec3& area) {
+    if (mesh.face_size(f) == 3) return safe_length(area);
+    std::vector<Vec3> corners;
+    face_corners(mesh, f, corners);
+    const auto covering = covering_triangles(corners);
+    if (covering.empty()) return safe_length(area);
+    double twice = 0;
+    for (const auto& [a, b, c] : covering) twice += safe_length(cross(b - a, c - a));
+    return twice / 2;
+}
+
 FaceResult faces_of(const Mesh& mesh) {
     FaceResult r;
     r.kinds = face_kinds(mesh);
@@ -99,7 +111,7 @@ FaceResult faces_of(const Mesh& mesh) {
     std::vector<double> angles(mesh.corner_count()), ratios(areas.size(), none_there);
     parallel_for(areas.size(), [&](std::size_t i) {
         const auto f = static_cast<Index>(i);
-        r.areas[i] = safe_length(areas[i]);
+        r.areas[i] = area_of_face(mesh, f, areas[i]);
         const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
         for (Index c = begin; c < end; ++c)
             angles[c] = angle_at(mesh.point(previous_corner(c, begin, end)), mesh.point(c),

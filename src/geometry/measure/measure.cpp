@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/power_scale.hpp"
 
 #include <algorithm>
@@ -55,19 +56,31 @@ void add_tetrahedron(Sums& sums, const Vec3& a, const Vec3& b, const Vec3& c) {
     for (const Vec3& v : {a, b, c, sum}) add_square(sums.spread, v, volume);
 }
 
+/// A triangle of the shell. area: twice its own, negative where a polygon's fan runs back.
+void add_sheet(Sums& sums, const Vec3& a, const Vec3& b, const Vec3& c, double area) {
+    const Vec3 sum = a + b + c;
+    sums.shell += sum * area;
+    for (const Vec3& v : {a, b, c, sum}) add_square(sums.sheet, v, area);
+}
+
 void add_face(Sums& sums, const Mesh& mesh, Index f, const Vec3& from, std::vector<Vec3>& p) {
     p.clear();
     for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) p.push_back(mesh.point(c) - from);
+    for (std::size_t i = 1; i + 1 < p.size(); ++i) add_tetrahedron(sums, p[0], p[i], p[i + 1]);
+    const auto covering = covering_triangles(p);
+    for (const auto& [a, b, c] : covering) {
+        const double area = safe_length(cross(b - a, c - a));
+        sums.area += area;
+        add_sheet(sums, a, b, c, area);
+    }
+    if (!covering.empty()) return;
     const Vec3 twice = polygon::area_vector(p) * 2;
     const double area = safe_length(twice);
     const Vec3 normal = normalised(twice);
     sums.area += area;
     for (std::size_t i = 1; i + 1 < p.size(); ++i) {
         const double part = p.size() == 3 ? area : dot(cross(p[i] - p[0], p[i + 1] - p[0]), normal);
-        const Vec3 sum = p[0] + p[i] + p[i + 1];
-        sums.shell += sum * part;
-        for (const Vec3& v : {p[0], p[i], p[i + 1], sum}) add_square(sums.sheet, v, part);
-        add_tetrahedron(sums, p[0], p[i], p[i + 1]);
+        add_sheet(sums, p[0], p[i], p[i + 1], part);
     }
 }
 

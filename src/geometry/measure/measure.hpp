@@ -72,7 +72,9 @@ struct MassResult {
     std::optional<SolidMass> solid;
 };
 /// Sums over faces in parallel. The area of a face is the length of polygon::area_vector, its centroid and
-/// its volume those of the fan from its first corner, exact for planar faces, concave ones too.
+/// its volume those of the fan from its first corner, exact for planar faces, concave ones too. The area and
+/// the centroid of a planar face that crosses itself are those of what it winds around, each point counted
+/// once (covering_triangles); its volume is that of the fan, where it counts as often as it is wound around.
 MassResult measure_mass(const Mesh& mesh);
 
 /// Angles in radians.
@@ -93,18 +95,22 @@ EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
 
 /// One polygon in space, as the notes measure polygons in the plane. Its frame is that of its plane
 /// (frame_of), the normal turned so that its longest component is positive: a polygon in a plane z = constant
-/// has the axes x and y, and is seen from above.
+/// has the axes x and y, and is seen from above. A planar polygon that crosses itself is measured as a
+/// section measures such a contour: area, centroid and moments are of all that it winds around, each point
+/// counted once, and the signed area has the sign of the part that is larger.
 struct PolygonResult {
     polygon::Kind kind = polygon::Kind::degenerate;
     bool planar = true;
     double off_plane = 0;   ///< the largest distance of a corner from the plane
-    double area = 0;        ///< the length of polygon::area_vector
-    double signed_area = 0; ///< positive when the corners run anticlockwise, seen in the frame
+    double area = 0;        ///< the length of polygon::area_vector; of one that crosses itself see above
+    double signed_area = 0; ///< positive when the corners run anticlockwise, seen in the frame, or as much
+                            ///< either way (to 1e-12 of the area)
     Vec3 centroid;          ///< the first corner when there is no area
-    Vec3 normal;            ///< unit, that of the corners' order; zero when there is no area
+    Vec3 normal; ///< unit, that of the corners' order, the frame's when they run as much either way;
+                 ///< zero when there is no area
     SectionFrame frame;
     /// Second moments of area in the frame, of the projection along the normal when the polygon is not
-    /// planar. None for a polygon that is degenerate or crosses itself.
+    /// planar. None for a polygon that is degenerate, or crosses itself and is not planar.
     std::optional<polygon::Moments> moments;
 };
 /// At least three corners.

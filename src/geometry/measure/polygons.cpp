@@ -1,5 +1,6 @@
 // Single polygons of geometry/measure/measure.hpp.
 #include "geometry/measure/measure.hpp"
+#include "geometry/polygon/triangulate_rings.hpp"
 #include "mesh/power_scale.hpp"
 
 #include <cmath>
@@ -26,17 +27,25 @@ std::size_t longest_component(const Vec3& v) {
 }
 
 /// In the frame. The sums are taken from the first corner, so that polygons far from the origin lose nothing.
-std::optional<polygon::Moments> moments_in(const SectionFrame& frame, std::span<const Vec3> p) {
+std::optional<polygon::Moments> moments_in(const SectionFrame& frame, std::span<const Vec3> p,
+                                           bool by_winding) {
     std::vector<Vec2> flat;
     flat.reserve(p.size());
     for (const Vec3& q : p) flat.push_back({dot(q - p[0], frame.u), dot(q - p[0], frame.v)});
-    auto m = polygon::moments(polygon::Ring(flat));
+    auto m = by_winding ? polygon::moments_by_winding(flat) : polygon::moments(polygon::Ring(flat));
     if (!m) return {};
     m->centroid = m->centroid + frame.flat(p[0]);
     const Vec2& c = m->centroid;
     m->about_origin = {m->about_centroid.x + m->area * c.y * c.y, m->about_centroid.y + m->area * c.x * c.x,
                        m->about_centroid.xy + m->area * c.x * c.y};
     return m;
+}
+
+/// The area and the centroid of a polygon that crosses itself, from its moments.
+void take_covered(PolygonResult& r) {
+    if (r.area <= 1e-12 * r.moments->area) r.normal = r.frame.normal; // what is left of it is rounding
+    r.area = r.moments->area;
+    r.centroid = r.frame.point(r.moments->centroid);
 }
 
 /// Of a polygon whose box is not far from 1 in size.
@@ -47,14 +56,16 @@ PolygonResult polygon_of(std::span<const Vec3> p) {
     r.planar = is_planar(p, r.off_plane);
     const Vec3 area = polygon::area_vector(p);
     r.area = length(area);
-    r.normal = normalised(area);
+    const bool crosses = r.kind == polygon::Kind::self_intersecting;
+    r.normal = crosses && r.planar ? polygon::plane_normal(p) : normalised(area);
     r.centroid = centroid_of(p, r.normal, r.area);
-    if (!(r.area > 0)) return r;
+    if (!(length(r.normal) > 0)) return r;
     const bool upward = r.normal[longest_component(r.normal)] > 0;
-    r.signed_area = upward ? r.area : -r.area;
     r.frame = frame_of({upward ? r.normal : -r.normal, p[0], 0});
-    if (r.kind != polygon::Kind::degenerate && r.kind != polygon::Kind::self_intersecting)
-        r.moments = moments_in(r.frame, p);
+    if (r.kind != polygon::Kind::degenerate && (!crosses || r.planar))
+        r.moments = moments_in(r.frame, p, crosses);
+    if (crosses && r.moments) take_covered(r);
+    r.signed_area = dot(r.normal, r.frame.normal) > 0 ? r.area : -r.area;
     return r;
 }
 

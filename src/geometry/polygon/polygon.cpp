@@ -142,9 +142,11 @@ Vec3 upright(std::span<const Vec3> p) {
 
 } // namespace
 
+Vec3 plane_normal(std::span<const Vec3> corners) { return normalised(upright(corners)); }
+
 double plane_deviation(std::span<const Vec3> p) {
     if (p.size() <= 3) return 0;
-    const Vec3 normal = normalised(upright(p));
+    const Vec3 normal = plane_normal(p);
     Vec3 mean;
     for (const Vec3& q : p) mean += q - p[0];
     mean = p[0] + mean / static_cast<double>(p.size());

@@ -84,6 +84,11 @@ double area(std::span<const Vec3> corners);
 /// triangles. For a polygon whose parts cancel in area: across that of its largest triangle; 0 on a line.
 double plane_deviation(std::span<const Vec3> corners);
 
+/// The unit normal of the polygon's plane: along area_vector, or, where the parts cancel in it to 1e-12 of
+/// the square of the polygon's size (a bow-tie), across its largest triangle. Zero when all corners are on a
+/// line.
+Vec3 plane_normal(std::span<const Vec3> corners);
+
 /// The corners seen along the coordinate axis nearest to the normal, mirrored so that the ring is
 /// anticlockwise when the normal points at the viewer. The coordinates are copied, not computed, so turns are
 /// those of the corners.

@@ -69,4 +69,13 @@ WindingRange winding_range(Rings rings) {
     return range;
 }
 
+std::optional<Moments> moments_by_winding(Ring ring) {
+    const Triangulation t = triangulate_rings(Rings(&ring, 1));
+    const auto at = [&](Index i) { return i < ring.size() ? ring[i] : t.added[i - ring.size()].at; };
+    std::vector<std::array<Vec2, 3>> triangles;
+    for (const auto& abc : t.triangles) triangles.push_back({at(abc[0]), at(abc[1]), at(abc[2])});
+    const std::vector<Ring> rings(triangles.begin(), triangles.end());
+    return moments(rings);
+}
+
 } // namespace facetmill::polygon

@@ -5,6 +5,7 @@
 #include "geometry/polygon/polygon.hpp"
 
 #include <array>
+#include <optional>
 
 namespace facetmill::polygon {
 
@@ -35,5 +36,9 @@ struct WindingRange {
     int least = 0, most = 0;
 };
 WindingRange winding_range(Rings rings);
+
+/// Of what a ring that may cross itself winds around, each point counted once, however often and whichever
+/// way (nonzero rule). None when that has no area.
+std::optional<Moments> moments_by_winding(Ring ring);
 
 } // namespace facetmill::polygon

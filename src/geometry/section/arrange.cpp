@@ -5,7 +5,6 @@
 #include "geometry/section/section.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace facetmill {
 
@@ -58,16 +57,6 @@ class Nesting {
     RingTree tree_;
 };
 
-/// Of what a contour that crosses itself winds around, from its triangles.
-std::optional<polygon::Moments> moments_by_winding(Ring ring) {
-    const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));
-    const auto at = [&](Index i) { return i < ring.size() ? ring[i] : t.added[i - ring.size()].at; };
-    std::vector<std::array<Vec2, 3>> triangles;
-    for (const auto& abc : t.triangles) triangles.push_back({at(abc[0]), at(abc[1]), at(abc[2])});
-    const std::vector<Ring> rings(triangles.begin(), triangles.end());
-    return polygon::moments(rings);
-}
-
 void measure(Section& s, Contour& c, bool simple) {
     const Ring ring = s.ring(c);
     for (std::size_t i = 0; i + 1 < ring.size(); ++i) c.length += length(ring[i + 1] - ring[i]);
@@ -86,7 +75,7 @@ void measure(Section& s, Contour& c, bool simple) {
         c.moments = polygon::moments(ring);
         return;
     }
-    c.moments = moments_by_winding(ring);
+    c.moments = polygon::moments_by_winding(ring);
     c.area = !c.moments ? 0 : c.orientation < 0 ? -c.moments->area : c.moments->area;
 }
 

@@ -3,6 +3,8 @@
 #include "base/parallel.hpp"
 #include "geometry/cgal/triangulate_polygon.hpp"
 #include "geometry/edit/surgery.hpp"
+#include "geometry/polygon/triangulate_rings.hpp"
+#include "geometry/triangulate/triangulate.hpp"
 #include "mesh/face.hpp"
 #include "mesh/lineage.hpp"
 #include "mesh/topology.hpp"
@@ -16,50 +18,47 @@ namespace facetmill {
 
 namespace {
 
-constexpr double planar_share = 1e-6; // of the perimeter, as in face_kinds
-
-/// The face's corners in the plane, and the outline that they make there.
-struct FlatFace {
-    std::vector<Vec3> corners;
+Contours outline_of(const std::vector<Vec2>& ring) {
     Contours contours;
+    contours.points = ring;
+    const auto n = static_cast<Index>(ring.size());
+    for (Index i = 0; i < n; ++i) contours.edges.push_back({i, (i + 1) % n, 1});
+    return contours;
+}
 
-    FlatFace(const Mesh& mesh, Index f) {
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners.push_back(mesh.point(c));
-        contours.points = polygon::flattened(corners);
-        const auto n = static_cast<Index>(corners.size());
-        for (Index i = 0; i < n; ++i) contours.edges.push_back({i, (i + 1) % n, 1});
-    }
-    /// Whether the outline winds around points more than once or both ways, or touches itself so that its
-    /// corners alone do not bound its triangles.
-    bool crosses() const {
-        const polygon::Kind kind = polygon::classify(contours.points);
-        if (kind != polygon::Kind::complex) return kind == polygon::Kind::self_intersecting;
-        return fill(contours).triangles.size() != corners.size() - 2;
-    }
-    bool planar() const {
-        double around = 0;
-        for (std::size_t i = 0; i < corners.size(); ++i)
-            around += length(corners[(i + 1) % corners.size()] - corners[i]);
-        return polygon::plane_deviation(corners) <= planar_share * around;
-    }
-};
+/// Whether the outline winds around points more than once or both ways, or touches itself so that its corners
+/// alone do not bound its triangles.
+bool crosses(const std::vector<Vec2>& ring) {
+    const polygon::Kind kind = polygon::classify(ring);
+    if (kind != polygon::Kind::complex) return kind == polygon::Kind::self_intersecting;
+    return fill(outline_of(ring)).triangles.size() != ring.size() - 2;
+}
+
+bool crosses_in_plane(std::span<const Vec3> corners) {
+    return corners.size() > 3 && crosses(polygon::flattened(corners)) &&
+           is_planar(corners, polygon::plane_deviation(corners));
+}
+
+Contours flat_outline(const Mesh& mesh, Index f) {
+    std::vector<Vec3> corners;
+    face_corners(mesh, f, corners);
+    return outline_of(polygon::flattened(corners));
+}
 
 /// The planar faces whose outlines cross or touch themselves elsewhere than along bridges to holes.
 std::vector<Index> crossing_faces(const Mesh& mesh) {
-    std::vector<std::uint8_t> crosses(mesh.face_count(), 0);
+    std::vector<std::uint8_t> crossing(mesh.face_count(), 0);
     if (!mesh.all_triangles())
-        parallel_for(
-            mesh.face_count(),
-            [&](std::size_t i) {
-                const auto f = static_cast<Index>(i);
-                if (mesh.face_size(f) < 4) return;
-                const FlatFace face(mesh, f);
-                crosses[f] = face.crosses() && face.planar();
-            },
-            1024);
+        parallel_chunks(mesh.face_count(), [&](std::size_t begin, std::size_t end) {
+            std::vector<Vec3> corners;
+            for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                face_corners(mesh, f, corners);
+                crossing[f] = crosses_in_plane(corners);
+            }
+        });
     std::vector<Index> faces;
-    for (Index f = 0; f < crosses.size(); ++f)
-        if (crosses[f]) faces.push_back(f);
+    for (Index f = 0; f < crossing.size(); ++f)
+        if (crossing[f]) faces.push_back(f);
     return faces;
 }
 
@@ -69,8 +68,8 @@ class OutlineSplitter {
     explicit OutlineSplitter(const Mesh& mesh) : mesh_(mesh), edges_(build_edges(mesh)) {}
 
     void add(Index f) {
-        const FlatFace face(mesh_, f);
-        const Filling filling = fill(face.contours);
+        const Contours outline = flat_outline(mesh_, f);
+        const Filling filling = fill(outline);
         const Index begin = mesh_.face_begin(f), n = mesh_.face_size(f);
         std::vector<std::vector<Index>> edges_at(
             filling.added.size()); // the face's edges, by their first corners
@@ -87,8 +86,8 @@ class OutlineSplitter {
         for (Index e = 0; e < n; ++e)
             for (Index k = filling.path_offsets[e]; k < filling.path_offsets[e + 1]; ++k) {
                 const Index p = filling.path[k];
-                const Vec2 at = p < n ? face.contours.points[p] : filling.added[p - n].at;
-                const double t = along(face.contours.points[e], face.contours.points[(e + 1) % n], at);
+                const Vec2 at = p < n ? outline.points[p] : filling.added[p - n].at;
+                const double t = along(outline.points[e], outline.points[(e + 1) % n], at);
                 insert(begin + e, t, p < n ? mesh_.vertex(begin + p) : vertex_of[p - n]);
             }
     }
@@ -190,8 +189,7 @@ class FaceFiller {
   private:
     /// Empty when the face cannot be filled without opening the surface.
     FaceTriangles filling_of(Index f) {
-        const FlatFace face(mesh_, f);
-        const Filling filling = fill(face.contours);
+        const Filling filling = fill(flat_outline(mesh_, f));
         if (!filling.added.empty()) return {}; // crossings of rounded crossings
         FaceTriangles once = filling.triangles;
         once.erase(std::unique(once.begin(), once.end()), once.end()); // they are sorted
@@ -218,6 +216,21 @@ class FaceFiller {
 };
 
 } // namespace
+
+std::vector<std::array<Vec3, 3>> covering_triangles(std::span<const Vec3> corners) {
+    std::vector<std::array<Vec3, 3>> covering;
+    if (!crosses_in_plane(corners)) return covering;
+    const std::vector<Vec2> flat = polygon::flattened(corners);
+    const polygon::Ring ring = flat;
+    const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));
+    const auto at = [&](Index i) {
+        if (i < corners.size()) return corners[i];
+        const auto& added = t.added[i - corners.size()];
+        return mix(corners[added.edge], corners[(added.edge + 1) % corners.size()], added.t);
+    };
+    for (const auto& abc : t.triangles) covering.push_back({at(abc[0]), at(abc[1]), at(abc[2])});
+    return covering;
+}
 
 std::optional<CrossingFaces> fill_crossing_faces(const Mesh& mesh) {
     const auto crossing = crossing_faces(mesh);

@@ -3,10 +3,18 @@
 
 #include "mesh/mesh.hpp"
 
+#include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace facetmill {
+
+/// Of a planar polygon whose outline crosses itself: triangles over what the outline winds around, each point
+/// once (nonzero rule), that all turn the way that its normal says. None of any other polygon, at little more
+/// than the cost of seeing whether it is convex.
+std::vector<std::array<Vec3, 3>> covering_triangles(std::span<const Vec3> corners);
 
 struct CrossingFaces {
     Mesh mesh;

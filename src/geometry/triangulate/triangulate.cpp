@@ -17,11 +17,6 @@ using Triangle = std::array<Index, 3>; ///< corners of a face, counted from its 
 
 int turn(const Vec2& a, const Vec2& b, const Vec2& c) { return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y); }
 
-void gather(const Mesh& mesh, Index f, std::vector<Vec3>& corners) {
-    corners.clear();
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners.push_back(mesh.point(c));
-}
-
 /// Whether the direction from p to x lies in the sector that opens at p from out, anticlockwise, up to but
 /// without in.
 bool in_sector(const Vec2& p, const Vec2& out, const Vec2& x, const Vec2& in) {
@@ -50,7 +45,7 @@ class FaceCutter {
             triangles.push_back({0, 1, 2});
             return How::whole;
         }
-        gather(mesh_, f, corners_);
+        face_corners(mesh_, f, corners_);
         flat_ = polygon::flattened(corners_);
         if (n == 4 && polygon::is_convex(flat_)) {
             quad(f);
@@ -114,6 +109,11 @@ double perimeter(std::span<const Vec3> p) {
 
 } // namespace
 
+void face_corners(const Mesh& mesh, Index f, std::vector<Vec3>& corners) {
+    corners.clear();
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners.push_back(mesh.point(c));
+}
+
 Kind face_kind(std::span<const Vec3> corners) {
     if (corners.size() != 3) return polygon::classify(polygon::flattened(corners));
     return collinear(corners[0], corners[1], corners[2]) ? Kind::degenerate : Kind::triangle;
@@ -131,7 +131,7 @@ FaceKinds face_kinds(const Mesh& mesh, double planar) {
             std::vector<Vec3> corners;
             for (std::size_t i = begin; i < end; ++i) {
                 const auto f = static_cast<Index>(i);
-                gather(mesh, f, corners);
+                face_corners(mesh, f, corners);
                 ++kinds.of_kind[static_cast<std::size_t>(face_kind(corners))];
                 const double deviation = polygon::plane_deviation(corners);
                 kinds.non_planar += !is_planar(corners, deviation, planar);

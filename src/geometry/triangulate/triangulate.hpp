@@ -21,6 +21,9 @@ struct FaceKinds {
     std::size_t count(polygon::Kind kind) const { return of_kind[static_cast<std::size_t>(kind)]; }
 };
 
+/// Puts the corners of face f into `corners`.
+void face_corners(const Mesh& mesh, Index f, std::vector<Vec3>& corners);
+
 /// What kind of polygon these corners are.
 polygon::Kind face_kind(std::span<const Vec3> corners);
 /// Whether corners that are at most so far from their plane (polygon::plane_deviation) lie in it: no farther

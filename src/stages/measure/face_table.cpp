@@ -69,7 +69,8 @@ const std::vector<Columns>& columns() {
          "true unless it is farther from its plane than the rounding of float32 explains",
          [](const Row& r, Cells& c) { c.push_back(r.polygon.planar ? "true" : "false"); }},
         {{"signed_area"},
-         "positive when anticlockwise, seen from the positive side of the axis nearest to the normal",
+         "positive when anticlockwise, or as much either way, seen from the positive side of the axis "
+         "nearest to the normal",
          [](const Row& r, Cells& c) { c.push_back(io::csv_number(r.polygon.signed_area)); }},
         {{"ix_centroid", "iy_centroid", "ixy_centroid"},
          "the second moments of area about the centroid",

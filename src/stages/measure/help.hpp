@@ -14,7 +14,11 @@ along the mean normal. shell is the surface without thickness; its centroid is w
 its inertia about the centroid is that of a sheet: for a planar polygon the principal moments are the
 smallest and the largest second moment of area and their sum. The table of faces has the kind, the
 signed area and the second moments of every polygon, in the plane's own axes as section has them: for
-a polygon in a plane z = constant they are x and y. A polygon that intersects itself has no moments.
+a polygon in a plane z = constant they are x and y. A planar polygon that intersects itself has the
+area, the centroid and the moments of all that it winds around (the nonzero rule, as in triangulate and
+section), each point counted once; its signed area is negative when more of it is wound around
+clockwise. One that is not planar has the area of the sum, and no moments. The volume of a solid
+counts what such faces wind around as often as they do.
 solid is the inside of a closed surface, filled with the density: volume, mass, centroid, inertia
 about the centroid, principal moments (ascending) with their axes, and radii of gyration. It is null
 for open surfaces, and in the total when any part is open.

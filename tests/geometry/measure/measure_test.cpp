@@ -8,6 +8,7 @@
 #include "geometry/thicken/thicken.hpp"
 #include "mesh/shapes.hpp"
 #include "support/meshes.hpp"
+#include "support/polygons.hpp"
 
 #include <limits>
 
@@ -232,9 +233,64 @@ TEST_CASE("principal moments of a polygon are the same wherever its plane is", "
     check_close(across * (across.y > 0 ? 1 : -1), Vec3{-2, 2, -1} / 3, 1e-13);
 }
 
-TEST_CASE("a polygon that crosses itself, or has no area, has no second moments", "[geometry]") {
-    const auto bow = measure_polygon(level({{0, 0}, {2, 2}, {2, 0}, {0, 1}}, 0));
+TEST_CASE("a polygon that crosses itself is measured by what it winds around", "[geometry]") {
+    const std::vector<Vec2> eight{{0, 0}, {2, 2}, {2, 0}, {0, 2}}; // two triangles of base 2, height 1
+    for (const auto& corners : {level(eight, 3), tilted(eight, 0), tilted(eight, 1e3)}) {
+        const auto r = measure_polygon(corners);
+        CHECK(r.kind == polygon::Kind::self_intersecting);
+        CHECK(r.planar);
+        CHECK(r.area == Approx(2).epsilon(1e-13));
+        CHECK(r.signed_area == r.area); // as much either way
+        CHECK(length(r.normal - r.frame.normal) == 0);
+        check_close(r.centroid, (corners[0] + corners[1] + corners[2] + corners[3]) / 4, 1e-12);
+        CHECK(r.moments->axes.largest == Approx(1).epsilon(1e-10));
+        CHECK(r.moments->axes.smallest == Approx(1.0 / 3).epsilon(1e-10));
+    }
+    check_moments(measure_polygon(level(eight, 3)).moments->about_centroid, 1.0 / 3, 1, 0);
+    check_moments(measure_polygon(level(eight, 3)).moments->about_origin, 2 + 1.0 / 3, 2 + 1, 2);
+    const std::vector<Vec2> uneven{{0, 0}, {6, 0}, {2, 4}, {4, 4}}; // 9 anticlockwise, 1 clockwise
+    const std::vector<Vec2> back(uneven.rbegin(), uneven.rend());
+    CHECK(measure_polygon(level(uneven, 0)).signed_area == Approx(10));
+    CHECK(measure_polygon(level(back, 0)).signed_area == Approx(-10));
+    CHECK(measure_polygon(level(back, 0)).normal == Vec3{0, 0, -1});
+    check_close(measure_polygon(level(back, 0)).centroid, Vec3{3, (9.0 * 1 + 1.0 * (4 - 1.0 / 3)) / 10, 0},
+                1e-13);
+    const auto star = test::pentagram(); // its middle is wound around twice, and counts once
+    const double middle = 2.5 * std::sin(2 * pi / 5) * std::pow((3 - std::sqrt(5.0)) / 2, 2);
+    CHECK(measure_polygon(level(star, 0)).area == Approx(polygon::signed_area(star) - middle));
+}
+
+TEST_CASE("faces that cross themselves have their area in sums, too, and their volume by winding",
+          "[geometry]") {
+    const std::vector<Vec2> uneven{{0, 0}, {6, 0}, {2, 4}, {4, 4}};
+    Mesh prism;
+    for (const double z : {0.0, 1.0})
+        for (const Vec2& p : uneven) prism.positions.push_back({p.x, p.y, z});
+    add_face(prism, std::vector<Index>{3, 2, 1, 0});
+    add_face(prism, std::vector<Index>{4, 5, 6, 7});
+    CHECK(measure_mass(prism).shell.area == Approx(20));
+    check_close(measure_mass(prism).shell.centroid, {3, 19.0 / 15, 0.5}, 1e-13);
+    const auto faces = measure_faces(prism);
+    CHECK(faces.areas[0] == Approx(10));
+    CHECK(faces.area.sum == Approx(20));
+    const Mesh floor = [&] {
+        Mesh m;
+        m.positions = prism.positions;
+        add_face(m, std::vector<Index>{4, 5, 6, 7});
+        return m;
+    }();
+    const auto sheet = eigen(inertia_of(measure_mass(floor).shell.spread)).values;
+    const auto axes = measure_polygon(level(uneven, 1)).moments->axes;
+    CHECK(sheet[0] == Approx(axes.smallest));
+    CHECK(sheet[1] == Approx(axes.largest));
+    for (Index i = 0; i < 4; ++i) add_face(prism, std::vector<Index>{i, (i + 1) % 4, (i + 1) % 4 + 4, i + 4});
+    CHECK(measure_mass(prism).solid->volume == Approx(9 - 1));
+}
+
+TEST_CASE("a polygon that crosses itself in no plane, or has no area, has no second moments", "[geometry]") {
+    const auto bow = measure_polygon(std::vector<Vec3>{{0, 0, 0}, {2, 2, 0}, {2, 0, 0.5}, {0, 1, 0}});
     CHECK(bow.kind == polygon::Kind::self_intersecting);
+    CHECK_FALSE(bow.planar);
     CHECK_FALSE(bow.moments);
     const auto line = measure_polygon(level({{0, 0}, {1, 1}, {3, 3}}, 0));
     CHECK(line.kind == polygon::Kind::degenerate);
