@@ -107,6 +107,13 @@ const std::vector<MessageId>& message_ids() {
          {Kind::usage},
          "With its aliases expanded, a pipeline has too many values, or it is nested too deeply.",
          "Use fewer aliases, or a foreach."},
+        {"E-EXPORT",
+         {Kind::usage},
+         "A run writes no file that is known before it, or has one whose name the engine cannot work with, "
+         "so that a "
+         "workflow cannot hold it.",
+         "Give the pipeline a report, as `report: \"${input.stem}.json\"`, rename the file, or use "
+         "`facetmill batch`."},
         {"E-EXPRESSION",
          {Kind::usage},
          "An expression `${...}` cannot be read, or its variable has no such property.",

@@ -52,7 +52,7 @@ struct Settings {
 /// An asset that was planned.
 struct Work {
     Asset asset;
-    std::vector<std::filesystem::path> inputs; ///< as far as they are known before it runs
+    std::vector<std::filesystem::path> inputs, outputs; ///< as far as they are known before it runs
     std::string digest; ///< of all options and what else a result depends on, besides the inputs' content
     std::uint64_t memory = 0; ///< an estimate, in bytes
 };

@@ -151,7 +151,8 @@ std::vector<Work> prepare(const std::vector<Asset>& assets, const Settings& sett
         owners.add(asset, pipeline::planned_outputs(plan), headers.more_outputs);
         for (auto& d : pipeline::missing_inputs(plan))
             missing.push_back(pipeline::about_input(plan, std::move(d)));
-        Work work{asset, pipeline::planned_inputs(plan, headers), {}, 0};
+        Work work{
+            asset, pipeline::planned_inputs(plan, headers), pipeline::planned_outputs(plan, headers), {}, 0};
         work.digest = options_digest(pipeline, plan, settings);
         work.memory = memory_for(work.inputs);
         works.push_back(std::move(work));

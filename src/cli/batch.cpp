@@ -1,9 +1,8 @@
 // facetmill batch: one pipeline over many assets, in one process.
 
-#include "batch/batch.hpp"
 #include "base/numbers.hpp"
 #include "base/readable_numbers.hpp"
-#include "cli/pipeline_options.hpp"
+#include "cli/assets.hpp"
 #include "io/outputs.hpp"
 
 #include <algorithm>
@@ -29,26 +28,13 @@ Examples
   facetmill batch scan.yaml --input 'scans/**/*.ply' -o web --prune      (removes what has no source any more)
 )";
 
-struct BatchOptions {
-    PipelineOptions common;
-    std::string pipeline, memory;
-    batch::Sources sources;
+struct BatchOptions : AssetOptions {
+    std::string memory;
     bool keep_going = false, prune = false;
 };
 
 void add_batch_options(Arguments& arguments, BatchOptions& options) {
-    arguments.add("PIPELINE", &options.pipeline, "A YAML file, - or a ready pipeline.").required();
-    arguments.add("--input", &options.sources.patterns,
-                  "A file, or a pattern in quotes; ** is any number of folders.");
-    arguments.add("--inputs-from", &options.sources.lists,
-                  "A file of names, or -: one on each line, or each ended by a NUL.");
-    arguments.add("--table", &options.sources.table,
-                  "CSV with a heading, or a YAML list of maps: a row an asset, a column a param.");
-    arguments.add("--base", &options.sources.base,
-                  "The folder that is mirrored. Default: what stands before a wildcard.");
-    arguments.add("-o,--output-dir", &options.common.output_dir, "The folder that written paths start from.")
-        .required();
-    add_param_options(arguments, options.common);
+    add_asset_options(arguments, options);
     arguments
         .add("-j,--jobs", &options.common.threads,
              "Assets at a time, and threads for all. Default: jobserver, FACETMILL_JOBS, cores.")
@@ -82,41 +68,6 @@ std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
                                           std::min(*number, 100.0) / 100);
     const double factor = unit == units.npos ? 1 : std::pow(step, static_cast<double>(unit + 1));
     return static_cast<std::uint64_t>(*number * factor);
-}
-
-void check_sources(const BatchOptions& options, const CommandLine& line, Problems& problems) {
-    const auto& sources = options.sources;
-    const bool files = !sources.patterns.empty() || !sources.lists.empty();
-    if (!files && sources.table.empty())
-        problems.add(line.mark(0), "E-ARGUMENT", "batch needs --input, --inputs-from or --table",
-                     "--input 'scans/**/*.ply'");
-    if (files && !sources.table.empty())
-        problems.add(line.find("--table"), "E-CONFLICT", "--table does not go with --input and --inputs-from",
-                     "its column input names the inputs");
-    int streams = options.pipeline == "-";
-    for (const auto& list : sources.lists) streams += list == "-";
-    streams += sources.table == "-";
-    if (streams > 1)
-        problems.add(line.mark(0), "E-DUPLICATE-INPUT", "standard input can be read only once",
-                     "give the pipeline or the list as a file");
-    for (const auto& report : options.common.reports) {
-        try {
-            batch::render_for(report, {});
-        } catch (Error& e) {
-            problems.add(e.at(line.value(report)));
-        }
-    }
-}
-
-/// The params of all assets, without those that the asset has of its own.
-pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSettings settings) {
-    std::erase_if(settings.defines, [&](const auto& define) {
-        return asset.of_table && asset.defined_at.contains(define.first);
-    });
-    settings.defines.insert(settings.defines.end(), asset.defines.begin(), asset.defines.end());
-    settings.defined_at = asset.defined_at;
-    settings.places.output_base /= asset.folder;
-    return settings;
 }
 
 /// A line that is drawn anew when an asset has ended: how far the batch is, and how long it will take.
@@ -210,8 +161,6 @@ batch::Listener listener_for(const PipelineOptions& options, const Places& place
 /// What the batch is to do, but for how an asset is planned.
 batch::Settings batch_settings(const BatchOptions& options, const CommandLine& line, const Places& places) {
     batch::Settings settings;
-    settings.pipeline = options.pipeline;
-    settings.output_dir = options.common.output_dir;
     settings.jobs = options.common.threads;
     settings.memory = memory_bytes(options.memory, line);
     settings.keep_going = options.keep_going;
@@ -226,26 +175,25 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
     return settings;
 }
 
-int batch_work(BatchOptions options, const CommandLine& line, const Console& console) {
+int batch_work(const BatchOptions& options, const CommandLine& line, const Console& console) {
     Problems problems;
     check_sources(options, line, problems);
+    for (const auto& report : options.common.reports) {
+        try {
+            batch::render_for(report, {});
+        } catch (Error& e) {
+            problems.add(e.at(line.value(report)));
+        }
+    }
     PipelineOptions common = options.common;
     common.reports.clear(); // those of the options are the summary's
     common.timings.clear();
     const auto of_all = plan_settings(common, line, problems);
     problems.throw_if_any(ErrorKind::usage);
-    options.sources.place = [&](const std::string& text) { return line.value(text); };
-
-    const auto named = source_of(options.pipeline);
     batch::Settings settings = batch_settings(options, line, of_all.places);
-    settings.pipeline_text = named.first.text;
-    settings.plan = [&](const batch::Asset& asset, Problems& found) {
-        auto own = settings_for(asset, of_all);
-        own.name = named.second;
-        return pipeline::plan_source(named.first, std::move(own), found);
-    };
+    set_planner(settings, options, of_all);
     std::vector<Diagnostic> missing;
-    auto works = batch::prepare(batch::find_assets(options.sources), settings, problems, missing);
+    auto works = batch::prepare(assets_of(options, line), settings, problems, missing);
     settle(problems, console);
     if (!missing.empty() && !options.keep_going) throw Error(ErrorKind::missing, std::move(missing));
     const auto bar = std::make_shared<BatchBar>(console);

@@ -47,6 +47,7 @@ const std::vector<Command>& commands();
 
 Command run_command();
 Command batch_command();
+Command export_command();
 Command plan_command();
 Command pipe_command();
 Command check_command();

@@ -11,10 +11,10 @@
 namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
-    static const std::vector<Command> all{run_command(),     batch_command(),   plan_command(),
-                                          pipe_command(),    check_command(),   info_command(),
-                                          diff_command(),    stages_command(),  schema_command(),
-                                          formats_command(), explain_command(), completions_command()};
+    static const std::vector<Command> all{
+        run_command(),     batch_command(),   export_command(),     plan_command(),   pipe_command(),
+        check_command(),   info_command(),    diff_command(),       stages_command(), schema_command(),
+        formats_command(), explain_command(), completions_command()};
     return all;
 }
 

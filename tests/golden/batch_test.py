@@ -161,7 +161,7 @@ class Batch(Case):
         run = self.batch("--input", "in/**/*.stl", expect=3)
         self.assertIn("no file matches 'in/**/*.stl'", run.stderr)
         self.assertIn("^~~", run.stderr)
-        self.assertIn("needs --input", self.mill("batch", "p.yaml", "-o", "out", expect=2).stderr)
+        self.assertIn("without --input", self.mill("batch", "p.yaml", "-o", "out", expect=2).stderr)
 
     def test_odd_names(self):
         names = ["blank s", "$HOME", "#1", "100%", "'q'\"", "ünïcode", "[a]", "new\nline", "${input}", "a&b;c", "-dash"]

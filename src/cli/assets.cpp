@@ -1,0 +1,67 @@
+#include "cli/assets.hpp"
+
+namespace facetmill::cli {
+
+void add_asset_options(Arguments& arguments, AssetOptions& options) {
+    arguments.add("PIPELINE", &options.pipeline, "A YAML file, - or a ready pipeline.").required();
+    arguments.add("--input", &options.sources.patterns,
+                  "A file, or a pattern in quotes; ** is any number of folders.");
+    arguments.add("--inputs-from", &options.sources.lists,
+                  "A file of names, or -: one on each line, or each ended by a NUL.");
+    arguments.add("--table", &options.sources.table,
+                  "CSV with a heading, or a YAML list of maps: a row an asset, a column a param.");
+    arguments.add("--base", &options.sources.base,
+                  "The folder that is mirrored. Default: what stands before a wildcard.");
+    arguments.add("-o,--output-dir", &options.common.output_dir, "The folder that written paths start from.")
+        .required();
+    add_param_options(arguments, options.common);
+}
+
+void check_sources(const AssetOptions& options, const CommandLine& line, Problems& problems) {
+    const auto& sources = options.sources;
+    const bool files = !sources.patterns.empty() || !sources.lists.empty();
+    if (!files && sources.table.empty())
+        problems.add(line.mark(0), "E-ARGUMENT",
+                     "there are no assets without --input, --inputs-from or --table",
+                     "--input 'scans/**/*.ply'");
+    if (files && !sources.table.empty())
+        problems.add(line.find("--table"), "E-CONFLICT", "--table does not go with --input and --inputs-from",
+                     "its column input names the inputs");
+    int streams = options.pipeline == "-";
+    for (const auto& list : sources.lists) streams += list == "-";
+    streams += sources.table == "-";
+    if (streams > 1)
+        problems.add(line.mark(0), "E-DUPLICATE-INPUT", "standard input can be read only once",
+                     "give the pipeline or the list as a file");
+}
+
+pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSettings settings) {
+    std::erase_if(settings.defines, [&](const auto& define) {
+        return asset.of_table && asset.defined_at.contains(define.first);
+    });
+    settings.defines.insert(settings.defines.end(), asset.defines.begin(), asset.defines.end());
+    settings.defined_at = asset.defined_at;
+    if (!asset.folder.empty()) settings.places.output_base /= asset.folder;
+    return settings;
+}
+
+std::vector<batch::Asset> assets_of(const AssetOptions& options, const CommandLine& line) {
+    auto sources = options.sources;
+    sources.place = [&](const std::string& text) { return line.value(text); };
+    return batch::find_assets(sources);
+}
+
+void set_planner(batch::Settings& settings, const AssetOptions& options,
+                 const pipeline::PlanSettings& of_all) {
+    const auto named = source_of(options.pipeline);
+    settings.pipeline = options.pipeline;
+    settings.pipeline_text = named.first.text;
+    settings.output_dir = options.common.output_dir;
+    settings.plan = [named, of_all](const batch::Asset& asset, Problems& found) {
+        auto own = settings_for(asset, of_all);
+        own.name = named.second;
+        return pipeline::plan_source(named.first, std::move(own), found);
+    };
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,101 @@
+// facetmill export: the runs of many assets as a workflow of Ninja, Make or Snakemake.
+
+#include "cli/assets.hpp"
+#include "cli/workflow.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* export_examples =
+    R"(One job an asset, with what it reads and writes, as far as it is known before it runs, its threads, and for Snakemake
+an estimate of its memory. Paths are those that lead there from the working directory: run the workflow in it. The
+outputs are those of `facetmill batch` with the same options, byte for byte.
+
+Examples
+  facetmill export --to ninja scan-to-web --input 'scans/**/*.ply' -o web > build.ninja && ninja
+  facetmill export --to make scan.yaml --table params.csv -o web > assets.mk && make -f assets.mk -j4
+  facetmill export --to snakemake scan.yaml --input 'scans/**/*.ply' -o web > Snakefile
+  snakemake -j4                        (here; on a cluster by a profile: snakemake --profile slurm)
+)";
+
+struct ExportOptions : AssetOptions {
+    std::string engine;
+};
+
+/// The run of an asset, as one would type it.
+Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline::PlanSettings& of_all) {
+    const auto own = settings_for(work.asset, of_all);
+    Job job{work.asset.name, {"run", options.pipeline}, {}, {}, work.memory};
+    for (const auto& [name, value] : own.defines) {
+        job.arguments.emplace_back("-D");
+        job.arguments.push_back(name + "=" + value);
+    }
+    for (const auto& [name, value] : own.sets) {
+        job.arguments.emplace_back("--set");
+        job.arguments.push_back(name + "=" + value);
+    }
+    for (const auto& id : options.common.strict)
+        job.arguments.push_back(id == "*" ? "--strict" : "--strict=" + id);
+    for (const auto& id : options.common.allowed) {
+        job.arguments.emplace_back("--allow");
+        job.arguments.push_back(id);
+    }
+    const std::string threads = std::to_string(options.common.threads);
+    for (const std::string& argument : {std::string("--output-dir"), own.places.output_base.string(),
+                                        std::string("--threads"), threads, std::string("--quiet")})
+        job.arguments.push_back(argument);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(options.pipeline, ignored)) job.inputs.push_back(options.pipeline);
+    for (const auto& input : work.inputs) job.inputs.push_back(input.string());
+    for (const auto& output : work.outputs) job.outputs.push_back(output.string());
+    return job;
+}
+
+int export_work(const ExportOptions& options, const CommandLine& line, const Console& console) {
+    Problems problems;
+    check_sources(options, line, problems);
+    if (options.pipeline == "-")
+        problems.add(line.mark(0), "E-ARGUMENT",
+                     "the jobs of a workflow cannot read the pipeline from standard input",
+                     "give it as a file");
+    const auto of_all = plan_settings(options.common, line, problems);
+    problems.throw_if_any(ErrorKind::usage);
+    batch::Settings settings;
+    set_planner(settings, options, of_all);
+    std::vector<Diagnostic> missing;
+    const auto works = batch::prepare(assets_of(options, line), settings, problems, missing);
+    settle(problems, console);
+    if (!missing.empty()) throw Error(ErrorKind::missing, std::move(missing));
+    std::vector<Job> jobs;
+    for (const auto& work : works) jobs.push_back(job_of(work, options, of_all));
+    print(options.engine == "ninja"  ? ninja_workflow(jobs)
+          : options.engine == "make" ? make_workflow(jobs)
+                                     : snakemake_workflow(jobs, options.common.threads));
+    return 0;
+}
+
+} // namespace
+
+Command export_command() {
+    return {"export", "Writes the runs of many inputs as a workflow for Ninja, Make or Snakemake.",
+            export_examples, false, [](Arguments& arguments, Console& console) {
+                auto options = std::make_shared<ExportOptions>();
+                options->common.threads = 1;
+                arguments.add("--to", &options->engine, "The engine that the workflow is for.")
+                    .one_of({"ninja", "make", "snakemake"})
+                    .required();
+                add_asset_options(arguments, *options);
+                arguments.add("-j,--threads", &options->common.threads, "Of each job. Default: 1.")
+                    .between(1, 4096);
+                add_warning_options(arguments, options->common);
+                add_message_options(arguments, console);
+                return [=, &console](const Invocation& invocation) {
+                    return export_work(*options, invocation.line, console);
+                };
+            }};
+}
+
+} // namespace facetmill::cli

@@ -1,0 +1,101 @@
+"""facetmill export: workflows for Ninja, Make and Snakemake, whose outputs are those of facetmill batch."""
+
+import os
+import subprocess
+import time
+
+from support import FACETMILL, Case, main
+
+PIPELINE = """facetmill: 1
+allow: W-UNITS
+params:
+  input: {type: path}
+  height: {type: number, default: 1}
+stages:
+  - load: "${input}"
+  - transform: {scale: "${height}"}
+  - write: "${input.stem}.ply"
+report: "${input.stem}.json"
+"""
+TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+
+
+class Export(Case):
+    NAMES = ("a", "sub/b", "sub/two words", "sub/it's $5 #1 & 100%")
+
+    def setUp(self):
+        super().setUp()
+        self.write("p q.yaml", PIPELINE)
+        for name in self.NAMES:
+            self.write(f"in/{name}.off", TETRAHEDRON)
+        (self.dir / "bin").mkdir()
+        (self.dir / "bin/facetmill").symlink_to(FACETMILL)
+        self.env = {**os.environ, "PATH": f"{self.dir / 'bin'}:{os.environ['PATH']}"}
+        self.env.pop("FACETMILL", None)
+        self.mill("batch", *self.options("batch"))
+        self.wanted = {n: s for n, s in self.files(self.dir / "batch").items() if not n.startswith(".facetmill-batch")}
+        self.assertEqual(len(self.wanted), 2 * len(self.NAMES))
+
+    def options(self, folder):
+        return ("p q.yaml", "--input", "in/**/*.off", "-D", "height=2", "--set", "transform.scale=3", "-o", folder)
+
+    def export(self, engine, name):
+        self.write(name, self.mill("export", "--to", engine, *self.options("out")).stdout)
+
+    def build(self, *command, expect=0):
+        run = subprocess.run(command, cwd=self.dir, env=self.env, capture_output=True, text=True, timeout=300)
+        self.assertEqual(run.returncode == 0, expect == 0, run.stdout + run.stderr)
+        return run.stdout + run.stderr
+
+    def check(self, command, nothing):
+        self.build(*command)
+        self.assertEqual(self.files(self.dir / "out"), self.wanted)
+        self.assertIn(nothing, self.build(*command))
+        for name in (self.NAMES[0], self.NAMES[-1]):  # one that changes is made again, and no other
+            before = {p: p.stat().st_mtime_ns for p in (self.dir / "out").rglob("*.ply")}
+            time.sleep(0.02)
+            self.write(f"in/{name}.off", TETRAHEDRON.replace("0 0 1", "0 0 5"))
+            self.build(*command)
+            changed = {p.relative_to(self.dir / "out").as_posix() for p, t in before.items() if p.stat().st_mtime_ns != t}
+            self.assertEqual(changed, {f"{name}.ply"})
+        self.write("in/a.off", "no mesh")
+        self.build(*command, expect=1)
+        self.write("in/a.off", TETRAHEDRON)
+        self.build(*command)
+        self.assertIn(nothing, self.build(*command))
+
+    def test_ninja(self):
+        self.need("ninja")
+        self.export("ninja", "build.ninja")
+        self.check(("ninja",), "no work to do")
+
+    def test_make(self):
+        self.export("make", "Makefile")
+        self.check(("make", "-j2"), "Nothing to be done")
+
+    def test_snakemake(self):
+        self.need("snakemake", in_ci=False)  # 78 packages on Debian 12
+        self.export("snakemake", "Snakefile")
+        self.check(("snakemake", "-j2"), "Nothing to be done")
+
+    def test_what_is_refused(self):
+        def refused(identity, *arguments, expect=2):
+            run = self.mill("export", *arguments, expect=expect)
+            self.assertIn(identity, run.stderr)
+            self.assertEqual(run.stdout, "")
+
+        refused("E-ARGUMENT", "--to", "ninja", "p q.yaml", "-o", "out")
+        refused("slurm", "--to", "slurm", *self.options("out"))
+        refused("E-FILE", "--to", "ninja", "p q.yaml", "--input", "none/*.off", "-o", "out", expect=3)
+        self.write("gate.yaml", "facetmill: 1\nparams: {input: {type: path}}\nstages: [load: '${input}', validate: {closed: true}]\n")
+        refused("E-EXPORT", "--to", "make", "gate.yaml", "--input", "in/*.off", "-o", "out")
+        self.write("same.yaml", PIPELINE.replace("${input.stem}", "one"))
+        refused("E-DUPLICATE-OUTPUT", "--to", "make", "same.yaml", "--input", "in/**/*.off", "--base", "in", "-o", "out")
+        self.write("in/a{b}.off", TETRAHEDRON)
+        refused("E-EXPORT", "--to", "snakemake", *self.options("out"))
+        self.write("in/line\nbreak.off", TETRAHEDRON)
+        refused("E-DEPFILE", "--to", "make", *self.options("out"), expect=4)
+
+
+if __name__ == "__main__":
+    main()
