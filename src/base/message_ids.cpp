@@ -432,6 +432,12 @@ const std::vector<MessageId>& message_ids() {
          "The outline of crop does not cut the mesh; all of it is kept.",
          "Check the outline and its axis; `facetmill info` prints the bounds."},
         {"W-CROP-NOTHING", {}, "crop keeps nothing.", "Check the outline and its axis, or keep the outside."},
+        {"W-CRUMPLE-HURRIED",
+         {},
+         "To end in time, crumple with `self_intersections: avoid` lowered displacements in large steps, so "
+         "that "
+         "vertices move less than they could. No faces intersect that did not before.",
+         "Use a smaller amplitude or a smaller grid if the surface is too smooth."},
         {"W-CRUMPLE-PARTS",
          {},
          "crumple keeps apart only faces of the same part, and parts are near each other.",

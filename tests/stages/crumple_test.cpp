@@ -114,6 +114,14 @@ TEST_CASE("crumple: parts near each other are warned of when faces are kept apar
     CHECK(run_stage("crumple", o, scene).warnings().empty());
 }
 
+TEST_CASE("crumple: displacements that are lowered in large steps are warned of", "[stages]") {
+    const Value o = options({{"grid", "1"}, {"amplitude", "100%"}, {"self_intersections", "avoid"}});
+    const auto r = run_stage("crumple", o, scene_of(shapes::grid(30, 30)));
+    CHECK(r.warnings() == std::vector<std::string>{"W-CRUMPLE-HURRIED"});
+    CHECK(r.record.result["self_intersections"]["hurried"] > 0);
+    CHECK(find_self_intersections(r.mesh()).count == 0);
+}
+
 TEST_CASE("crumple: octaves go with a frequency, and refusals speak of crumple", "[stages]") {
     for (const char* name : {"octaves", "roughness"})
         CHECK(problems_of("crumple", options({{name, "1"}})) ==

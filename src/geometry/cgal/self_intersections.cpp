@@ -142,23 +142,24 @@ class Search {
         return {all.real.count, std::move(all.real.pairs), all.touching.count, std::move(all.touching.pairs)};
     }
 
-    std::vector<std::uint8_t> faces(std::size_t count,
-                                    std::span<const std::pair<Index, Index>> exempt) const {
-        std::vector<std::uint8_t> known(count);
-        const auto flag = [&](Index f) { return std::atomic_ref(known[f]); };
+    MeetingFaces faces(std::size_t count, std::span<const std::pair<Index, Index>> exempt) const {
+        MeetingFaces known{std::vector<std::uint8_t>(count)};
+        const auto flag = [&](Index f) { return std::atomic_ref(known.faces[f]); };
         constexpr auto relaxed = std::memory_order_relaxed;
-        struct Nothing {};
-        pairs_.reduce(
-            Nothing{},
-            [&](Nothing&, std::size_t i, std::size_t j) {
+        known.box_pairs = pairs_.reduce(
+            std::size_t{0},
+            [&](std::size_t& looked_at, std::size_t i, std::size_t j) {
+                ++looked_at;
                 const auto [f, g] = std::minmax(facets_[i].face, facets_[j].face);
                 if (flag(f).load(relaxed) && flag(g).load(relaxed)) return;
-                if (facets_meet(facets_[i], facets_[j]) < 0) return;
-                if (std::binary_search(exempt.begin(), exempt.end(), std::pair{f, g})) return;
+                const auto is_exempt = [&] {
+                    return std::binary_search(exempt.begin(), exempt.end(), std::pair{f, g});
+                };
+                if (facets_meet(facets_[i], facets_[j], is_exempt) < 0) return;
                 flag(f).store(1, relaxed);
                 flag(g).store(1, relaxed);
             },
-            [](Nothing, Nothing) { return Nothing{}; });
+            [](std::size_t a, std::size_t b) { return a + b; });
         return known;
     }
 
@@ -196,12 +197,17 @@ class Search {
 
     /// How many vertices the two share, when they meet elsewhere; else -1.
     int facets_meet(const Facet& s, const Facet& t) const {
+        return facets_meet(s, t, [] { return false; });
+    }
+    /// As if they did not meet when passes(), which is asked only where signs of doubles leave it open.
+    template <class Passes>
+    int facets_meet(const Facet& s, const Facet& t, Passes&& passes) const {
         if (s.face == t.face) return -1;
         auto u = s.vertices, v = t.vertices;
         const int shared = share(u, v);
-        if (shared == 3) return shared;
+        if (shared == 3) return passes() ? -1 : shared;
         const Corners a = corners(u), b = corners(v);
-        return !surely_apart(a, b, shared) && meet(a, b, shared) ? shared : -1;
+        return !surely_apart(a, b, shared) && !passes() && meet(a, b, shared) ? shared : -1;
     }
 
     Surface surface_;
@@ -215,8 +221,8 @@ SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersecti
     return Search(mesh, settings.among).run(settings.limit, settings.apart);
 }
 
-std::vector<std::uint8_t> self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
-                                                  std::span<const std::pair<Index, Index>> exempt) {
+MeetingFaces self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
+                                     std::span<const std::pair<Index, Index>> exempt) {
     return Search(mesh, among).faces(mesh.face_count(), exempt);
 }
 

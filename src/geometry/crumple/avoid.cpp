@@ -47,6 +47,11 @@ CrumplePlaces::CrumplePlaces(std::span<const CrumpleSheet> sheets) {
 constexpr std::uint8_t last_level = 9; ///< no move at all
 constexpr int patient_rounds = 8;      ///< after these, the places around are lowered too
 constexpr int widening_rounds = 16;    ///< after these, twice as far around in every round
+/// Pairs of triangles with boxes that meet, for each face, that are looked at before shares fall in larger
+/// steps: enough for moves as long as the faces' edges.
+constexpr std::size_t pairs_a_face = 48;
+constexpr std::uint8_t large_step = 3; ///< to an eighth
+constexpr int large_rounds = 3;        ///< after these, to nothing
 // Of the longest edge of a face: where moves draw two of its corners apart by more, it is nearly sure to meet
 // others, so many that looking for them all would take most of the time.
 constexpr double most_stretch = 8;
@@ -128,13 +133,13 @@ class TestSheet {
     /// Looks at these faces only; the others count as not touched.
     void touch_only(std::vector<std::uint8_t> faces) { touched_ = std::move(faces); }
 
-    /// [faces] Those of all new pairs among faces that were touched.
-    std::vector<std::uint8_t> in_trouble() const {
-        auto faces = self_intersecting_faces(mesh_, touched_, exempt_);
-        parallel_for(faces.size(), [&](std::size_t f) {
-            if (touched_[f] && !flat_[f] && is_flat(static_cast<Index>(f))) faces[f] = 1;
+    /// Those of all new pairs among faces that were touched.
+    MeetingFaces in_trouble() const {
+        auto found = self_intersecting_faces(mesh_, touched_, exempt_);
+        parallel_for(found.faces.size(), [&](std::size_t f) {
+            if (touched_[f] && !flat_[f] && is_flat(static_cast<Index>(f))) found.faces[f] = 1;
         });
-        return faces;
+        return found;
     }
 
     /// Marks the places of the faces, and of all that so many rings of faces around them touch. Whether there
@@ -216,12 +221,13 @@ class TestSheet {
     std::vector<std::uint8_t> flat_, touched_;    ///< [faces]
 };
 
-/// Lowers the marked places by one level; whether any was still above the last.
-bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& levels) {
+/// Lowers the marked places by a step of levels; whether any was still above the last.
+bool lower(const std::vector<std::uint8_t>& marked, std::vector<std::uint8_t>& levels,
+           std::uint8_t step = 1) {
     bool any = false;
     for (std::size_t p = 0; p < marked.size(); ++p)
         if (marked[p] && levels[p] < last_level) {
-            ++levels[p];
+            levels[p] = static_cast<std::uint8_t>(std::min<int>(last_level, levels[p] + step));
             any = true;
         }
     return any;
@@ -281,21 +287,64 @@ void slacken(const std::vector<TestSheet>& tests, std::vector<std::uint8_t>& lev
     }
 }
 
-/// Lowers places until no new faces meet, and adds those of the first round to `found`. Returns the rounds.
-int separate(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, FacesOfSheets& found) {
-    for (int round = 0;; ++round) {
+/// How the places of faces in trouble are lowered in a round.
+struct Lowering {
+    std::uint8_t step = 1; ///< levels
+    std::size_t rings = 0; ///< of faces around that are lowered with them
+};
+
+/// Chooses the lowering by the rounds and by the work, both counted from the first.
+class Patience {
+  public:
+    explicit Patience(const std::vector<TestSheet>& tests) {
+        for (const TestSheet& test : tests) most_ += pairs_a_face * test.mesh().face_count();
+    }
+    /// For the next round, so many more pairs having been looked at.
+    Lowering next(std::size_t box_pairs) {
+        seen_ += box_pairs;
+        const int round = round_++;
+        if (seen_ <= most_) return {1, rings_in(round)};
+        const int over = over_++;
+        if (over < large_rounds) return {large_step, rings_in(round)};
+        return {last_level, std::max(rings_in(round), std::size_t{1} << std::min(over - large_rounds, 32))};
+    }
+
+  private:
+    std::size_t most_ = 0, seen_ = 0;
+    int round_ = 0, over_ = 0;
+};
+
+/// Notes the places that are about to be lowered in large steps.
+void note(const std::vector<std::uint8_t>& marked, const std::vector<std::uint8_t>& levels,
+          std::vector<std::uint8_t>& hurried) {
+    for (std::size_t p = 0; p < marked.size(); ++p)
+        if (marked[p] && levels[p] < last_level) hurried[p] = 1;
+}
+
+/// Lowers places until no new faces meet, and adds those of the first round to `found`.
+void separate(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, FacesOfSheets& found,
+              AvoidResult& result) {
+    Patience patience(tests);
+    std::vector<std::uint8_t> hurried(levels.size());
+    for (;; ++result.rounds) {
+        std::vector<MeetingFaces> trouble;
+        std::size_t box_pairs = 0;
+        for (const TestSheet& test : tests) box_pairs += trouble.emplace_back(test.in_trouble()).box_pairs;
+        result.box_pairs += box_pairs;
+        const Lowering how = patience.next(box_pairs);
         std::vector<std::uint8_t> marked(levels.size());
         bool more = false;
         for (std::size_t s = 0; s < tests.size(); ++s) {
-            const auto faces = tests[s].in_trouble();
-            if (round == 0) add(faces, found[s]);
-            more |= tests[s].mark(faces, rings_in(round), marked);
+            if (result.rounds == 0) add(trouble[s].faces, found[s]);
+            more |= tests[s].mark(trouble[s].faces, how.rings, marked);
         }
-        if (!more) return round;
-        if (!lower(marked, levels)) // where nothing moves, all pairs were there before
+        if (!more) break;
+        if (how.step > 1) note(marked, levels, hurried);
+        if (!lower(marked, levels, how.step)) // where nothing moves, all pairs were there before
             throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
         for (auto& test : tests) test.place(levels, marked);
     }
+    result.hurried = static_cast<std::size_t>(std::count(hurried.begin(), hurried.end(), 1));
 }
 
 /// Moves as far as faces do not come to meet.
@@ -303,7 +352,7 @@ void avoid(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, Avo
     FacesOfSheets found(tests.size());
     slacken(tests, levels, found);
     for (TestSheet& test : tests) test.place(levels, {});
-    result.rounds = separate(tests, levels, found);
+    separate(tests, levels, found, result);
     for (const auto& faces : found)
         result.found += static_cast<std::size_t>(std::count(faces.begin(), faces.end(), 1));
 }

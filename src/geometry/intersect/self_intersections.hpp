@@ -35,11 +35,16 @@ struct SelfIntersections {
 /// are. Parallel; the same for any number of threads.
 SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings = {});
 
-/// [faces] 1 for the faces of the pairs that find_self_intersections would find, the exempt ones (lower face
-/// first, ascending) left out. Where a face is in many pairs this is much faster: a pair of faces that are
-/// known both is not looked at. Which pair tells of a face depends on the threads, whether one does, does
-/// not.
-std::vector<std::uint8_t> self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
-                                                  std::span<const std::pair<Index, Index>> exempt);
+struct MeetingFaces {
+    std::vector<std::uint8_t> faces; ///< [faces] 1 for those that meet another
+    /// Pairs of triangles whose boxes meet: what the work is, the same for any number of threads.
+    std::size_t box_pairs = 0;
+};
+
+/// The faces of the pairs that find_self_intersections would find, the exempt ones (lower face first,
+/// ascending) left out. Where a face is in many pairs this is much faster: a pair of faces that are known
+/// both is not looked at. Which pair tells of a face depends on the threads, whether one does, does not.
+MeetingFaces self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
+                                     std::span<const std::pair<Index, Index>> exempt);
 
 } // namespace facetmill

@@ -25,6 +25,8 @@ the shares are lowered until no face is drawn out by more than eight times its l
 round, all pairs of faces that newly intersect, fold over or lose their area are found exactly, and
 their vertices take the next lower share, all at once, until there are no such pairs; after eight
 rounds the vertices around them do so as well, and after sixteen twice as far around in each round.
+The work is bounded: once 48 pairs of nearby triangles were looked at for each face, shares fall to an
+eighth at once, and after three such rounds to 0, also around (W-CRUMPLE-HURRIED).
 Pairs that intersected before are exempt. The report says how many faces were concerned and how many
 vertices got which share. Only faces
 of the same part are kept apart (W-CRUMPLE-PARTS warns when other parts are near). If the search

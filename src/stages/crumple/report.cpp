@@ -40,6 +40,8 @@ void declare_avoided(DeclareFields<AvoidResult>& d) {
             "Faces that the full displacements would make intersect others, lose their area, or draw out by "
             "more than eight times its longest edge.");
     d.field("rounds", &AvoidResult::rounds, "The number of rounds in which shares were lowered.");
+    d.field("hurried", &AvoidResult::hurried,
+            "Positions whose shares were lowered in large steps, to bound the work (W-CRUMPLE-HURRIED).");
     const auto self = [](const AvoidResult& r) -> const AvoidResult& { return r; };
     d.object("vertices_by_share", self, "The number of vertices for each share of the displacement.",
              declare_shares);
@@ -79,6 +81,16 @@ void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> pa
                     a == b ? fmt::format("in face {} itself", a) : fmt::format("faces {} and {}", a, b),
                     work.part->name, p.x, p.y, p.z),
         "use self_intersections: avoid, or a smaller amplitude");
+}
+
+void warn_of_hurry(const AvoidResult& r, Context& context) {
+    if (r.hurried == 0) return;
+    context.warn(
+        "W-CRUMPLE-HURRIED",
+        fmt::format("crumple: so many faces would intersect that the shares of {} positions were lowered in "
+                    "large steps, to end in time: they move less than they could",
+                    r.hurried),
+        "use a smaller amplitude, or a smaller grid, whose faces are larger");
 }
 
 void warn_of_tangles(const CrumpledPart& work, double amplitude, Context& context) {

@@ -45,12 +45,13 @@ void require_room(const Scene& scene, const CrumpleOptions& o, const Context& co
 
 /// Moves all vertices, as far as self_intersections lets them.
 void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, const CrumpleOptions& o,
-          CrumpleReport& report) {
+          CrumpleReport& report, Context& context) {
     hold_together(sheets);
     if (o.self_intersections != Intersections::allow) {
         const bool forbid = o.self_intersections == Intersections::forbid;
         const AvoidResult r = move_apart(sheets, forbid);
         if (r.left > 0) refuse_intersections(r, works, o.grid);
+        warn_of_hurry(r, context);
         report.self_intersections = r;
         return;
     }
@@ -80,7 +81,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
             warn_of_tangles(works.back(), settings.amplitude, context);
     });
     masks.warn_if_idle(context);
-    move(works, sheets, o, report);
+    move(works, sheets, o, report, context);
     if (o.self_intersections != Intersections::allow) warn_of_parts(scene, context);
     for (std::size_t i = 0; i < works.size(); ++i) {
         Part& part = *works[i].part;

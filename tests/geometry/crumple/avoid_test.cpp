@@ -190,6 +190,27 @@ TEST_CASE("moves far larger than the faces are cut down before faces are looked 
     CHECK(looked.left < 64 * mesh.face_count());
 }
 
+TEST_CASE("on a terrain with crossings the work is bounded, and no faces come to meet", "[geometry]") {
+    const Mesh terrain = grid_split(crumple(shapes::grid(30, 30), by(0.45, 5)).mesh, 3).mesh;
+    const auto pairs = [](const Mesh& m) { return find_self_intersections(m, {.limit = 1'000'000}).pairs; };
+    const auto before = pairs(terrain);
+    REQUIRE(before.size() > 1000);
+    for (const double amplitude : {0.5, 2.5}) {
+        AvoidResult r;
+        const Mesh after = apart(terrain, by(amplitude, 3), &r);
+        CHECK(r.exempt >= before.size()); // in float32
+        CHECK(r.hurried > 0);
+        CHECK(r.box_pairs < 500 * terrain.face_count());
+        CHECK(r.shares[0] < terrain.vertex_count());
+        const auto old = pairs(apart(terrain, by(0))); // rounded to float32
+        for (const auto& pair : pairs(after)) REQUIRE(std::binary_search(old.begin(), old.end(), pair));
+        CHECK(test::count(after).flat == 0);
+    }
+    AvoidResult calm;
+    apart(sponge(), by(0.01), &calm);
+    CHECK(calm.hurried == 0);
+}
+
 TEST_CASE("faces at short edges may be drawn out, as long as they do not meet", "[geometry]") {
     // One short edge among long ones, and a smooth move that is many times as long.
     Mesh mesh = shapes::grid(4, 4);

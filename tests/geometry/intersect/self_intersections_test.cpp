@@ -93,8 +93,8 @@ TEST_CASE("the faces of all pairs but the exempt ones are flagged", "[geometry]"
             if (among[f] || among[g]) wanted_among[f] = wanted_among[g] = 1;
         }
         for (int i = 0; i < 5; ++i) {
-            CHECK(self_intersecting_faces(mesh, {}, exempt) == wanted);
-            CHECK(self_intersecting_faces(mesh, among, exempt) == wanted_among);
+            CHECK(self_intersecting_faces(mesh, {}, exempt).faces == wanted);
+            CHECK(self_intersecting_faces(mesh, among, exempt).faces == wanted_among);
         }
     }
 }
