@@ -61,9 +61,16 @@ T exclusive_scan(std::vector<T>& counts) {
     return sum;
 }
 
-/// Sorts items by a 64-bit key (key(item)), stable: parallel radix sort on the bits below key_bits.
+/// Sorts items by a 64-bit key (key(item), below 2^key_bits), stable: parallel radix sort; few are compared.
 template <class T, class Key>
 void radix_sort(std::vector<T>& items, Key&& key, int key_bits = 64) {
+    constexpr std::size_t few = 256; // to go through the buckets of all digits is more work than to compare
+    if (items.size() <= few) {
+        std::stable_sort(items.begin(), items.end(), [&](const T& a, const T& b) {
+            return static_cast<std::uint64_t>(key(a)) < static_cast<std::uint64_t>(key(b));
+        });
+        return;
+    }
     constexpr int digit_bits = 11;
     constexpr std::size_t buckets = std::size_t{1} << digit_bits, chunk = std::size_t{1} << 16;
     const std::size_t n = items.size(), chunks = (n + chunk - 1) / chunk;
