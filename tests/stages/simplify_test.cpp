@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 using namespace facetmill;
+using test::options;
+using test::problems_of;
 using test::run_stage;
 using test::scene_of;
 
@@ -281,6 +283,38 @@ TEST_CASE("parts share the samples of the deviation by area and number of triang
     CHECK(samples(0) == Approx(100000 * (1.0 / 6 + 1.0 / 12)).margin(1)); // a third, and one of 1 + 4 + 1
     CHECK(samples(1) == Approx(100000 * (1.0 / 6 + 4.0 / 12)).margin(1));
     CHECK(samples(2) == samples(0));
+}
+
+TEST_CASE("simplify: parts with one mesh become what each becomes alone, however they stand", "[stages]") {
+    const Scene one = scene_of(shapes::icosphere(3));
+    Scene scene = one;
+    for (const char* name : {"moved", "turned", "large"}) {
+        scene.parts.push_back(one.parts[0]);
+        scene.parts.back().name = name;
+    }
+    for (std::size_t p = 1; p < 4; ++p) scene.parts[p].transform.m[0][3] = 16 * double(p);
+    std::swap(scene.parts[2].transform.m[0], scene.parts[2].transform.m[1]); // and mirrored
+    for (int i = 0; i < 3; ++i) scene.parts[3].transform.m[i][i] = 2;
+    for (const std::string asked : {"{ratio: 10%}", "{lods: [50%, 10%]}", "{ratio: 10%, method: cluster}"}) {
+        const auto all = run_stage("simplify", asked, scene);
+        for (std::size_t p = 0; p < 4; ++p) {
+            Scene alone = one;
+            alone.parts[0] = scene.parts[p];
+            const auto r = run_stage("simplify", asked, alone);
+            CHECK(all.scene.parts[p].mesh.positions == r.scene.parts[0].mesh.positions);
+            CHECK(all.scene.parts[p].mesh.corners == r.scene.parts[0].mesh.corners);
+        }
+    }
+    const Json parts = run_stage("simplify", "{ratio: 10%}", scene).record.result["parts"];
+    const auto maximum = [&](std::size_t p) { return parts[p]["deviation"]["maximum"].get<double>(); };
+    const auto x_of = [&](std::size_t p, const char* end) {
+        return parts[p]["deviation"]["forward"]["at"][end][0].get<double>();
+    };
+    CHECK(x_of(1, "from") == Approx(x_of(0, "from") + 16));
+    CHECK(x_of(1, "to") == Approx(x_of(0, "to") + 16));
+    CHECK(maximum(1) == maximum(0));
+    CHECK(maximum(3) == Approx(2 * maximum(0)).epsilon(0.01));
+    CHECK(parts[1]["size"] == parts[0]["size"]);
 }
 
 TEST_CASE("simplify: a bare ratio, and what is reported", "[stages]") {

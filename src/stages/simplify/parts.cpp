@@ -1,12 +1,16 @@
 #include "stages/simplify/parts.hpp"
 
 #include "geometry/deviation/deviation.hpp"
+#include "mesh/equal_meshes.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
 #include "stages/simplify/report.hpp"
 #include "stages/simplify/samples.hpp"
 
+#include <array>
 #include <fmt/format.h>
+#include <map>
+#include <numeric>
 
 namespace facetmill {
 
@@ -48,7 +52,27 @@ struct Before {
     Properties properties; ///< in the world
 };
 
+/// What was measured of a part, which holds wherever it is moved to.
+struct Measured {
+    SimplifiedPart::Sizes sizes;
+    DeviationResult deviation;
+};
+
 Size size_of(const Properties& p) { return {p.area, p.volume}; }
+
+Measured carried(Measured m, const Vec3& by) {
+    for (DirectedDeviation* d : {&m.deviation.forward, &m.deviation.backward}) {
+        d->from += by;
+        d->to += by;
+    }
+    return m;
+}
+
+/// Where the axes of the part point in the world, and how long they are.
+std::array<double, 9> linear_part(const Transform& t) {
+    const Vec3 x = t.vector({1, 0, 0}), y = t.vector({0, 1, 0}), z = t.vector({0, 0, 1});
+    return {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+}
 
 class Simplifier {
   public:
@@ -67,13 +91,16 @@ class Simplifier {
     Scene run() {
         find_sets();
         share_samples();
+        find_repeats();
         results_.resize(scene_.parts.size());
         before_.resize(scene_.parts.size());
+        measured_.resize(scene_.parts.size());
         std::vector<Part> levels;
         context_.for_each_part(scene_, [&](Part& part) {
             const auto number = static_cast<std::size_t>(&part - scene_.parts.data());
             if (results_[number].empty()) simplify_set(set_of(number));
             settle(part, number, levels);
+            if (--uses_[work_as_[number]] == 0) repeated_.erase(work_as_[number]);
         });
         for (Part& level : levels) scene_.parts.push_back(std::move(level));
         return std::move(scene_);
@@ -130,6 +157,28 @@ class Simplifier {
         return set_of_.empty() || !set_of_[part] ? Set{part} : *set_of_[part];
     }
 
+    /// Finds the parts that have the mesh of an earlier one, so that their result is that one's; and so is
+    /// what is measured, when they are the same but for a move.
+    void find_repeats() {
+        work_as_.resize(scene_.parts.size());
+        std::iota(work_as_.begin(), work_as_.end(), std::size_t{0});
+        measured_as_ = work_as_;
+        uses_.assign(work_as_.size(), 1);
+        if (work_as_.size() < 2 || o_.lock.box) return; // the box meets each elsewhere
+        const std::vector<std::size_t> equal = first_with_equal_mesh(scene_);
+        std::map<std::pair<std::size_t, double>, std::size_t> worked;
+        std::map<std::pair<std::size_t, std::array<double, 9>>, std::size_t> measured;
+        for (std::size_t p = 0; p < equal.size(); ++p) {
+            const bool touches = !contacts_.shared.empty() && !contacts_.shared[p].empty();
+            if (touches || !context_.selects(scene_.parts[p], scene_)) continue;
+            const Transform to_world = effective(scene_.parts[p]);
+            const double scale = max_error_ || hausdorff_ ? greatest_stretch(to_world) : 1;
+            work_as_[p] = worked.try_emplace({equal[p], scale}, p).first->second;
+            if (work_as_[p] != p) ++uses_[work_as_[p]];
+            measured_as_[p] = measured.try_emplace({work_as_[p], linear_part(to_world)}, p).first->second;
+        }
+    }
+
     SimplifyShare share_of(const Set& set, double scale) const {
         std::size_t faces = 0, vertices = 0;
         for (const std::size_t p : set) {
@@ -146,8 +195,13 @@ class Simplifier {
     /// Sets the results of the parts of a set, one for each level.
     void simplify_set(const Set& set) {
         for (const std::size_t p : set) {
-            if (measures()) before_[p].surface = surface_of(scene_.parts[p]);
-            if (measures() || changes_topology()) before_[p].properties = inspect(scene_.parts[p]);
+            const bool is_first = measures() && measured_as_[p] == p;
+            if (is_first) before_[p].surface = surface_of(scene_.parts[p]);
+            if (is_first || changes_topology()) before_[p].properties = inspect(scene_.parts[p]);
+        }
+        if (const std::size_t as = work_as_[set.front()]; as != set.front()) {
+            results_[set.front()] = repeated_.at(as);
+            return;
         }
         const Transform to_world = effective(scene_.parts[set.front()]);
         SimplifySettings settings =
@@ -168,6 +222,7 @@ class Simplifier {
             results_[p] = simplify_levels(std::move(mesh), settings);
         else
             results_[p].push_back(simplify(std::move(mesh), settings));
+        if (uses_[p] > 1) repeated_[p] = results_[p];
     }
 
     /// Gives a part its result; coarser levels become parts of their own.
@@ -177,7 +232,7 @@ class Simplifier {
         for (std::size_t i = 0; i < results_[number].size(); ++i) {
             Part level = base;
             if (i > 0) level.name += fmt::format(".lod{}", i);
-            take(level, number, std::move(results_[number][i]), asks_for_less(i));
+            take(level, number, i, std::move(results_[number][i]));
             if (i == 0) {
                 part = std::move(level);
                 continue;
@@ -194,10 +249,10 @@ class Simplifier {
         return !o_.ratio || o_.ratio->value < 1 || o_.faces || o_.vertices;
     }
 
-    void take(Part& part, std::size_t number, SimplifyResult r, bool asked) {
+    void take(Part& part, std::size_t number, std::size_t number_of_level, SimplifyResult r) {
         part.mesh = std::move(r.mesh);
         context_.attribute_changes(part, r.changes);
-        warn(part, r, asked, context_);
+        warn(part, r, asks_for_less(number_of_level), context_);
         SimplifiedPart entry{std::move(r), greatest_stretch(effective(part)), part.name, {}, {}, {}, {}};
         if (const Set set = set_of(number); set.size() > 1)
             for (const std::size_t p : set) {
@@ -205,16 +260,27 @@ class Simplifier {
                 if (!entry.together_with) entry.together_with.emplace();
                 entry.together_with->push_back(scene_.parts[p].name);
             }
-        const Before& before = before_[number];
-        if (measures() || changes_topology()) {
-            const Properties after = inspect(part);
-            if (changes_topology()) entry.topology = {before.properties, after};
-            if (measures()) entry.sizes = {size_of(before.properties), size_of(after)};
+        if (changes_topology()) entry.topology = {before_[number].properties, inspect(part)};
+        if (measures()) {
+            const Measured m = measure(part, number, number_of_level);
+            entry.sizes = m.sizes;
+            entry.deviation = m.deviation;
         }
-        if (measures())
-            entry.deviation = deviation(before.surface, surface_of(part),
-                                        {.samples = samples_[number], .certify = o_.certify});
         report_.parts.push_back(std::move(entry));
+    }
+
+    Measured measure(const Part& part, std::size_t number, std::size_t number_of_level) {
+        const std::size_t as = measured_as_[number];
+        if (as != number) {
+            const Vec3 by = in_world(part, {}) - in_world(scene_.parts[as], {});
+            return carried(measured_[as][number_of_level], by);
+        }
+        const Before& before = before_[number];
+        Measured m{{size_of(before.properties), size_of(inspect(part))},
+                   deviation(before.surface, surface_of(part),
+                             {.samples = samples_[number], .certify = o_.certify})};
+        measured_[number].push_back(m);
+        return m;
     }
 
     Scene scene_;
@@ -227,7 +293,12 @@ class Simplifier {
     std::vector<const Set*> set_of_;                   ///< [parts] of contacts_, when simplified as one
     std::vector<std::vector<SimplifyResult>> results_; ///< [parts][levels] those found and not yet taken
     std::vector<Before> before_;                       ///< [parts]
-    std::vector<std::size_t> samples_;                 ///< [parts] each way, of those selected
+    /// [parts] The first with the same mesh, itself for most: whose result it has, whose measurements.
+    std::vector<std::size_t> work_as_, measured_as_;
+    std::vector<std::size_t> uses_; ///< [parts] parts that still need its result
+    std::map<std::size_t, std::vector<SimplifyResult>> repeated_; ///< results that are needed again
+    std::vector<std::vector<Measured>> measured_;                 ///< [parts][levels]
+    std::vector<std::size_t> samples_;                            ///< [parts] each way, of those selected
 };
 
 } // namespace
