@@ -458,7 +458,8 @@ const std::vector<MessageId>& message_ids() {
          "Nothing, unless this leaves holes in the surface."},
         {"W-FANS",
          {},
-         "triangulate cut faces so that their triangles may overlap: fans of faces without area or that "
+         "triangulate, simplify or clip cut faces so that their triangles may overlap: fans of faces without "
+         "area or that "
          "intersect "
          "themselves in no plane, and faces with neighbours that wind around points several times.",
          "Check the faces given in the message."},

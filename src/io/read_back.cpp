@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
@@ -290,6 +291,17 @@ std::vector<std::string> losses(const Properties& before, const Properties& afte
     return lost;
 }
 
+/// The scene as files of triangles have it, when faces that cross themselves are filled there (triangles_of).
+std::optional<Scene> with_filled_faces(const Scene& scene) {
+    std::optional<Scene> filled;
+    for (std::size_t i = 0; i < scene.parts.size(); ++i)
+        if (auto faces = fill_crossing_faces(scene.parts[i].mesh)) {
+            if (!filled) filled = scene;
+            filled->parts[i].mesh = std::move(faces->mesh);
+        }
+    return filled;
+}
+
 } // namespace
 
 bool ReadBack::too_far_for_floats() const {
@@ -310,8 +322,10 @@ Json ReadBack::json() const {
     return all;
 }
 
-ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings,
+ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, const WriteSettings& settings,
                    std::size_t dropped_faces) {
+    const std::optional<Scene> filled = codec.can.polygons ? std::nullopt : with_filled_faces(given);
+    const Scene& scene = filled ? *filled : given;
     ReadBack back;
     const auto refuse = [&](std::string message) {
         throw Error(ErrorKind::output, "E-READBACK",

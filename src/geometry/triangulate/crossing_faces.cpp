@@ -243,6 +243,23 @@ std::optional<CrossingFaces> fill_crossing_faces(const Mesh& mesh) {
     return out;
 }
 
+std::size_t count_crossing_faces(const Mesh& mesh) {
+    if (mesh.all_triangles()) return 0;
+    return parallel_reduce(
+        mesh.face_count(), std::size_t{0},
+        [&](std::size_t begin, std::size_t end) {
+            std::size_t count = 0;
+            std::vector<Vec3> corners;
+            for (auto f = static_cast<Index>(begin); f < end; ++f) {
+                if (mesh.face_size(f) < 4) continue;
+                face_corners(mesh, f, corners);
+                count += polygon::classify(polygon::flattened(corners)) == polygon::Kind::self_intersecting;
+            }
+            return count;
+        },
+        [](std::size_t a, std::size_t b) { return a + b; });
+}
+
 Mesh triangles_of(const Mesh& mesh) {
     if (const auto filled = fill_crossing_faces(mesh)) return triangulated(filled->mesh);
     return triangulated(mesh);

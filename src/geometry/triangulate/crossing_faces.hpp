@@ -34,6 +34,9 @@ struct CrossingFaces {
 /// other crossings) stay as they are.
 std::optional<CrossingFaces> fill_crossing_faces(const Mesh& mesh);
 
+/// How many faces cross themselves, seen along the axis nearest to their normal, in a plane or not.
+std::size_t count_crossing_faces(const Mesh& mesh);
+
 /// triangulated, after fill_crossing_faces: the triangles that a file or a picture shows.
 Mesh triangles_of(const Mesh& mesh);
 

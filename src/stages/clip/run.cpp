@@ -1,4 +1,5 @@
 #include "stage/both_sides.hpp"
+#include "stage/crossing_faces.hpp"
 #include "stage/options/cap.hpp"
 #include "stage/options/snap.hpp"
 #include "stage/stage.hpp"
@@ -117,6 +118,8 @@ ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how
 }
 
 Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& report) {
+    const FilledFaces filled = fill_crossing_faces(scene, context);
+    if (o.triangulate) warn_of_fans(filled, context);
     PartsToClip how;
     how.settings.keep = o.keep;
     how.settings.convex = o.box || (o.keep == Keep::both && o.planes.size() > 1);

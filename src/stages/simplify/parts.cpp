@@ -4,6 +4,7 @@
 #include "mesh/equal_meshes.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
+#include "stage/crossing_faces.hpp"
 #include "stages/simplify/report.hpp"
 #include "stages/simplify/samples.hpp"
 
@@ -304,6 +305,7 @@ class Simplifier {
 } // namespace
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {
+    warn_of_fans(fill_crossing_faces(scene, context), context);
     return Simplifier(std::move(scene), o, context, report).run();
 }
 

@@ -3,10 +3,9 @@
 #include "base/portable_math.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
+#include "stage/crossing_faces.hpp"
 #include "stage/stage.hpp"
 #include "stages/triangulate/help.hpp"
-
-#include <fmt/format.h>
 
 namespace facetmill {
 
@@ -84,18 +83,7 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context, Triangulat
         context.attribute_changes(part, result.changes);
         report.parts.push_back(std::move(entry));
     });
-    if (fans > 0)
-        context.warn(
-            "W-FANS",
-            fmt::format("{} faces that have no area, or intersect themselves in no plane, were cut as "
-                        "fans, whose triangles may overlap",
-                        fans));
-    if (overlapping > 0)
-        context.warn(
-            "W-FANS",
-            fmt::format("{} faces wind around points several times, and their triangles overlap there: "
-                        "faces beside them would be open otherwise",
-                        overlapping));
+    warn_of_fans({overlapping, fans}, context);
     return scene;
 }
 
