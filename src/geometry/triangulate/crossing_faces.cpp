@@ -1,6 +1,7 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 
 #include "base/parallel.hpp"
+#include "base/predicates.hpp"
 #include "geometry/cgal/triangulate_polygon.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/polygon/triangulate_rings.hpp"
@@ -34,8 +35,23 @@ bool crosses(const std::vector<Vec2>& ring) {
     return fill(outline_of(ring)).triangles.size() != ring.size() - 2;
 }
 
+/// Whether the diagonal from the first corner of a quad parts the other two, seen along the axis nearest to
+/// its normal: then no edges cross. So most faces need no more than two signs.
+bool is_parted_quad(std::span<const Vec3> p) {
+    if (p.size() != 4) return false;
+    const Vec3 normal = cross(p[2] - p[0], p[3] - p[1]);
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto side = [&](const Vec3& q) {
+        return orientation_2d(p[0][u], p[0][v], p[2][u], p[2][v], q[u], q[v]);
+    };
+    return side(p[1]) * side(p[3]) < 0;
+}
+
 bool crosses_in_plane(std::span<const Vec3> corners) {
-    return corners.size() > 3 && crosses(polygon::flattened(corners)) &&
+    return corners.size() > 3 && !is_parted_quad(corners) && crosses(polygon::flattened(corners)) &&
            is_planar(corners, polygon::plane_deviation(corners));
 }
 
@@ -253,7 +269,8 @@ std::size_t count_crossing_faces(const Mesh& mesh) {
             for (auto f = static_cast<Index>(begin); f < end; ++f) {
                 if (mesh.face_size(f) < 4) continue;
                 face_corners(mesh, f, corners);
-                count += polygon::classify(polygon::flattened(corners)) == polygon::Kind::self_intersecting;
+                count += !is_parted_quad(corners) &&
+                         polygon::classify(polygon::flattened(corners)) == polygon::Kind::self_intersecting;
             }
             return count;
         },
