@@ -1,5 +1,5 @@
 #pragma once
-// What can go wrong, as data: a diagnostic has a stable id, a message, a place and a way out; an Error
+// What can go wrong, as data: a diagnostic has a stable id, a message, a place and a hint; an Error
 // carries one or several and an exit code. Library code throws, never prints and never exits.
 
 #include "base/mark.hpp"
@@ -10,7 +10,7 @@
 
 namespace facetmill {
 
-/// Who can mend it; the value is the process's exit code.
+/// Who can fix it; the value is the process's exit code.
 enum class ErrorKind : int {
     check = 1,     ///< a validate or ensure did not hold
     usage = 2,     ///< the command line or the pipeline is wrong
@@ -29,7 +29,7 @@ struct Diagnostic {
     std::string id;      ///< stable, documented: E-KEY, W-UNITS
     std::string message; ///< one sentence without a full stop: what was expected and what was found
     Mark where;          ///< may be unknown
-    std::string hint;    ///< the way out, or empty
+    std::string hint;    ///< what to do about it, or empty
 };
 
 /// One or more diagnostics and whose fault they are.

@@ -6,7 +6,7 @@
 
 namespace facetmill {
 
-mpz_class whole(double x) {
+mpz_class exact_integer(double x) {
     if (!std::isfinite(x)) return 0;
     int power = 0;
     const double fraction = std::frexp(x, &power);

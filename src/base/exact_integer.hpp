@@ -7,7 +7,7 @@
 namespace facetmill {
 
 /// x in units of the smallest double, 2^-1074: an integer for every finite number, and 0 for the others.
-mpz_class whole(double x);
+mpz_class exact_integer(double x);
 
 /// The double nearest to n * 2^-power, or next to it; of n's sign, finite, and not 0 unless n is.
 double rounded(const mpz_class& n, int power);

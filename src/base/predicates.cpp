@@ -45,18 +45,19 @@ bool doubles_hold_products(std::initializer_list<Axis> axes) {
 /// Whole numbers, for what no expansion of doubles can hold: coordinates of very different sizes along an
 /// axis.
 int whole_orientation_2d(double ax, double ay, double bx, double by, double cx, double cy) {
-    const mpz_class x = whole(cx), y = whole(cy);
-    const mpz_class left = (whole(ax) - x) * (whole(by) - y), right = (whole(ay) - y) * (whole(bx) - x);
+    const mpz_class x = exact_integer(cx), y = exact_integer(cy);
+    const mpz_class left = (exact_integer(ax) - x) * (exact_integer(by) - y),
+                    right = (exact_integer(ay) - y) * (exact_integer(bx) - x);
     return sgn(mpz_class(left - right));
 }
 
 int whole_orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     std::array<mpz_class, 3> u, v, w;
     for (std::size_t i = 0; i < 3; ++i) {
-        const mpz_class from = whole(a[i]);
-        u[i] = whole(b[i]) - from;
-        v[i] = whole(c[i]) - from;
-        w[i] = whole(d[i]) - from;
+        const mpz_class from = exact_integer(a[i]);
+        u[i] = exact_integer(b[i]) - from;
+        v[i] = exact_integer(c[i]) - from;
+        w[i] = exact_integer(d[i]) - from;
     }
     mpz_class sum;
     for (std::size_t i = 0; i < 3; ++i) {

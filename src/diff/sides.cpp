@@ -14,62 +14,64 @@ namespace facetmill::report {
 namespace {
 
 /// A connected part of the surface, or all of it.
-struct Piece {
+struct Component {
     std::string part;
     Index face = none; ///< its first
     double area = 0, volume = 0;
     Vec3 looks, middle; ///< sums of area vectors, and of the faces' middles by area
 };
 
-void add_part(const Part& part, std::vector<Piece>& pieces) {
+void add_part(const Part& part, std::vector<Component>& components) {
     const Mesh& mesh = part.mesh;
     const Transform t = effective(part);
     const double sign = t.determinant() < 0 ? -0.5 : 0.5; // a mirrored part keeps its front
     const Components of = face_components(mesh, false);
-    const std::size_t before = pieces.size();
-    pieces.resize(before + of.count);
+    const std::size_t before = components.size();
+    components.resize(before + of.count);
     std::vector<Vec3> origins(of.count);
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        Piece& piece = pieces[before + of.of_face[f]];
+        Component& component = components[before + of.of_face[f]];
         const Vec3 at = t.point(mesh.point(mesh.face_begin(f)));
-        if (piece.face == none) {
-            piece.part = part.name;
-            piece.face = f;
+        if (component.face == none) {
+            component.part = part.name;
+            component.face = f;
             origins[of.of_face[f]] = at;
         }
         const Vec3 area = area_vector(mesh, f, t) * sign;
-        piece.area += length(area);
-        piece.looks += area;
-        piece.volume += dot(area, at - origins[of.of_face[f]]) / 3;
+        component.area += length(area);
+        component.looks += area;
+        component.volume += dot(area, at - origins[of.of_face[f]]) / 3;
         Vec3 corners;
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners += t.point(mesh.point(c));
-        piece.middle += corners * (length(area) / mesh.face_size(f));
+        component.middle += corners * (length(area) / mesh.face_size(f));
     }
 }
 
-std::vector<Piece> pieces_of(const Scene& scene) {
-    std::vector<Piece> pieces;
-    for (const Part& part : scene.parts) add_part(part, pieces);
-    return pieces;
+std::vector<Component> components_of(const Scene& scene) {
+    std::vector<Component> components;
+    for (const Part& part : scene.parts) add_part(part, components);
+    return components;
 }
 
 /// Volumes decide for what is closed, where the area vectors cancel; for open surfaces the sums of these.
-bool turned(const Piece& a, const Piece& b) {
-    const auto open = [](const Piece& p) { return length(p.looks) > 1e-6 * p.area; };
-    const auto solid = [](const Piece& p) { return std::abs(p.volume) > 1e-12 * p.area * std::sqrt(p.area); };
+bool turned(const Component& a, const Component& b) {
+    const auto open = [](const Component& p) { return length(p.looks) > 1e-6 * p.area; };
+    const auto solid = [](const Component& p) {
+        return std::abs(p.volume) > 1e-12 * p.area * std::sqrt(p.area);
+    };
     if (open(a) || open(b)) return open(a) && open(b) && dot(a.looks, b.looks) < 0;
     return solid(a) && solid(b) && (a.volume < 0) != (b.volume < 0);
 }
 
-bool same_place(const Piece& a, const Piece& b) {
+bool same_place(const Component& a, const Component& b) {
     if (!(std::abs(a.area - b.area) <= 1e-3 * a.area)) return false;
     return length(a.middle / a.area - b.middle / b.area) <= 1e-2 * std::sqrt(a.area);
 }
 
-/// All pieces as one. Each volume has its own origin, which matters for open pieces only.
-Piece whole(const std::vector<Piece>& pieces) {
-    Piece sum;
-    for (const Piece& p : pieces) {
+/// All components as one. Each volume has its own origin, which matters for open components only.
+Component whole(const std::vector<Component>& components) {
+    Component sum;
+    for (const Component& p : components) {
         sum.area += p.area;
         sum.volume += p.volume;
         sum.looks += p.looks;
@@ -80,15 +82,15 @@ Piece whole(const std::vector<Piece>& pieces) {
 } // namespace
 
 Turned turned_round(const Scene& a, const Scene& b) {
-    const auto first = pieces_of(a), second = pieces_of(b);
-    const auto has_area = [](const Piece& p) { return p.area > 0; };
+    const auto first = components_of(a), second = components_of(b);
+    const auto has_area = [](const Component& p) { return p.area > 0; };
     const bool alike = std::equal(first.begin(), first.end(), second.begin(), second.end(),
-                                  [&](const Piece& p, const Piece& q) {
+                                  [&](const Component& p, const Component& q) {
                                       return has_area(p) == has_area(q) && (!has_area(p) || same_place(p, q));
                                   });
     if (!alike) return {turned(whole(first), whole(second)), {}};
     std::size_t count = 0;
-    const Piece* where = nullptr;
+    const Component* where = nullptr;
     for (std::size_t i = 0; i < first.size(); ++i)
         if (turned(first[i], second[i]) && count++ == 0) where = &first[i];
     if (count == 0) return {};

@@ -15,10 +15,10 @@ namespace facetmill::io {
 
 namespace {
 
-constexpr std::size_t most_pixels = std::size_t{1} << 26;
+constexpr std::size_t max_pixels = std::size_t{1} << 26;
 
 bool too_large(std::size_t width, std::size_t height) {
-    return width == 0 || height == 0 || width > most_pixels / height;
+    return width == 0 || height == 0 || width > max_pixels / height;
 }
 
 std::optional<Pixels> decoded_png(Span bytes) {

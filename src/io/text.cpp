@@ -41,12 +41,12 @@ bool scan_real_slowly(const char*& at, const char* end, double& value) {
     // Some writers put the exponent's sign before its letter: 3.1+e2 means 3.1e+2.
     if (end - stop > 2 && (*stop == '+' || *stop == '-') && (stop[1] == 'e' || stop[1] == 'E') &&
         is_digit(stop[2])) {
-        std::string mended(p, static_cast<std::size_t>(stop - p));
-        mended += {'e', *stop};
-        if (mended[mended.size() - 1] == '+') mended.pop_back();
+        std::string standard(p, static_cast<std::size_t>(stop - p));
+        standard += {'e', *stop};
+        if (standard[standard.size() - 1] == '+') standard.pop_back();
         const char* q = stop + 2;
-        while (q < end && is_digit(*q)) mended += *q++;
-        if (std::from_chars(mended.data(), mended.data() + mended.size(), value).ec != std::errc{})
+        while (q < end && is_digit(*q)) standard += *q++;
+        if (std::from_chars(standard.data(), standard.data() + standard.size(), value).ec != std::errc{})
             return false;
         stop = q;
     }

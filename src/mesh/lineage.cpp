@@ -67,7 +67,7 @@ void copy_elements(std::vector<T>& to, const std::vector<T>& from, const Ancestr
                  [&](std::size_t i) { std::copy_n(&from[ancestry.copied[i] * k], k, &to[i * k]); });
 }
 
-constexpr std::size_t most_components = 16; // glTF's MAT4; wider attributes are mixed piece by piece
+constexpr std::size_t max_components = 16; // glTF's MAT4; wider attributes are mixed piece by piece
 
 /// The weighted sums of components [c, c + n) over the parents.
 template <class T>
@@ -100,9 +100,9 @@ void mix_element(const Attribute& a, const std::vector<T>& from, T* to, const Pa
         std::copy_n(first_parent, k, to);
         return;
     }
-    double sums[most_components];
-    for (std::size_t c = 0; c < k; c += most_components) {
-        const std::size_t n = std::min(most_components, k - c);
+    double sums[max_components];
+    for (std::size_t c = 0; c < k; c += max_components) {
+        const std::size_t n = std::min(max_components, k - c);
         mix_components(from.data(), k, c, n, parents, sums);
         if (c == 0 && k >= 3 && (a.role == Role::normal || a.role == Role::tangent))
             renormalise(sums, first_parent);

@@ -10,9 +10,9 @@ namespace {
 
 /// For numbers whose products doubles cannot hold.
 double whole_side(const Plane& plane, const Vec3& p) {
-    mpz_class sum = whole(plane.offset) << 1074;
+    mpz_class sum = exact_integer(plane.offset) << 1074;
     for (std::size_t i = 0; i < 3; ++i)
-        sum += whole(plane.normal[i]) * (whole(p[i]) - whole(plane.through[i]));
+        sum += exact_integer(plane.normal[i]) * (exact_integer(p[i]) - exact_integer(plane.through[i]));
     return rounded(sum, 2 * 1074);
 }
 

@@ -23,7 +23,7 @@ struct Check {
     Json found = {};
     std::string found_words = {};              ///< what people read for it, where that says more
     std::optional<double> min = {}, max = {};  ///< what a number had to lie between
-    std::string hint = {};                     ///< when it failed: the stage that mends it
+    std::string hint = {};                     ///< when it failed: the stage that fixes it
     std::string part = {};                     ///< the part it is about; empty: the scene
     Json evidence = {};                        ///< the first locations: [{part, at, face}], or null
     std::optional<std::size_t> locations = {}; ///< how many speak against it, where found does not tell

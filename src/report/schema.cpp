@@ -136,7 +136,7 @@ Json definitions() {
                             {"severity", choice({"error", "warning", "note"})},
                             {"expected", typed("string")},
                             {"found", found()},
-                            {"hint", nullable("string", "When it failed: the stage that mends it")},
+                            {"hint", nullable("string", "When it failed: the stage that fixes it")},
                             {"part", nullable("string", "The part it is about; null: the scene")},
                             {"where", nullable("string", "Its position in the pipeline")},
                             {"waived", typed("boolean", "It failed, and that is known")},

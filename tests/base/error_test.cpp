@@ -5,7 +5,7 @@
 
 using namespace facetmill;
 
-TEST_CASE("a diagnostic is rendered with its source line, a caret and the way out", "[base]") {
+TEST_CASE("a diagnostic is rendered with its source line, a caret and the hint", "[base]") {
     auto source =
         std::make_shared<const SourceText>(SourceText{"a.yaml", "facetmill: 1\nstages:\n  - clop: 3\n"});
     const Diagnostic d{Severity::error, "E-STAGE", "there is no stage 'clop'", Mark{source, 3, 5, 4},

@@ -15,7 +15,7 @@ TEST_CASE("admesh's broken blocks come out good", "[property]") {
     const auto folder = test::corpus();
     if (!folder) return;
     constexpr double side = 3.937008; // of the good block
-    std::size_t mended = 0;
+    std::size_t repaired = 0;
     for (const auto& file : test::meshes_below(*folder)) {
         const std::string name = file.stem().string();
         if (!name.starts_with("block-")) continue;
@@ -39,7 +39,7 @@ TEST_CASE("admesh's broken blocks come out good", "[property]") {
         CHECK(after.self_intersections == 0);
         // A corner that was a little off stays a little off.
         CHECK(std::abs(after.volume.value_or(0) - side * side * side) < 0.02 * side * side * side);
-        mended += name.ends_with("-bad") && !(before.closed && before.oriented);
+        repaired += name.ends_with("-bad") && !(before.closed && before.oriented);
     }
-    std::printf("clean and orient mended %zu of admesh's blocks\n", mended);
+    std::printf("clean and orient repaired %zu of admesh's blocks\n", repaired);
 }

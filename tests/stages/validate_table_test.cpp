@@ -325,7 +325,7 @@ TEST_CASE("empty scenes, points, and faces without area are judged", "[stages]")
     }
 }
 
-TEST_CASE("every property names the stage that mends it, and is in the manual and the schemas", "[stages]") {
+TEST_CASE("every property names the stage that fixes it, and is in the manual and the schemas", "[stages]") {
     const StageInfo* validate = stage_named("validate");
     REQUIRE(validate);
     const Json assertions = assertions_schema(), report = report::schema();

@@ -174,7 +174,7 @@ std::size_t possible_crossings(const TriangleSoup& soup, const PlaneGroup& group
 }
 
 /// More than these take longer than a minute or so.
-constexpr std::size_t most_pairs = 1'000'000, most_crossings = 2'000'000;
+constexpr std::size_t max_pairs = 1'000'000, max_crossings = 2'000'000;
 
 } // namespace
 
@@ -190,21 +190,21 @@ struct Arrangement::Own {
     Box bounds;
 
     void cut() {
-        if (soup.pairs.size() > most_pairs) {
+        if (soup.pairs.size() > max_pairs) {
             overfull = most_met();
             return;
         }
         const auto groups = Meetings(soup, nodes).groups();
         std::size_t possible = 0, worst = 0;
         for (const PlaneGroup& g : groups) {
-            const std::size_t count = possible_crossings(soup, g, nodes, most_crossings);
+            const std::size_t count = possible_crossings(soup, g, nodes, max_crossings);
             if (count > worst) {
                 worst = count;
                 overfull = g.triangles.front();
             }
             possible += count;
         }
-        if (possible > most_crossings) return;
+        if (possible > max_crossings) return;
         overfull.reset();
         for (const PlaneGroup& g : groups) cut_in_plane(soup, g, nodes, pieces, sides);
     }

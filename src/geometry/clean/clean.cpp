@@ -10,8 +10,8 @@
 
 namespace facetmill::clean_steps {
 
-bool resolve_t_junctions(Work& work, double within) {
-    auto insertions = find_t_junctions(work.mesh, within);
+bool resolve_t_junctions(Work& work, double tolerance) {
+    auto insertions = find_t_junctions(work.mesh, tolerance);
     if (insertions.empty()) return false;
     work.counts.t_junctions += insertions.size();
     work.mesh = insert_on_edges(work.mesh, std::move(insertions), {}, &work.changes);
@@ -43,10 +43,10 @@ bool untangle(Work& work, const CleanSettings& s) {
     work.untangled = found.count == 0 && overlaps.empty();
     if (work.untangled) return false;
     if (found.count > found.pairs.size()) {
-        work.not_done.push_back({"self_intersections",
-                                 fmt::format("{} pairs of faces intersect, and at most {} are processed",
-                                             found.count, most_pairs),
-                                 corner_mean(work.mesh, found.pairs[0].first)});
+        work.not_done.push_back(
+            {"self_intersections",
+             fmt::format("{} pairs of faces intersect, and at most {} are processed", found.count, max_pairs),
+             corner_mean(work.mesh, found.pairs[0].first)});
         return false;
     }
     bool changed = unites && unite_solids(work, found, overlaps, s);
@@ -99,11 +99,11 @@ std::size_t CleanCounts::total() const {
 }
 
 CleanResult clean(Mesh mesh, const CleanSettings& settings) {
-    constexpr int most_rounds = 32;
+    constexpr int max_rounds = 32;
     Work work;
     work.mesh = std::move(mesh);
     CleanResult result;
-    for (bool changed = true; changed && result.rounds < most_rounds; ++result.rounds)
+    for (bool changed = true; changed && result.rounds < max_rounds; ++result.rounds)
         changed = one_round(work, settings);
     result.changes = changes_of(work.mesh, work.changes);
     result.mesh = std::move(work.mesh);

@@ -21,7 +21,7 @@ enum class HoleFill {
 enum class Untangle {
     off,
     local, ///< they are replaced place by place, where that ends the intersection
-    unite, ///< closed pieces that pass through each other or themselves become one solid
+    unite, ///< closed components that pass through each other or themselves become one solid
     all    ///< unite, then local for the rest
 };
 
@@ -32,9 +32,9 @@ struct HoleSettings {
 };
 
 struct ComponentSettings {
-    std::size_t min_faces = 0; ///< pieces of fewer faces go
-    double min_size = 0;       ///< pieces whose box has a shorter diagonal go, mesh units
-    double min_area = 0;       ///< pieces with a smaller share of the whole area go
+    std::size_t min_faces = 0; ///< components of fewer faces go
+    double min_size = 0;       ///< components whose box has a shorter diagonal go, mesh units
+    double min_area = 0;       ///< components with a smaller share of the whole area go
     std::size_t keep = 0;      ///< all but so many of largest area go; 0: no limit
 };
 
@@ -47,7 +47,7 @@ struct CleanSettings {
     bool duplicates = true;   ///< one face of each set with the same vertices stays, none of an inner wall
     bool non_manifold = true; ///< edges of more than two faces and vertices of several fans come apart
     bool isolated = true;     ///< vertices that no face uses go
-    bool inner_components = false; ///< closed pieces inside others go
+    bool inner_components = false; ///< closed components inside others go
     Untangle self_intersections = Untangle::off;
     std::optional<HoleSettings> holes;
     std::optional<ComponentSettings> components;
@@ -62,15 +62,15 @@ struct NotDone {
     bool operator==(const NotDone&) const = default;
 };
 
-/// What was done, in pieces.
+/// What was done, counted.
 struct CleanCounts {
     std::size_t welded_vertices = 0, stitched_edges = 0, t_junctions = 0, repeated_corners = 0,
                 degenerate_faces = 0, duplicate_faces = 0, split_vertices = 0, split_edges = 0,
                 filled_holes = 0, hole_faces = 0, components = 0, component_faces = 0, inner_components = 0,
                 inner_component_faces = 0, isolated_vertices = 0, intersecting_faces = 0;
-    std::size_t united_components = 0; ///< closed pieces that intersected and are part of a union now
+    std::size_t united_components = 0; ///< closed components that intersected and are part of a union now
     std::size_t refined_faces = 0;     ///< cut where they intersected, once per pass
-    std::size_t covered_faces = 0;     ///< intersected nothing and lay inside another piece
+    std::size_t covered_faces = 0;     ///< intersected nothing and lay inside another component
     /// Edges of more than two faces that unions made, where solids touch; none if non_manifold takes them
     /// apart.
     std::size_t touching_edges = 0;
@@ -95,9 +95,9 @@ struct CleanResult {
 CleanResult clean(Mesh mesh, const CleanSettings& settings);
 
 /// The components of a mesh (faces that hang together over edges), a cavity with the solid around it: a
-/// closed one that looks inward (its volume is negative) belongs to the innermost closed outward piece that
-/// it lies in, if there is one. Inside is decided exactly, by a ray from one of its vertices. Numbered by
-/// first face. Components that are open, or whose faces disagree, stand for themselves. O(n log n).
+/// closed one that looks inward (its volume is negative) belongs to the innermost closed outward component
+/// that it lies in, if there is one. Inside is decided exactly, by a ray from one of its vertices. Numbered
+/// by first face. Components that are open, or whose faces disagree, stand for themselves. O(n log n).
 Components solid_components(const Mesh& mesh);
 
 } // namespace facetmill

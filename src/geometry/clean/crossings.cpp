@@ -13,7 +13,7 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-constexpr int most_rings = 4;
+constexpr int max_rings = 4;
 
 /// The edges of one face as (low, high), ascending.
 EdgeList boundary_of(const Mesh& mesh) {
@@ -39,7 +39,7 @@ std::map<Index, int> euler_of_groups(const Mesh& mesh, const std::vector<Index>&
     return euler;
 }
 
-/// Faces that intersect and hang together: what is mended, or given up, as one.
+/// Faces that intersect and hang together: what is repaired, or given up, as one.
 struct Knot {
     std::vector<Index> faces;
     std::size_t pairs = 0;
@@ -57,7 +57,7 @@ class Untangler {
         find_knots();
     }
 
-    /// Widens the knots that fail until those that are left can be mended together.
+    /// Widens the knots that fail until those that are left can be repaired together.
     bool run() {
         bool changed = false;
         while (std::any_of(knots_.begin(), knots_.end(), [](const Knot& k) { return !k.given_up; })) {
@@ -87,7 +87,7 @@ class Untangler {
   private:
     void widen_or_give_up(const std::set<Index>& failed, const std::vector<Index>& groups) {
         for (Knot& k : knots_)
-            if (!k.given_up && failed.contains(groups[k.faces[0]])) k.given_up = ++k.rings > most_rings;
+            if (!k.given_up && failed.contains(groups[k.faces[0]])) k.given_up = ++k.rings > max_rings;
     }
 
     double area(Index f) const { return length(area_vector(mesh_, f)) / 2; }
@@ -132,7 +132,7 @@ class Untangler {
         for (const Knot& k : knots_)
             for (const Index f : k.faces)
                 if (!k.given_up) reach[f] = static_cast<std::uint8_t>(k.rings + 1);
-        for (int ring = 0; ring < most_rings; ++ring) {
+        for (int ring = 0; ring < max_rings; ++ring) {
             std::vector<std::uint8_t> at_place(mesh_.vertex_count(), 0);
             for (Index f = 0; f < reach.size(); ++f)
                 for (Index c = mesh_.face_begin(f); c < mesh_.face_end(f); ++c)
@@ -145,9 +145,9 @@ class Untangler {
         return reach;
     }
 
-    /// A knot that would take half of a piece along is no repair.
+    /// A knot that would take half of a component along is no repair.
     bool give_up_large(const std::vector<std::uint8_t>& region, const std::vector<Index>& groups) {
-        std::map<std::pair<Index, Index>, double> going; // of each group from each piece
+        std::map<std::pair<Index, Index>, double> going; // of each group from each component
         for (Index f = 0; f < region.size(); ++f)
             if (region[f]) going[{groups[f], pieces_.of_face[f]}] += area(f);
         std::set<Index> large;
@@ -223,7 +223,7 @@ class Untangler {
     std::vector<Index> place_;
     EdgeList open_;
     Components pieces_;
-    std::vector<double> areas_; ///< of the pieces
+    std::vector<double> areas_; ///< of the components
     std::vector<Knot> knots_;
 };
 

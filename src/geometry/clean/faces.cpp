@@ -223,24 +223,24 @@ bool remove_duplicates(Work& work) {
 
 bool remove_components(Work& work, const ComponentSettings& s) {
     const Mesh& mesh = work.mesh;
-    const Components pieces = face_components(mesh, false);
-    struct Piece {
+    const Components components = face_components(mesh, false);
+    struct Component {
         std::size_t faces = 0;
         double area = 0;
         Box box;
         bool goes = false;
     };
-    std::vector<Piece> all(pieces.count);
+    std::vector<Component> all(components.count);
     double whole = 0;
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        Piece& p = all[pieces.of_face[f]];
+        Component& p = all[components.of_face[f]];
         const double area = area_of(mesh, f);
         ++p.faces;
         p.area += area;
         whole += area;
         add_corners(p.box, mesh, f);
     }
-    for (Piece& p : all)
+    for (Component& p : all)
         p.goes = p.faces < s.min_faces || p.box.diagonal() < s.min_size || p.area < s.min_area * whole;
     if (s.keep > 0 && all.size() > s.keep) {
         std::vector<std::size_t> order(all.size());
@@ -250,9 +250,9 @@ bool remove_components(Work& work, const ComponentSettings& s) {
         for (std::size_t i = s.keep; i < order.size(); ++i) all[order[i]].goes = true;
     }
     std::vector<std::uint8_t> gone(mesh.face_count());
-    for (Index f = 0; f < gone.size(); ++f) gone[f] = all[pieces.of_face[f]].goes;
+    for (Index f = 0; f < gone.size(); ++f) gone[f] = all[components.of_face[f]].goes;
     const auto count = static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [](const Piece& p) { return p.goes; }));
+        std::count_if(all.begin(), all.end(), [](const Component& p) { return p.goes; }));
     if (count == 0) return false;
     const auto kept = faces_without(gone);
     work.counts.components += count;
@@ -271,19 +271,19 @@ bool remove_isolated(Work& work) {
     return true;
 }
 
-// The step of clean that removes pieces hidden inside others.
+// The step of clean that removes components hidden inside others.
 
 namespace {
 
-/// Whether each piece is closed by itself: the directions of its faces cancel at every edge.
-std::vector<std::uint8_t> closed_pieces(const Mesh& mesh, const Components& pieces) {
+/// Whether each component is closed by itself: the directions of its faces cancel at every edge.
+std::vector<std::uint8_t> closed_components(const Mesh& mesh, const Components& components) {
     const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
-    std::vector<std::uint8_t> closed(pieces.count, 1);
+    std::vector<std::uint8_t> closed(components.count, 1);
     for (Index e = 0; e < edges.size(); ++e) {
         int balance = 0;
         for (const Index c : edges.corners_of(e)) balance += mesh.vertex(c) == edges.edges[e].low ? 1 : -1;
-        if (balance != 0) closed[pieces.of_face[faces[edges.corners_of(e)[0]]]] = 0;
+        if (balance != 0) closed[components.of_face[faces[edges.corners_of(e)[0]]]] = 0;
     }
     return closed;
 }
@@ -292,25 +292,25 @@ std::vector<std::uint8_t> closed_pieces(const Mesh& mesh, const Components& piec
 
 bool remove_inner_components(Work& work) {
     const Mesh& mesh = work.mesh;
-    const Components pieces = face_components(mesh, false); // all faces of an edge are of one piece
-    if (pieces.count < 2) return false;
-    const auto closed = closed_pieces(mesh, pieces);
+    const Components components = face_components(mesh, false); // all faces of an edge are of one component
+    if (components.count < 2) return false;
+    const auto closed = closed_components(mesh, components);
     std::set<std::pair<Index, Index>> touching;
-    constexpr std::size_t most_pairs = std::size_t{1} << 24;
-    for (const auto& [f, g] : find_self_intersections(mesh, {.limit = most_pairs}).pairs) {
-        const Index a = pieces.of_face[f], b = pieces.of_face[g];
+    constexpr std::size_t max_pairs = std::size_t{1} << 24;
+    for (const auto& [f, g] : find_self_intersections(mesh, {.limit = max_pairs}).pairs) {
+        const Index a = components.of_face[f], b = components.of_face[g];
         touching.emplace(std::min(a, b), std::max(a, b));
     }
-    std::vector<Index> first(pieces.count, none);
+    std::vector<Index> first(components.count, none);
     for (Index f = 0; f < mesh.face_count(); ++f)
-        if (first[pieces.of_face[f]] == none) first[pieces.of_face[f]] = f;
+        if (first[components.of_face[f]] == none) first[components.of_face[f]] = f;
     const FaceTree rays(surface_of(mesh), FaceTree::Use::rays);
-    std::vector<std::uint8_t> inside(pieces.count, 0);
-    for (Index p = 0; p < pieces.count; ++p) {
+    std::vector<std::uint8_t> inside(components.count, 0);
+    for (Index p = 0; p < components.count; ++p) {
         if (!closed[p]) continue;
         std::map<Index, int> turns;
         visit_along_axis(rays, mesh.point(mesh.face_begin(first[p])), 0, true, [&](Index f, int way) {
-            if (closed[pieces.of_face[f]]) turns[pieces.of_face[f]] += way;
+            if (closed[components.of_face[f]]) turns[components.of_face[f]] += way;
         });
         for (const auto& [q, n] : turns)
             if (q != p && n != 0 && !touching.contains({std::min(p, q), std::max(p, q)})) inside[p] = 1;
@@ -318,7 +318,7 @@ bool remove_inner_components(Work& work) {
     const auto count = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
     if (count == 0) return false;
     std::vector<std::uint8_t> gone(mesh.face_count());
-    for (Index f = 0; f < gone.size(); ++f) gone[f] = inside[pieces.of_face[f]];
+    for (Index f = 0; f < gone.size(); ++f) gone[f] = inside[components.of_face[f]];
     const auto kept = faces_without(gone);
     work.counts.inner_components += count;
     work.counts.inner_component_faces += gone.size() - kept.size();

@@ -29,41 +29,41 @@ const char* reason(Fitness f) {
     return "";
 }
 
-std::vector<Fitness> fitness_of(const Mesh& mesh, const Components& pieces) {
-    std::vector<Fitness> fitness(pieces.count, Fitness::fit);
+std::vector<Fitness> fitness_of(const Mesh& mesh, const Components& components) {
+    std::vector<Fitness> fitness(components.count, Fitness::fit);
     const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
     for (Index e = 0; e < edges.size(); ++e) {
         int balance = 0;
         for (const Index c : edges.corners_of(e)) balance += mesh.vertex(c) == edges.edges[e].low ? 1 : -1;
         if (balance == 0) continue;
-        Fitness& f = fitness[pieces.of_face[faces[edges.corners_of(e)[0]]]];
+        Fitness& f = fitness[components.of_face[faces[edges.corners_of(e)[0]]]];
         if (edges.corners_of(e).size() % 2 == 1) f = Fitness::open;
         if (f == Fitness::fit) f = Fitness::disagreeing;
     }
     for (Index f = 0; f < mesh.face_count(); ++f)
         if (is_degenerate(mesh, f) || !is_finite(corner_mean(mesh, f)))
-            fitness[pieces.of_face[f]] = Fitness::flat;
+            fitness[components.of_face[f]] = Fitness::flat;
     return fitness;
 }
 
-/// Six times the volume of each piece, from its first point.
-std::vector<double> volumes_of(const Mesh& mesh, const Components& pieces) {
-    std::vector<double> volumes(pieces.count, 0);
-    std::vector<Index> first(pieces.count, none);
+/// Six times the volume of each component, from its first point.
+std::vector<double> volumes_of(const Mesh& mesh, const Components& components) {
+    std::vector<double> volumes(components.count, 0);
+    std::vector<Index> first(components.count, none);
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        const Index piece = pieces.of_face[f], begin = mesh.face_begin(f);
+        const Index component = components.of_face[f], begin = mesh.face_begin(f);
         if (mesh.face_size(f) < 3) continue;
-        if (first[piece] == none) first[piece] = begin;
-        const Vec3 o = mesh.point(first[piece]), a = mesh.point(begin) - o;
+        if (first[component] == none) first[component] = begin;
+        const Vec3 o = mesh.point(first[component]), a = mesh.point(begin) - o;
         for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
-            volumes[piece] += dot(a, cross(mesh.point(c) - o, mesh.point(c + 1) - o));
+            volumes[component] += dot(a, cross(mesh.point(c) - o, mesh.point(c + 1) - o));
     }
     return volumes;
 }
 
-/// Of the pieces that are not fit, one entry for each that intersects something.
-std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& pieces,
+/// Of the components that are not fit, one entry for each that intersects something.
+std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components,
                                   const std::vector<Fitness>& fitness, const SelfIntersections& found) {
     struct Place {
         std::size_t pairs = 0;
@@ -71,17 +71,17 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& pieces,
     };
     std::map<Index, Place> places;
     for (const auto& [f, g] : found.pairs) {
-        const Index a = pieces.of_face[f], b = pieces.of_face[g];
+        const Index a = components.of_face[f], b = components.of_face[g];
         const bool first = fitness[a] != Fitness::fit;
         if (!first && fitness[b] == Fitness::fit) continue;
         Place& place = places[first ? a : b];
         if (place.pairs++ == 0) place.face = first ? f : g;
     }
     std::vector<NotDone> all;
-    for (const auto& [piece, place] : places)
+    for (const auto& [component, place] : places)
         all.push_back({"self_intersections",
                        fmt::format("{} pairs of faces intersect on a component that {}", place.pairs,
-                                   reason(fitness[piece])),
+                                   reason(fitness[component])),
                        corner_mean(mesh, place.face)});
     return all;
 }
@@ -96,31 +96,31 @@ SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among) {
     const auto place = lowest_at_place(mesh);
     for (Index w = 0; w < mesh.wedge_count(); ++w)
         plain.wedge_vertex.push_back(place[mesh.vertex_of_wedge(w)]);
-    return find_self_intersections(plain, {.limit = most_pairs, .among = std::move(among)});
+    return find_self_intersections(plain, {.limit = max_pairs, .among = std::move(among)});
 }
 
 Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {
     Solids s;
-    s.pieces = face_components(mesh, false);
-    const auto fitness = fitness_of(mesh, s.pieces);
-    const auto volumes = volumes_of(mesh, s.pieces);
-    for (Index p = 0; p < s.pieces.count; ++p) {
+    s.components = face_components(mesh, false);
+    const auto fitness = fitness_of(mesh, s.components);
+    const auto volumes = volumes_of(mesh, s.components);
+    for (Index p = 0; p < s.components.count; ++p) {
         s.closed.push_back(fitness[p] == Fitness::fit);
         s.inward.push_back(volumes[p] < 0);
     }
-    s.unfit = unfit_places(mesh, s.pieces, fitness, found);
-    DisjointSets sets(s.pieces.count);
+    s.unfit = unfit_places(mesh, s.components, fitness, found);
+    DisjointSets sets(s.components.count);
     const auto both_fit = [&](Index f, Index g) {
-        return s.closed[s.pieces.of_face[f]] && s.closed[s.pieces.of_face[g]];
+        return s.closed[s.components.of_face[f]] && s.closed[s.components.of_face[g]];
     };
     for (const auto& [f, g] : found.pairs)
-        if (both_fit(f, g)) sets.join(s.pieces.of_face[f], s.pieces.of_face[g]);
+        if (both_fit(f, g)) sets.join(s.components.of_face[f], s.components.of_face[g]);
     std::map<Index, Index> numbers; // of sets, by their first pair
     for (const auto& [f, g] : found.pairs)
         if (both_fit(f, g) &&
-            numbers.try_emplace(sets.find(s.pieces.of_face[f]), static_cast<Index>(s.at.size())).second)
+            numbers.try_emplace(sets.find(s.components.of_face[f]), static_cast<Index>(s.at.size())).second)
             s.at.push_back(corner_mean(mesh, f));
-    for (Index p = 0; p < s.pieces.count; ++p) {
+    for (Index p = 0; p < s.components.count; ++p) {
         const auto at = s.closed[p] ? numbers.find(sets.find(p)) : numbers.end();
         s.cluster.push_back(at == numbers.end() ? none : at->second);
     }
@@ -140,19 +140,19 @@ namespace {
 
 using clean_steps::Solids;
 
-/// For each closed piece the closed pieces that it lies in, ascending.
-std::vector<std::vector<Index>> pieces_around(const Mesh& mesh, const Solids& solids) {
-    std::vector<Index> first(solids.pieces.count, none);
-    for (Index f = mesh.face_count(); f-- > 0;) first[solids.pieces.of_face[f]] = f;
+/// For each closed component the closed components that it lies in, ascending.
+std::vector<std::vector<Index>> components_around(const Mesh& mesh, const Solids& solids) {
+    std::vector<Index> first(solids.components.count, none);
+    for (Index f = mesh.face_count(); f-- > 0;) first[solids.components.of_face[f]] = f;
     const FaceTree rays(surface_of(mesh), FaceTree::Use::rays);
-    std::vector<std::vector<Index>> around(solids.pieces.count);
+    std::vector<std::vector<Index>> around(solids.components.count);
     parallel_for(
         around.size(),
         [&](std::size_t p) {
             if (!solids.closed[p]) return;
-            std::map<Index, int> turns; // of each piece around the point
+            std::map<Index, int> turns; // of each component around the point
             visit_along_axis(rays, mesh.point(mesh.face_begin(first[p])), 0, true, [&](Index f, int way) {
-                const Index q = solids.pieces.of_face[f];
+                const Index q = solids.components.of_face[f];
                 if (q != p && solids.closed[q]) turns[q] += way;
             });
             for (const auto& [q, n] : turns)
@@ -167,14 +167,14 @@ std::vector<std::vector<Index>> pieces_around(const Mesh& mesh, const Solids& so
 Components solid_components(const Mesh& mesh) {
     Solids solids = clean_steps::find_solids(mesh, {});
     const auto is_cavity = [&](Index p) { return solids.closed[p] && solids.inward[p]; };
-    std::vector<Index> solid_of(solids.pieces.count);
+    std::vector<Index> solid_of(solids.components.count);
     bool any = false;
     for (Index p = 0; p < solid_of.size(); ++p) {
         solid_of[p] = p;
         any |= is_cavity(p);
     }
-    if (!any || solid_of.size() < 2) return std::move(solids.pieces);
-    const auto around = pieces_around(mesh, solids);
+    if (!any || solid_of.size() < 2) return std::move(solids.components);
+    const auto around = components_around(mesh, solids);
     for (Index p = 0; p < solid_of.size(); ++p) {
         if (!is_cavity(p)) continue;
         std::size_t depth = 0; // the innermost lies in most others itself
@@ -185,11 +185,11 @@ Components solid_components(const Mesh& mesh) {
             }
     }
     std::vector<Index> number(solid_of.size(), none);
-    Components joined{std::move(solids.pieces.of_face), 0};
-    for (Index& piece : joined.of_face) {
-        Index& n = number[solid_of[piece]];
+    Components joined{std::move(solids.components.of_face), 0};
+    for (Index& component : joined.of_face) {
+        Index& n = number[solid_of[component]];
         if (n == none) n = static_cast<Index>(joined.count++);
-        piece = n;
+        component = n;
     }
     return joined;
 }

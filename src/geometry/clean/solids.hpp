@@ -1,23 +1,25 @@
 #pragma once
-// Which pieces of a mesh are solids that pass through each other or themselves.
+// Which components of a mesh are solids that pass through each other or themselves.
 
 #include "geometry/clean/steps.hpp"
 #include "mesh/topology.hpp"
 
 namespace facetmill::clean_steps {
 
-/// Closed pieces that intersect, directly or by way of others: what becomes one solid, or is left, together.
+/// Closed components that intersect, directly or by way of others: what becomes one solid, or is left,
+/// together.
 struct Solids {
-    Components pieces;                ///< faces that hang together over edges
-    std::vector<std::uint8_t> closed; ///< [pieces] and consistent, finite and without faces of no area
-    std::vector<std::uint8_t> inward; ///< [pieces] the volume is negative
-    std::vector<Index> cluster;       ///< [pieces] none for those that intersect no closed piece
-    std::vector<NotDone> unfit; ///< the places where pieces intersect that are not closed, one per piece
-    std::vector<Vec3> at;       ///< [clusters] the first place
+    Components components;            ///< faces that hang together over edges
+    std::vector<std::uint8_t> closed; ///< [components] and consistent, finite and without faces of no area
+    std::vector<std::uint8_t> inward; ///< [components] the volume is negative
+    std::vector<Index> cluster;       ///< [components] none for those that intersect no closed component
+    std::vector<NotDone>
+        unfit;            ///< the places where components intersect that are not closed, one per component
+    std::vector<Vec3> at; ///< [clusters] the first place
     std::vector<std::uint8_t> meets_unfit; ///< [clusters]
 
     std::size_t clusters() const { return at.size(); }
-    Index cluster_of_face(Index f) const { return cluster[pieces.of_face[f]]; }
+    Index cluster_of_face(Index f) const { return cluster[components.of_face[f]]; }
 };
 
 /// found: all pairs of faces that intersect.

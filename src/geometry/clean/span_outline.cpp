@@ -11,7 +11,7 @@ namespace facetmill {
 
 namespace {
 
-constexpr std::size_t most_for_search = 400; // some 10 million candidates
+constexpr std::size_t max_searched = 400; // some 10 million candidates
 
 Vec3 twice_area(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); }
 
@@ -105,7 +105,7 @@ std::vector<Index> without_ears(const std::vector<Vec3>& p, std::vector<Vec3>& a
     };
     for (Index i = 0; i < n; ++i) push(i);
     std::vector<std::uint8_t> cut(n, 0);
-    for (Index left = n; left > most_for_search;) {
+    for (Index left = n; left > max_searched;) {
         const auto [size, i, v] = queue.top();
         queue.pop();
         if (cut[i] || v != version[i]) continue;
@@ -130,7 +130,7 @@ std::vector<Index> without_ears(const std::vector<Vec3>& p, std::vector<Vec3>& a
 std::vector<std::array<Index, 3>> span_outline(const std::vector<Vec3>& outline,
                                                const std::vector<Vec3>& across) {
     if (outline.size() < 3) return {};
-    if (outline.size() <= most_for_search) return Search(outline, across).run();
+    if (outline.size() <= max_searched) return Search(outline, across).run();
     std::vector<std::array<Index, 3>> triangles;
     std::vector<Vec3> beyond = across, points, beyond_rest;
     const auto rest = without_ears(outline, beyond, triangles);

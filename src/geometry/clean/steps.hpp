@@ -21,12 +21,12 @@ struct Work {
 /// Vertices at one place become the lowest of them. Where the faces that meet there would only come apart
 /// again (non_manifold, see split_non_manifold), they are left as they are.
 bool weld_equal(Work& work, bool comes_apart);
-/// In index order each end of an open edge becomes the nearest one kept so far within the length. Vertices of
+/// In index order each end of an open edge becomes the nearest one kept so far within tolerance. Vertices of
 /// one face are never merged, so that no face loses its area; vertices inside the surface are left alone.
-bool weld_near(Work& work, double within);
-/// Open edges that run against each other and whose ends are within the length become one, the nearest pairs
+bool weld_near(Work& work, double tolerance);
+/// Open edges that run against each other and whose ends are within tolerance become one, the nearest pairs
 /// first; their ends become the lower vertices.
-bool stitch(Work& work, double within);
+bool stitch(Work& work, double tolerance);
 /// Corners that repeat the vertex before them go, then faces without area (exact). Where that opens the
 /// surface, the vertices on the line are put on the edges that face it, so that what was closed stays closed.
 bool remove_degenerate(Work& work);
@@ -36,9 +36,9 @@ bool remove_degenerate(Work& work);
 /// a closed surface also when they touch it with a corner), and one of each stays when they are a sheet of
 /// their own.
 bool remove_duplicates(Work& work);
-/// A vertex on (near: within the length of) an open edge of another face, with an open edge of its own along
+/// A vertex on (near: within tolerance of) an open edge of another face, with an open edge of its own along
 /// that one, is put on it.
-bool resolve_t_junctions(Work& work, double within);
+bool resolve_t_junctions(Work& work, double tolerance);
 /// See split_non_manifold.
 bool take_apart_non_manifold(Work& work);
 /// Edges as (low vertex, high vertex), ascending.
@@ -48,28 +48,28 @@ using EdgeList = std::vector<std::pair<Index, Index>>;
 /// or lie on the faces beside it (but for the rounding of 32 bits): where a flat sheet ends is no hole.
 bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross);
 bool remove_components(Work& work, const ComponentSettings& settings);
-/// Closed pieces that lie inside other closed pieces and touch none go.
+/// Closed components that lie inside other closed components and touch none go.
 bool remove_inner_components(Work& work);
 bool remove_isolated(Work& work);
 /// The pairs of faces that intersect, for the two steps below; vertices at one place count as one, so that
 /// faces which are separated only by an edge or vertex that was split (split_non_manifold) are none. At most
-/// most_pairs are listed.
+/// max_pairs are listed.
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {});
-inline constexpr std::size_t most_pairs = std::size_t{1} << 22;
+inline constexpr std::size_t max_pairs = std::size_t{1} << 22;
 /// Pairs of faces, lower one first, ascending, that link all faces at edges around which the surface winds
 /// more than once: there solids overlap without any crossing, as grids do that pass through each other along
 /// their lines.
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
-/// Closed pieces that pass through each other, or through themselves, become one solid: the union, by winding
-/// numbers (see unite). `found` are the crossings of the mesh, `overlaps` those at edges. What is closed
-/// stays closed; what intersects does not any more, but with pieces that are not closed: those, and solids
-/// that cannot be united, are told and left exactly as they were. Faces that intersect nothing and lie
-/// outside of all other pieces are left alone.
+/// Closed components that pass through each other, or through themselves, become one solid: the union, by
+/// winding numbers (see unite). `found` are the crossings of the mesh, `overlaps` those at edges. What is
+/// closed stays closed; what intersects does not any more, but with components that are not closed: those,
+/// and solids that cannot be united, are told and left exactly as they were. Faces that intersect nothing and
+/// lie outside of all other components are left alone.
 bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pair<Index, Index>>& overlaps,
                   const CleanSettings& settings);
 /// Place by place: removes the faces that intersect others, if need be with up to four rings around them, and
 /// fills what that opens. A place is left as it was when that would leave an intersection or an open edge
-/// that was not there, change the topology, or take half of a piece along. Faces that touch only where
+/// that was not there, change the topology, or take half of a component along. Faces that touch only where
 /// vertices of theirs are at one place do not count.
 bool resolve_self_intersections(Work& work, SelfIntersections found);
 

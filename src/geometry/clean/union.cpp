@@ -1,4 +1,4 @@
-// The step of clean that makes one solid of closed pieces that pass through each other or themselves.
+// The step of clean that makes one solid of closed components that pass through each other or themselves.
 #include "geometry/clean/solids.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/clean/united.hpp"
@@ -16,10 +16,10 @@ namespace facetmill::clean_steps {
 
 namespace {
 
-constexpr int most_passes = 8;
+constexpr int max_passes = 8;
 /// Those that cannot be united are left out and the rest is tried again, so often: a bound for what is
 /// hostile.
-constexpr int most_trials = 8;
+constexpr int max_trials = 8;
 /// Where passes make new crossings, points that are this near (of the size of the mesh) become one, and eight
 /// times as far in each pass after; in the first, only those that round to one place.
 constexpr double nearest = 1.0 / static_cast<double>(std::int64_t{1} << 50);
@@ -54,14 +54,14 @@ class Trial {
 
     /// The clusters that cannot be united, if any.
     Failures run(const SelfIntersections& first) {
-        for (Index p = 0; p < solids_.pieces.count; ++p)
+        for (Index p = 0; p < solids_.components.count; ++p)
             work_.counts.united_components += solids_.cluster[p] != none;
         SelfIntersections found = first;
-        double within = 0;
+        double tolerance = 0;
         Solids solids = solids_;
-        for (int pass = 0; pass < most_passes; ++pass) {
-            if (!one_pass(solids, found, within)) return std::move(failures_);
-            within = within > 0 ? 8 * within : nearest * work_.mesh.bounds().diagonal();
+        for (int pass = 0; pass < max_passes; ++pass) {
+            if (!one_pass(solids, found, tolerance)) return std::move(failures_);
+            tolerance = tolerance > 0 ? 8 * tolerance : nearest * work_.mesh.bounds().diagonal();
             tidy();
             found = crossings_of_fresh();
             if (found.pairs.empty()) return std::move(failures_);
@@ -73,7 +73,7 @@ class Trial {
             for (const Index face : {f, g})
                 fail(marks_of(work_.mesh)[face],
                      fmt::format("the rounded coordinates of the union still intersect after {} passes",
-                                 most_passes));
+                                 max_passes));
         return std::move(failures_);
     }
 
@@ -89,8 +89,8 @@ class Trial {
         if ((mark & ~fresh) != 0) failures_.try_emplace((mark & ~fresh) - 1, std::move(why));
     }
 
-    bool one_pass(const Solids& solids, const SelfIntersections& found, double within) {
-        United united = unite(work_.mesh, solids, found, within);
+    bool one_pass(const Solids& solids, const SelfIntersections& found, double tolerance) {
+        United united = unite(work_.mesh, solids, found, tolerance);
         for (const auto& refused :
              united.refused) { // a cluster of this pass; its marks say which of the first
             for (Index f = 0; f < work_.mesh.face_count(); ++f)
@@ -140,7 +140,7 @@ class Trial {
             for (const auto& [one, other] : {std::pair{f, g}, std::pair{g, f}})
                 if ((marks[other] & ~fresh) == 0)
                     fail(marks[one], "the union, rounded, would intersect another component");
-                else if (!solids.closed[solids.pieces.of_face[one]])
+                else if (!solids.closed[solids.components.of_face[one]])
                     fail(marks[one], "the union, rounded, would not be closed");
     }
 
@@ -174,8 +174,8 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
                   const CleanSettings& settings) {
     Solids solids = find_solids(work.mesh, found);
     if (!overlaps.empty()) {
-        for (const auto& [f, g] : overlaps) // of pieces that are not closed they say nothing
-            if (solids.closed[solids.pieces.of_face[f]] && solids.closed[solids.pieces.of_face[g]])
+        for (const auto& [f, g] : overlaps) // of components that are not closed they say nothing
+            if (solids.closed[solids.components.of_face[f]] && solids.closed[solids.components.of_face[g]])
                 found.pairs.emplace_back(f, g);
         std::sort(found.pairs.begin(), found.pairs.end());
         found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
@@ -187,7 +187,7 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
         return std::any_of(solids.cluster.begin(), solids.cluster.end(), [](Index c) { return c != none; });
     };
     for (int trials = 0; any(); ++trials) {
-        if (trials == most_trials) {
+        if (trials == max_trials) {
             for (Index c = 0; c < solids.clusters(); ++c)
                 if (std::find(solids.cluster.begin(), solids.cluster.end(), c) != solids.cluster.end())
                     work.not_done.push_back(
@@ -278,8 +278,8 @@ Round plan(const Mesh& mesh) {
 } // namespace
 
 void take_out_flat(Work& work) {
-    constexpr int most_rounds = 64;
-    for (int i = 0; i < most_rounds; ++i) {
+    constexpr int max_rounds = 64;
+    for (int i = 0; i < max_rounds; ++i) {
         Round round = plan(work.mesh);
         if (round.insertions.empty()) return;
         std::vector<std::uint8_t> goes(round.goes.size() + round.cut.size(), 0);

@@ -41,8 +41,8 @@ struct Leaf {
 
 class Uniting {
   public:
-    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within)
-        : mesh_(mesh), solids_(solids), found_(found), within_(within) {}
+    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance)
+        : mesh_(mesh), solids_(solids), found_(found), tolerance_(tolerance) {}
 
     United run() {
         mark_cut_faces();
@@ -63,8 +63,8 @@ class Uniting {
     }
 
   private:
-    Index piece_of(Index triangle) const { return solids_.pieces.of_face[triangles_.face[triangle]]; }
-    Index cluster_of(Index triangle) const { return solids_.cluster[piece_of(triangle)]; }
+    Index component_of(Index triangle) const { return solids_.components.of_face[triangles_.face[triangle]]; }
+    Index cluster_of(Index triangle) const { return solids_.cluster[component_of(triangle)]; }
 
     void refuse(Index cluster, const char* why) {
         for (const auto& r : result_.refused)
@@ -102,14 +102,14 @@ class Uniting {
         merge_vertices(mesh_, target);
     }
 
-    /// The triangles of all closed pieces.
+    /// The triangles of all closed components.
     void gather() {
         surface_ = surface_of(mesh_);
         first_.assign(mesh_.face_count() + 1, 0);
         std::vector<std::array<Index, 3>> unused;
         for (std::size_t t = 0; t < surface_.size(); ++t) {
             const Index f = surface_.face(t);
-            if (!solids_.closed[solids_.pieces.of_face[f]]) continue;
+            if (!solids_.closed[solids_.components.of_face[f]]) continue;
             ++first_[f + 1];
             std::array<Index, 3> corners{};
             for (std::size_t i = 0; i < 3; ++i)
@@ -177,7 +177,7 @@ class Uniting {
         leaf.nodes = nodes;
         leaf.cluster = cluster_of(sources[0].triangle);
         for (const auto& [t, sign] : sources) {
-            const bool inward = solids_.inward[piece_of(t)];
+            const bool inward = solids_.inward[component_of(t)];
             leaf.of_inward |= inward;
             (inward ? leaf.turns.inward : leaf.turns.outward) += flip * sign;
             leaf.triangles.push_back(t);
@@ -212,7 +212,7 @@ class Uniting {
         for (Index i = 0; i < leaves_.size(); ++i) leaves_[i].patch = sets.find(i);
     }
 
-    /// The winding number in front of a leaf; without the pieces that the cluster does not hold, unless
+    /// The winding number in front of a leaf; without the components that the cluster does not hold, unless
     /// there is a cavity in them.
     Sides front_of(const Arrangement& arrangement, const Leaf& leaf) {
         Sides ahead;
@@ -221,7 +221,7 @@ class Uniting {
             if (cluster_of(t) != leaf.cluster)
                 around += turn;
             else
-                (solids_.inward[piece_of(t)] ? ahead.inward : ahead.outward) += turn;
+                (solids_.inward[component_of(t)] ? ahead.inward : ahead.outward) += turn;
         });
         if (way < 0) {
             ahead.outward -= leaf.turns.outward;
@@ -233,7 +233,7 @@ class Uniting {
 
     void judge_patches(const Arrangement& arrangement) {
         has_cavity_.assign(solids_.clusters(), 0);
-        for (Index p = 0; p < solids_.pieces.count; ++p)
+        for (Index p = 0; p < solids_.components.count; ++p)
             if (solids_.cluster[p] != none && solids_.inward[p]) has_cavity_[solids_.cluster[p]] = 1;
         outside_.assign(leaves_.size(), 0);
         for (Index i = 0; i < leaves_.size(); ++i) {
@@ -252,10 +252,10 @@ class Uniting {
 
     /// Cavities that no face of a cluster crosses go where another solid of it fills them.
     void find_filled_cavities(const Arrangement& arrangement) {
-        filled_.assign(solids_.pieces.count, 0);
-        std::vector<std::uint8_t> asked(solids_.pieces.count, 0);
+        filled_.assign(solids_.components.count, 0);
+        std::vector<std::uint8_t> asked(solids_.components.count, 0);
         for (Index t = 0; t < triangles_.face.size(); ++t) {
-            const Index p = piece_of(t);
+            const Index p = component_of(t);
             if (asked[p] || solids_.cluster[p] != none || !solids_.inward[p] || !has_area(t)) continue;
             asked[p] = 1;
             std::vector<int> winding(solids_.clusters(), 0);
@@ -269,7 +269,7 @@ class Uniting {
     void assemble(const Arrangement& arrangement) {
         std::vector<std::uint8_t> goes = cut_;
         for (Index f = 0; f < goes.size(); ++f)
-            if (filled_[solids_.pieces.of_face[f]]) {
+            if (filled_[solids_.components.of_face[f]]) {
                 goes[f] = 1;
                 ++result_.covered_faces;
             }
@@ -287,29 +287,30 @@ class Uniting {
         result_.cut_faces = static_cast<std::size_t>(std::count(cut_.begin(), cut_.end(), 1));
         const auto uncut = faces_without(goes);
         result_.uncut_faces = uncut.size();
-        result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, within_, result_.changes);
+        result_.mesh =
+            united_mesh(mesh_, uncut, pieces, arrangement, triangles_, tolerance_, result_.changes);
     }
 
     Mesh mesh_; ///< vertices merged where faces are cut
     const Solids& solids_;
     const SelfIntersections& found_;
-    double within_;
+    double tolerance_;
     std::vector<std::uint8_t> cut_;              ///< [faces]
     std::vector<std::pair<Index, Index>> pairs_; ///< of faces that are cut
     Surface surface_;
-    TriangleFaces triangles_;  ///< of closed pieces
+    TriangleFaces triangles_;  ///< of closed components
     std::vector<Index> first_; ///< [faces + 1] into triangles_
     std::vector<Leaf> leaves_;
-    std::vector<std::uint8_t> has_cavity_; ///< [clusters] or an inward piece at least
+    std::vector<std::uint8_t> has_cavity_; ///< [clusters] or an inward component at least
     std::vector<std::uint8_t> outside_;    ///< [leaves]
-    std::vector<std::uint8_t> filled_;     ///< [pieces]
+    std::vector<std::uint8_t> filled_;     ///< [components]
     United result_;
 };
 
 } // namespace
 
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within) {
-    return Uniting(mesh, solids, found, within).run();
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance) {
+    return Uniting(mesh, solids, found, tolerance).run();
 }
 
 } // namespace facetmill::clean_steps

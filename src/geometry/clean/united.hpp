@@ -24,8 +24,8 @@ struct United {
 /// and keep their order; the pieces of cut ones are triangles and come last. Vertices at one place where
 /// faces are cut become one. Attributes of new corners are mixed within the face that they are part of, those
 /// on an edge between its ends only, so that seams stay seams. Coordinates are rounded, and new vertices
-/// within a distance of others become them: the result may intersect again.
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double within);
+/// within tolerance of others become them: the result may intersect again.
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance);
 
 /// Takes triangles of exactly no area out of a closed surface without opening it: the vertex between the two
 /// others is put on the edge of the face across. Those for which there is none are left.

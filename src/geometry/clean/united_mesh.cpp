@@ -39,8 +39,9 @@ std::array<double, 3> barycentric(const Vec3& p, const Vec3& a, const Vec3& b, c
 
 class Assembly {
   public:
-    Assembly(const Mesh& mesh, const Arrangement& arrangement, const TriangleFaces& triangles, double within)
-        : mesh_(mesh), arrangement_(arrangement), triangles_(triangles), within_(within),
+    Assembly(const Mesh& mesh, const Arrangement& arrangement, const TriangleFaces& triangles,
+             double tolerance)
+        : mesh_(mesh), arrangement_(arrangement), triangles_(triangles), tolerance_(tolerance),
           plain_(is_plain(mesh)) {
         result_.positions = mesh.positions;
         result_.face_offsets = mesh.face_offsets;
@@ -74,21 +75,23 @@ class Assembly {
   private:
     using Place = std::tuple<double, double, double>;
     Place cell(const Vec3& p, const Vec3& beside = {}) const {
-        const auto place = [&](double x, double d) { return within_ > 0 ? std::floor(x / within_) + d : x; };
+        const auto place = [&](double x, double d) {
+            return tolerance_ > 0 ? std::floor(x / tolerance_) + d : x;
+        };
         return {place(p.x, beside.x), place(p.y, beside.y), place(p.z, beside.z)};
     }
 
     /// The lowest vertex at the place or near it.
     Index vertex_near(const Vec3& p) const {
         Index lowest = none;
-        const int reach = within_ > 0 ? 1 : 0;
+        const int reach = tolerance_ > 0 ? 1 : 0;
         for (int i = -reach; i <= reach; ++i)
             for (int j = -reach; j <= reach; ++j)
                 for (int k = -reach; k <= reach; ++k) {
                     const auto at = at_place_.find(cell(p, {double(i), double(j), double(k)}));
                     if (at == at_place_.end()) continue;
                     for (const Index v : at->second)
-                        if (length(result_.positions[v] - p) <= within_) lowest = std::min(lowest, v);
+                        if (length(result_.positions[v] - p) <= tolerance_) lowest = std::min(lowest, v);
                 }
         return lowest;
     }
@@ -170,7 +173,7 @@ class Assembly {
     const Mesh& mesh_;
     const Arrangement& arrangement_;
     const TriangleFaces& triangles_;
-    double within_;
+    double tolerance_;
     bool plain_; ///< a vertex is all there is to a wedge
     Mesh result_;
     Descent descent_;
@@ -182,9 +185,9 @@ class Assembly {
 } // namespace
 
 Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
-                 const Arrangement& arrangement, const TriangleFaces& triangles, double within,
+                 const Arrangement& arrangement, const TriangleFaces& triangles, double tolerance,
                  AttributeChanges& changes) {
-    return Assembly(mesh, arrangement, triangles, within).run(uncut, pieces, changes);
+    return Assembly(mesh, arrangement, triangles, tolerance).run(uncut, pieces, changes);
 }
 
 } // namespace facetmill::clean_steps

@@ -20,10 +20,10 @@ struct TriangleFaces {
 };
 
 /// The uncut faces, then the pieces; vertices and wedges that lose their last face go. New nodes that round
-/// to the place of a vertex, or within a distance of it (the lowest such), become it, and pieces that lose a
+/// to the place of a vertex, or within tolerance of it (the lowest such), become it, and pieces that lose a
 /// corner by that are left out.
 Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
-                 const Arrangement& arrangement, const TriangleFaces& triangles, double within,
+                 const Arrangement& arrangement, const TriangleFaces& triangles, double tolerance,
                  AttributeChanges& changes);
 
 } // namespace facetmill::clean_steps

@@ -79,7 +79,7 @@ bool weld_equal(Work& work, bool comes_apart) {
     return merge(work, target, &CleanCounts::welded_vertices);
 }
 
-bool weld_near(Work& work, double within) {
+bool weld_near(Work& work, double tolerance) {
     const Mesh& mesh = work.mesh;
     const auto& p = mesh.positions;
     std::vector<Box> boxes(p.size()); // of the ends of boundary edges: others are sound
@@ -93,8 +93,8 @@ bool weld_near(Work& work, double within) {
     for (Index v = 0; v < p.size(); ++v) {
         target[v] = v;
         if (boxes[v].empty()) continue;
-        double nearest = within * within;
-        tree.visit(around(p[v], within), [&](Index w) {
+        double nearest = tolerance * tolerance;
+        tree.visit(around(p[v], tolerance), [&](Index w) {
             const double d = squared(p[w] - p[v]);
             if (w >= v || target[w] != w || d > nearest || (d == nearest && w > target[v])) return;
             if (!(d > 0) || faces.share(v, w)) return; // equal places are weld_equal's
@@ -116,7 +116,7 @@ bool weld_near(Work& work, double within) {
     return merge(work, target, &CleanCounts::welded_vertices);
 }
 
-bool stitch(Work& work, double within) {
+bool stitch(Work& work, double tolerance) {
     const Mesh& mesh = work.mesh;
     const auto& p = mesh.positions;
     const auto open = boundary_edges(mesh);
@@ -128,9 +128,9 @@ bool stitch(Work& work, double within) {
         Index a, b;
     };
     std::vector<Pair> pairs;
-    const double limit = within * within;
+    const double limit = tolerance * tolerance;
     for (Index i = 0; i < open.size(); ++i)
-        tree.visit(around(p[open[i].to], within), [&](Index j) {
+        tree.visit(around(p[open[i].to], tolerance), [&](Index j) {
             const double d = squared(p[open[i].to] - p[open[j].from]),
                          e = squared(p[open[i].from] - p[open[j].to]);
             if (i < j && d <= limit && e <= limit) pairs.push_back({d + e, i, j});

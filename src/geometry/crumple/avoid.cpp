@@ -54,7 +54,7 @@ constexpr std::uint8_t large_step = 3; ///< to an eighth
 constexpr int large_rounds = 3;        ///< after these, to nothing
 // Of the longest edge of a face: where moves draw two of its corners apart by more, it is nearly sure to meet
 // others, so many that looking for them all would take most of the time.
-constexpr double most_stretch = 8;
+constexpr double max_stretch = 8;
 
 double share_of(std::uint8_t level) { return level == last_level ? 0 : 1.0 / (1 << level); }
 
@@ -63,8 +63,8 @@ Vec3 rounded(const Vec3& p) { return {as_float32(p.x), as_float32(p.y), as_float
 /// A sheet as it is tested: vertices at one place are one.
 class TestSheet {
   public:
-    TestSheet(const CrumpleSheet& sheet, const std::vector<Index>& places, std::size_t most_pairs)
-        : sheet_(sheet), places_(places), most_pairs_(most_pairs) {
+    TestSheet(const CrumpleSheet& sheet, const std::vector<Index>& places, std::size_t max_pairs)
+        : sheet_(sheet), places_(places), max_pairs_(max_pairs) {
         const Mesh& from = *sheet.mesh;
         const std::size_t n = from.vertex_count();
         before_.resize(n);
@@ -104,7 +104,7 @@ class TestSheet {
     /// pair with itself.
     std::vector<std::pair<Index, Index>> new_pairs() const {
         // With so many listed, one new pair at least is among them when there is any.
-        auto pairs = find(touched_, exempt_.size() + most_pairs_).pairs;
+        auto pairs = find(touched_, exempt_.size() + max_pairs_).pairs;
         std::erase_if(pairs,
                       [&](const auto& p) { return std::binary_search(exempt_.begin(), exempt_.end(), p); });
         for (Index f = 0; f < touched_.size(); ++f)
@@ -125,7 +125,7 @@ class TestSheet {
                 longest = std::max(longest, dot(edge, edge));
                 farthest = std::max(farthest, dot(apart, apart));
             }
-            faces[f] = farthest > most_stretch * most_stretch * longest;
+            faces[f] = farthest > max_stretch * max_stretch * longest;
         });
         return faces;
     }
@@ -191,13 +191,13 @@ class TestSheet {
     bool is_flat(Index f) const { return is_degenerate(mesh_, f); }
 
     void remember_exempt() {
-        const auto found = find({}, most_pairs_);
+        const auto found = find({}, max_pairs_);
         if (found.count > found.pairs.size())
             throw Error(
                 ErrorKind::limit, "E-LIMIT",
                 fmt::format(
                     "crumple: {} pairs of faces intersect already, and at most {} can be told from new ones",
-                    found.count, most_pairs_),
+                    found.count, max_pairs_),
                 "clean removes duplicate faces; self_intersections: allow does not search for intersections");
         exempt_ = found.pairs;
     }
@@ -213,7 +213,7 @@ class TestSheet {
 
     const CrumpleSheet& sheet_;
     const std::vector<Index>& places_;
-    std::size_t most_pairs_;
+    std::size_t max_pairs_;
     std::vector<Vec3> before_;                    ///< [vertices] rounded
     std::vector<Index> first_;                    ///< [vertices]
     Mesh mesh_;                                   ///< corners go to the first of equal vertices
@@ -381,14 +381,14 @@ void hold_together(std::span<CrumpleSheet> sheets) {
 
 double move_apart_memory(double triangles) { return 300 * triangles; }
 
-AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look, std::size_t most_pairs) {
+AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look, std::size_t max_pairs) {
     AvoidResult result;
     const CrumplePlaces places(sheets);
     std::vector<std::uint8_t> levels(places.count);
     std::vector<TestSheet> tests;
     tests.reserve(sheets.size());
     for (std::size_t s = 0; s < sheets.size(); ++s) {
-        tests.emplace_back(sheets[s], places.of_vertex[s], most_pairs);
+        tests.emplace_back(sheets[s], places.of_vertex[s], max_pairs);
         result.exempt += tests.back().exempt();
     }
     if (only_look) {

@@ -102,7 +102,7 @@ void hold_together(std::span<CrumpleSheet> sheets);
 
 struct AvoidResult {
     std::size_t exempt = 0; ///< pairs of faces that met before
-    /// With `only_look`, new pairs of faces that the full moves would make (most_pairs at most), and faces
+    /// With `only_look`, new pairs of faces that the full moves would make (max_pairs at most), and faces
     /// that lose their area. Else the faces of such pairs, those without area and those that are stretched
     /// too far.
     std::size_t found = 0;
@@ -135,10 +135,10 @@ struct AvoidResult {
 /// The same for any number of threads. A round takes about as long as finding the self-intersections of the
 /// faces that it lowered.
 ///
-/// Only faces of one sheet are kept apart. Throws limit (E-LIMIT) when more than most_pairs pairs of a sheet
+/// Only faces of one sheet are kept apart. Throws limit (E-LIMIT) when more than max_pairs pairs of a sheet
 /// meet before: they could not all be exempt.
 AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look = false,
-                       std::size_t most_pairs = std::size_t{8} << 20);
+                       std::size_t max_pairs = std::size_t{8} << 20);
 
 /// About the bytes that move_apart takes for a mesh of so many triangles, besides the mesh.
 double move_apart_memory(double triangles);

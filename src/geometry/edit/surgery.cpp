@@ -173,13 +173,13 @@ Mesh part_corners(const Mesh& mesh, const std::vector<Index>& vertex_of_corner,
         result.wedge_vertex.assign(mesh.wedge_count(), gone);
         descent.wedges.copies.resize(mesh.wedge_count());
         for (Index w = 0; w < mesh.wedge_count(); ++w) descent.wedges.copies[w] = w;
-        std::map<std::pair<Index, Index>, Index> parted;
+        std::map<std::pair<Index, Index>, Index> copies;
         for (Index c = 0; c < mesh.corner_count(); ++c) {
             const Index w = mesh.corners[c], v = vertex_of_corner[c];
             if (result.wedge_vertex[w] == gone) result.wedge_vertex[w] = v;
             if (result.wedge_vertex[w] == v) continue;
             const auto [at, fresh] =
-                parted.try_emplace({w, v}, static_cast<Index>(result.wedge_vertex.size()));
+                copies.try_emplace({w, v}, static_cast<Index>(result.wedge_vertex.size()));
             if (fresh) {
                 result.wedge_vertex.push_back(v);
                 descent.wedges.copies.push_back(w);

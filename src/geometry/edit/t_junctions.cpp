@@ -43,14 +43,14 @@ struct BoundaryEdgesAt {
     }
 };
 
-/// Where on the segment a b the point p lies when it lies inside it: exactly on it, or within the length and
+/// Where on the segment a b the point p lies when it lies inside it: exactly on it, or within tolerance and
 /// farther than that from the ends.
-std::optional<double> place_on(const Vec3& a, const Vec3& b, const Vec3& p, double within) {
+std::optional<double> place_on(const Vec3& a, const Vec3& b, const Vec3& p, double tolerance) {
     const Vec3 along = b - a;
     const double t = dot(p - a, along) / dot(along, along);
     if (!(t > 0 && t < 1)) return {};
-    if (within > 0) {
-        const auto near = [&](const Vec3& q) { return !(length(p - q) > within); };
+    if (tolerance > 0) {
+        const auto near = [&](const Vec3& q) { return !(length(p - q) > tolerance); };
         if (near(a) || near(b) || !near(a + along * t)) return {};
     } else if (!collinear(a, b, p)) {
         return {};
@@ -58,9 +58,9 @@ std::optional<double> place_on(const Vec3& a, const Vec3& b, const Vec3& p, doub
     return t;
 }
 
-bool is_on(const Vec3& a, const Vec3& b, const Vec3& p, double within) {
-    if (length(p - a) <= within || length(p - b) <= within) return true;
-    return place_on(a, b, p, within).has_value();
+bool is_on(const Vec3& a, const Vec3& b, const Vec3& p, double tolerance) {
+    if (length(p - a) <= tolerance || length(p - b) <= tolerance) return true;
+    return place_on(a, b, p, tolerance).has_value();
 }
 
 bool uses(const Mesh& mesh, Index f, Index v) {
@@ -71,7 +71,7 @@ bool uses(const Mesh& mesh, Index f, Index v) {
 
 } // namespace
 
-std::vector<Insertion> find_t_junctions(const Mesh& mesh, double within) {
+std::vector<Insertion> find_t_junctions(const Mesh& mesh, double tolerance) {
     const auto& p = mesh.positions;
     const auto boundary = odd_edges(mesh);
     const BoundaryEdgesAt at(boundary);
@@ -85,17 +85,17 @@ std::vector<Insertion> find_t_junctions(const Mesh& mesh, double within) {
     for (const BoundaryEdge& edge : boundary) {
         const Vec3 &a = p[edge.from], &b = p[edge.to];
         Box box;
-        const Vec3 r{within, within, within};
+        const Vec3 r{tolerance, tolerance, tolerance};
         for (const Vec3& corner : {a - r, b - r, a + r, b + r}) box.add(corner);
         tree.visit(box, [&](Index i) {
             const Index v = vertices[i];
             if (v == edge.from || v == edge.to || uses(mesh, edge.face, v)) return;
-            const auto t = place_on(a, b, p[v], within);
+            const auto t = place_on(a, b, p[v], tolerance);
             if (!t) return;
             bool along = false; // a boundary edge of v lies along this one
             at.each(v, [&](Index e) {
                 const Index other = boundary[e].from == v ? boundary[e].to : boundary[e].from;
-                along = along || (boundary[e].face != edge.face && is_on(a, b, p[other], within));
+                along = along || (boundary[e].face != edge.face && is_on(a, b, p[other], tolerance));
             });
             if (along) insertions.push_back({edge.corner, *t, v});
         });

@@ -5,9 +5,9 @@
 
 namespace facetmill {
 
-/// The vertices that lie on a boundary edge of another face, exactly, or within the length and farther than
+/// The vertices that lie on a boundary edge of another face, exactly, or within tolerance and farther than
 /// that from its ends, and have a boundary edge of their own along it: what insert_on_edges would put where.
 /// By edge; a vertex may lie on several. O(n log n).
-std::vector<Insertion> find_t_junctions(const Mesh& mesh, double within);
+std::vector<Insertion> find_t_junctions(const Mesh& mesh, double tolerance);
 
 } // namespace facetmill

@@ -27,7 +27,7 @@ EdgeKey key_of(Index a, Index b) { return EdgeKey{std::min(a, b)} << 32 | std::m
 
 /// What one bucket of vertices contributes.
 struct Found {
-    LinkCounts counts;
+    Connectivity counts;
     std::vector<EdgeKey> boundary;                  ///< boundary edges, each once
     std::vector<std::pair<EdgeKey, EdgeKey>> turns; ///< boundary edges that follow each other around a fan
 };
@@ -89,7 +89,7 @@ class LinkReader {
     }
 
     void count_edge(EdgeKey key, std::size_t uses, std::int64_t balance) {
-        LinkCounts& n = found_.counts;
+        Connectivity& n = found_.counts;
         ++n.edges;
         n.uncancelled_edges += balance != 0;
         n.disagreeing_edges += std::abs(balance) > 1;
@@ -173,7 +173,7 @@ class LinkReader {
 };
 
 void join(Found& a, Found&& b) {
-    LinkCounts& n = a.counts;
+    Connectivity& n = a.counts;
     n.edges += b.counts.edges;
     n.boundary_edges += b.counts.boundary_edges;
     n.isolated_vertices += b.counts.isolated_vertices;
@@ -218,7 +218,7 @@ void read_bucket(std::span<const Wing> wings, std::size_t first, std::size_t las
 
 } // namespace
 
-LinkCounts count_links(const Mesh& mesh) {
+Connectivity connectivity_of(const Mesh& mesh) {
     const auto buckets = fill_buckets<Wing>(mesh, [&](Index f, auto&& emit) {
         const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
         if (begin == end) return;

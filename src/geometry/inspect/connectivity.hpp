@@ -9,7 +9,7 @@
 namespace facetmill {
 
 /// The part of Properties that follows from connectivity alone; the meaning of each is told there.
-struct LinkCounts {
+struct Connectivity {
     std::int64_t edges = 0, boundary_edges = 0, boundary_loops = 0, isolated_vertices = 0;
     std::int64_t uncancelled_edges = 0; ///< where the directions of the faces do not cancel
     std::int64_t crowded_edges = 0;     ///< with more than two faces
@@ -20,6 +20,6 @@ struct LinkCounts {
 };
 
 /// Counts all of it. O(corners log(faces at a vertex)), parallel, the same for any number of threads.
-LinkCounts count_links(const Mesh& mesh);
+Connectivity connectivity_of(const Mesh& mesh);
 
 } // namespace facetmill

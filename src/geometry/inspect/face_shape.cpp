@@ -66,7 +66,7 @@ std::vector<double> least_of_corners(const Mesh& mesh, Value&& value) {
     });
 }
 template <class Value>
-std::vector<double> most_of_corners(const Mesh& mesh, Value&& value) {
+std::vector<double> max_of_corners(const Mesh& mesh, Value&& value) {
     return of_each_face(mesh, [&](Index f) {
         double most = 0;
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
@@ -90,9 +90,9 @@ double leaves_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, con
 } // namespace
 
 std::vector<double> smallest_angles(const Mesh& mesh) { return least_of_corners(mesh, corner_angle); }
-std::vector<double> largest_angles(const Mesh& mesh) { return most_of_corners(mesh, corner_angle); }
+std::vector<double> largest_angles(const Mesh& mesh) { return max_of_corners(mesh, corner_angle); }
 std::vector<double> shortest_edges(const Mesh& mesh) { return least_of_corners(mesh, edge_length); }
-std::vector<double> longest_edges(const Mesh& mesh) { return most_of_corners(mesh, edge_length); }
+std::vector<double> longest_edges(const Mesh& mesh) { return max_of_corners(mesh, edge_length); }
 
 std::vector<double> aspect_ratios(const Mesh& mesh) {
     return of_each_face(mesh, [&](Index f) { return worst_aspect_ratio(mesh, f); });

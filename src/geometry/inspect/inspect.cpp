@@ -95,22 +95,22 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     p.faces = static_cast<std::int64_t>(mesh.face_count());
     p.bounds = box_of(positions);
     const FaceSums sums = far_face_sums(mesh, positions, p.bounds);
-    const LinkCounts links = count_links(mesh);
+    const Connectivity connectivity = connectivity_of(mesh);
     p.triangles = sums.triangles;
     p.degenerate_faces = sums.degenerate;
     p.area = sums.area;
-    p.edges = links.edges;
-    p.boundary_edges = links.boundary_edges;
-    p.boundary_loops = links.boundary_loops;
-    p.isolated_vertices = links.isolated_vertices;
-    p.closed = links.uncancelled_edges == 0;
-    p.edge_manifold = links.crowded_edges == 0;
-    p.vertex_manifold = links.non_manifold_vertices == 0;
-    p.oriented = links.disagreeing_edges == 0;
+    p.edges = connectivity.edges;
+    p.boundary_edges = connectivity.boundary_edges;
+    p.boundary_loops = connectivity.boundary_loops;
+    p.isolated_vertices = connectivity.isolated_vertices;
+    p.closed = connectivity.uncancelled_edges == 0;
+    p.edge_manifold = connectivity.crowded_edges == 0;
+    p.vertex_manifold = connectivity.non_manifold_vertices == 0;
+    p.oriented = connectivity.disagreeing_edges == 0;
     // Triangles of three different vertices are compared where they meet; all else by the hash of its
     // vertices.
     p.duplicate_faces = mesh.all_triangles() && sums.repeating == 0
-                            ? links.duplicate_triangles
+                            ? connectivity.duplicate_triangles
                             : static_cast<std::int64_t>(duplicate_faces(mesh).size());
     p.components = static_cast<std::int64_t>(component_count(mesh));
     p.euler = p.vertices - p.isolated_vertices - p.edges + p.faces;

@@ -121,7 +121,7 @@ struct Property {
     PropertyKind kind = PropertyKind::count;
     Join join = Join::sum;
     std::string_view help; ///< for the manual
-    std::string_view hint; ///< the stage that mends it
+    std::string_view hint; ///< the stage that fixes it
     Member member = {};
     bool costly = false; ///< a member that needs InspectSettings::self_intersections
     /// On request: the value; none when it does not apply (no faces, no such attribute). Truths as 0 and 1.

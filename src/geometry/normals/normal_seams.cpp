@@ -19,7 +19,7 @@ constexpr double near_face = 0.9986;    // cosine of 3 degrees: what quantised n
 constexpr double nearly_all = 0.95;     // of the edges or corners
 constexpr double same_facet = 0.999962; // cosine of half a degree
 // A vertex may have a million faces: no more than so many wedges are compared with each other.
-constexpr std::size_t most_compared = 64;
+constexpr std::size_t max_compared = 64;
 
 Vec3 normal_of(const Attribute& a, Index w) { return {a.value(w, 0), a.value(w, 1), a.value(w, 2)}; }
 
@@ -183,7 +183,7 @@ class Fan {
         std::size_t gone = 0;
         firsts_.clear();
         for (std::size_t i = 0; i < wedges_.size(); ++i) {
-            const std::size_t from = firsts_.size() - std::min(firsts_.size(), most_compared);
+            const std::size_t from = firsts_.size() - std::min(firsts_.size(), max_compared);
             const auto same = std::find_if(
                 firsts_.begin() + static_cast<std::ptrdiff_t>(from), firsts_.end(), [&](std::size_t j) {
                     return root(i) == root(j) && others_.same(wedges_[i].id, wedges_[j].id);
@@ -297,7 +297,7 @@ void set_facet_normals(Mesh& mesh) {
         const std::size_t mine = facets.size();
         for (const Index c : corners_at.of(v)) {
             const Vec3& area = areas[face_of[c]];
-            std::size_t i = std::max(mine, facets.size() - std::min(facets.size(), most_compared));
+            std::size_t i = std::max(mine, facets.size() - std::min(facets.size(), max_compared));
             while (i < facets.size() && !(facets[i].wedge == mesh.corners[c] &&
                                           (cosine_between(facets[i].area, area) > same_facet)))
                 ++i;

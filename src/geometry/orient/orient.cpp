@@ -17,7 +17,7 @@ namespace facetmill {
 
 namespace {
 
-/// Pieces and, within each, which faces have to turn for neighbours to agree.
+/// Components and, within each, which faces have to turn for neighbours to agree.
 struct Spread {
     std::vector<OrientedComponent> components;
     std::vector<Index> component_of;
@@ -207,8 +207,8 @@ class Outside {
     /// The pairs of components, of those that may be nested, whose faces meet.
     std::set<std::pair<Index, Index>>
     intersecting_components(const std::vector<std::vector<Index>>& around) const {
-        constexpr std::size_t most_pairs = std::size_t{1} << 24;
-        SelfIntersectionSettings settings{.limit = most_pairs};
+        constexpr std::size_t max_pairs = std::size_t{1} << 24;
+        SelfIntersectionSettings settings{.limit = max_pairs};
         settings.among.resize(mesh_.face_count());
         for (Index f = 0; f < mesh_.face_count(); ++f)
             settings.among[f] = !around[spread_.component_of[f]].empty();

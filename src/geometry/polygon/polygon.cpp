@@ -35,7 +35,7 @@ int whole_orientation(Ring ring) {
     mpz_class twice;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2 &a = ring[i], &b = following(ring, i);
-        twice += whole(a.x) * whole(b.y) - whole(b.x) * whole(a.y);
+        twice += exact_integer(a.x) * exact_integer(b.y) - exact_integer(b.x) * exact_integer(a.y);
     }
     return sgn(twice);
 }

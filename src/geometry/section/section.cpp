@@ -256,10 +256,10 @@ Stack stack_of(const Extent& extent, std::optional<double> spacing, std::optiona
         first = extent.low + stack.spacing / 2;
         if (!(stack.spacing > 0)) planes = 0;
     }
-    if (planes > static_cast<double>(most_planes))
+    if (planes > static_cast<double>(max_planes))
         throw Error(
             ErrorKind::limit, "E-SECTION",
-            fmt::format("the stack would have {:.0f} planes, and at most {} are cut", planes, most_planes),
+            fmt::format("the stack would have {:.0f} planes, and at most {} are cut", planes, max_planes),
             "choose a larger spacing");
     for (std::int64_t i = 0; static_cast<double>(i) < planes; ++i)
         stack.heights.push_back(first + static_cast<double>(i) * stack.spacing);

@@ -118,6 +118,6 @@ struct Stack {
 /// (E-SECTION) beyond a hundred thousand planes.
 Stack stack_of(const Extent& extent, std::optional<double> spacing, std::optional<std::int64_t> count);
 
-inline constexpr std::int64_t most_planes = 100000;
+inline constexpr std::int64_t max_planes = 100000;
 
 } // namespace facetmill

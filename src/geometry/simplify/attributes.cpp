@@ -15,7 +15,7 @@ namespace {
 
 // Faces with less height than this share of their longest edge say nothing about gradients.
 constexpr double least_height_share = 1e-3;
-constexpr std::size_t most_sets = 2;       // of UVs
+constexpr std::size_t max_sets = 2;        // of UVs
 constexpr std::size_t skin_channels = 4;   // of the projection of skin weights
 constexpr double share_of_diagonal = 0.01; // that a difference of 1 counts as, but for UVs
 
@@ -70,7 +70,7 @@ class Values {
         std::size_t sets = 0;
         for (const Attribute& a : mesh.attributes) {
             if (a.domain == Domain::face) continue;
-            if (a.role == Role::uv && sets++ < most_sets)
+            if (a.role == Role::uv && sets++ < max_sets)
                 add({&a, nullptr, 2, weights.uv > 0 ? weights.uv * length_of_uv(mesh, a, scale) : 0});
             if (a.role == Role::normal && normals && a.name == "NORMAL")
                 add({&a, nullptr, 3, weights.normal * unit});

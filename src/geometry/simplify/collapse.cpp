@@ -121,7 +121,7 @@ bool find_cancelled(const State& s, Around& r) {
         for (const Spoke& other : r.at_a) {
             if (other.next == k.next && other.before == k.before) return false;
             if (other.next != k.before || other.before != k.next) continue;
-            if (r.cancellations == Around::most_sides || s.followed) return false;
+            if (r.cancellations == Around::max_sides || s.followed) return false;
             r.cancelled[static_cast<std::size_t>(r.cancellations++)] = {other.corner, k.corner, k.next,
                                                                         k.before};
         }
@@ -169,7 +169,7 @@ class Collapse {
         if (!gather(s_, r_.a, r_.at_a) || !gather(s_, r_.b, r_.at_b)) return blocked_topology;
         if (!is_inside()) return outside;
         find_sides();
-        if (!(s_.rules.changes_topology ? r_.sides >= 1 && r_.sides <= Around::most_sides
+        if (!(s_.rules.changes_topology ? r_.sides >= 1 && r_.sides <= Around::max_sides
                                         : r_.sides == (boundary ? 1 : 2)))
             return blocked_topology;
         if (!link_condition(along)) return blocked_topology;
@@ -232,7 +232,7 @@ class Collapse {
         r_.sides = 0;
         for (const Spoke& k : r_.at_a) {
             if (!k.has(r_.b)) continue;
-            if (r_.sides < Around::most_sides)
+            if (r_.sides < Around::max_sides)
                 r_.side[static_cast<std::size_t>(r_.sides)] = k.next == r_.b
                                                                   ? Side{k.corner, after(k.corner), k.before}
                                                                   : Side{k.corner, before(k.corner), k.next};
@@ -403,7 +403,7 @@ class Collapse {
 
     State& s_;
     Around& r_;
-    Index pair_[Around::most_sides][2] = {}; // wedge at a, wedge at b
+    Index pair_[Around::max_sides][2] = {}; // wedge at a, wedge at b
     int pairs_ = 0;
 };
 

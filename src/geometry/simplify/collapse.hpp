@@ -42,17 +42,17 @@ struct Territory {
 /// The surroundings of an edge from a to b, which goes into a; reused, so that nothing is allocated per edge.
 struct Around {
     /// Faces on an edge that goes; more than two only where topology was allowed to go.
-    static constexpr int most_sides = 4;
+    static constexpr int max_sides = 4;
 
     Territory territory;
     Index a = none, b = none;
     Ring at_a, at_b;
-    std::array<Side, most_sides> side{};
-    int sides = 0; ///< may be above most_sides: then the edge stays
+    std::array<Side, max_sides> side{};
+    int sides = 0; ///< may be above max_sides: then the edge stays
 
     // Only where topology may change.
     bool changes_topology = false;
-    std::array<Cancelled, most_sides> cancelled{};
+    std::array<Cancelled, max_sides> cancelled{};
     int cancellations = 0;
 
     // Only for max_error, see bounds.cpp.

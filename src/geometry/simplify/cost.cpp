@@ -19,7 +19,7 @@ constexpr float pull_of_cost = 1e-6f;
 // or, with fine quadrics, by 1e-5 of it: what is left of a plane in float32 coordinates.
 constexpr float shortness = 1e-6f, fine_shortness = 1e-10f;
 // A best place farther off the edge's middle than so many times half its length (squared) is not trusted.
-constexpr float most_off = 16;
+constexpr float max_off = 16;
 // The order is that of the sum of squared distances over the area^(3/4): between the sum, which lets small
 // parts go far off, and the mean, which spends faces on them. Over scans the maximum is a third below the
 // sum's, and the root mean square a few percent above.
@@ -31,7 +31,7 @@ Vec3 choose_place(Placement& p, const Quadric& q, const Vec3& half, const State&
     if (!endpoints) {
         const Vec3 best = q.weight > 0 ? q.least({}, (s.fine ? fine_pull : pull) * q.weight) : Vec3{};
         // Far off the edge the system was near singular: its ends and middle are safer.
-        if (dot(best, best) <= most_off * dot(half, half)) return best;
+        if (dot(best, best) <= max_off * dot(half, half)) return best;
     }
     const double at_a = q(-half), at_b = q(half), at_middle = q({});
     if (!endpoints && at_middle <= at_a && at_middle <= at_b) return {};
@@ -213,7 +213,7 @@ Four costs_of(const State& s, const PricedEdge* e, Mask& unsure) {
     Four value = at_end;
     if (!s.rules.endpoints) {
         const Vec3s best = q.least();
-        value = dot(best, best) <= quarter * most_off ? q(best) : (q.c < at_end ? q.c : at_end);
+        value = dot(best, best) <= quarter * max_off ? q(best) : (q.c < at_end ? q.c : at_end);
     }
     value = held == 1 ? at_first : held == 2 ? at_second : value;
     unsure = value < quarter * static_cast<float>(4 * doubtful);

@@ -24,10 +24,10 @@ namespace facetmill::simplification {
 namespace {
 
 constexpr std::size_t face_chunk = 1 << 13;
-constexpr int stretches_bits = 4;                    // of a small surface: 8 to 16 stretches
-constexpr int least_stretch = 11, most_stretch = 13; // bits: 2048 to 8192 vertices
-constexpr double share_per_pass = 1.0 / 8;           // of the live edges that are candidates in one pass
-constexpr int bucket_shift = 19;                     // of a cost's bits: 16 buckets per power of two
+constexpr int stretches_bits = 4;                   // of a small surface: 8 to 16 stretches
+constexpr int least_stretch = 11, max_stretch = 13; // bits: 2048 to 8192 vertices
+constexpr double share_per_pass = 1.0 / 8;          // of the live edges that are candidates in one pass
+constexpr int bucket_shift = 19;                    // of a cost's bits: 16 buckets per power of two
 // Buckets: near the goal, no edge goes before one of a quarter of its cost.
 constexpr std::size_t last_span = 32;
 // As their surroundings were.
@@ -241,7 +241,7 @@ class Passes {
     /// Deals the edges below the threshold out to the stretches.
     void gather(std::uint32_t limit) {
         const int bits = static_cast<int>(std::bit_width(s_.vertex_slots() - 1));
-        stretch_bits_ = std::clamp(bits - stretches_bits, least_stretch, most_stretch);
+        stretch_bits_ = std::clamp(bits - stretches_bits, least_stretch, max_stretch);
         const auto found = candidates(limit);
         std::size_t count = 0;
         for (const auto& list : found) count += list.size();

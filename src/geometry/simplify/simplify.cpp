@@ -18,7 +18,7 @@ using Stop = SimplifyResult::Stop;
 using Method = SimplifySettings::Method;
 using Intersections = SimplifySettings::Intersections;
 
-constexpr int most_rounds = 16;   // of limiting what runs into itself; three or four are usual
+constexpr int max_rounds = 16;    // of limiting what runs into itself; three or four are usual
 constexpr int gentle_rounds = 10; // before all collapses are held back there
 
 // What is refused before any work.
@@ -333,7 +333,7 @@ SimplifyResult simplify_crossing(Subject& subject, const Targets& targets, const
         r.intersections_before = before;
         r.intersections_after = after;
         const bool avoid = settings.self_intersections == Intersections::avoid;
-        if (!avoid || after <= before || round == most_rounds) return r;
+        if (!avoid || after <= before || round == max_rounds) return r;
     }
 }
 

@@ -17,7 +17,7 @@ namespace facetmill {
 namespace {
 
 /// The most corners of a face that the method knows; 0: any.
-Index most_corners(SplitMethod method) {
+Index max_corners(SplitMethod method) {
     switch (method) {
     case SplitMethod::grid:
     case SplitMethod::halve:
@@ -35,7 +35,7 @@ Index most_corners(SplitMethod method) {
 }
 
 void check_polygons(const Mesh& mesh, SplitMethod method) {
-    const Index most = most_corners(method);
+    const Index most = max_corners(method);
     if (most == 0 || mesh.all_triangles()) return;
     for (Index f = 0; f < mesh.face_count(); ++f)
         if (mesh.face_size(f) > most)

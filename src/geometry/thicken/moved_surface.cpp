@@ -44,7 +44,7 @@ class RoomSearch {
         if (2 * depth_ >= std::min({extent.x, extent.y, extent.z})) return Room::none;
         if (look_at({box.centre(), std::max({extent.x, extent.y, extent.z}) / 2, 0})) return Room::some;
         for (int looked = 0; !cells_.empty(); ++looked) {
-            if (looked == most_cells) return Room::unknown;
+            if (looked == max_cells) return Room::unknown;
             const Cell cell = cells_.top();
             cells_.pop();
             for (unsigned octant = 0; octant < 8; ++octant) {
@@ -58,7 +58,7 @@ class RoomSearch {
     }
 
   private:
-    static constexpr int most_cells = 12'500; // eight are looked at each
+    static constexpr int max_cells = 12'500; // eight are looked at each
 
     /// True when the middle of the cell has room; queues the cell if another point may have.
     bool look_at(Cell cell) {

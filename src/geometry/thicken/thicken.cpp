@@ -387,8 +387,9 @@ ThickenResult thicken_sheets(const Mesh& mesh, const ThickenSettings& s) {
 } // namespace
 
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& s) {
-    const LinkCounts links = count_links(mesh);
-    if (links.crowded_edges == 0 && links.non_manifold_vertices == 0) return thicken_sheets(mesh, s);
+    const Connectivity connectivity = connectivity_of(mesh);
+    if (connectivity.crowded_edges == 0 && connectivity.non_manifold_vertices == 0)
+        return thicken_sheets(mesh, s);
     return thicken_sheets(split_non_manifold(mesh).mesh, s);
 }
 

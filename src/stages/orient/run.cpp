@@ -53,17 +53,17 @@ OrientedPart counted(const Part& part, const OrientResult& r) {
     const auto count = [&](auto&& is) {
         return static_cast<std::size_t>(std::count_if(r.components.begin(), r.components.end(), is));
     };
-    using Piece = OrientedComponent;
+    using Component = OrientedComponent;
     return {part.name,
             r.flipped,
             r.components.size(),
-            count([](const Piece& p) { return p.closed; }),
-            count([](const Piece& p) { return p.depth > 0; }),
-            count([](const Piece& p) { return !p.orientable; }),
-            count([](const Piece& p) { return p.undecided; })};
+            count([](const Component& p) { return p.closed; }),
+            count([](const Component& p) { return p.depth > 0; }),
+            count([](const Component& p) { return !p.orientable; }),
+            count([](const Component& p) { return p.undecided; })};
 }
 
-/// Pieces that could not be oriented, or whose outside could not be told.
+/// Components that could not be oriented, or whose outside could not be told.
 void warn(const Part& part, const OrientResult& r, Context& context) {
     std::size_t crossed = 0, undecided = 0;
     const OrientedComponent* first = nullptr;

@@ -11,7 +11,7 @@ using Method = RelaxSettings::Method;
 using Neighbours = RelaxSettings::Neighbours;
 
 /// How many iterations there are at most, with until.
-constexpr std::int64_t most_until = 1000;
+constexpr std::int64_t max_iterations_until = 1000;
 /// What hc pulls back with until: without any, it shrinks too in the end.
 constexpr double alpha_until = 0.1;
 
@@ -93,7 +93,7 @@ void declare_relax(Declare<RelaxOptions>& d) {
 
 RelaxSettings relax_settings(const RelaxOptions& o) {
     RelaxSettings s;
-    s.iterations = o.iterations.value_or(o.until ? most_until : 1);
+    s.iterations = o.iterations.value_or(o.until ? max_iterations_until : 1);
     s.method = o.method.value_or(o.until ? Method::hc : Method::laplacian);
     s.lambda = o.lambda;
     s.neighbours = o.neighbours;

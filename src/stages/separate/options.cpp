@@ -90,9 +90,9 @@ PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOpt
     const Mesh& mesh = part.mesh;
     if (o.by == By::material) return by_material(part, scene);
     if (o.by == By::group) return by_group(part, o.attribute);
-    const Components pieces = o.cavities ? face_components(mesh, false) : solid_components(mesh);
+    const Components components = o.cavities ? face_components(mesh, false) : solid_components(mesh);
     return labelled(
-        mesh.face_count(), [&](Index f) { return pieces.of_face[f]; },
+        mesh.face_count(), [&](Index f) { return components.of_face[f]; },
         [&](std::int64_t, std::size_t n) { return fmt::format("{}.{}", part.name, n); });
 }
 

@@ -43,7 +43,7 @@ std::vector<Index> numbers(const std::vector<CentredItem>& items) {
 
 } // namespace
 
-TEST_CASE("runs of 2^k items are parted from the next by a plane", "[geometry]") {
+TEST_CASE("runs of 2^k items are separated from the next by a plane", "[geometry]") {
     for (const std::size_t count : {0, 1, 2, 3, 5, 64, 1000, 40000}) {
         auto items = random_items(count);
         sort_in_median_order(items);
