@@ -1,9 +1,10 @@
 #include "stage/both_sides.hpp"
 #include "stage/crossing_faces.hpp"
+#include "stage/options/box.hpp"
 #include "stage/options/cap.hpp"
+#include "stage/options/plane.hpp"
 #include "stage/options/snap.hpp"
 #include "stage/stage.hpp"
-#include "stages/clip/cutter.hpp"
 #include "stages/clip/help.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +12,21 @@
 namespace facetmill {
 
 namespace {
+
+enum class Space { world, local };
+
+struct ClipOptions {
+    std::optional<PlaneOption> plane;
+    std::vector<PlaneOption> planes;
+    std::optional<BoxOption> box;
+    Space space = Space::world;
+    Keep keep = Keep::front;
+    bool cap = false;
+    std::string cap_material = "cap";
+    bool triangulate = false;
+    Coplanar coplanar = Coplanar::keep;
+    Snap snap = Snap::automatic;
+};
 
 struct PartsToClip {
     ClipSettings settings; ///< the same for all; planes, memory and the caps' primitive are set part by part
@@ -23,17 +39,11 @@ struct ClipReport {
     std::size_t cut_faces = 0, cap_faces = 0, open_contours = 0, on_plane = 0, snapped = 0, remembered = 0;
 };
 
-struct ClipOptions : CutterOption {
-    Keep keep = Keep::front;
-    bool cap = false;
-    std::string cap_material = "cap";
-    bool triangulate = false;
-    Coplanar coplanar = Coplanar::keep;
-    Snap snap = Snap::automatic;
-};
-
 void declare(Declare<ClipOptions>& d) {
-    declare_cutter(d);
+    d.group("plane", &ClipOptions::plane, "The plane to clip by.", declare_plane).primary();
+    d.option("planes", &ClipOptions::planes, "Several planes, each as for plane; one after the other.");
+    d.group("box", &ClipOptions::box, "A box to clip by; its front is the inside.", declare_box);
+    d.exactly_one({"plane", "planes", "box"});
     d.choice<Keep>(
         "keep", &ClipOptions::keep,
         {{"inside", Keep::front, "of a box: the same as front"},
@@ -47,13 +57,69 @@ void declare(Declare<ClipOptions>& d) {
     declare_cap(d, &ClipOptions::cap, &ClipOptions::cap_material);
     d.option("triangulate", &ClipOptions::triangulate,
              "Cut all faces into triangles; without this, a cut triangle may become a quad.");
-    declare_space(d);
+    d.choice<Space>(
+        "space", &ClipOptions::space,
+        {{"world", Space::world, "planes and boxes stand in the scene"},
+         {"local", Space::local, "they stand in each part's own space, before its node's transform"}},
+        "What coordinates, centre and extent refer to.");
     d.choice<Coplanar>("coplanar", &ClipOptions::coplanar,
                        {{"keep", Coplanar::keep, "they stay"}, {"drop", Coplanar::drop, "they go"}},
                        "What is done with faces of open parts that lie in the plane. Those of closed parts "
                        "are kept when they face away from what is kept.");
     declare_snap(d, &ClipOptions::snap, "a plane");
 }
+
+/// The value of an option as written, or the whole.
+const Value& written(const Value& given, const char* name) {
+    const Value* value = given.is_map() ? given.find(name) : nullptr;
+    return value ? *value : given;
+}
+
+std::vector<Plane> resolved(const ClipOptions& o, const Scene& scene, Context& context, const Part* local) {
+    std::vector<Plane> planes;
+    if (o.box) planes = planes_of(*o.box);
+    if (o.plane) planes.push_back(resolve_plane(*o.plane, scene, context, "plane", local));
+    for (const PlaneOption& p : o.planes) planes.push_back(resolve_plane(p, scene, context, "planes", local));
+    return planes;
+}
+
+/// Adds E-PLANE and E-BOX for what is none.
+void verify(const ClipOptions& o, const Value& given, Problems& problems) {
+    const Value& planes = written(given, "planes");
+    if (o.plane) verify_plane(*o.plane, written(given, "plane").mark, problems);
+    if (o.box) verify_box(*o.box, written(given, "box").mark, problems);
+    if (given.is_map() && given.find("planes") && planes.is_list() && planes.items.empty())
+        problems.add(planes.mark, "E-PLANE", "'planes' is empty", "for example planes: [z=0, x=centre]");
+    for (std::size_t i = 0; i < o.planes.size(); ++i) {
+        const bool listed = planes.is_list() && i < planes.items.size();
+        verify_plane(o.planes[i], listed ? planes.items[i].mark : given.mark, problems);
+    }
+}
+
+/// The planes to clip by, in a scene.
+class Cutter {
+  public:
+    /// Throws usage (E-UNIT, E-PLANE), as planes_for does.
+    Cutter(const ClipOptions& o, const Scene& scene, Context& context)
+        : options_(o), scene_(scene), context_(context) {
+        if (o.space == Space::world) world_ = resolved(o, scene, context, nullptr);
+    }
+    /// With space: world, as they stand in the scene.
+    const std::vector<Plane>& world() const { return world_; }
+    /// In the part's own space.
+    std::vector<Plane> planes_for(const Part& part) const {
+        if (options_.space == Space::local) return resolved(options_, scene_, context_, &part);
+        std::vector<Plane> planes = world_;
+        for (Plane& p : planes) p = pulled_back(p, part.transform);
+        return planes;
+    }
+
+  private:
+    const ClipOptions& options_;
+    const Scene& scene_;
+    Context& context_;
+    std::vector<Plane> world_;
+};
 
 void declare_plane_field(DeclareFields<Plane>& d) {
     d.field("normal", &Plane::normal, "The direction of its front.");
@@ -147,7 +213,7 @@ const RegisterStage clip_stage = make_stage<ClipOptions>(
                   "clip: {box: {min: [0, 0, 0], max: [1, 1, 0.5]}, cap: true}",
                   "clip: {box: {centre: [0, 0, 0], size: [2, 1, 1], angle: 30deg}, keep: outside}"},
      .may_lose = MayLose::all},
-    declare, declare_report, run, StageHooks<ClipOptions>{.files = {}, .verify = verify_cutter});
+    declare, declare_report, run, StageHooks<ClipOptions>{.files = {}, .verify = verify});
 
 } // namespace
 

@@ -1,0 +1,32 @@
+#pragma once
+// The options of section.
+
+#include "geometry/section/section.hpp"
+#include "stage/options/plane.hpp"
+#include "stage/stage.hpp"
+
+namespace facetmill {
+
+struct HatchOption {
+    Length spacing = Length::percent(1);
+    Angle angle = Angle::degrees(45);
+    polygon::Keep keep = polygon::Keep::inside;
+};
+
+struct SectionOptions {
+    std::optional<PlaneOption> plane;
+    std::optional<Length> spacing;
+    std::optional<std::int64_t> count;
+    std::optional<HatchOption> hatch;
+    std::vector<PathText> path;
+};
+
+void declare_section(Declare<SectionOptions>& d);
+/// What the declaration cannot say: planes that are none, and names of drawings.
+void verify_section(const SectionOptions& o, const Value& given, Problems& problems);
+
+/// The lines for a scene: each section of a stack gets the same ones. Throws stage (E-HATCH) for a spacing
+/// that comes to 0.
+polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene, Context& context);
+
+} // namespace facetmill
