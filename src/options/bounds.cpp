@@ -52,7 +52,7 @@ constexpr std::array<ByteUnit, 9> byte_units{{{"B", 1},
                                               {"MiB", 1048576.0},
                                               {"GiB", 1073741824.0},
                                               {"TiB", 1099511627776.0}}};
-constexpr double most_bytes = 9007199254740992.0; // 2^53: all counts up to here are numbers of their own
+constexpr double max_bytes = 9007199254740992.0; // 2^53: all counts up to here are numbers of their own
 
 constexpr const char* bytes_expected = "a count of bytes (1000000, 10MB, 1.5MiB)";
 
@@ -86,11 +86,11 @@ bool read_bytes(const Value& value, Limit& out, Problems& problems) {
         bytes = parts->first * unit->bytes;
     }
     const double whole = std::round(bytes); // 4.35kB times 1000 may miss 4350 by the last bit
-    if (bytes < 0 || bytes > most_bytes || std::abs(bytes - whole) > 1e-12 * whole) {
+    if (bytes < 0 || bytes > max_bytes || std::abs(bytes - whole) > 1e-12 * whole) {
         problems.add(value.mark, "E-RANGE", fmt::format("'{}' is no count of bytes", value.text),
-                     bytes < 0            ? "bytes are counted from 0"
-                     : bytes > most_bytes ? "at most 9007199254740992 (8192TiB)"
-                                          : "bytes come whole");
+                     bytes < 0           ? "bytes are counted from 0"
+                     : bytes > max_bytes ? "at most 9007199254740992 (8192TiB)"
+                                         : "bytes come whole");
         return false;
     }
     out = whole;

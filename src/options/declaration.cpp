@@ -24,15 +24,44 @@ std::string Range::to_string() const {
     return {};
 }
 
-Option start_option(std::string name, const char* type, std::string help) {
-    Option o;
-    o.name = std::move(name);
+Option::Option() = default;
+Option::Option(const Option&) = default;
+Option::Option(Option&&) noexcept = default;
+Option& Option::operator=(const Option&) = default;
+Option& Option::operator=(Option&&) noexcept = default;
+Option::~Option() = default;
+
+Declaration::Declaration() = default;
+Declaration::Declaration(const Declaration&) = default;
+Declaration::Declaration(Declaration&&) noexcept = default;
+Declaration& Declaration::operator=(const Declaration&) = default;
+Declaration& Declaration::operator=(Declaration&&) noexcept = default;
+Declaration::~Declaration() = default;
+
+Option& start_option(Declaration& owner, std::string_view name, const char* type, std::string_view help) {
+    Option& o = owner.options.emplace_back();
+    o.name = name;
     o.type = type;
-    o.help = std::move(help);
+    o.help = help;
     return o;
 }
 
-#define FACETMILL_HERE(T) template Option typed_option<T>(std::string, std::size_t, const T&, std::string);
+void embed_options(Declaration& owner, const Declaration& inner, std::size_t offset) {
+    for (Option o : inner.options) {
+        o.parse = [parse = std::move(o.parse), offset](const Option& self, const Value& v, void* target,
+                                                       Problems& problems) {
+            return parse(self, v, &member_at<std::byte>(target, offset), problems);
+        };
+        if (o.magnitude)
+            o.magnitude = [magnitude = std::move(o.magnitude), offset](const void* target) {
+                return magnitude(&member_at<std::byte>(target, offset));
+            };
+        owner.options.push_back(std::move(o));
+    }
+}
+
+#define FACETMILL_HERE(T)                                                                                    \
+    template void typed_option<T>(Declaration&, std::string_view, std::size_t, const T&, std::string_view);
 FACETMILL_COMMON_OPTION_TYPES(FACETMILL_HERE)
 #undef FACETMILL_HERE
 

@@ -32,8 +32,16 @@ struct Choice {
 
 struct Declaration;
 
-/// All that is known of an option, for every consumer.
+/// All that is known of an option, for every consumer. (Copies and destructors of these structs are compiled
+/// once, in declaration.cpp, rather than by every stage.)
 struct Option {
+    Option();
+    Option(const Option&);
+    Option(Option&&) noexcept;
+    Option& operator=(const Option&);
+    Option& operator=(Option&&) noexcept;
+    ~Option();
+
     std::string name;
     std::string type; ///< "integer", "length", "choice", "group", ...
     Dimension dimension = Dimension::none;
@@ -62,6 +70,13 @@ struct Exclusion {
 
 /// The options of a stage (or of a nested group), type-erased.
 struct Declaration {
+    Declaration();
+    Declaration(const Declaration&);
+    Declaration(Declaration&&) noexcept;
+    Declaration& operator=(const Declaration&);
+    Declaration& operator=(Declaration&&) noexcept;
+    ~Declaration();
+
     std::vector<Option> options;
     std::vector<Exclusion> exclusions;
     /// Reads a value that is no map (none: the primary option takes it). For groups with a short form,
@@ -83,7 +98,6 @@ struct Declaration {
 };
 
 /// Refines the option declared last.
-template <class T>
 class OptionRef {
   public:
     OptionRef(Declaration& owner, std::size_t index) : owner_(&owner), index_(index) {}
@@ -162,13 +176,17 @@ const T& member_at(const void* record, std::size_t offset) {
     return *reinterpret_cast<const T*>(static_cast<const std::byte*>(record) + offset);
 }
 
-Option start_option(std::string name, const char* type, std::string help);
+/// Adds an option to those of a declaration.
+Option& start_option(Declaration& owner, std::string_view name, const char* type, std::string_view help);
+/// Adds the options of a struct that lies at the offset within the one that is parsed.
+void embed_options(Declaration& owner, const Declaration& inner, std::size_t offset);
 
-/// An option whose value is the T at the offset, which is now the default.
+/// Adds an option whose value is the T at the offset, which is now the default.
 template <class T>
-Option typed_option(std::string name, std::size_t offset, const T& now, std::string help) {
+void typed_option(Declaration& owner, std::string_view name, std::size_t offset, const T& now,
+                  std::string_view help) {
     using Type = OptionType<T>;
-    Option o = start_option(std::move(name), Type::name, std::move(help));
+    Option& o = start_option(owner, name, Type::name, help);
     o.dimension = Type::dimension;
     o.default_text = Type::print(now);
     o.schema = Type::schema();
@@ -177,7 +195,6 @@ Option typed_option(std::string name, std::size_t offset, const T& now, std::str
         return Type::parse(v, member_at<T>(target, offset), problems);
     };
     o.magnitude = [offset](const void* target) { return Type::magnitude(member_at<T>(target, offset)); };
-    return o;
 }
 
 // The types that most options have are compiled once, in declaration.cpp.
@@ -193,7 +210,8 @@ Option typed_option(std::string name, std::size_t offset, const T& now, std::str
     X(std::optional<Vec3>)                                                                                   \
     X(std::vector<double>)
 #define FACETMILL_ELSEWHERE(T)                                                                               \
-    extern template Option typed_option<T>(std::string, std::size_t, const T&, std::string);
+    extern template void typed_option<T>(Declaration&, std::string_view, std::size_t, const T&,              \
+                                         std::string_view);
 FACETMILL_COMMON_OPTION_TYPES(FACETMILL_ELSEWHERE)
 #undef FACETMILL_ELSEWHERE
 
@@ -203,17 +221,20 @@ class Declare {
   public:
     Declaration declaration;
 
+    explicit Declare(const S& defaults = {}) : defaults_(defaults) {}
+
     template <class T>
-    OptionRef<S> option(std::string name, T S::*member, std::string help) {
-        return push(typed_option<T>(std::move(name), offset_of(member), defaults_.*member, std::move(help)));
+    OptionRef option(std::string_view name, T S::*member, std::string_view help) {
+        typed_option<T>(declaration, name, offset_of(member), defaults_.*member, help);
+        return last();
     }
 
     template <class E>
-    OptionRef<S> choice(std::string name, E S::*member, std::vector<NamedChoice<E>> choices,
-                        std::string help) {
-        Option o = start_option(std::move(name), "choice", std::move(help));
+    OptionRef choice(std::string_view name, E S::*member, const std::vector<NamedChoice<E>>& choices,
+                     std::string_view help) {
+        Option& o = start_option(declaration, name, "choice", help);
         std::vector<E> values;
-        for (auto& c : choices) {
+        for (const auto& c : choices) {
             if (c.value == defaults_.*member) o.default_text = c.name;
             o.choices.push_back({c.name, c.help});
             values.push_back(c.value);
@@ -225,16 +246,16 @@ class Declare {
             if (index) member_at<E>(target, at) = values[*index];
             return index.has_value();
         };
-        return push(std::move(o));
+        return last();
     }
 
     /// A nested struct G (or std::optional<G>), declared by fill(Declare<G>&).
     template <class M, class Fill>
-    OptionRef<S> group(std::string name, M S::*member, std::string help, Fill fill) {
+    OptionRef group(std::string_view name, M S::*member, std::string_view help, Fill fill) {
         using G = typename Inner<M>::type;
         Declare<G> nested;
         fill(nested);
-        Option o = start_option(std::move(name), "group", std::move(help));
+        Option& o = start_option(declaration, name, "group", help);
         o.fields = std::make_shared<const Declaration>(std::move(nested.declaration));
         o.schema = o.fields->schema();
         o.parse = [at = offset_of(member)](const Option& self, const Value& v, void* target,
@@ -245,13 +266,21 @@ class Declare {
             else
                 return self.fields->parse(v, &slot, self.name, problems);
         };
-        return push(std::move(o));
+        return last();
+    }
+
+    /// The options of a struct within S, as if they were its own: fill(Declare<G>&) declares them.
+    template <class G, class Fill>
+    void embed(G S::*member, Fill fill) {
+        Declare<G> inner(defaults_.*member);
+        fill(inner);
+        embed_options(declaration, inner.declaration, offset_of(member));
     }
 
     /// For groups: how a value that is no map is read.
     template <class Parse>
-    void shorthand(std::string help, Json schema, Parse parse) {
-        declaration.shorthand_help = std::move(help);
+    void shorthand(std::string_view help, Json schema, Parse parse) {
+        declaration.shorthand_help = help;
         declaration.shorthand_schema = std::move(schema);
         declaration.shorthand = [parse](const Value& v, void* target, Problems& problems) {
             return parse(v, *static_cast<S*>(target), problems);
@@ -276,15 +305,12 @@ class Declare {
         static constexpr bool optional = true;
     };
 
-    OptionRef<S> push(Option o) {
-        declaration.options.push_back(std::move(o));
-        return {declaration, declaration.options.size() - 1};
-    }
+    OptionRef last() { return {declaration, declaration.options.size() - 1}; }
     void rule(Exclusion::Rule r, std::vector<std::string> names) {
         declaration.exclusions.push_back({r, std::move(names)});
     }
 
-    const S defaults_{};
+    const S defaults_;
 };
 
 } // namespace facetmill

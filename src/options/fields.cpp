@@ -52,21 +52,50 @@ void add_phrases(const Fields& fields, const void* record, std::string& line) {
 
 } // namespace
 
+Field::Field() = default;
+Field::Field(const Field&) = default;
+Field::Field(Field&&) noexcept = default;
+Field& Field::operator=(const Field&) = default;
+Field& Field::operator=(Field&&) noexcept = default;
+Field::~Field() = default;
+
+Fields::Fields() = default;
+Fields::Fields(const Fields&) = default;
+Fields::Fields(Fields&&) noexcept = default;
+Fields& Fields::operator=(const Fields&) = default;
+Fields& Fields::operator=(Fields&&) noexcept = default;
+Fields::~Fields() = default;
+
+Json FieldType<Vec3>::schema() { return fields::schema_of_list(FieldType<double>::schema(), false, 3); }
+Json FieldType<Vec3>::json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
+
 namespace fields {
 
-Field& start(Fields& fields, std::string name, const char* type, Json schema, std::string help,
+Json schema_of_type(const char* type) { return {{"type", type}}; }
+
+Json schema_of_count() { return {{"type", "integer"}, {"minimum", 0}}; }
+
+Json schema_of_list(Json items, bool may_be_null, std::optional<std::size_t> size) {
+    if (may_be_null) items["type"] = Json::array({items["type"], "null"});
+    Json list = {{"type", "array"}, {"items", std::move(items)}};
+    if (size) list.update({{"minItems", *size}, {"maxItems", *size}});
+    return list;
+}
+
+Field& start(Fields& fields, std::string_view name, const char* type, Json schema, std::string_view help,
              int optionals) {
     Field& f = fields.all.emplace_back();
-    f.name = std::move(name);
+    f.name = name;
     f.type = type;
-    f.help = std::move(help);
+    f.help = help;
     f.schema = std::move(schema);
     f.optionals = optionals;
     if (optionals > 0) f.null_when = "there is none";
     return f;
 }
 
-#define FACETMILL_HERE(T) template FieldRef typed_field<T>(Fields&, std::string, std::size_t, std::string);
+#define FACETMILL_HERE(T)                                                                                    \
+    template FieldRef typed_field<T>(Fields&, std::string_view, std::size_t, std::string_view);
 FACETMILL_COMMON_FIELD_TYPES(FACETMILL_HERE)
 #undef FACETMILL_HERE
 
@@ -113,24 +142,40 @@ std::vector<std::string> Fields::lines(const void* record) const {
     return lines;
 }
 
-std::string fields::told(const std::string& format, const Told& value) {
-    return std::visit([&](const auto& v) { return fmt::format(fmt::runtime(format), v); }, value);
+FieldRef& FieldRef::unit(std::string_view text) {
+    field().unit = text;
+    return *this;
 }
 
-FieldRef& FieldRef::only_when(std::string text) {
+FieldRef& FieldRef::null_when(std::string_view text) {
+    field().null_when = text;
+    return *this;
+}
+
+FieldRef& FieldRef::only_when(std::string_view text) {
     Field& f = field();
-    f.only_when = std::move(text);
+    f.only_when = text;
     if (f.optionals == 1) f.null_when.clear();
     return *this;
 }
 
-FieldRef& FieldRef::said(std::string format) {
-    field().phrase = [value = value_,
-                      format = std::move(format)](const void* record) -> std::optional<std::string> {
+FieldRef& FieldRef::heads() {
+    owner_->heading = field().name;
+    return *this;
+}
+
+FieldRef& FieldRef::said(std::string_view format) {
+    field().phrase = [value = field().value,
+                      format = std::string(format)](const void* record) -> std::optional<std::string> {
         const auto given = value(record);
         if (!given) return {};
-        return fields::told(format, *given);
+        return std::visit([&](const auto& v) { return fmt::format(fmt::runtime(format), v); }, *given);
     };
+    return *this;
+}
+
+FieldRef& FieldRef::tallied(std::string_view nothing) {
+    field().nothing_counted = nothing;
     return *this;
 }
 

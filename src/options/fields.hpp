@@ -29,8 +29,20 @@ namespace facetmill {
 
 struct Fields;
 
+namespace fields {
+/// What a phrase on the terminal can say.
+using Told = std::variant<std::uint64_t, std::int64_t, double, std::string>;
+} // namespace fields
+
 /// All that is known of a field, for every consumer.
 struct Field {
+    Field();
+    Field(const Field&);
+    Field(Field&&) noexcept;
+    Field& operator=(const Field&);
+    Field& operator=(Field&&) noexcept;
+    ~Field();
+
     std::string name;
     std::string type; ///< for people: "count", "number", "text", "list of objects"
     std::string unit; ///< "scene units", "degrees"; empty: none
@@ -44,6 +56,8 @@ struct Field {
 
     /// Adds the field to the object.
     std::function<void(const Field&, const void* record, Json& object)> put;
+    /// Its value; none: it is empty, or no number and no text.
+    std::function<std::optional<facetmill::fields::Told>(const void* record)> value;
     /// Its value, as the terminal tells it; none: nothing is said of it.
     std::function<std::optional<std::string>(const void* record)> phrase;
     /// Of a count: how many.
@@ -57,6 +71,13 @@ struct Field {
 
 /// The fields of a record, type-erased; in the order of the report.
 struct Fields {
+    Fields();
+    Fields(const Fields&);
+    Fields(Fields&&) noexcept;
+    Fields& operator=(const Fields&);
+    Fields& operator=(Fields&&) noexcept;
+    ~Fields();
+
     std::vector<Field> all;
     std::string heading; ///< the field whose text leads the line of a record: "part"
     /// What is said on the terminal where phrases of single fields do not do.
@@ -84,6 +105,10 @@ struct Inner {
 template <class T>
 struct Inner<std::optional<T>> : Inner<T> {};
 
+/// The JSON Schemas of plain values, and of a list of such; may_be_null: its items.
+Json schema_of_type(const char* type);
+Json schema_of_count();
+Json schema_of_list(Json items, bool may_be_null, std::optional<std::size_t> size = {});
 } // namespace fields
 
 /// How a C++ type of a field is told and described. Each specialisation has name, schema() and json().
@@ -93,14 +118,14 @@ struct FieldType;
 template <>
 struct FieldType<bool> {
     static constexpr const char* name = "bool";
-    static Json schema() { return {{"type", "boolean"}}; }
+    static Json schema() { return fields::schema_of_type("boolean"); }
     static Json json(bool value) { return value; }
 };
 
 template <std::convertible_to<std::string> T>
 struct FieldType<T> {
     static constexpr const char* name = "text";
-    static Json schema() { return {{"type", "string"}}; }
+    static Json schema() { return fields::schema_of_type("string"); }
     static Json json(const T& value) { return value; }
 };
 
@@ -108,9 +133,7 @@ template <std::integral T>
 struct FieldType<T> {
     static constexpr const char* name = std::is_signed_v<T> ? "integer" : "count";
     static Json schema() {
-        Json integer = {{"type", "integer"}};
-        if (!std::is_signed_v<T>) integer["minimum"] = 0;
-        return integer;
+        return std::is_signed_v<T> ? fields::schema_of_type("integer") : fields::schema_of_count();
     }
     static Json json(T value) { return value; }
 };
@@ -119,29 +142,21 @@ struct FieldType<T> {
 template <>
 struct FieldType<double> {
     static constexpr const char* name = "number";
-    static Json schema() { return {{"type", "number"}}; }
+    static Json schema() { return fields::schema_of_type("number"); }
     static Json json(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 };
-
-template <class T>
-Json list_schema(std::optional<std::size_t> size = {}) {
-    Json list = {{"type", "array"}, {"items", FieldType<T>::schema()}};
-    if (fields::is_optional<T>) list["items"]["type"] = Json::array({list["items"]["type"], "null"});
-    if (size) list.update({{"minItems", *size}, {"maxItems", *size}});
-    return list;
-}
 
 template <>
 struct FieldType<Vec3> {
     static constexpr const char* name = "vector";
-    static Json schema() { return list_schema<double>(3); }
-    static Json json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
+    static Json schema();
+    static Json json(const Vec3& p);
 };
 
 template <class T>
 struct FieldType<std::vector<T>> {
     static constexpr const char* name = "list";
-    static Json schema() { return list_schema<T>(); }
+    static Json schema() { return fields::schema_of_list(FieldType<T>::schema(), fields::is_optional<T>); }
     static Json json(const std::vector<T>& values) {
         Json list = Json::array();
         for (const auto& value : values) list.push_back(FieldType<T>::json(value));
@@ -152,7 +167,7 @@ struct FieldType<std::vector<T>> {
 template <class T, std::size_t N>
 struct FieldType<std::array<T, N>> {
     static constexpr const char* name = "list";
-    static Json schema() { return list_schema<T>(N); }
+    static Json schema() { return fields::schema_of_list(FieldType<T>::schema(), fields::is_optional<T>, N); }
     static Json json(const std::array<T, N>& values) {
         Json list = Json::array();
         for (const auto& value : values) list.push_back(FieldType<T>::json(value));
@@ -172,47 +187,26 @@ struct FieldType<std::optional<T>> {
 /// Counts by name, those above 0.
 using NamedCounts = std::vector<std::pair<std::string, std::uint64_t>>;
 
-namespace fields {
-using Told = std::variant<std::uint64_t, std::int64_t, double, std::string>;
-/// The value in the place of {} in the format.
-std::string told(const std::string& format, const Told& value);
-} // namespace fields
-
 /// Refines the field declared last.
 class FieldRef {
   public:
-    FieldRef(Fields& owner, std::size_t index,
-             std::function<std::optional<fields::Told>(const void*)> value = {})
-        : owner_(&owner), index_(index), value_(std::move(value)) {}
+    FieldRef(Fields& owner, std::size_t index) : owner_(&owner), index_(index) {}
 
-    FieldRef& unit(std::string text) {
-        field().unit = std::move(text);
-        return *this;
-    }
-    FieldRef& null_when(std::string text) {
-        field().null_when = std::move(text);
-        return *this;
-    }
+    FieldRef& unit(std::string_view text);
+    FieldRef& null_when(std::string_view text);
     /// Of an optional value: without one the key is left out, rather than null.
-    FieldRef& only_when(std::string text);
+    FieldRef& only_when(std::string_view text);
     /// Leads the line of its record on the terminal.
-    FieldRef& heads() {
-        owner_->heading = field().name;
-        return *this;
-    }
+    FieldRef& heads();
     /// Is said on the terminal, in the place of {} of the format, unless it has no value.
-    FieldRef& said(std::string format);
+    FieldRef& said(std::string_view format);
     /// Of a list: the sums of its items' counts are said, or `nothing` when all are 0.
-    FieldRef& tallied(std::string nothing) {
-        field().nothing_counted = std::move(nothing);
-        return *this;
-    }
+    FieldRef& tallied(std::string_view nothing);
     Field& field() { return owner_->all[index_]; }
 
   private:
     Fields* owner_;
     std::size_t index_;
-    std::function<std::optional<fields::Told>(const void*)> value_;
 };
 
 namespace fields {
@@ -223,7 +217,7 @@ inline constexpr bool is_count = std::unsigned_integral<T> && !std::same_as<T, b
 inline constexpr auto to_json = []<class T>(const T& value) { return FieldType<T>::json(value); };
 
 /// Adds a field to those of a record. optionals: how many are around its value.
-Field& start(Fields& fields, std::string name, const char* type, Json schema, std::string help,
+Field& start(Fields& fields, std::string_view name, const char* type, Json schema, std::string_view help,
              int optionals);
 
 template <class T, class ToJson>
@@ -266,16 +260,16 @@ std::optional<Told> told_value(const T& value) {
 
 /// A field whose value is the T at the offset.
 template <class T>
-FieldRef typed_field(Fields& fields, std::string name, std::size_t offset, std::string help) {
+FieldRef typed_field(Fields& fields, std::string_view name, std::size_t offset, std::string_view help) {
     using Type = FieldType<typename Inner<T>::type>;
-    Field& f = start(fields, std::move(name), Type::name, Type::schema(), std::move(help), optionals<T>);
+    Field& f = start(fields, name, Type::name, Type::schema(), help, optionals<T>);
     f.put = [offset](const Field& self, const void* record, Json& object) {
         put_value(self, member_at<T>(record, offset), to_json, object);
     };
     if constexpr (is_count<T>)
         f.count = [offset](const void* record) { return std::uint64_t{member_at<T>(record, offset)}; };
-    return {fields, fields.all.size() - 1,
-            [offset](const void* record) { return told_value(member_at<T>(record, offset)); }};
+    f.value = [offset](const void* record) { return told_value(member_at<T>(record, offset)); };
+    return {fields, fields.all.size() - 1};
 }
 
 // The types that most fields have are compiled once, in fields.cpp.
@@ -290,7 +284,7 @@ FieldRef typed_field(Fields& fields, std::string name, std::size_t offset, std::
     X(std::optional<std::string>)                                                                            \
     X(std::vector<std::string>)
 #define FACETMILL_ELSEWHERE(T)                                                                               \
-    extern template FieldRef typed_field<T>(Fields&, std::string, std::size_t, std::string);
+    extern template FieldRef typed_field<T>(Fields&, std::string_view, std::size_t, std::string_view);
 FACETMILL_COMMON_FIELD_TYPES(FACETMILL_ELSEWHERE)
 #undef FACETMILL_ELSEWHERE
 
@@ -304,35 +298,36 @@ class DeclareFields {
     Fields fields;
 
     template <class Get>
-    FieldRef field(std::string name, Get get, std::string help) {
+    FieldRef field(std::string_view name, Get get, std::string_view help) {
         using T = Value<Get>;
         if constexpr (std::is_convertible_v<Get, T R::*>) {
             T R::*member = get;
-            return facetmill::fields::typed_field<T>(fields, std::move(name), offset_of(member),
-                                                     std::move(help));
+            return facetmill::fields::typed_field<T>(fields, name, offset_of(member), help);
         } else {
             using Type = FieldType<typename facetmill::fields::Inner<T>::type>;
-            Field& f = start<T>(std::move(name), Type::name, Type::schema(), std::move(help));
+            Field& f = start<T>(name, Type::name, Type::schema(), help);
             f.put = putting(get, facetmill::fields::to_json);
             if constexpr (facetmill::fields::is_count<T>)
                 f.count = [get](const void* record) {
                     return static_cast<std::uint64_t>(std::invoke(get, as_record(record)));
                 };
-            return {fields, fields.all.size() - 1, [get](const void* record) {
-                        const auto& value = std::invoke(get, as_record(record));
-                        return facetmill::fields::told_value(value);
-                    }};
+            f.value = [get](const void* record) {
+                const auto& value = std::invoke(get, as_record(record));
+                return facetmill::fields::told_value(value);
+            };
+            return {fields, fields.all.size() - 1};
         }
     }
 
     /// A word out of few: value and name of each, and what it means.
     template <class Get, class E = typename facetmill::fields::Inner<
                              std::remove_cvref_t<std::invoke_result_t<Get, const R&>>>::type>
-    FieldRef choice(std::string name, Get get, std::vector<NamedChoice<E>> choices, std::string help) {
+    FieldRef choice(std::string_view name, Get get, const std::vector<NamedChoice<E>>& choices,
+                    std::string_view help) {
         std::vector<Choice> told;
         for (const auto& c : choices) told.push_back({c.name, c.help});
         Json schema = choice_schema(told);
-        Field& f = start<Value<Get>>(std::move(name), "choice", std::move(schema), std::move(help));
+        Field& f = start<Value<Get>>(name, "choice", std::move(schema), help);
         f.choices = std::move(told);
         f.put = putting(get, [choices](const E& value) {
             for (const auto& c : choices)
@@ -344,10 +339,10 @@ class DeclareFields {
 
     /// A nested record, declared by fill(DeclareFields<T>&).
     template <class Get, class Fill>
-    FieldRef object(std::string name, Get get, std::string help, Fill fill) {
+    FieldRef object(std::string_view name, Get get, std::string_view help, Fill fill) {
         using T = typename facetmill::fields::Inner<Value<Get>>::type;
         const auto inner = nested<T>(fill);
-        Field& f = start<Value<Get>>(std::move(name), "object", inner->schema(), std::move(help));
+        Field& f = start<Value<Get>>(name, "object", inner->schema(), help);
         f.fields = inner;
         f.put = putting(get, [inner](const T& value) { return inner->json(&value); });
         f.each = [get](const void* record, const std::function<void(const void*)>& look) {
@@ -363,11 +358,11 @@ class DeclareFields {
 
     /// A list of records, each declared by fill(DeclareFields<item>&).
     template <class Get, class Fill>
-    FieldRef list(std::string name, Get get, std::string help, Fill fill) {
+    FieldRef list(std::string_view name, Get get, std::string_view help, Fill fill) {
         using List = typename facetmill::fields::Inner<Value<Get>>::type;
         const auto inner = nested<typename List::value_type>(fill);
         Json schema = {{"type", "array"}, {"items", inner->schema()}};
-        Field& f = start<Value<Get>>(std::move(name), "list of objects", std::move(schema), std::move(help));
+        Field& f = start<Value<Get>>(name, "list of objects", std::move(schema), help);
         f.is_list = true;
         f.fields = inner;
         f.put = putting(get, [inner](const List& items) {
@@ -401,6 +396,8 @@ class DeclareFields {
             f.put = [put = f.put, within](const Field& self, const void* record, Json& object) {
                 put(self, within(record), object);
             };
+            if (f.value)
+                f.value = [value = f.value, within](const void* record) { return value(within(record)); };
             if (f.phrase)
                 f.phrase = [told = f.phrase, within](const void* record) { return told(within(record)); };
             if (f.count)
@@ -416,10 +413,11 @@ class DeclareFields {
 
     /// Counts by name (NamedCounts), the names being some of those given.
     template <class Get>
-    FieldRef counts(std::string name, Get get, const std::vector<std::string>& names, std::string help) {
+    FieldRef counts(std::string_view name, Get get, const std::vector<std::string>& names,
+                    std::string_view help) {
         Json schema = {{"type", "object"}, {"properties", Json::object()}, {"additionalProperties", false}};
         for (const auto& one : names) schema["properties"][one] = FieldType<std::uint64_t>::schema();
-        Field& f = start<Value<Get>>(std::move(name), "counts by name", std::move(schema), std::move(help));
+        Field& f = start<Value<Get>>(name, "counts by name", std::move(schema), help);
         f.put = putting(get, [](const NamedCounts& counts) {
             Json all = Json::object();
             for (const auto& [key, count] : counts) all[key] = count;
@@ -450,8 +448,8 @@ class DeclareFields {
     }
 
     template <class T>
-    Field& start(std::string name, const char* type, Json schema, std::string help) {
-        return facetmill::fields::start(fields, std::move(name), type, std::move(schema), std::move(help),
+    Field& start(std::string_view name, const char* type, Json schema, std::string_view help) {
+        return facetmill::fields::start(fields, name, type, std::move(schema), help,
                                         facetmill::fields::optionals<T>);
     }
 

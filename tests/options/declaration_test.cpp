@@ -136,3 +136,34 @@ TEST_CASE("the schema lists every option once and is closed", "[options]") {
     CHECK(object["properties"]["method"]["default"] == "better");
     CHECK_FALSE(object["properties"]["paths"].contains("default"));
 }
+
+TEST_CASE("options of an embedded struct are options of the one around it", "[options]") {
+    struct Algorithm {
+        double alpha = 0.5;
+        Method method = Method::better;
+    };
+    struct Around {
+        bool on = false;
+        Algorithm settings{0.25, Method::note};
+    };
+    Declare<Around> d;
+    d.option("on", &Around::on, "Whether.");
+    d.embed(&Around::settings, [](Declare<Algorithm>& inner) {
+        inner.option("alpha", &Algorithm::alpha, "How far.").above(0);
+        inner.choice("method", &Algorithm::method,
+                     {{"note", Method::note, "the note's"}, {"better", Method::better, "ours"}}, "Which.");
+    });
+    CHECK(d.declaration.names() == std::vector<std::string>{"on", "alpha", "method"});
+    CHECK(d.declaration.find("alpha")->default_text == "0.25");
+    CHECK(d.declaration.find("method")->default_text == "note");
+
+    Problems problems;
+    Around read;
+    CHECK(d.declaration.parse(map({{"alpha", Value::scalar("2")}, {"method", Value::scalar("better")}}),
+                              &read, "test", problems));
+    CHECK(read.settings.alpha == 2);
+    CHECK(read.settings.method == Method::better);
+    CHECK_FALSE(read.on);
+    CHECK_FALSE(d.declaration.parse(map({{"alpha", Value::scalar("-1")}}), &read, "test", problems));
+    CHECK(problems.all().size() == 1);
+}

@@ -118,9 +118,10 @@ void declare_targets(Declare<SimplifyOptions>& d) {
         .above(0);
 }
 
-void declare_method(Declare<SimplifyOptions>& d) {
+/// What the algorithm takes just as users say it.
+void declare_settings(Declare<SimplifySettings>& d) {
     d.choice<Method>(
-        "method", &SimplifyOptions::method,
+        "method", &SimplifySettings::method,
         {{"quadric", Method::quadric,
           "smallest squared distance to the planes of the faces; new vertices are placed where it is "
           "smallest"},
@@ -132,25 +133,23 @@ void declare_method(Declare<SimplifyOptions>& d) {
          {"cluster", Method::cluster,
           "all vertices in a grid cell are merged: very fast, for previews; topology is not kept"}},
         "Which edge is collapsed next.");
-    d.choice<Topology>("topology", &SimplifyOptions::topology,
+    d.choice<Topology>("topology", &SimplifySettings::topology,
                        {{"keep", Topology::keep, "genus, components and boundary loops are kept"},
                         {"allow", Topology::allow,
                          "small components may vanish, holes may close and handles may be pinched off; the "
                          "report counts them"}},
                        "Whether the topology may change.");
-    d.group("lock", &SimplifyOptions::lock,
-            "What is kept vertex by vertex. Boundaries, seams and borders that are not locked collapse only "
-            "along themselves.",
-            declare_lock);
-    d.group("weights", &SimplifyOptions::weights,
+    d.group("weights", &SimplifySettings::weights,
             "The weights of attributes in the error of the quadric methods, relative to the shape; 0 ignores "
             "an attribute.",
             declare_weights);
-    d.option("feature_angle", &SimplifyOptions::feature_angle,
-             "Seams that exist only in the normals are merged at edges whose dihedral angle is below this "
-             "(an angle between the normals of the two faces); flat-shaded meshes stay flat-shaded. 0 keeps "
-             "every such seam.")
-        .between(0, 180);
+    d.choice<Intersections>(
+        "self_intersections", &SimplifySettings::self_intersections,
+        {{"ignore", Intersections::ignore, "they are not searched for"},
+         {"count", Intersections::count, "intersecting pairs of faces are counted before and after"},
+         {"avoid", Intersections::avoid,
+          "new intersections are avoided: where faces would intersect, fewer are removed"}},
+        "What is done about faces that come to intersect.");
 }
 
 /// Adds a problem for an option that another method, or none of the sort, has use for.
@@ -172,10 +171,10 @@ class Together {
 void verify_levels(const SimplifyOptions& o, Together& together, const Mark& mark, Problems& problems) {
     together.refuse(o.ratio || o.faces || o.vertices || o.max_error, "lods", "lods has its own targets",
                     "leave out ratio, faces, vertices and max_error");
-    together.refuse(o.self_intersections == Intersections::avoid, "lods",
+    together.refuse(o.settings.self_intersections == Intersections::avoid, "lods",
                     "lods cannot be combined with self_intersections: avoid",
                     "use self_intersections: count, or one simplify stage for each level");
-    together.refuse(o.method == Method::cluster, "lods",
+    together.refuse(o.settings.method == Method::cluster, "lods",
                     "lods needs a chain of collapses, which the method cluster does not have",
                     "use another method, or one simplify stage for each level");
     if (o.lods->ratios.empty())
@@ -194,14 +193,16 @@ void verify_levels(const SimplifyOptions& o, Together& together, const Mark& mar
 
 void declare_simplify(Declare<SimplifyOptions>& d) {
     declare_targets(d);
-    declare_method(d);
-    d.choice<Intersections>(
-        "self_intersections", &SimplifyOptions::self_intersections,
-        {{"ignore", Intersections::ignore, "they are not searched for"},
-         {"count", Intersections::count, "intersecting pairs of faces are counted before and after"},
-         {"avoid", Intersections::avoid,
-          "new intersections are avoided: where faces would intersect, fewer are removed"}},
-        "What is done about faces that come to intersect.");
+    d.embed(&SimplifyOptions::settings, declare_settings);
+    d.group("lock", &SimplifyOptions::lock,
+            "What is kept vertex by vertex. Boundaries, seams and borders that are not locked collapse only "
+            "along themselves.",
+            declare_lock);
+    d.option("feature_angle", &SimplifyOptions::feature_angle,
+             "Seams that exist only in the normals are merged at edges whose dihedral angle is below this "
+             "(an angle between the normals of the two faces); flat-shaded meshes stay flat-shaded. 0 keeps "
+             "every such seam.")
+        .between(0, 180);
     d.group("constraints", &SimplifyOptions::constraints,
             "For the method constrained: limits that no collapse may exceed.", declare_constraints);
     d.group("lods", &SimplifyOptions::lods,
@@ -218,20 +219,21 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
 
 void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems) {
     Together together(given, problems);
-    const bool constrained = o.method == Method::constrained, cluster = o.method == Method::cluster;
+    const bool constrained = o.settings.method == Method::constrained,
+               cluster = o.settings.method == Method::cluster;
     const bool locks = o.lock.boundary || o.lock.seams || o.lock.group || o.lock.box;
     together.refuse(constrained && o.max_error, "max_error", "constrained takes no max_error",
                     "use constraints: {hausdorff: 0.1%} to limit the error");
     together.refuse(constrained && o.lods, "lods", "constrained takes no lods",
                     "use another method, or one simplify stage for each level");
-    together.refuse(constrained && o.topology == Topology::allow, "topology",
+    together.refuse(constrained && o.settings.topology == Topology::allow, "topology",
                     "constrained keeps the topology", "use the method quadric");
     together.refuse(cluster && locks, "lock", "cluster cannot lock vertices", "use the method quadric");
-    together.refuse(cluster && o.self_intersections == Intersections::avoid, "self_intersections",
+    together.refuse(cluster && o.settings.self_intersections == Intersections::avoid, "self_intersections",
                     "cluster cannot avoid self-intersections", "count them, or use the method quadric");
     together.refuse(!constrained && together.has("constraints"), "constraints",
                     "constraints go with the method constrained only", "method: constrained");
-    together.refuse(o.method != Method::quadric && o.method != Method::quadric_endpoints &&
+    together.refuse(o.settings.method != Method::quadric && o.settings.method != Method::quadric_endpoints &&
                         together.has("weights"),
                     "weights", "weights go with the methods quadric and quadric-endpoints only",
                     "method: quadric, which is the default");
@@ -241,12 +243,9 @@ void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& pro
 
 SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to_world,
                                    const SimplifyShare& share) {
-    SimplifySettings s{.method = o.method,
-                       .topology = o.topology,
-                       .self_intersections = o.self_intersections,
-                       .weights = o.weights,
-                       .lock = {.boundary = o.lock.boundary, .seams = o.lock.seams, .groups = o.lock.group},
-                       .feature_angle = o.feature_angle.radians};
+    SimplifySettings s = o.settings;
+    s.lock = {.boundary = o.lock.boundary, .seams = o.lock.seams, .groups = o.lock.group};
+    s.feature_angle = o.feature_angle.radians;
     if (o.lock.box)
         for (const Plane& p : planes_of(*o.lock.box)) s.lock.body.push_back(pulled_back(p, to_world));
     if (o.ratio) s.ratio = o.ratio->value;

@@ -25,12 +25,9 @@ struct SimplifyOptions {
     std::optional<Ratio> ratio;
     std::optional<std::int64_t> faces, vertices;
     std::optional<Length> max_error;
-    SimplifySettings::Method method = SimplifySettings::Method::quadric;
-    SimplifySettings::Topology topology = SimplifySettings::Topology::keep;
+    SimplifySettings settings{}; ///< what the algorithm takes just as users say it; the rest is unset
     LockOptions lock;
-    AttributeWeights weights;
     Angle feature_angle = Angle::degrees(30);
-    SimplifySettings::Intersections self_intersections = SimplifySettings::Intersections::ignore;
     std::optional<LevelOptions> lods;
     ConstraintOptions constraints;
     bool measure = true, certify = false;

@@ -110,15 +110,17 @@ class Simplifier {
   private:
     bool measures() const { return o_.measure || o_.certify; }
     bool changes_topology() const {
-        return o_.topology == SimplifySettings::Topology::allow ||
-               o_.method == SimplifySettings::Method::cluster;
+        return o_.settings.topology == SimplifySettings::Topology::allow ||
+               o_.settings.method == SimplifySettings::Method::cluster;
     }
 
     /// Which parts are simplified as one, and which vertices of others stay because another part has them
     /// too.
     void find_sets() {
-        const bool matches_anyway = o_.lock.boundary || o_.method == SimplifySettings::Method::constrained;
-        if (scene_.parts.size() < 2 || matches_anyway || o_.method == SimplifySettings::Method::cluster)
+        const bool matches_anyway =
+            o_.lock.boundary || o_.settings.method == SimplifySettings::Method::constrained;
+        if (scene_.parts.size() < 2 || matches_anyway ||
+            o_.settings.method == SimplifySettings::Method::cluster)
             return;
         std::vector<PlacedMesh> placed;
         for (const Part& part : scene_.parts) placed.push_back({&part.mesh, effective(part)});
