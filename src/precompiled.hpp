@@ -1,5 +1,7 @@
 #pragma once
 // Precompiled: the standard and library headers that most files include.
+#include "base/json.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <span>

@@ -48,8 +48,8 @@ Material MaterialDocument::add(Json material, std::size_t documents) {
     Material out;
     out.name = material.value("name", "");
     out.double_sided = material.value("doubleSided", false);
-    const Json colour =
-        material.value("/pbrMetallicRoughness/baseColorFactor"_json_pointer, Json::array({1, 1, 1, 1}));
+    const Json colour = material.value(Json::json_pointer("/pbrMetallicRoughness/baseColorFactor"),
+                                       Json::array({1, 1, 1, 1}));
     for (std::size_t c = 0; c < 4; ++c) out.base_colour[c] = colour.at(c).get<double>();
     out.document = static_cast<int>(documents);
     out.index = static_cast<int>(json_["materials"].size());
