@@ -54,13 +54,14 @@ TEST_CASE("without a token there is one job at a time", "[batch]") {
     REQUIRE(::pipe(ends) == 0);
     const auto server = Jobserver::offered(fmt::format("--jobserver-auth={},{}", ends[0], ends[1]));
     REQUIRE(server);
-    std::atomic<int> running{0}, most{0}, done{0};
+    std::atomic<int> running{0}, most{0}, done{0}, wanted{1}; // a job waits for others, for some seconds
     const auto work = [&](const Job&, const std::function<bool()>&) {
         const int now = ++running;
         int known = most;
         while (known < now && !most.compare_exchange_weak(known, now)) {
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        for (int tick = 0; tick < 1 || (tick < 2000 && most < wanted); ++tick)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
         --running;
         ++done;
         return Next::go_on;
@@ -70,6 +71,7 @@ TEST_CASE("without a token there is one job at a time", "[batch]") {
     CHECK(done == 6);
     CHECK(most == 1);
     REQUIRE(::write(ends[1], "x", 1) == 1);
+    wanted = 2;
     Pool({4, 100, server.get()}, jobs, work).run();
     CHECK(done == 12);
     CHECK(most == 2);
