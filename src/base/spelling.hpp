@@ -1,11 +1,16 @@
 #pragma once
-// The nearest valid name to what was typed.
+// Words as people type them: small letters for large ones, and the nearest valid name.
 
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace facetmill {
+
+/// A to Z as a to z; other bytes stay, so that UTF-8 stays what it is.
+std::string lower_case(std::string text);
+/// Whether the texts are equal but for the case of A to Z.
+bool same_word(std::string_view a, std::string_view b);
 
 /// The number of single-character insertions, deletions, replacements and swaps of neighbours between a and
 /// b.

@@ -2,12 +2,12 @@
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "base/spelling.hpp"
 #include "io/attributes.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 
 namespace facetmill::io {
@@ -17,11 +17,6 @@ namespace {
 std::vector<Codec>& registry() {
     static std::vector<Codec> all;
     return all;
-}
-
-std::string lower(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
 }
 
 template <class Condition>
@@ -122,8 +117,8 @@ RegisterCodec::RegisterCodec(Codec codec) {
 const std::vector<Codec>& codecs() { return registry(); }
 
 const Codec* codec_for(const std::filesystem::path& path) {
-    std::string extension = lower(path.extension().string());
-    if (extension == ".gz") extension = lower(path.stem().extension().string());
+    std::string extension = lower_case(path.extension().string());
+    if (extension == ".gz") extension = lower_case(path.stem().extension().string());
     if (extension.empty()) return nullptr;
     for (const auto& codec : codecs())
         for (const auto& e : codec.extensions)

@@ -1,6 +1,7 @@
 #include "io/csv.hpp"
 
 #include "base/numbers.hpp"
+#include "base/spelling.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -50,12 +51,6 @@ std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
         at = end + 1;
     }
     return cells;
-}
-
-bool same_word(std::string_view a, std::string_view b) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 /// Where the columns of these names stand; empty when one of them is missing, or when they are the first.

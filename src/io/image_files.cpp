@@ -1,9 +1,9 @@
 #include "io/image_files.hpp"
 
 #include "base/memory.hpp"
+#include "base/spelling.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <fmt/format.h>
 
 namespace facetmill::io {
@@ -11,11 +11,6 @@ namespace facetmill::io {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string in_lower_case(std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-}
 
 unsigned byte_at(Span bytes, std::size_t i) { return std::to_integer<unsigned>(bytes[i]); }
 
@@ -126,22 +121,17 @@ std::string uri_of(const fs::path& relative) {
     return out;
 }
 
-ImageNames::ImageNames(std::string stem, std::vector<std::string> taken)
-    : stem_(std::move(stem)), taken_(std::move(taken)) {
-    for (auto& name : taken_) name = in_lower_case(name);
+ImageNames::ImageNames(std::string stem, const std::vector<std::string>& taken) : stem_(std::move(stem)) {
+    for (const auto& name : taken) taken_.insert(lower_case(name));
 }
 
 fs::path ImageNames::add(const fs::path& relative) {
     const std::string file = relative.filename().string();
     const std::string name = file.starts_with(stem_ + ".") ? file : stem_ + "." + file;
     fs::path path = relative.parent_path() / name;
-    const auto is_taken = [&] {
-        return std::find(taken_.begin(), taken_.end(), in_lower_case(path.generic_string())) != taken_.end();
-    };
     const fs::path plain = fs::path(name).stem(), extension = fs::path(name).extension();
-    for (int n = 2; is_taken(); ++n)
+    for (int n = 2; !taken_.insert(lower_case(path.generic_string())).second; ++n)
         path = relative.parent_path() / fmt::format("{}.{}{}", plain.string(), n, extension.string());
-    taken_.push_back(in_lower_case(path.generic_string()));
     return path;
 }
 

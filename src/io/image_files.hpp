@@ -5,6 +5,7 @@
 #include "io/codec.hpp"
 
 #include <optional>
+#include <set>
 
 namespace facetmill::io {
 
@@ -40,13 +41,13 @@ std::string uri_of(const std::filesystem::path& relative);
 class ImageNames {
   public:
     /// taken: the names of the output's other files.
-    ImageNames(std::string stem, std::vector<std::string> taken);
+    ImageNames(std::string stem, const std::vector<std::string>& taken);
     /// A name for the image that was called so. Names that differ only in case count as the same.
     std::filesystem::path add(const std::filesystem::path& relative);
 
   private:
     std::string stem_;
-    std::vector<std::string> taken_; ///< in lower case
+    std::set<std::string> taken_; ///< in lower case
 };
 
 } // namespace facetmill::io

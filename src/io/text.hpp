@@ -98,7 +98,4 @@ class Text {
 /// A word for a message: in quotes, cut when long, control characters as dots.
 std::string in_quotes(std::string_view word);
 
-/// Whether two words are the same but for the case of ASCII letters.
-bool same_word(std::string_view a, std::string_view b);
-
 } // namespace facetmill::io

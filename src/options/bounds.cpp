@@ -1,6 +1,7 @@
 // Bounds and limits, of options/types.hpp: numbers that a value must have or may not pass.
 #include "base/numbers.hpp"
 #include "base/portable_math.hpp"
+#include "base/spelling.hpp"
 #include "options/types.hpp"
 
 #include <algorithm>
@@ -58,9 +59,7 @@ constexpr const char* bytes_expected = "a count of bytes (1000000, 10MB, 1.5MiB)
 
 /// For a unit in the wrong case or cut short, "mb" or "M": the two that may be meant.
 std::string byte_unit_hint(double number, std::string_view unit) {
-    std::string small(unit);
-    for (char& c : small)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string small = lower_case(std::string(unit));
     const auto at = std::string_view("kmgt").find(small.empty() ? '?' : small[0]);
     const std::string rest = small.empty() ? "" : small.substr(1);
     if (at == std::string_view::npos || !(rest.empty() || rest == "b" || rest == "i" || rest == "ib"))

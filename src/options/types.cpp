@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "base/portable_math.hpp"
+#include "base/spelling.hpp"
 
 #include <array>
 #include <cmath>
@@ -46,10 +47,7 @@ namespace {
 
 /// "write true" for the words that other YAML versions take for truths.
 std::string hint_of_truth(const Value& value) {
-    std::string word;
-    if (value.is_scalar()) word = value.text;
-    for (char& c : word)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string word = value.is_scalar() ? lower_case(value.text) : "";
     if (word == "yes" || word == "on" || word == "y") return "write true";
     return word == "no" || word == "off" || word == "n" ? "write false" : "";
 }

@@ -1,4 +1,5 @@
 #include "base/error.hpp"
+#include "base/spelling.hpp"
 #include "io/drawing/drawing.hpp"
 #include "io/drawing/drawing_fields.hpp"
 
@@ -10,9 +11,7 @@ namespace {
 
 std::string extension_of(const std::string& path) {
     const auto dot = path.rfind('.');
-    std::string extension = dot == std::string::npos ? "" : path.substr(dot + 1);
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return extension;
+    return dot == std::string::npos ? "" : lower_case(path.substr(dot + 1));
 }
 
 /// The section with the points of its contours in the place of their count.

@@ -3,6 +3,7 @@
 #include "base/json.hpp"
 #include "base/numbers.hpp"
 #include "base/portable_math.hpp"
+#include "base/spelling.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 // The statements of .mtl files. Wavefront Technologies, "MTL material format", 1995; the words of physically
 // based materials (Pr, Pm, norm, map_RMA ...) after Exocortex, "Extending the MTL format for PBR", 2016.
 
+#include "base/spelling.hpp"
 #include "io/image_files.hpp"
 #include "io/obj/materials.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
@@ -42,8 +42,7 @@ std::vector<double> take_numbers(Text& text, std::size_t most) {
 
 /// The word of a texture statement without "map_", in lower case.
 std::string map_key(std::string_view word) {
-    std::string key(word.starts_with("map_") ? word.substr(4) : word);
-    for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string key = lower_case(std::string(word.starts_with("map_") ? word.substr(4) : word));
     return key == "opacity" ? "d" : key;
 }
 

@@ -1,6 +1,7 @@
 #include "io/stl/stl.hpp"
 
 #include "base/parallel.hpp"
+#include "base/spelling.hpp"
 #include "io/text.hpp"
 
 #include <array>
