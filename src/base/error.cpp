@@ -21,31 +21,22 @@ Error& Error::at(const Mark& where) {
     return *this;
 }
 
-namespace {
-
-bool same(const Diagnostic& a, const Diagnostic& b) {
-    return a.severity == b.severity && a.id == b.id && a.message == b.message &&
-           to_string(a.where) == to_string(b.where);
+void Problems::add_once(Diagnostic one) {
+    const std::string text = fmt::format("{}\n{}\n{}\n{}", static_cast<int>(one.severity), one.id,
+                                         to_string(one.where), one.message);
+    if (known_.insert(text).second) all_.push_back(std::move(one));
 }
-
-/// The stages of a foreach are planned for each of its values: what is wrong with all of them is said once.
-void add_once(std::vector<Diagnostic>& all, Diagnostic one) {
-    const auto is_known = [&](const Diagnostic& d) { return same(d, one); };
-    if (std::none_of(all.begin(), all.end(), is_known)) all.push_back(std::move(one));
-}
-
-} // namespace
 
 void Problems::add(Mark where, std::string id, std::string message, std::string hint) {
-    add_once(all_, {Severity::error, std::move(id), std::move(message), std::move(where), std::move(hint)});
+    add_once({Severity::error, std::move(id), std::move(message), std::move(where), std::move(hint)});
 }
 
 void Problems::warn(Mark where, std::string id, std::string message, std::string hint) {
-    add_once(all_, {Severity::warning, std::move(id), std::move(message), std::move(where), std::move(hint)});
+    add_once({Severity::warning, std::move(id), std::move(message), std::move(where), std::move(hint)});
 }
 
 void Problems::add(const Error& error) {
-    for (const auto& diagnostic : error.diagnostics()) add_once(all_, diagnostic);
+    for (const auto& diagnostic : error.diagnostics()) add_once(diagnostic);
 }
 
 bool Problems::any_errors() const {

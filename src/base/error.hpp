@@ -5,6 +5,7 @@
 #include "base/mark.hpp"
 
 #include <exception>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -64,7 +65,12 @@ class Problems {
     void throw_if_any(ErrorKind kind) const;
 
   private:
+    /// The stages of a foreach are planned for each of its values: what is wrong with all of them is said
+    /// once.
+    void add_once(Diagnostic one);
+
     std::vector<Diagnostic> all_;
+    std::set<std::string> known_; ///< what all_ has, as text
 };
 
 /// The diagnostic as people read it: "file:line:col: error[ID]: message", the source line, a caret, the hint.

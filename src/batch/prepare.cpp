@@ -1,6 +1,7 @@
 // Everything about a batch that is known before it runs: plans, files, memory.
 
 #include "base/hash.hpp"
+#include "base/spelling.hpp"
 #include "batch/batch.hpp"
 #include "batch/build_id.hpp"
 #include "io/output_files.hpp"
@@ -64,12 +65,6 @@ std::uint64_t memory_for(const std::vector<fs::path>& inputs) {
     return bytes;
 }
 
-std::string lowered(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
-
 /// The files of all assets, by what they are on a disk where case does not count.
 class FileOwners {
   public:
@@ -87,7 +82,7 @@ class FileOwners {
         if (input == "-")
             return problems_.add({}, "E-DUPLICATE-INPUT", "standard input cannot be read by each asset",
                                  "give the file by a param, or its name in the pipeline");
-        const auto owner = owners_.find(lowered(io::identity(input).string()));
+        const auto owner = owners_.find(lower_case(io::identity(input).string()));
         if (owner == owners_.end() || io::identity(owner->second.path) != io::identity(input)) return;
         if (owner->second.beside) return; // a texture that is copied to where it is stays as it is
         problems_.add(
@@ -103,7 +98,7 @@ class FileOwners {
         std::optional<fs::path> beside; ///< the folder of the input that names it
     };
 
-    static std::string key(const fs::path& path) { return lowered(io::identity(path).string()); }
+    static std::string key(const fs::path& path) { return lower_case(io::identity(path).string()); }
 
     void claim(const Asset& asset, const fs::path& path, bool beside) {
         if (io::is_stream(path) && path != "/dev/null") return refuse_stream(asset, path);
@@ -150,7 +145,7 @@ std::vector<Work> prepare(const std::vector<Asset>& assets, const Settings& sett
         const auto headers = pipeline::read_headers(plan);
         owners.add(asset, pipeline::planned_outputs(plan), headers.more_outputs);
         for (auto& d : pipeline::missing_inputs(plan))
-            missing.push_back(pipeline::about_input(plan, std::move(d)));
+            missing.push_back(pipeline::about_input(pipeline::planned_inputs(plan), std::move(d)));
         Work work{
             asset, pipeline::planned_inputs(plan, headers), pipeline::planned_outputs(plan, headers), {}, 0};
         work.digest = options_digest(pipeline, plan, settings);

@@ -1,5 +1,6 @@
 #include "cli/depfile.hpp"
 
+#include "base/once_each.hpp"
 #include "io/outputs.hpp"
 
 #include <algorithm>
@@ -38,9 +39,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void add_once(std::vector<std::string>& all, const std::string& path) {
-    if (path != "-" && std::find(all.begin(), all.end(), path) == all.end()) all.push_back(path);
-}
+/// The files of a run as Make and Ninja can name them: standard input and output are none.
+class Paths {
+  public:
+    void add(const std::string& path) {
+        if (path != "-") once_.add(path);
+    }
+    const std::vector<std::string>& all() const { return once_.all(); }
+
+  private:
+    OnceEach<std::string> once_;
+};
 
 /// The folder whose time changes when the file appears.
 fs::path folder_of_absent(const fs::path& file) {
@@ -53,11 +62,12 @@ fs::path folder_of_absent(const fs::path& file) {
 
 /// What the target may be, the best first.
 std::vector<std::string> targets_of(const report::RunRecord& record, const std::string& depfile) {
-    std::vector<std::string> all;
+    Paths paths;
     for (const bool mesh : {true, false})
         for (const auto& file : record.outputs)
-            if (!mesh || !file.read_back.is_null()) add_once(all, file.path);
-    for (const auto& report : record.reports) add_once(all, report);
+            if (!mesh || !file.read_back.is_null()) paths.add(file.path);
+    for (const auto& report : record.reports) paths.add(report);
+    auto all = paths.all();
     all.push_back(depfile); // a gate writes nothing; its rule is for the depfile itself
     return all;
 }
@@ -84,13 +94,13 @@ void make_newer_than_folders(const report::RunRecord& record) {
 
 void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
                    const pipeline::Plan& plan, const report::RunRecord& record) {
-    std::vector<std::string> inputs;
-    if (!pipeline_file.empty()) add_once(inputs, pipeline_file);
-    for (const auto& file : record.inputs) add_once(inputs, file.path);
-    for (const auto& file : pipeline::planned_inputs(plan)) add_once(inputs, file.string()); // a baseline ...
-    for (const auto& file : record.absent) add_once(inputs, folder_of_absent(file).string());
+    Paths inputs;
+    if (!pipeline_file.empty()) inputs.add(pipeline_file);
+    for (const auto& file : record.inputs) inputs.add(file.path);
+    for (const auto& file : pipeline::planned_inputs(plan)) inputs.add(file.string()); // a baseline ...
+    for (const auto& file : record.absent) inputs.add(folder_of_absent(file).string());
     const std::string text =
-        depfile_text(target.empty() ? targets_of(record, depfile).front() : target, inputs);
+        depfile_text(target.empty() ? targets_of(record, depfile).front() : target, inputs.all());
     io::write_now(depfile, std::as_bytes(std::span(text)));
     if (!record.absent.empty()) make_newer_than_folders(record);
 }

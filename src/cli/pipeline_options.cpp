@@ -1,5 +1,6 @@
 #include "cli/pipeline_options.hpp"
 
+#include "base/lazy.hpp"
 #include "base/message_ids.hpp"
 #include "base/parallel.hpp"
 #include "base/spelling.hpp"
@@ -179,7 +180,8 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     settings.progress = progress.get();
     settings.strict = options.strict;
     settings.check_invariants = options.check_invariants;
-    const auto tell = [&](const Diagnostic& d) { console.diagnostic(pipeline::about_input(plan, d)); };
+    const Lazy<std::vector<std::filesystem::path>> inputs([&] { return pipeline::planned_inputs(plan); });
+    const auto tell = [&](const Diagnostic& d) { console.diagnostic(pipeline::about_input(*inputs, d)); };
     settings.on_warning = tell;
     if (console.verbose)
         settings.on_stage = [&](const report::StageRecord& stage) {

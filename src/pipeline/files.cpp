@@ -1,4 +1,5 @@
 #include "base/glob.hpp"
+#include "base/once_each.hpp"
 #include "base/spelling.hpp"
 #include "pipeline/plan.hpp"
 
@@ -48,12 +49,6 @@ std::string identity(const fs::path& path) {
     return (error ? fs::absolute(path).lexically_normal() : canonical).string();
 }
 
-std::string lower_case(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
-
 std::string nearest_file(const fs::path& path) {
     std::vector<std::string> names;
     std::error_code ignored;
@@ -67,15 +62,11 @@ std::string nearest_file(const fs::path& path) {
     return did_you_mean(path.filename().string(), names);
 }
 
-void add_once(std::vector<fs::path>& paths, const fs::path& path) {
-    if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(path);
-}
-
-std::vector<fs::path> paths_of(const Plan& plan, bool written, const std::vector<fs::path>& more) {
-    std::vector<fs::path> paths;
+OnceEach<fs::path> paths_of(const Plan& plan, bool written, const std::vector<fs::path>& more) {
+    OnceEach<fs::path> paths;
     for (const auto& file : planned_files(plan.steps, plan.places))
-        if (file.written == written) add_once(paths, file.path);
-    for (const auto& path : more) add_once(paths, path);
+        if (file.written == written) paths.add(file.path);
+    for (const auto& path : more) paths.add(path);
     return paths;
 }
 
@@ -198,8 +189,7 @@ std::optional<Diagnostic> without_effect(const Plan& plan) {
                       "end it with write: FILE, or with validate, or ask for a --report"};
 }
 
-Diagnostic about_input(const Plan& plan, Diagnostic diagnostic) {
-    const auto inputs = paths_of(plan, false, {});
+Diagnostic about_input(const std::vector<fs::path>& inputs, Diagnostic diagnostic) {
     const auto is_named = [&](const fs::path& input) {
         return diagnostic.message.find(input.string()) != std::string::npos;
     };
@@ -211,13 +201,13 @@ Diagnostic about_input(const Plan& plan, Diagnostic diagnostic) {
 }
 
 std::vector<fs::path> planned_inputs(const Plan& plan, const Headers& headers) {
-    return paths_of(plan, false, headers.more_inputs);
+    return paths_of(plan, false, headers.more_inputs).all();
 }
 
 std::vector<fs::path> planned_outputs(const Plan& plan, const Headers& headers) {
     auto paths = paths_of(plan, true, headers.more_outputs);
-    for (const auto& report : plan.reports) add_once(paths, plan.places.output(report));
-    return paths;
+    for (const auto& report : plan.reports) paths.add(plan.places.output(report));
+    return paths.all();
 }
 
 } // namespace facetmill::pipeline

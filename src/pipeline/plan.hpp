@@ -141,9 +141,9 @@ std::vector<std::filesystem::path> planned_outputs(const Plan& plan, const Heade
 /// W-NOTHING, at the last stage, when nothing would be left of a run: no file, no check that can fail, no
 /// report.
 std::optional<Diagnostic> without_effect(const Plan& plan);
-/// The diagnostic with the input of the plan in its message ("scan.ply: ..."), unless it names one already:
-/// in a log of many runs it says which asset it is about.
-Diagnostic about_input(const Plan& plan, Diagnostic diagnostic);
+/// The diagnostic with the first of a plan's inputs in its message ("scan.ply: ..."), unless it names one
+/// already: in a log of many runs it says which asset it is about.
+Diagnostic about_input(const std::vector<std::filesystem::path>& inputs, Diagnostic diagnostic);
 /// What would run, everything resolved, with what the headers of inputs say: for `facetmill plan`, as text
 /// and as JSON.
 std::string describe(const Plan& plan, const Headers& headers = {});

@@ -449,7 +449,9 @@ TEST_CASE("a plan that leaves nothing behind is known", "[pipeline]") {
 
 TEST_CASE("a diagnostic names the input unless it does already", "[pipeline]") {
     const auto told = [](const std::string& text, const std::string& message) {
-        return about_input(planned(text).plan, {Severity::warning, "W-X", message, {}, {}}).message;
+        return pipeline::about_input(planned_inputs(planned(text).plan),
+                                     {Severity::warning, "W-X", message, {}, {}})
+            .message;
     };
     CHECK(told(stages(""), "flat") == "a.ply: flat");
     CHECK(told(stages(""), "'a.ply' is flat") == "'a.ply' is flat");

@@ -1,6 +1,7 @@
 #include "io/gltf/container.hpp"
 
 #include "base/memory.hpp"
+#include "base/once_each.hpp"
 #include "io/image_files.hpp"
 
 #include <cstring>
@@ -242,15 +243,14 @@ std::optional<fs::path> relative_path(std::string_view uri) {
 }
 
 std::vector<fs::path> neighbours(const Json& document, const char* list) {
-    std::vector<fs::path> all;
+    OnceEach<fs::path> all;
     for (std::size_t i = 0; i < count_of(document, list); ++i) {
         const Place place = item(document, list, i);
         const auto uri = place.find("uri");
         if (!uri || is_data_uri(uri->text()) || is_fallback(place)) continue;
-        const auto path = relative_path(uri->text());
-        if (path && std::find(all.begin(), all.end(), *path) == all.end()) all.push_back(*path);
+        if (const auto path = relative_path(uri->text())) all.add(*path);
     }
-    return all;
+    return all.all();
 }
 
 std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary_chunk, const Input& input,
