@@ -12,6 +12,7 @@
 #include "base/vec.hpp"
 #include "mesh/attribute_changes.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -32,6 +33,12 @@ struct Primitive {
     std::vector<std::string> attributes; ///< names of the wedge attributes it had; empty: all
     std::string json;                    ///< the source's extras and extensions (a JSON object), or empty
 
+    /// Whether it names the attribute itself, which one that has all does not.
+    bool lists(std::string_view attribute) const {
+        return std::find(attributes.begin(), attributes.end(), attribute) != attributes.end();
+    }
+    /// Whether it has the wedge attribute, where the mesh has it.
+    bool has(std::string_view attribute) const { return attributes.empty() || lists(attribute); }
     bool operator==(const Primitive&) const = default;
 };
 

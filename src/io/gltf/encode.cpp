@@ -295,11 +295,8 @@ Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& 
 }
 
 bool has_column(const Mesh& mesh, Index primitive, const Column& column) {
-    const auto lists = [&](const Primitive& p) {
-        return std::find(p.attributes.begin(), p.attributes.end(), column.data.name) != p.attributes.end();
-    };
-    if (primitive >= mesh.primitives.size() || mesh.primitives[primitive].attributes.empty()) return true;
-    return lists(mesh.primitives[primitive]) ||
+    const auto lists = [&](const Primitive& p) { return p.lists(column.data.name); };
+    return primitive >= mesh.primitives.size() || mesh.primitives[primitive].has(column.data.name) ||
            std::none_of(mesh.primitives.begin(), mesh.primitives.end(), lists);
 }
 

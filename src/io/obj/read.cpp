@@ -255,11 +255,8 @@ Mesh extract(const Mesh& mesh, const Shares& vertices, const Shares& wedges, con
 
 /// Texture coordinates that no primitive has go; lists of attributes that say nothing, too.
 void drop_unlisted(Mesh& mesh) {
-    const auto lists_uvs = [](const Primitive& p) {
-        return p.attributes.empty() ||
-               std::find(p.attributes.begin(), p.attributes.end(), "TEXCOORD_0") != p.attributes.end();
-    };
-    const auto with = std::count_if(mesh.primitives.begin(), mesh.primitives.end(), lists_uvs);
+    const auto with = std::count_if(mesh.primitives.begin(), mesh.primitives.end(),
+                                    [](const Primitive& p) { return p.has("TEXCOORD_0"); });
     if (with == 0) mesh.drop("TEXCOORD_0", Domain::wedge);
     if (with == 0 || with == static_cast<std::ptrdiff_t>(mesh.primitives.size()))
         for (Primitive& p : mesh.primitives) p.attributes.clear();

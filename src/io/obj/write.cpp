@@ -151,9 +151,7 @@ class PartWriter {
     }
     /// Whether the face's primitive has the texture points that the mesh has.
     bool has_uvs(Index f) const {
-        if (mesh_.primitives.empty()) return true;
-        const auto& names = mesh_.primitives[mesh_.primitive_of(f)].attributes;
-        return names.empty() || std::find(names.begin(), names.end(), "TEXCOORD_0") != names.end();
+        return mesh_.primitives.empty() || mesh_.primitives[mesh_.primitive_of(f)].has("TEXCOORD_0");
     }
     bool changes(Index f) const {
         return material(f) != material_ || has_uvs(f) != uvs_ || group_.differs(f) || smoothing_.differs(f);
