@@ -130,6 +130,7 @@ Json definitions() {
 
 Json pipeline_schema() {
     const Json path = {{"type", "string"}, {"minLength", 1}};
+    const Json one_or_more = Json::array({path, {{"type", "array"}, {"items", path}}});
     return {
         {"$schema", "https://json-schema.org/draft/2020-12/schema"},
         {"title", "facetmill pipeline, format 1"},
@@ -146,11 +147,10 @@ Json pipeline_schema() {
             {"additionalProperties", ref("param")}}},
           {"stages", ref("stages")},
           {"allow",
-           {{"anyOf", Json::array({path, {{"type", "array"}, {"items", path}}})},
+           {{"anyOf", one_or_more},
             {"description", "Warnings that are neither told nor made to fail, by their ids."}}},
           {"report",
-           {{"anyOf", Json::array({path, {{"type", "array"}, {"items", path}}})},
-            {"description", "Reports: .json, .html, .xml (JUnit), .txt."}}}}},
+           {{"anyOf", one_or_more}, {"description", "Reports: .json, .html, .xml (JUnit), .txt."}}}}},
         {"patternProperties", {{"^x-", true}}},
         {"additionalProperties", false},
         {"$defs", definitions()}};
