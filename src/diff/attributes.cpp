@@ -29,7 +29,7 @@ class WorldAttributes {
   public:
     explicit WorldAttributes(const Scene& scene) {
         for (const auto& part : scene.parts) {
-            const Transform to_world = effective(part);
+            const Transform to_world = part.transform;
             for (const auto& attribute : part.mesh.attributes) {
                 if (attribute.name == primitive_attribute && attribute.domain == Domain::face) continue;
                 const bool turned = turns_with_part(attribute) && !to_world.identity();

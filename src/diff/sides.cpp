@@ -2,7 +2,6 @@
 
 #include "geometry/inspect/inspect.hpp"
 #include "mesh/face.hpp"
-#include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -23,7 +22,7 @@ struct Component {
 
 void add_part(const Part& part, std::vector<Component>& components) {
     const Mesh& mesh = part.mesh;
-    const Transform t = effective(part);
+    const Transform t = part.transform;
     const double sign = t.determinant() < 0 ? -0.5 : 0.5; // a mirrored part keeps its front
     const Components of = face_components(mesh, false);
     const std::size_t before = components.size();

@@ -11,12 +11,12 @@
 namespace facetmill::io {
 
 WorldMesh::WorldMesh(const Part& part) {
-    if (effective(part).identity()) {
+    if (part.transform.identity()) {
         given_ = &part.mesh;
         return;
     }
     own_ = part.mesh;
-    apply(own_, effective(part));
+    apply(own_, part.transform);
 }
 
 WorldMesh::WorldMesh(const Scene& scene) {

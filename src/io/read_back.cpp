@@ -80,7 +80,7 @@ struct Flat {
             return;
         }
         for (const auto& part : scene.parts) {
-            const Transform to_world = effective(part);
+            const Transform to_world = part.transform;
             const std::size_t first = points.size(), first_corner = corners.size();
             points.resize(first + part.mesh.vertex_count());
             corners.resize(first_corner + part.mesh.corner_count());
@@ -238,7 +238,7 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
     double largest = 0;
     for (const auto& part : scene.parts) {
         Box own;
-        const Transform to_world = effective(part);
+        const Transform to_world = part.transform;
         for (const Vec3& p : part.mesh.positions) {
             own.add(p);
             world.add(to_world.point(p));

@@ -5,10 +5,6 @@
 
 namespace facetmill {
 
-/// The part's transform as it counts, part space -> world. A skinned part is in bind pose, whatever its
-/// node's transform, so its own is the identity until a stage moves it.
-inline Transform effective(const Part& part) { return part.transform; }
-
 /// The place in the world of a point of the part.
 inline Vec3 in_world(const Part& part, const Vec3& p) { return part.transform.point(p); }
 
@@ -27,7 +23,7 @@ inline Mesh bare(const Mesh& mesh) {
 /// they keep their front. O(n).
 inline Mesh in_world(const Part& part) {
     Mesh out = bare(part.mesh);
-    apply(out, effective(part));
+    apply(out, part.transform);
     return out;
 }
 

@@ -48,7 +48,8 @@ struct Part {
     int document = -1;     ///< index into Scene::documents, or -1
     int node = -1;         ///< its node there
     int source_mesh = -1;  ///< its mesh there
-    bool skinned = false;  ///< processed in bind pose; its node's transform is ignored, as glTF requires
+    bool skinned =
+        false; ///< in bind pose; its transform is the identity, as glTF has it, until a stage moves it
     bool changed =
         false; ///< set by every stage that gives the part another mesh: extensions of it are then dropped
     std::shared_ptr<const CutMemory> cuts{}; ///< points that clips made on planes, in part space; or nothing

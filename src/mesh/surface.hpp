@@ -29,7 +29,7 @@ struct Surface {
 
 /// The mesh in its own space; polygons are cut as `triangulated` does.
 Surface surface_of(const Mesh& mesh);
-/// The part in world space (a skinned part in bind pose, as glTF has it).
+/// The part in world space.
 Surface surface_of(const Part& part);
 /// These parts, or all of a scene, in world space. Throws limit (E-LIMIT) when the vertices of all cannot be
 /// numbered.

@@ -2,7 +2,6 @@
 
 #include "base/glob.hpp"
 #include "base/parallel.hpp"
-#include "mesh/placement.hpp"
 #include "mesh/power_scale.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +31,7 @@ fs::path placed(const fs::path& base, const std::string& text) {
 /// The diagonal of the part's box in world space. Boxes do not depend on the order of points, so chunks may
 /// join freely.
 double world_diagonal(const Part& part) {
-    const Transform to_world = effective(part);
+    const Transform to_world = part.transform;
     const auto& points = part.mesh.positions;
     const Box box = parallel_reduce(
         points.size(), Box{},

@@ -1,7 +1,6 @@
 #include "stage/surface_loss.hpp"
 
 #include "geometry/edit/moved.hpp"
-#include "mesh/placement.hpp"
 #include "stage/context.hpp"
 
 #include <algorithm>
@@ -58,7 +57,7 @@ std::vector<PartSurface> surfaces_of_parts(const Scene& scene) {
     std::vector<PartSurface> surfaces;
     for (const Part& part : scene.parts)
         surfaces.push_back(
-            {part.name, part.mesh.face_count(), surface_size(part.mesh, effective(part), false).area});
+            {part.name, part.mesh.face_count(), surface_size(part.mesh, part.transform, false).area});
     return surfaces;
 }
 

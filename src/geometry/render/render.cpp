@@ -3,7 +3,6 @@
 
 #include "base/parallel.hpp"
 #include "geometry/render/painter.hpp"
-#include "mesh/placement.hpp"
 
 #include <algorithm>
 
@@ -68,7 +67,7 @@ Box seen_box(const Scene& scene, const PictureSettings& settings, View view) {
     Box seen;
     for (const Part& part : scene.parts) {
         if (!shown(part, settings)) continue;
-        const Transform to_world = effective(part);
+        const Transform to_world = part.transform;
         seen.add(parallel_reduce(
             part.mesh.vertex_count(), Box{},
             [&](std::size_t begin, std::size_t end) {
@@ -157,7 +156,7 @@ class PartDrawing {
                 const PictureSettings& settings)
         : mesh_(triangles), painter_(painter), view_(view), settings_(settings),
           points_(triangles.vertex_count()) {
-        const Transform to_world = effective(part);
+        const Transform to_world = part.transform;
         parallel_for(points_.size(),
                      [&](std::size_t v) { points_[v] = view.of(to_world.point(mesh_.positions[v])); });
     }

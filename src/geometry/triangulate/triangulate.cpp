@@ -148,8 +148,8 @@ FaceKinds face_kinds(const Mesh& mesh, double planar) {
 FaceKinds face_kinds(const Scene& scene, double planar) {
     FaceKinds all;
     for (const Part& part : scene.parts)
-        all = joined(all, effective(part).identity() ? face_kinds(part.mesh, planar)
-                                                     : face_kinds(in_world(part), planar));
+        all = joined(all, part.transform.identity() ? face_kinds(part.mesh, planar)
+                                                    : face_kinds(in_world(part), planar));
     all.worst = none;
     return all;
 }

@@ -4,7 +4,6 @@
 
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
-#include "mesh/placement.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -112,7 +111,7 @@ Reach reach_of(const Scene& scene, const Part* local, const Vec3& normal) {
     if (local)
         reach.add(local->mesh, {}, normal);
     else
-        for (const Part& part : scene.parts) reach.add(part.mesh, effective(part), normal);
+        for (const Part& part : scene.parts) reach.add(part.mesh, part.transform, normal);
     if (reach.box.empty()) {
         reach.box.add(Vec3{});
         reach.low = reach.high = 0;

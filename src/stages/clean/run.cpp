@@ -1,4 +1,3 @@
-#include "mesh/placement.hpp"
 #include "stages/clean/help.hpp"
 #include "stages/clean/options.hpp"
 #include "stages/clean/report.hpp"
@@ -23,7 +22,7 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         warn(part, r.not_done, context);
-        report.parts.push_back({part.name, r.counts, first_not_done(r.not_done, effective(part))});
+        report.parts.push_back({part.name, r.counts, first_not_done(r.not_done, part.transform)});
     });
     return scene;
 }

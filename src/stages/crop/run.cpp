@@ -1,5 +1,4 @@
 #include "geometry/crop/crop.hpp"
-#include "mesh/placement.hpp"
 #include "stage/both_sides.hpp"
 #include "stage/context.hpp"
 #include "stage/options/cap.hpp"
@@ -118,7 +117,7 @@ class CropRun {
 
   private:
     void crop_part(Part& part) {
-        settings_.to_world = effective(part);
+        settings_.to_world = part.transform;
         settings_.memory = part.cuts ? *part.cuts : CutMemory{};
         const std::size_t faces = part.mesh.face_count();
         std::vector<CropResult> sides;

@@ -1,6 +1,5 @@
 #include "base/memory.hpp"
 #include "geometry/edit/moved.hpp"
-#include "mesh/placement.hpp"
 #include "stage/stage.hpp"
 #include "stages/crumple/help.hpp"
 #include "stages/crumple/options.hpp"
@@ -68,7 +67,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
     MaskOfParts masks(scene, o.mask);
     context.for_each_part(scene, [&](Part& part) {
         settings.amplitude = context.resolve(o.amplitude, scene, "amplitude", &part);
-        settings.to_world = effective(part);
+        settings.to_world = part.transform;
         SplitResult pieces = split_part(part, o.grid);
         part.mesh = std::move(pieces.mesh);
         settings.mask = masks.of(part);

@@ -40,7 +40,7 @@ std::vector<Vec3> points_asked(const ProbeOptions& o, const Questions& q, Contex
     std::vector<Vec3> points;
     if (!o.points) {
         for (const Part* part : q.sources)
-            for (const Vec3& p : part->mesh.positions) points.push_back(effective(*part).point(p));
+            for (const Vec3& p : part->mesh.positions) points.push_back(part->transform.point(p));
         return points;
     }
     auto rows = o.points->rows;
@@ -92,14 +92,14 @@ std::vector<Vec3> directions_of(const Part& part, const std::string& name) {
             "facetmill info lists the attributes of a file; NORMAL is always available");
     Mesh alone; // turned as the part is
     alone.attributes.push_back(*found);
-    apply(alone, effective(part));
+    apply(alone, part.transform);
     const Attribute& a = alone.attributes.front();
     const bool is_turned = a.role == Role::normal || a.role == Role::tangent || a.role == Role::morph_vector;
     std::vector<Vec3> directions(mesh.vertex_count());
     for (std::size_t i = 0; i < a.size(); ++i) {
         const Vec3 d{a.value(i, 0), a.value(i, 1), a.value(i, 2)};
         directions[wedges ? mesh.vertex_of_wedge(static_cast<Index>(i)) : i] +=
-            is_turned ? d : effective(part).vector(d);
+            is_turned ? d : part.transform.vector(d);
     }
     return directions;
 }
@@ -132,7 +132,7 @@ std::vector<Vec3> facet_asked(const Questions& q, std::int64_t number) {
         std::vector<Vec3> corners;
         const auto f = static_cast<Index>(left);
         for (Index c = part->mesh.face_begin(f); c < part->mesh.face_end(f); ++c)
-            corners.push_back(effective(*part).point(part->mesh.point(c)));
+            corners.push_back(part->transform.point(part->mesh.point(c)));
         return corners;
     }
     throw Error(ErrorKind::usage, "E-FACE",

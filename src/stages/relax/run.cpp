@@ -1,5 +1,4 @@
 #include "geometry/edit/moved.hpp"
-#include "mesh/placement.hpp"
 #include "stage/stage.hpp"
 #include "stages/relax/help.hpp"
 #include "stages/relax/options.hpp"
@@ -60,7 +59,7 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
     RelaxSettings settings = relax_settings(o);
     MaskOfParts masks(scene, o.mask);
     context.for_each_part(scene, [&](Part& part) {
-        settings.to_world = effective(part);
+        settings.to_world = part.transform;
         if (o.until) // above 0 in a part that is a single point too, which settles at once
             settings.until = std::max(context.resolve(*o.until, scene, "until", &part),
                                       std::numeric_limits<double>::min());

@@ -3,7 +3,6 @@
 #include "base/readable_numbers.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "io/drawing/drawing_fields.hpp"
-#include "mesh/placement.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -49,7 +48,7 @@ void add_volume(SectionReport& report, const Scene& scene, double spacing, const
     for (const Part& part : scene.parts) {
         if (!context.selects(part, scene)) continue;
         const auto own = inspect(part.mesh).volume;
-        volume = volume && own ? std::optional(*volume + *own * std::abs(effective(part).determinant()))
+        volume = volume && own ? std::optional(*volume + *own * std::abs(part.transform.determinant()))
                                : std::nullopt;
     }
     report.spacing = spacing;

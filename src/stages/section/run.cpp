@@ -1,4 +1,3 @@
-#include "mesh/placement.hpp"
 #include "stages/section/help.hpp"
 #include "stages/section/options.hpp"
 #include "stages/section/report.hpp"
@@ -39,7 +38,7 @@ Stack stack_for(const Scene& scene, const Plane& plane, const std::optional<Leng
                     "give a length in scene units, or count");
     Extent extent;
     for (const Part& part : scene.parts)
-        if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, effective(part)));
+        if (context.selects(part, scene)) extent.add(extent_along(plane, part.mesh, part.transform));
     return stack_of(extent, spacing, count);
 }
 
@@ -56,7 +55,7 @@ io::Drawing draw_sections(const Scene& scene, const Plane& plane, const Stack& s
     }
     for (const Part& part : scene.parts) {
         if (!context.selects(part, scene)) continue;
-        auto sections = section(part.mesh, {plane, stack.heights, effective(part), part.cuts.get()});
+        auto sections = section(part.mesh, {plane, stack.heights, part.transform, part.cuts.get()});
         if (hatching && sections.size() > 1) check_hatching(sections, hatching->spacing);
         for (std::size_t k = 0; k < sections.size(); ++k) {
             std::vector<polygon::Segment> lines;

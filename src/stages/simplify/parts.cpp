@@ -123,7 +123,7 @@ class Simplifier {
             o_.settings.method == SimplifySettings::Method::cluster)
             return;
         std::vector<PlacedMesh> placed;
-        for (const Part& part : scene_.parts) placed.push_back({&part.mesh, effective(part)});
+        for (const Part& part : scene_.parts) placed.push_back({&part.mesh, part.transform});
         contacts_ = find_contacts(placed);
         set_of_.assign(scene_.parts.size(), nullptr);
         for (const Set& set : contacts_.sets)
@@ -150,7 +150,7 @@ class Simplifier {
         for (const std::size_t p : set) {
             const Part& part = scene_.parts[p];
             if (!context_.selects(part, scene_)) return false;
-            if (effective(part) != effective(scene_.parts[set.front()])) return false;
+            if (part.transform != scene_.parts[set.front()].transform) return false;
             meshes.push_back(&part.mesh);
         }
         return fit_together(meshes, simplify_settings(o_, {}, {}));
@@ -174,7 +174,7 @@ class Simplifier {
         for (std::size_t p = 0; p < equal.size(); ++p) {
             const bool touches = !contacts_.shared.empty() && !contacts_.shared[p].empty();
             if (touches || !context_.selects(scene_.parts[p], scene_)) continue;
-            const Transform to_world = effective(scene_.parts[p]);
+            const Transform to_world = scene_.parts[p].transform;
             const double scale = max_error_ || hausdorff_ ? greatest_stretch(to_world) : 1;
             work_as_[p] = worked.try_emplace({equal[p], scale}, p).first->second;
             if (work_as_[p] != p) ++uses_[work_as_[p]];
@@ -206,7 +206,7 @@ class Simplifier {
             results_[set.front()] = repeated_.at(as);
             return;
         }
-        const Transform to_world = effective(scene_.parts[set.front()]);
+        const Transform to_world = scene_.parts[set.front()].transform;
         SimplifySettings settings =
             simplify_settings(o_, to_world, share_of(set, greatest_stretch(to_world)));
         settings.samples = 0;
@@ -256,7 +256,7 @@ class Simplifier {
         part.mesh = std::move(r.mesh);
         context_.attribute_changes(part, r.changes);
         warn(part, r, asks_for_less(number_of_level), context_);
-        SimplifiedPart entry{std::move(r), greatest_stretch(effective(part)), part.name, {}, {}, {}, {}};
+        SimplifiedPart entry{std::move(r), greatest_stretch(part.transform), part.name, {}, {}, {}, {}};
         if (const Set set = set_of(number); set.size() > 1)
             for (const std::size_t p : set) {
                 if (p == number) continue;

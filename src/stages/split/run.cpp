@@ -1,4 +1,3 @@
-#include "mesh/placement.hpp"
 #include "stages/split/help.hpp"
 #include "stages/split/options.hpp"
 #include "stages/split/report.hpp"
@@ -38,7 +37,7 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
         if (o.max_edge) settings.max_edge = context.resolve(*o.max_edge, scene, "max_edge", &part);
         if (o.max_edge && settings.max_edge <= 0) settings.passes = 0; // a percentage of a single point
         settings.max_faces = share(o, part, total);
-        settings.to_world = effective(part);
+        settings.to_world = part.transform;
         const FacetShape before = facet_shape(part.mesh, settings.to_world);
         SplitResult result = split_part(part, settings);
         part.mesh = std::move(result.mesh);

@@ -1,4 +1,3 @@
-#include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
 #include "stages/thicken/help.hpp"
 #include "stages/thicken/report.hpp"
@@ -14,7 +13,7 @@ using Mode = ThickenOptions::Mode;
 
 ThickenedPart thicken_surface(Part& part, const ThickenOptions& o, double thickness, Context& context) {
     ThickenResult r =
-        thicken(part.mesh, {thickness, o.side, o.miter_limit, o.self_intersections, effective(part)});
+        thicken(part.mesh, {thickness, o.side, o.miter_limit, o.self_intersections, part.transform});
     part.mesh = std::move(r.mesh);
     context.attribute_changes(part, r.changes);
     const bool has_faces = part.mesh.face_count() > 0;
@@ -24,7 +23,7 @@ ThickenedPart thicken_surface(Part& part, const ThickenOptions& o, double thickn
 
 ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thickness, Context& context) {
     WiresResult r = wires(
-        part.mesh, {thickness, static_cast<int>(o.sides), o.mode == Mode::boundary_edges, effective(part)});
+        part.mesh, {thickness, static_cast<int>(o.sides), o.mode == Mode::boundary_edges, part.transform});
     AttributeChanges changes;
     for (const auto& a : part.mesh.attributes)
         changes.push_back({a.name, a.domain, AttributeChange::Kind::dropped, "cylinders have no attributes"});
@@ -41,7 +40,7 @@ ThickenedPart thicken_edges(Part& part, const ThickenOptions& o, double thicknes
 Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport& report) {
     context.for_each_part(scene, [&](Part& part) {
         const double thickness = context.resolve(o.thickness, scene, "thickness", &part);
-        if (!inverse(effective(part)))
+        if (!inverse(part.transform))
             throw Error(ErrorKind::stage, "E-THICKEN",
                         fmt::format("thicken: part '{}' is flattened by its node", part.name),
                         "transform: {bake: true} makes it a flat mesh");

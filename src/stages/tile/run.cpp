@@ -1,5 +1,4 @@
 #include "geometry/tile/tile.hpp"
-#include "mesh/placement.hpp"
 #include "options/mark_at.hpp"
 #include "stage/context.hpp"
 #include "stage/options/cap.hpp"
@@ -128,7 +127,7 @@ class TileRun {
 
   private:
     void cut_part(Part& part, std::vector<Part>& parts, TileReport& report) {
-        settings_.to_world = effective(part);
+        settings_.to_world = part.transform;
         settings_.clip.memory = part.cuts ? *part.cuts : CutMemory{};
         TileResult r = tile(std::move(part.mesh), settings_);
         part.mesh = {};

@@ -2,7 +2,6 @@
 
 #include "geometry/clean/clean.hpp"
 #include "geometry/edit/surgery.hpp"
-#include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
 #include "stage/context.hpp"
 #include "stages/validate/evidence_json.hpp"
@@ -139,7 +138,7 @@ class Judge {
             Scene one{{}, scene.materials, scene.unit, scene.up, {}};
             one.parts.emplace_back().name = part.name;
             one.parts[0].mesh = std::move(mesh);
-            one.parts[0].transform = effective(part);
+            one.parts[0].transform = part.transform;
             judge(one, {fmt::format("{}.{}", part.name, number),
                         part.name,
                         fmt::format("{:016x}", keys[number]),

@@ -12,7 +12,7 @@ namespace {
 struct Lent {
     std::size_t part;
     Transform transform;
-    bool skinned, changed;
+    bool changed;
     std::optional<Mesh> mesh{}; ///< with the normals that the scene keeps, when the file has others
 };
 
@@ -51,7 +51,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     std::vector<Lent> lent;
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
         if (context.selects(scene.parts[i], scene))
-            lent.push_back({i, scene.parts[i].transform, scene.parts[i].skinned, scene.parts[i].changed});
+            lent.push_back({i, scene.parts[i].transform, scene.parts[i].changed});
     for (const auto& l : lent) out.parts.push_back(std::move(scene.parts[l.part]));
     if (out.face_count() == 0)
         throw Error(ErrorKind::stage, "E-EMPTY",
@@ -70,7 +70,6 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     for (std::size_t k = 0; k < lent.size(); ++k) {
         Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);
         back.transform = lent[k].transform;
-        back.skinned = lent[k].skinned;
         back.changed = lent[k].changed;
         if (lent[k].mesh) back.mesh = std::move(*lent[k].mesh);
     }
