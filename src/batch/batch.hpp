@@ -40,6 +40,7 @@ struct Settings {
     std::string pipeline_text; ///< what makes results out of date when it changes, besides comments
     std::filesystem::path output_dir;
     std::vector<std::filesystem::path> others; ///< what the summary writes: no asset may write it
+    std::vector<std::filesystem::path> read;   ///< besides what assets read: the pipeline, lists, a table
     int jobs = 0;                              ///< assets and threads at a time; 0: see run
     std::uint64_t memory = 0; ///< bytes for all assets that run at a time; 0: three quarters of what is there
     bool keep_going = false;  ///< a failure does not keep those after it from running
@@ -57,12 +58,16 @@ struct Work {
     std::uint64_t memory = 0; ///< an estimate, in bytes
 };
 
+struct Prepared {
+    std::vector<Work> works;
+    std::vector<Diagnostic> missing; ///< inputs that are not there
+    bool files_collide = false;      ///< then not even the summary may be written
+};
+
 /// Plans every asset, so that nothing runs when one of them is wrong. Adds what planning adds;
 /// E-DUPLICATE-OUTPUT for a file that two assets, or an asset and the summary, would write (names that differ
-/// only in case are one); E-OVERWRITE for an output that is another's input. missing: the inputs that are not
-/// there.
-std::vector<Work> prepare(const std::vector<Asset>& assets, const Settings& settings, Problems& problems,
-                          std::vector<Diagnostic>& missing);
+/// only in case are one); E-OVERWRITE for an output that is read, too.
+Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Problems& problems);
 
 /// How it went.
 struct Outcome {
@@ -83,8 +88,8 @@ struct Summary {
     std::vector<Asset> assets;
     std::vector<Outcome> outcomes; ///< of the assets
     std::vector<std::string> pruned;
-    std::vector<Diagnostic> warnings; ///< of the batch as a whole
-    int exit_code = 0;                ///< the gravest of all
+    std::vector<Diagnostic> warnings, errors; ///< of the batch as a whole; with errors nothing was run
+    int exit_code = 0;                        ///< the gravest of all
     int jobs = 0;
     double seconds = 0;
 };
@@ -92,6 +97,7 @@ struct Summary {
 /// What is told while a batch runs; never from two threads at a time.
 struct Listener {
     std::function<void(const Asset&, const Outcome&, const Summary& so_far)> on_finished;
+    std::function<void(const Asset&, const report::StageRecord&)> on_stage; ///< a stage of an asset has ended
     /// A signal ends the process when this returns.
     std::function<void(const Summary&)> on_interrupt;
 };
@@ -101,6 +107,10 @@ struct Listener {
 /// jobs. What is done is noted in the output folder, so that the next batch leaves alone whatever has not
 /// changed. Throws output (E-BUSY) when another batch of this pipeline is at work there.
 Summary run(std::vector<Work> works, const Settings& settings, const Listener& listener);
+
+/// Of assets that are not run because of these errors.
+Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, ErrorKind kind,
+                const std::vector<Diagnostic>& why);
 
 /// Bytes that all assets together may take, if they may take all that is there.
 std::uint64_t memory_there();

@@ -78,17 +78,21 @@ class FileOwners {
         for (const auto& path : beside) claim(asset, path, true);
     }
 
-    void check_input(const Asset& asset, const fs::path& input) {
-        if (input == "-")
-            return problems_.add({}, "E-DUPLICATE-INPUT", "standard input cannot be read by each asset",
-                                 "give the file by a param, or its name in the pipeline");
-        const auto owner = owners_.find(lower_case(io::identity(input).string()));
-        if (owner == owners_.end() || io::identity(owner->second.path) != io::identity(input)) return;
+    void check_input(const fs::path& input, const std::string& reader) {
+        if (input != "-") return check_read(input, reader);
+        problems_.add({}, "E-DUPLICATE-INPUT", "standard input cannot be read by each asset",
+                      "give the file by a param, or its name in the pipeline");
+    }
+
+    /// Complains when the file would be written.
+    void check_read(const fs::path& path, const std::string& reader) {
+        const auto owner = owners_.find(key(path));
+        if (path == "-" || owner == owners_.end() || io::identity(owner->second.path) != io::identity(path))
+            return;
         if (owner->second.beside) return; // a texture that is copied to where it is stays as it is
-        problems_.add(
-            {}, "E-OVERWRITE",
-            fmt::format("'{}' would overwrite an input of {}", owner->second.path.string(), asset.name),
-            "write elsewhere with --output-dir");
+        problems_.add({}, "E-OVERWRITE",
+                      fmt::format("'{}' would overwrite an input of {}", owner->second.path.string(), reader),
+                      "write elsewhere with --output-dir");
     }
 
   private:
@@ -130,11 +134,11 @@ class FileOwners {
 
 } // namespace
 
-std::vector<Work> prepare(const std::vector<Asset>& assets, const Settings& settings, Problems& problems,
-                          std::vector<Diagnostic>& missing) {
+Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Problems& problems) {
     const std::string pipeline = content_of(settings.pipeline_text);
-    std::vector<Work> works;
-    FileOwners owners(problems);
+    Prepared out;
+    Problems collisions;
+    FileOwners owners(collisions);
     for (const auto& path : settings.others) owners.add_other(path);
     for (const auto& asset : assets) {
         Problems of_asset;
@@ -145,16 +149,19 @@ std::vector<Work> prepare(const std::vector<Asset>& assets, const Settings& sett
         const auto headers = pipeline::read_headers(plan);
         owners.add(asset, pipeline::planned_outputs(plan), headers.more_outputs);
         for (auto& d : pipeline::missing_inputs(plan))
-            missing.push_back(pipeline::about_input(pipeline::planned_inputs(plan), std::move(d)));
+            out.missing.push_back(pipeline::about_input(pipeline::planned_inputs(plan), std::move(d)));
         Work work{
             asset, pipeline::planned_inputs(plan, headers), pipeline::planned_outputs(plan, headers), {}, 0};
         work.digest = options_digest(pipeline, plan, settings);
         work.memory = memory_for(work.inputs);
-        works.push_back(std::move(work));
+        out.works.push_back(std::move(work));
     }
-    for (const auto& work : works)
-        for (const auto& input : work.inputs) owners.check_input(work.asset, input);
-    return works;
+    for (const auto& work : out.works)
+        for (const auto& input : work.inputs) owners.check_input(input, work.asset.name);
+    for (const auto& path : settings.read) owners.check_read(path, "the batch itself");
+    out.files_collide = collisions.any_errors();
+    for (const auto& d : collisions.all()) problems.add(d.where, d.id, d.message, d.hint);
+    return out;
 }
 
 } // namespace facetmill::batch

@@ -189,6 +189,11 @@ class BatchRun {
         run.check_invariants = settings_.check_invariants;
         run.last_picture = settings_.pictures;
         run.on_warning = [&](const Diagnostic& d) { warnings.push_back(about_asset(work.asset, d)); };
+        if (listener_.on_stage)
+            run.on_stage = [&](const report::StageRecord& stage) {
+                const std::lock_guard lock(guard_);
+                listener_.on_stage(work.asset, stage);
+            };
         auto record = pipeline::run_plan(plan, run);
         Outcome out = outcome_of(work.asset, record);
         out.warnings = std::move(warnings);
@@ -335,6 +340,18 @@ class BatchRun {
 };
 
 } // namespace
+
+Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, ErrorKind kind,
+                const std::vector<Diagnostic>& why) {
+    Summary summary;
+    summary.pipeline = pipeline;
+    summary.assets = assets;
+    summary.outcomes.resize(assets.size());
+    summary.exit_code = static_cast<int>(kind);
+    for (const auto& d : why)
+        if (d.severity == Severity::error) summary.errors.push_back(d);
+    return summary;
+}
 
 std::uint64_t memory_there() {
     constexpr std::uint64_t of_unknown = std::uint64_t{1} << 32;

@@ -70,7 +70,8 @@ std::string totals(const Summary& summary, BatchForm form) {
     std::size_t kept = 0;
     for (const auto& out : summary.outcomes) kept += out.kept;
     std::string text =
-        fmt::format("{} assets: {} ok", summary.assets.size(), count(summary, Outcome::Verdict::ok));
+        fmt::format("{} asset{}: {} ok", summary.assets.size(), summary.assets.size() == 1 ? "" : "s",
+                    count(summary, Outcome::Verdict::ok));
     if (form == BatchForm::terminal && kept > 0) text += fmt::format(" ({} kept from before)", kept);
     for (const auto& [verdict, word] : {std::pair{Outcome::Verdict::failed, "failed"},
                                         std::pair{Outcome::Verdict::interrupted, "interrupted"},
@@ -134,6 +135,8 @@ std::string to_terminal(const Summary& summary, bool colour, bool all) {
 
 std::string to_text(const Summary& summary) {
     std::string text = summary.pipeline + "\n";
+    for (const auto& error : summary.errors)
+        text += fmt::format("  [{}] {}\n", error.id, one_line(error.message));
     for (const std::size_t i : worst_first(summary))
         text += line_of(summary.assets[i], summary.outcomes[i], BatchForm::report, false);
     return text + fmt::format("{}; exit code {}\n", totals(summary, BatchForm::report), summary.exit_code);
@@ -177,6 +180,7 @@ Json to_json(const Summary& summary) {
           {"failed", count(summary, Outcome::Verdict::failed)},
           {"interrupted", count(summary, Outcome::Verdict::interrupted)},
           {"not_run", count(summary, Outcome::Verdict::not_run)}}},
+        {"errors", report::diagnostics_json(summary.errors)},
         {"assets", std::move(assets)}};
 }
 
@@ -212,7 +216,12 @@ std::string junit_case(const Asset& asset, const Outcome& out) {
 
 std::string to_junit(const Summary& summary) {
     std::string cases;
-    std::size_t failures = 0, errors = 0;
+    std::size_t failures = 0, errors = summary.errors.size();
+    for (const auto& error : summary.errors)
+        cases += fmt::format(
+            "    <testcase classname=\"batch\" name=\"{}\">\n      <error message=\"{}\">{}</error>\n"
+            "    </testcase>\n",
+            escaped(error.id), escaped(error.message), escaped(to_string(error.where)));
     for (const std::size_t i : worst_first(summary)) {
         const Outcome& out = summary.outcomes[i];
         cases += junit_case(summary.assets[i], out);
@@ -224,7 +233,8 @@ std::string to_junit(const Summary& summary) {
     return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\"{}\" "
                        "tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n"
                        "</testsuites>\n",
-                       escaped(summary.pipeline), summary.assets.size(), failures, errors, skipped, cases);
+                       escaped(summary.pipeline), summary.assets.size() + summary.errors.size(), failures,
+                       errors, skipped, cases);
 }
 
 } // namespace facetmill::batch

@@ -115,9 +115,16 @@ void tell_asset(const batch::Asset& asset, const batch::Outcome& out, const Cons
                    {"kept", out.kept},
                    {"outputs", out.outputs},
                    {"seconds", out.seconds}});
-    if (console.verbose && !console.json && !out.kept)
-        console.say(
-            fmt::format("{}: {} in {:.2f} s", asset.name, out.exit_code == 0 ? "ok" : "failed", out.seconds));
+}
+
+void write_summary(const batch::Summary& summary, const PipelineOptions& options, const Places& places,
+                   const Console& console) {
+    const auto write = [&](const std::string& path, const std::string& text) {
+        io::write_now(places.output(path), std::as_bytes(std::span(text)));
+        if (!console.json) console.say(fmt::format("wrote {}", places.output(path).string()));
+    };
+    for (const auto& report : options.reports) write(report, batch::render_for(report, summary));
+    if (!options.timings.empty()) write(options.timings, batch::timings_text(summary));
 }
 
 /// Tells the summary and writes it.
@@ -130,12 +137,7 @@ void tell_summary(const batch::Summary& summary, const PipelineOptions& options,
                    {"exit_code", summary.exit_code},
                    {"seconds", summary.seconds}});
     if (!console.json) console.say(batch::to_terminal(summary, console.colour(), console.verbose));
-    const auto write = [&](const std::string& path, const std::string& text) {
-        io::write_now(places.output(path), std::as_bytes(std::span(text)));
-        if (!console.json) console.say(fmt::format("wrote {}", places.output(path).string()));
-    };
-    for (const auto& report : options.reports) write(report, batch::render_for(report, summary));
-    if (!options.timings.empty()) write(options.timings, batch::timings_text(summary));
+    write_summary(summary, options, places, console);
 }
 
 batch::Listener listener_for(const PipelineOptions& options, const Places& places, const Console& console,
@@ -147,6 +149,11 @@ batch::Listener listener_for(const PipelineOptions& options, const Places& place
         tell_asset(asset, out, console);
         bar->draw(so_far);
     };
+    if (console.verbose)
+        listener.on_stage = [&console](const batch::Asset& asset, const report::StageRecord& stage) {
+            console.say(fmt::format("{}: {} in {}", asset.name, stage.name, timed(stage.seconds)));
+            tell_resolved(stage, console);
+        };
     listener.on_interrupt = [&options, &places, &console, bar](const batch::Summary& summary) {
         bar->clear();
         try {
@@ -172,6 +179,9 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
         settings.pictures |= report.ends_with(".html");
     }
     if (!options.common.timings.empty()) settings.others.push_back(places.output(options.common.timings));
+    settings.read = {options.sources.lists.begin(), options.sources.lists.end()};
+    for (const auto& file : {options.pipeline, options.sources.table})
+        if (!file.empty()) settings.read.emplace_back(file);
     return settings;
 }
 
@@ -192,13 +202,19 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings = batch_settings(options, line, of_all.places);
     set_planner(settings, options, of_all);
-    std::vector<Diagnostic> missing;
-    auto works = batch::prepare(assets_of(options, line), settings, problems, missing);
-    settle(problems, console);
-    if (!missing.empty() && !options.keep_going) throw Error(ErrorKind::missing, std::move(missing));
+    const auto assets = assets_of(options, line);
+    auto prepared = batch::prepare(assets, settings, problems);
+    const auto refuse = [&](ErrorKind kind, const std::vector<Diagnostic>& why) {
+        for (const auto& d : why) console.diagnostic(d);
+        const auto summary = batch::refused(assets, settings.pipeline, kind, why);
+        if (!prepared.files_collide) write_summary(summary, options.common, of_all.places, console);
+        return summary.exit_code;
+    };
+    if (problems.any_errors()) return refuse(ErrorKind::usage, problems.all());
+    if (!prepared.missing.empty() && !options.keep_going) return refuse(ErrorKind::missing, prepared.missing);
     const auto bar = std::make_shared<BatchBar>(console);
-    const auto summary =
-        batch::run(std::move(works), settings, listener_for(options.common, of_all.places, console, bar));
+    const auto summary = batch::run(std::move(prepared.works), settings,
+                                    listener_for(options.common, of_all.places, console, bar));
     bar->clear();
     tell_summary(summary, options.common, of_all.places, console);
     return summary.exit_code;

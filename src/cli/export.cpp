@@ -65,12 +65,11 @@ int export_work(const ExportOptions& options, const CommandLine& line, const Con
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings;
     set_planner(settings, options, of_all);
-    std::vector<Diagnostic> missing;
-    const auto works = batch::prepare(assets_of(options, line), settings, problems, missing);
+    auto prepared = batch::prepare(assets_of(options, line), settings, problems);
     settle(problems, console);
-    if (!missing.empty()) throw Error(ErrorKind::missing, std::move(missing));
+    if (!prepared.missing.empty()) throw Error(ErrorKind::missing, std::move(prepared.missing));
     std::vector<Job> jobs;
-    for (const auto& work : works) jobs.push_back(job_of(work, options, of_all));
+    for (const auto& work : prepared.works) jobs.push_back(job_of(work, options, of_all));
     print(options.engine == "ninja"  ? ninja_workflow(jobs)
           : options.engine == "make" ? make_workflow(jobs)
                                      : snakemake_workflow(jobs, options.common.threads));

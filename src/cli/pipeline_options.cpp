@@ -172,6 +172,12 @@ void summarise(const report::RunRecord& record, const Console& console) {
 
 } // namespace
 
+void tell_resolved(const report::StageRecord& stage, const Console& console) {
+    for (const auto& [option, length] : stage.resolved.items())
+        console.say(fmt::format("  {}: {} {} is {} in scene units", stage.name, option,
+                                length["given"].get<std::string>(), length["is"].dump()));
+}
+
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
                       const std::string& pipeline_file) {
     set_threads(options.threads);
@@ -184,11 +190,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     const auto tell = [&](const Diagnostic& d) { console.diagnostic(pipeline::about_input(*inputs, d)); };
     settings.on_warning = tell;
     if (console.verbose)
-        settings.on_stage = [&](const report::StageRecord& stage) {
-            for (const auto& [option, length] : stage.resolved.items())
-                console.say(fmt::format("  {}: {} {} is {} in scene units", stage.name, option,
-                                        length["given"].get<std::string>(), length["is"].dump()));
-        };
+        settings.on_stage = [&](const report::StageRecord& stage) { tell_resolved(stage, console); };
     const auto record = located(pipeline::run_plan(plan, settings), plan.places);
     if (progress) progress->done();
     for (const auto& error : record.errors) tell(error);

@@ -39,6 +39,9 @@ pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings setti
 /// known, and names them; the exit code is that of usage.
 bool refused(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console);
 
+/// Says what lengths of a stage were resolved to.
+void tell_resolved(const report::StageRecord& stage, const Console& console);
+
 /// Runs a plan with messages and progress, and writes the depfile when all went well. Returns the exit code.
 /// pipeline_file: what the plan came from, for the depfile; empty when there is none.
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,

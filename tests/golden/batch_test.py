@@ -138,6 +138,11 @@ class Batch(Case):
         run = self.batch("--inputs-from", "list", expect=3)
         self.assertIn("in/none.off", run.stderr)
         self.assertFalse((self.dir / "out").exists())
+        self.batch("--inputs-from", "list", "--report", "s.json", "--report", "s.xml", expect=3)
+        summary = json.loads((self.dir / "out/s.json").read_text())
+        self.assertEqual((summary["exit_code"], summary["errors"][0]["id"]), (3, "E-FILE"))
+        self.assertEqual(summary["counts"]["not_run"], 2)
+        self.assertIn('name="E-FILE"', (self.dir / "out/s.xml").read_text())
         self.batch("--inputs-from", "list", "-k", expect=3)
         self.assertIn("in/a.ply", self.written())
 
@@ -156,6 +161,10 @@ class Batch(Case):
         self.assertIn("E-OVERWRITE", run.stderr)
         self.write("p.yaml", PIPELINE)
         self.assertIn("E-DUPLICATE-OUTPUT", self.batch("--report", "a.json", expect=2).stderr)
+        names = self.write("out/list.txt", "in/a.off\n")
+        run = self.batch("--inputs-from", names, "--report", "list.txt", expect=2)
+        self.assertIn("E-OVERWRITE", run.stderr)
+        self.assertEqual(names.read_text(), "in/a.off\n")
 
     def test_nothing_matches(self):
         run = self.batch("--input", "in/**/*.stl", expect=3)
@@ -175,7 +184,7 @@ class Batch(Case):
         self.assertEqual(self.written("glob"), self.written("list"))
         self.assertEqual(len(self.written("glob")), 2 * len(names))
         run = self.mill("batch", "p.yaml", "--input", "odd/[[]a].off", "--input", "odd/[a].off", "-o", "one")
-        self.assertIn("1 assets: 1 ok", run.stderr)
+        self.assertIn("1 asset: 1 ok", run.stderr)
 
     def test_prune(self):
         self.batch()

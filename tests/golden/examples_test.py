@@ -62,6 +62,9 @@ class Examples(Case):
         self.assertIn("Nothing to be done", self.run_in("make", "make"))
         self.touch_scan()
         self.assertIn("facetmill run", self.run_in("make", "make"))
+        self.run_in("make", "make", "-j2", "together")
+        folder = self.dir / "examples/make"
+        self.assertEqual((folder / "together/nefertiti.glb").read_bytes(), (folder / "nefertiti.glb").read_bytes())
 
     def test_cmake(self):
         prefix = self.installed()
