@@ -7,7 +7,7 @@ facetmill_add_assets(TARGET
                      PIPELINE pipeline            a YAML file, or the name of a ready pipeline
                      INPUTS file...               each is run through the pipeline by itself
                      [INPUT_PARAM name]           the param that takes the input (default: input)
-                     [PARAMS name=value...]       other params, the same for all inputs
+                     [PARAMS name=value...]       other params, the same for all inputs; paths absolute
                      [OUTPUT_DIR folder]          default: the current binary directory
                      [BASE folder]                outputs keep the folders that their inputs have below it
                      [THREADS count]              of each run (default: all cores)
@@ -132,7 +132,7 @@ endfunction()
 function(facetmill_planned out which target given)
   get_target_property(facetmill facetmill::facetmill LOCATION)
   execute_process(COMMAND "${facetmill}" plan ${ARGN} ${which}
-    RESULT_VARIABLE failed OUTPUT_VARIABLE planned ERROR_VARIABLE said WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}")
+    RESULT_VARIABLE failed OUTPUT_VARIABLE planned ERROR_VARIABLE said WORKING_DIRECTORY "${CMAKE_CURRENT_BINARY_DIR}")
   if(failed)
     message(FATAL_ERROR "facetmill_add_assets(${target}): ${given} cannot be planned:\n${said}")
   endif()

@@ -561,6 +561,12 @@ const std::vector<MessageId>& message_ids() {
          {},
          "The surface is open, so no point is inside or outside.",
          "Close it first with `clean`."},
+        {"W-PRUNE",
+         {},
+         "A batch with --prune removed nothing, because assets failed or were not run: what they would write "
+         "is not "
+         "known.",
+         "Repair or leave out what fails, and run the batch again."},
         {"W-RELAX-STOPPED",
          {},
          "relax did not converge: `until` was not reached within its iterations, or before a third of the "

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t nanoseconds = 1'000'000'000;
+constexpr std::string_view prefix = ".facetmill-batch.", suffix = ".jsonl";
 
 std::int64_t in_nanoseconds(const timespec& time) { return time.tv_sec * nanoseconds + time.tv_nsec; }
 
@@ -74,6 +75,19 @@ Done done_from(const Json& json) {
     return done;
 }
 
+/// Lines that a kill has cut short are left out.
+template <class Take>
+void for_each_done(std::string_view text, Take&& take) {
+    while (!text.empty()) {
+        const auto end = std::min(text.find('\n'), text.size());
+        try {
+            take(done_from(Json::parse(text.substr(0, end))));
+        } catch (const Json::exception&) {
+        }
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+}
+
 /// Whether the file is as it was, and its stamp as it is now. A file with another time is read.
 bool is_as_it_was(const fs::path& file, Stamp& stamp, bool& renewed) {
     const auto now = stamp_of(file);
@@ -104,8 +118,15 @@ std::optional<Stamp> stamp_of(const fs::path& file) {
 }
 
 fs::path Journal::path_in(const fs::path& folder, const std::string& name) {
+    std::error_code ignored;
+    const bool is_file = name != "-" && fs::exists(name, ignored); // else a ready pipeline
     const std::string stem = name == "-" ? "stdin" : fs::path(name).stem().string();
-    return folder / fmt::format(".facetmill-batch.{}.jsonl", stem);
+    const std::string place =
+        is_file ? fs::relative(fs::canonical(name), fs::weakly_canonical(fs::absolute(folder))).string()
+                : name;
+    constexpr std::size_t digits = 8;
+    return folder / fmt::format("{}{}-{}{}", prefix, stem,
+                                sha256(std::as_bytes(std::span(place))).substr(0, digits), suffix);
 }
 
 Journal::Journal(const fs::path& folder, const std::string& name)
@@ -147,19 +168,24 @@ void Journal::open_locked() {
 
 void Journal::read() {
     const auto input = io::Input::open(path_);
-    std::string_view text = io::as_text(input.bytes());
-    bool whole = text.empty() || text.ends_with('\n');
-    while (!text.empty()) {
-        const auto end = std::min(text.find('\n'), text.size());
-        try {
-            Done done = done_from(Json::parse(text.substr(0, end)));
-            all_.insert_or_assign(done.asset, std::move(done));
-        } catch (const Json::exception&) { // cut short by a kill
-        }
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    if (!whole) [[maybe_unused]]
+    const std::string_view text = io::as_text(input.bytes());
+    for_each_done(text, [&](Done done) { all_.insert_or_assign(done.asset, std::move(done)); });
+    if (!text.empty() && !text.ends_with('\n')) [[maybe_unused]]
         const auto ended = ::write(fd_, "\n", 1);
+}
+
+std::set<std::string> Journal::outputs_of_others() const {
+    std::set<std::string> all;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder_, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with(prefix) || !name.ends_with(suffix) || name == path_.filename()) continue;
+        const auto input = io::Input::open(entry.path());
+        for_each_done(io::as_text(input.bytes()), [&](const Done& done) {
+            for (const auto& output : done.outputs) all.insert(output.path);
+        });
+    }
+    return all;
 }
 
 const Done* Journal::unchanged(const std::string& asset, const std::string& digest) {
@@ -215,7 +241,8 @@ bool Journal::remove_output(const std::string& path, const std::string& sha) {
     Stamp stamp;
     stamp.sha256 = sha;
     const auto now = stamp_of(file);
-    if (!now) return false;
+    std::error_code ignored;
+    if (!now || fs::is_symlink(file, ignored)) return false; // no batch writes links
     stamp.bytes = now->bytes;
     bool renewed = false;
     if (!is_as_it_was(file, stamp, renewed)) return false;

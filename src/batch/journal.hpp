@@ -51,10 +51,13 @@ class Journal {
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
 
-    /// The file in this folder.
+    /// The file in this folder: named after the pipeline, and by where that is, so that two of one name have
+    /// two.
     static std::filesystem::path path_in(const std::filesystem::path& folder, const std::string& name);
 
     const std::map<std::string, Done>& all() const { return all_; }
+    /// What batches of other pipelines have written in the folder.
+    std::set<std::string> outputs_of_others() const;
     /// What was done for the asset with these options, if its inputs and outputs are as they were then. Times
     /// that changed without the content are noted. For several threads, as long as nothing is added or
     /// removed.

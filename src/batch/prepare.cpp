@@ -4,6 +4,7 @@
 #include "base/spelling.hpp"
 #include "batch/batch.hpp"
 #include "batch/build_id.hpp"
+#include "batch/journal.hpp"
 #include "io/output_files.hpp"
 #include "pipeline/document.hpp"
 
@@ -70,7 +71,13 @@ class FileOwners {
   public:
     explicit FileOwners(Problems& problems) : problems_(problems) {}
 
-    void add_other(const fs::path& path) { owners_[key(path)] = {"the batch itself", path, {}}; }
+    void add_other(const fs::path& path) {
+        const auto [first, is_new] = owners_.try_emplace(key(path), Owner{"the batch itself", path, {}});
+        if (is_new || io::is_stream(path)) return;
+        problems_.add({}, "E-DUPLICATE-OUTPUT",
+                      fmt::format("the batch would write '{}' twice", path.string()),
+                      "give each report a name of its own");
+    }
 
     /// beside: what goes beside outputs because an input names it; assets of one folder share it.
     void add(const Asset& asset, const std::vector<fs::path>& outputs, const std::vector<fs::path>& beside) {
@@ -139,6 +146,7 @@ Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Pro
     Prepared out;
     Problems collisions;
     FileOwners owners(collisions);
+    owners.add_other(Journal::path_in(settings.output_dir, settings.pipeline));
     for (const auto& path : settings.others) owners.add_other(path);
     for (const auto& asset : assets) {
         Problems of_asset;
@@ -158,6 +166,8 @@ Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Pro
     }
     for (const auto& work : out.works)
         for (const auto& input : work.inputs) owners.check_input(input, work.asset.name);
+    for (const auto& asset : assets) // those that could not be planned, too
+        if (!asset.input.empty()) owners.check_read(asset.input, asset.name);
     for (const auto& path : settings.read) owners.check_read(path, "the batch itself");
     out.files_collide = collisions.any_errors();
     for (const auto& d : collisions.all()) problems.add(d.where, d.id, d.message, d.hint);

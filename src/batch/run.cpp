@@ -10,6 +10,7 @@
 #include "batch/journal.hpp"
 #include "batch/pool.hpp"
 #include "io/bytes.hpp"
+#include "io/output_files.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -84,6 +85,8 @@ class BatchRun {
         : settings_(settings), listener_(listener), works_(std::move(works)),
           journal_(settings.output_dir, settings.pipeline) {
         summary_.pipeline = settings.pipeline;
+        for (const auto& work : works_)
+            for (const auto& input : work.inputs) sources_.emplace(io::identity(input), work.asset.name);
         for (const auto& work : works_) summary_.assets.push_back(work.asset);
         summary_.outcomes.resize(works_.size());
         started_.resize(works_.size());
@@ -97,8 +100,12 @@ class BatchRun {
         for (std::size_t i = 0; i < works_.size(); ++i)
             if (!keeping[i])
                 jobs.push_back({i, works_[i].memory, false});
-            else
+            else {
+                for (const auto& output : keeping[i]->outputs)
+                    written_[io::identity(settings_.output_dir / output.path)] = {works_[i].asset.name,
+                                                                                  output.sha256};
                 finish(i, kept_outcome(*keeping[i]), nullptr);
+            }
         const PoolSettings pool{summary_.jobs, memory(), tokens_.get()};
         Pool(pool, std::move(jobs), [this](const Job& job, const auto& beside) {
             return work(job, beside);
@@ -188,6 +195,7 @@ class BatchRun {
         run.strict = settings_.strict;
         run.check_invariants = settings_.check_invariants;
         run.last_picture = settings_.pictures;
+        run.on_output = [&](const io::Outputs::File& file) { claim(work.asset, file); };
         run.on_warning = [&](const Diagnostic& d) { warnings.push_back(about_asset(work.asset, d)); };
         if (listener_.on_stage)
             run.on_stage = [&](const report::StageRecord& stage) {
@@ -251,7 +259,6 @@ class BatchRun {
 
     void finish(std::size_t index, Outcome out, Done* done) {
         const std::lock_guard lock(guard_);
-        if (done) refuse_shared(summary_.assets[index], *done, out);
         if (done && out.verdict == Verdict::ok)
             if (auto warning = journal_.add(std::move(*done)))
                 summary_.warnings.push_back(std::move(*warning));
@@ -263,39 +270,67 @@ class BatchRun {
             listener_.on_finished(works_[index].asset, summary_.outcomes[index], summary_);
     }
 
-    /// Names that are known only at run time (of parts) may lead two assets to one file.
-    void refuse_shared(const Asset& asset, const Done& done, Outcome& out) {
-        for (const auto& output : done.outputs) {
-            const auto [first, is_new] = written_.emplace(output.path, std::pair(asset.name, output.sha256));
-            if (is_new || first->second.second == output.sha256) continue;
-            out.verdict = Verdict::failed;
-            out.exit_code = static_cast<int>(ErrorKind::output);
-            out.errors.push_back({Severity::error,
-                                  "E-DUPLICATE-OUTPUT",
-                                  fmt::format("{}: '{}' was written for {}, too, with other contents",
-                                              asset.name, output.path, first->second.first),
-                                  {},
-                                  "name it by the asset: ${input.stem}"});
-        }
+    /// Names that are known only at run time (of parts) may lead two assets to one file, or to the input of
+    /// another. Throws output before anything is written.
+    void claim(const Asset& asset, const io::Outputs::File& file) {
+        if (!file.stream.empty() || file.is_input) return;
+        const fs::path self = io::identity(file.resolved);
+        const std::lock_guard lock(guard_);
+        if (const auto source = sources_.find(self); source != sources_.end())
+            throw Error(
+                ErrorKind::output, "E-OVERWRITE",
+                fmt::format("'{}' would overwrite an input of {}", file.target.string(), source->second),
+                "write elsewhere with --output-dir, or name it by the asset: ${input.stem}");
+        const auto [first, is_new] = written_.emplace(self, std::pair(asset.name, file.sha256));
+        if (is_new || first->second.first == asset.name || first->second.second == file.sha256) return;
+        throw Error(ErrorKind::output, "E-DUPLICATE-OUTPUT",
+                    fmt::format("'{}' is written for {}, too, with other contents", file.target.string(),
+                                first->second.first),
+                    "name it by the asset: ${input.stem}");
     }
 
-    /// Outputs of assets that are gone, and those that assets no longer have.
-    void prune() {
-        std::set<std::string> current, names;
-        bool table = false;
+    /// Whether the source is known to be gone; not where it cannot be looked for.
+    static bool is_gone(const std::string& source) {
+        std::error_code ignored;
+        return !source.empty() && fs::status(source, ignored).type() == fs::file_type::not_found;
+    }
+
+    /// The outputs that assets have or will have when they are made, and those of other pipelines.
+    std::set<std::string> current_outputs() const {
+        std::set<std::string> current = journal_.outputs_of_others();
+        const fs::path folder = fs::absolute(settings_.output_dir).lexically_normal();
         for (const auto& work : works_) {
-            names.insert(work.asset.name);
-            table = table || work.asset.of_table;
+            for (const auto& output : work.outputs)
+                current.insert(fs::absolute(output).lexically_normal().lexically_relative(folder).string());
             const auto done = journal_.all().find(work.asset.name);
             if (done == journal_.all().end()) continue;
             for (const auto& output : done->second.outputs) current.insert(output.path);
         }
+        return current;
+    }
+
+    /// Outputs of assets that are gone, and those that assets no longer have.
+    void prune() {
+        const bool all_made = std::all_of(summary_.outcomes.begin(), summary_.outcomes.end(),
+                                          [](const Outcome& out) { return out.verdict == Verdict::ok; });
+        if (!all_made) { // what the others would write is not known
+            summary_.warnings.push_back({Severity::warning,
+                                         "W-PRUNE",
+                                         "nothing is pruned, because not all assets were made",
+                                         {},
+                                         "run the batch again when they are"});
+            return;
+        }
+        std::set<std::string> current = current_outputs(), names;
+        bool table = false;
+        for (const auto& work : works_) {
+            names.insert(work.asset.name);
+            table = table || work.asset.of_table;
+        }
         std::vector<std::string> gone;
         for (const auto& [name, done] : journal_.all()) {
-            std::error_code ignored;
-            const bool without_file = !done.source.empty() && !fs::exists(done.source, ignored);
             if (names.contains(name)) continue;
-            if (without_file || (table && done.of_table))
+            if (is_gone(done.source) || (table && done.of_table))
                 gone.push_back(name);
             else
                 for (const auto& output : done.outputs) current.insert(output.path);
@@ -304,9 +339,7 @@ class BatchRun {
             for (auto& path : removed) summary_.pruned.push_back(std::move(path));
         };
         for (const auto& name : gone) note(journal_.remove_all(name, current));
-        for (std::size_t i = 0; i < works_.size(); ++i)
-            if (summary_.outcomes[i].verdict == Verdict::ok)
-                note(journal_.remove_former(works_[i].asset.name, current));
+        for (const auto& work : works_) note(journal_.remove_former(work.asset.name, current));
         std::sort(summary_.pruned.begin(), summary_.pruned.end());
     }
 
@@ -335,8 +368,9 @@ class BatchRun {
     Summary summary_;
     std::vector<bool> started_; ///< and not yet ended
     bool over_ = false;
-    std::map<std::string, std::pair<std::string, std::string>>
-        written_; ///< outputs: whose, and their digests
+    std::map<fs::path, std::string> sources_; ///< by identity: inputs, and of which asset
+    /// By identity: outputs, whose, and their digests.
+    std::map<fs::path, std::pair<std::string, std::string>> written_;
 };
 
 } // namespace

@@ -18,7 +18,7 @@ constexpr const char* batch_examples =
 goes before -D). The base of lists and tables is the working directory.
 Folders are mirrored: of 'scans/**/*.ply', scans/a/b.ply is written to OUT/a. The outputs of an asset appear
 together. What is done and has not changed since (inputs, options, outputs, this program) is left alone, also
-after a crash; OUT/.facetmill-batch.NAME.jsonl notes it. The exit code is the gravest that occurred, in this
+after a crash; OUT/.facetmill-batch.NAME-*.jsonl notes it. The exit code is the gravest that occurred, in this
 order: 70, 2, 4, 7, 5, 6, 3, 1.
 
 Examples
@@ -67,7 +67,8 @@ std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
         return static_cast<std::uint64_t>(static_cast<double>(batch::memory_there()) *
                                           std::min(*number, 100.0) / 100);
     const double factor = unit == units.npos ? 1 : std::pow(step, static_cast<double>(unit + 1));
-    return static_cast<std::uint64_t>(*number * factor);
+    constexpr double most = 1e18; // bytes
+    return static_cast<std::uint64_t>(std::min(*number * factor, most));
 }
 
 /// A line that is drawn anew when an asset has ended: how far the batch is, and how long it will take.

@@ -65,6 +65,20 @@ void check_outputs(const std::vector<Job>& jobs) {
                         "give the pipeline a report: \"${input.stem}.json\", or use facetmill batch");
 }
 
+/// Names with these cannot be spelled.
+void check_names(const std::vector<Job>& jobs, const char* engine, std::string_view odd, const char* hint) {
+    for (const auto& job : jobs)
+        for (const auto* paths : {&job.inputs, &job.outputs})
+            for (const auto& path : *paths)
+                if (const auto at = path.find_first_of(odd); at != path.npos)
+                    throw Error(
+                        ErrorKind::usage, "E-EXPORT",
+                        fmt::format("{} cannot work with the {} in '{}'", engine,
+                                    path[at] == '\t' ? std::string("tab") : fmt::format("'{}'", path[at]),
+                                    path),
+                        hint);
+}
+
 std::string joined(const std::vector<std::string>& paths, std::string (*spelled)(const std::string&)) {
     std::string text;
     for (const auto& path : paths) text += " " + spelled(path);
@@ -74,20 +88,22 @@ std::string joined(const std::vector<std::string>& paths, std::string (*spelled)
 std::string make_target(const std::string& path) { return make_spelling(path, true); }
 std::string make_input(const std::string& path) { return make_spelling(path, false); }
 
-/// Snakemake takes braces in the name of a file for a wildcard, and has no way to say that they are none.
-void check_braces(const Job& job) {
-    for (const auto* paths : {&job.inputs, &job.outputs})
-        for (const auto& path : *paths)
-            if (path.find_first_of("{}") != path.npos)
-                throw Error(ErrorKind::usage, "E-EXPORT",
-                            fmt::format("Snakemake cannot work with the braces in '{}'", path),
-                            "rename the file");
+/// JSON has names in UTF-8 only.
+std::string as_json(const Json& all) {
+    try {
+        return all.dump(1);
+    } catch (const Json::exception&) {
+        throw Error(ErrorKind::usage, "E-EXPORT",
+                    "a name of a file is no UTF-8, which a Snakefile cannot hold",
+                    "use --to ninja or make, or rename the file");
+    }
 }
 
 } // namespace
 
 std::string ninja_workflow(const std::vector<Job>& jobs) {
     check_outputs(jobs);
+    check_names(jobs, "Ninja", "|\t", "rename the file");
     std::string text = heading() + "facetmill = facetmill\n\nrule mill\n  command = $facetmill $arguments\n  "
                                    "description = MILL $asset\n";
     for (const auto& job : jobs)
@@ -99,24 +115,30 @@ std::string ninja_workflow(const std::vector<Job>& jobs) {
 
 std::string make_workflow(const std::vector<Job>& jobs) {
     check_outputs(jobs);
+    check_names(jobs, "Make", "|;=*?[]~\t", "use --to ninja, or rename the file");
     std::string rules, all;
     for (const auto& job : jobs) {
         const std::string outputs = joined(job.outputs, make_target);
         all += " \\\n " + joined(job.outputs, make_input);
-        // "&:" is one rule for all of them: GNU make 4.3.
-        rules += fmt::format("\n{} &:{}\n\t$(FACETMILL){}\n", outputs.substr(1),
-                             joined(job.inputs, make_input), with_dollars_doubled(command_line(job)));
+        // "&:" is one rule for all of them: GNU make 4.3. What a run that failed has written (its report)
+        // stays, and is out of date.
+        std::string old;
+        for (const auto& output : job.outputs) old += " " + for_shell(output);
+        rules += fmt::format("\n{} &:{}\n\t$(FACETMILL){} || {{ s=$$?; touch -c -d @86400{}; exit $$s; }}\n",
+                             outputs.substr(1), joined(job.inputs, make_input),
+                             with_dollars_doubled(command_line(job)), with_dollars_doubled(old));
     }
     return heading() + "FACETMILL ?= facetmill\n\n.PHONY: all\nall:" + all + "\n" + rules;
 }
 
 std::string snakemake_workflow(const std::vector<Job>& jobs, int threads) {
     check_outputs(jobs);
+    // It takes braces for a wildcard, and has no way to say that they are none.
+    check_names(jobs, "Snakemake", "{}", "rename the file");
     Json all = Json::array();
     constexpr std::uint64_t megabyte = 1000000;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const Job& job = jobs[i];
-        check_braces(job);
         all.push_back({{"name", fmt::format("asset_{}", i + 1)},
                        {"asset", job.name},
                        {"arguments", command_line(job)},
@@ -143,7 +165,7 @@ for job in JOBS:
         resources: mem_mb=job["megabytes"]
         shell: "{{params.command}}"
 )",
-                                   all.dump(1), threads);
+                                   as_json(all), threads);
 }
 
 } // namespace facetmill::cli

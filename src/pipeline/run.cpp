@@ -405,8 +405,11 @@ class Runner {
     }
 
     void finish_outputs() {
-        if (!failures_.any() &&
-            failures_.guarded({}, "writing the outputs", [&] { state_.outputs.commit(); }))
+        if (!failures_.any() && failures_.guarded({}, "writing the outputs", [&] {
+                if (settings_.on_output)
+                    for (const auto& file : state_.outputs.files()) settings_.on_output(*file);
+                state_.outputs.commit();
+            }))
             return;
         state_.outputs.discard();
         record().outputs.clear();

@@ -14,6 +14,9 @@ struct RunSettings {
     bool last_picture = false; ///< the record of the last stage gets a small picture, whatever the reports
     /// Called after each stage, with what its options were resolved to.
     std::function<void(const report::StageRecord&)> on_stage = {};
+    /// Called for each output when all are ready, before the first gets its name; an Error that it throws
+    /// fails the run.
+    std::function<void(const io::Outputs::File&)> on_output = {};
     /// Called for every warning as it arises.
     std::function<void(const Diagnostic&)> on_warning;
 };

@@ -19,7 +19,6 @@ stages:
   - write: "${input.stem}.ply"
 report: "${input.stem}.json"
 """
-STATE = ".facetmill-batch.p.jsonl"
 
 
 def tetrahedron(height=1):
@@ -40,6 +39,10 @@ class Batch(Case):
 
     def written(self, folder="out"):
         return {n: s for n, s in self.files(self.dir / folder).items() if not n.startswith(".facetmill-batch")}
+
+    def state(self):
+        """What the batch has noted so far."""
+        return "".join(p.read_text() for p in (self.dir / "out").glob(".facetmill-batch.p-*.jsonl"))
 
     def done_anew(self, *arguments, expect=0):
         """The assets that this batch did not leave alone."""
@@ -96,15 +99,14 @@ class Batch(Case):
         self.write("t.csv", "input,n\nin/a.off,1\nin/sub/b.off,1\n" + f"{SCAN},100000\n")
         run = subprocess.Popen([str(FACETMILL), "batch", "p.yaml", "--table", "t.csv", "-o", "out", "-j1"], cwd=self.dir,
                                stderr=subprocess.DEVNULL)
-        state = self.dir / "out" / STATE
         deadline = time.monotonic() + 120
-        while not state.exists() or state.read_text().count("\n") < 2:
+        while self.state().count("\n") < 2:
             self.assertIsNone(run.poll(), "it ended early")
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.01)
         run.kill()
         run.wait()
-        with open(state, "a") as torn:
+        with next((self.dir / "out").glob(".facetmill-batch.p-*.jsonl")).open("a") as torn:
             torn.write('{"asset": "torn')
         self.write("t.csv", "input,n\nin/a.off,1\nin/sub/b.off,1\n" + f"{SCAN},1\n")
         self.assertEqual(self.done_anew("--table", "t.csv"), [str(SCAN)])
@@ -203,6 +205,64 @@ class Batch(Case):
         self.assertIn("d.ply", self.written())
         self.assertNotIn("d.json", self.written())
 
+    def test_prune_leaves_what_it_does_not_know(self):
+        self.batch()
+        # Another pipeline of the same name, whose outputs are its own.
+        other = self.write("other/p.yaml", PIPELINE.replace(".ply", ".stl"))
+        self.mill("batch", other, "--input", "in/**/*.off", "-o", "out", "--prune")
+        self.mill("batch", other, "--input", "in/**/*.off", "-o", "out", "--prune")
+        self.assertIn("a.ply", self.written())
+        (self.dir / "in/sub/b.off").unlink()
+        self.write("p.yaml", PIPELINE.replace(".ply", ".obj"))
+        self.batch("--prune")
+        self.assertIn("sub/b.stl", self.written())
+        self.assertNotIn("sub/b.ply", self.written())
+        self.assertNotIn("a.ply", self.written())
+        self.assertIn("a.json", self.written(), "both write it")
+        # One that fails: what it would write is not known.
+        (self.dir / "in/a.off").unlink()
+        self.write("in/junk.off", "no mesh")
+        self.assertIn("W-PRUNE", self.batch("--prune", "-k", expect=6).stderr)
+        self.assertIn("a.obj", self.written())
+        # A source that cannot be looked at is not gone.
+        (self.dir / "in/junk.off").unlink()
+        if os.getuid() != 0:
+            (self.dir / "in/sub/deep").chmod(0)
+            self.batch("--input", "in/sub", "--prune", expect=None)
+            (self.dir / "in/sub/deep").chmod(0o755)
+            self.assertIn("sub/deep/c.obj", self.written())
+
+    def test_names_of_parts_collide(self):
+        parts = "".join(f"o {name}\nv {i} 0 0\nv {i} 1 0\nv {i} 0 1\nf -3 -2 -1\n" for i, name in enumerate(("left", "right")))
+        self.write("v/z.obj", parts)
+        self.write("v/left.obj", "# mine\n" + parts)
+        self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nparams: {input: {type: path}}\nstages:\n  - load: '${input}'\n"
+                             "  - foreach: {part: '*'}\n    do: [{write: '${part}.obj'}]\n")
+        before = (self.dir / "v/left.obj").read_text()
+        said = self.mill("batch", "p.yaml", "--input", "v/*.obj", "-o", "v", "-j1", "-k", expect=2).stderr
+        self.assertIn("would overwrite an input of v/left.obj", said)
+        self.assertEqual((self.dir / "v/left.obj").read_text(), before)
+        # Of two assets the second fails, before it has written; also when the first is left alone.
+        self.write("w/a.obj", parts)
+        self.mill("batch", "p.yaml", "--input", "w/*.obj", "-o", "out", "-j1")
+        first = self.written()
+        self.write("w/b.obj", parts.replace("v 1", "v 2"))
+        for _ in range(2):
+            said = self.mill("batch", "p.yaml", "--input", "w/*.obj", "-o", "out", "-j1", "-k", expect=4).stderr
+            self.assertIn("E-DUPLICATE-OUTPUT", said)
+            self.assertEqual(self.written(), first)
+
+    def test_what_the_batch_itself_reads_and_writes(self):
+        self.write("t.csv", "input,n\nin/a.off,1\n")
+        for arguments in (("--table", "t.csv", "--report", "s.json", "--timings", "s.json"),
+                          ("--table", "t.csv", "--timings", "../t.csv"), ("--timings", "../p.yaml"),
+                          ("--table", "t.csv", "-D", "n=x", "--timings", "../in/a.off")):
+            before = self.files()
+            self.batch(*arguments, expect=2)
+            self.assertEqual(self.files(), before, arguments)
+        self.assertIn("E-ARGUMENT", self.batch("--memory", "0G", expect=2).stderr)
+        self.batch("--memory", "1e15T")
+
     def test_prune_of_outputs_that_have_another_name_now(self):
         self.batch()
         self.write("p.yaml", PIPELINE.replace(".ply", ".stl"))
@@ -228,9 +288,8 @@ class Batch(Case):
             self.write("t.csv", f"input,n\nin/a.off,1\n{SCAN},100000\nin/sub/b.off,1\n")
             run = subprocess.Popen([str(FACETMILL), "batch", "p.yaml", "--table", "t.csv", "-o", "out", "-j1", "--report",
                                     "s.json"], cwd=self.dir, stderr=subprocess.PIPE, text=True)
-            state = self.dir / "out" / STATE
             deadline = time.monotonic() + 120
-            while not state.exists() or not state.read_text():
+            while not self.state():
                 self.assertIsNone(run.poll(), "it ended early")
                 self.assertLess(time.monotonic(), deadline)
                 time.sleep(0.01)
@@ -251,8 +310,7 @@ class Batch(Case):
         first = subprocess.Popen([str(FACETMILL), "batch", "p.yaml", "--table", "t.csv", "-o", "out", "-j1"],
                                  cwd=self.dir, stderr=subprocess.DEVNULL)
         try:
-            state = self.dir / "out" / STATE
-            while not state.exists() or not state.read_text():
+            while not self.state():
                 self.assertIsNone(first.poll(), "it ended early")
                 time.sleep(0.01)
             self.assertIn("E-BUSY", self.batch(expect=4).stderr)

@@ -78,6 +78,17 @@ class Export(Case):
         self.export("snakemake", "Snakefile")
         self.check(("snakemake", "-j2"), "Nothing to be done")
 
+    def test_a_failed_check_is_due_again(self):
+        self.write("gate.yaml", "facetmill: 1\nallow: W-UNITS\nparams: {input: {type: path}}\n"
+                                "stages: [load: '${input}', validate: {closed: true}]\nreport: '${input.stem}.json'\n")
+        self.write("in/a.off", TETRAHEDRON.replace("4 4 0", "4 3 0").rsplit("3 2 0 3\n")[0])
+        for engine, name, command in (("make", "Makefile", ("make",)), ("ninja", "build.ninja", ("ninja",))):
+            self.need(engine)
+            self.write(name, self.mill("export", "--to", engine, "gate.yaml", "--input", "in/a.off", "-o", engine).stdout)
+            for _ in range(2):
+                self.assertIn("E-CHECK", self.build(*command, expect=1))
+            self.assertTrue((self.dir / engine / "a.json").exists(), "the report tells what failed")
+
     def test_what_is_refused(self):
         def refused(identity, *arguments, expect=2):
             run = self.mill("export", *arguments, expect=expect)
@@ -93,6 +104,11 @@ class Export(Case):
         refused("E-DUPLICATE-OUTPUT", "--to", "make", "same.yaml", "--input", "in/**/*.off", "--base", "in", "-o", "out")
         self.write("in/a{b}.off", TETRAHEDRON)
         refused("E-EXPORT", "--to", "snakemake", *self.options("out"))
+        (self.dir / "in/a{b}.off").unlink()
+        for name, engine in (("a|b", "ninja"), ("a|b", "make"), ("a=b", "make"), ("a[b]", "make")):
+            path = self.write(f"in/{name}.off", TETRAHEDRON)
+            refused("E-EXPORT", "--to", engine, *self.options("out"))
+            path.unlink()
         self.write("in/line\nbreak.off", TETRAHEDRON)
         refused("E-DEPFILE", "--to", "make", *self.options("out"), expect=4)
 
