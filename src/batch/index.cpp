@@ -3,9 +3,9 @@
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
 #include "batch/words.hpp"
+#include "report/form.hpp"
 #include "report/html_parts.hpp"
 
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace facetmill::batch {
@@ -70,14 +70,17 @@ std::string to_html(const Summary& summary) {
 }
 
 std::string render_for(const std::string& path, const Summary& summary) {
-    const std::string extension = std::filesystem::path(path).extension().string();
-    if (extension == ".json")
+    switch (report::form_of(path)) {
+    case report::ReportForm::json:
         return to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    if (extension == ".html") return to_html(summary);
-    if (extension == ".xml") return to_junit(summary);
-    if (extension == ".txt") return to_text(summary);
-    throw Error(ErrorKind::usage, "E-REPORT",
-                fmt::format("a report is .json, .html, .xml (JUnit) or .txt, found '{}'", path));
+    case report::ReportForm::html:
+        return to_html(summary);
+    case report::ReportForm::junit:
+        return to_junit(summary);
+    case report::ReportForm::text:
+        break;
+    }
+    return to_text(summary);
 }
 
 } // namespace facetmill::batch

@@ -156,8 +156,10 @@ Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Pro
         if (of_asset.any_errors()) continue;
         const auto headers = pipeline::read_headers(plan);
         owners.add(asset, pipeline::planned_outputs(plan), headers.more_outputs);
-        for (auto& d : pipeline::missing_inputs(plan))
-            out.missing.push_back(pipeline::about_input(pipeline::planned_inputs(plan), std::move(d)));
+        if (auto missing = pipeline::missing_inputs(plan); !missing.empty()) {
+            const auto inputs = pipeline::planned_inputs(plan);
+            for (auto& d : missing) out.missing.push_back(pipeline::about_input(inputs, std::move(d)));
+        }
         Work work{
             asset, pipeline::planned_inputs(plan, headers), pipeline::planned_outputs(plan, headers), {}, 0};
         work.digest = options_digest(pipeline, plan, settings);

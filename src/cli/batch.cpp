@@ -4,6 +4,7 @@
 #include "base/readable_numbers.hpp"
 #include "cli/assets.hpp"
 #include "io/outputs.hpp"
+#include "report/form.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -191,7 +192,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     check_sources(options, line, problems);
     for (const auto& report : options.common.reports) {
         try {
-            batch::render_for(report, {});
+            report::form_of(report);
         } catch (Error& e) {
             problems.add(e.at(line.value(report)));
         }

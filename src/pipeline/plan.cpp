@@ -7,6 +7,7 @@
 #include "pipeline/document.hpp"
 #include "pipeline/params.hpp"
 #include "pipeline/planner.hpp"
+#include "report/form.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -110,19 +111,16 @@ void check_requires(const Value& document, Problems& problems) {
             fmt::format("the pipeline requires facetmill {}, this is {}", range->text, FACETMILL_VERSION));
 }
 
-bool has_renderer(const std::string& path) {
-    const std::string extension = fs::path(path).extension().string();
-    return extension == ".json" || extension == ".html" || extension == ".xml" || extension == ".txt";
-}
-
 /// The files of `report` and --report, as Places::output understands them; also added to files.
 std::vector<std::string> read_reports(const Value* report, const Scope& scope, const PlanSettings& settings,
                                       std::vector<PlannedFile>& files, Problems& problems) {
     std::vector<std::string> reports;
     const auto add = [&](const std::string& path, const Mark& where) {
-        if (!has_renderer(path))
-            problems.add(where, "E-REPORT",
-                         fmt::format("a report is .json, .html, .xml (JUnit) or .txt, found '{}'", path));
+        try {
+            report::form_of(path);
+        } catch (Error& e) {
+            problems.add(e.at(where));
+        }
         const fs::path target = settings.places.output(path);
         for (const auto& known : reports) // asked for in the pipeline and on the command line: once is enough
             if (settings.places.output(known).lexically_normal() == target.lexically_normal()) return;

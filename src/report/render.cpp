@@ -1,19 +1,21 @@
 #include "report/render.hpp"
 
-#include <filesystem>
-#include <fmt/format.h>
+#include "report/form.hpp"
 
 namespace facetmill::report {
 
 std::string render_for(const std::string& path, const RunRecord& record) {
-    const std::string extension = std::filesystem::path(path).extension().string();
-    if (extension == ".json")
+    switch (form_of(path)) {
+    case ReportForm::json:
         return to_json(record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    if (extension == ".html") return to_html(record);
-    if (extension == ".xml") return to_junit(record);
-    if (extension == ".txt") return to_text(record);
-    throw Error(ErrorKind::usage, "E-REPORT",
-                fmt::format("a report is .json, .html, .xml (JUnit) or .txt, found '{}'", path));
+    case ReportForm::html:
+        return to_html(record);
+    case ReportForm::junit:
+        return to_junit(record);
+    case ReportForm::text:
+        break;
+    }
+    return to_text(record);
 }
 
 } // namespace facetmill::report

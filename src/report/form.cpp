@@ -1,0 +1,20 @@
+#include "report/form.hpp"
+
+#include "base/error.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+ReportForm form_of(const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (extension == ".json") return ReportForm::json;
+    if (extension == ".html") return ReportForm::html;
+    if (extension == ".xml") return ReportForm::junit;
+    if (extension == ".txt") return ReportForm::text;
+    throw Error(ErrorKind::usage, "E-REPORT",
+                fmt::format("a report is .json, .html, .xml (JUnit) or .txt, found '{}'", path));
+}
+
+} // namespace facetmill::report
