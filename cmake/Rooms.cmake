@@ -1,7 +1,7 @@
 # Unity builds by room: the files of one folder are compiled together, in batches of at most FACETMILL_BATCH bytes, so
 # that a build from nothing parses each header few times and a change recompiles a part of one room.
 option(FACETMILL_UNITY "Compile the files of a room together" ON)
-set(FACETMILL_BATCH 48000 CACHE STRING "Bytes of source in one batch of a unity build")
+set(FACETMILL_BATCH 72000 CACHE STRING "Bytes of source in one batch of a unity build")
 
 # rooms_in_batches(TARGET ROOT SOURCES...): ROOT/a/b/c.cpp is of the room a_b.
 function(rooms_in_batches target root)

@@ -3,7 +3,15 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+template class std::vector<facetmill::Diagnostic>;
+
 namespace facetmill {
+
+Error::Error(const Error&) = default;
+Error::Error(Error&&) noexcept = default;
+Error& Error::operator=(const Error&) = default;
+Error& Error::operator=(Error&&) noexcept = default;
+Error::~Error() = default;
 
 Error::Error(ErrorKind kind, std::string id, std::string message, std::string hint, Mark where)
     : Error(kind, std::vector<Diagnostic>{{Severity::error, std::move(id), std::move(message),

@@ -38,6 +38,11 @@ class Error : public std::exception {
   public:
     Error(ErrorKind kind, std::string id, std::string message, std::string hint = {}, Mark where = {});
     Error(ErrorKind kind, std::vector<Diagnostic> diagnostics);
+    Error(const Error&);
+    Error(Error&&) noexcept;
+    Error& operator=(const Error&);
+    Error& operator=(Error&&) noexcept;
+    ~Error() override;
 
     ErrorKind kind() const { return kind_; }
     const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
@@ -77,3 +82,6 @@ class Problems {
 std::string render(const Diagnostic& diagnostic, bool colour = false);
 
 } // namespace facetmill
+
+// Compiled once, in error.cpp.
+extern template class std::vector<facetmill::Diagnostic>;

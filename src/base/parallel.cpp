@@ -5,6 +5,7 @@
 #include <memory>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_for.h>
 
 namespace facetmill {
 
@@ -20,5 +21,16 @@ void set_threads(int wanted) {
 }
 
 int threads() { return count > 0 ? count : tbb::info::default_concurrency(); }
+
+void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*, std::size_t, std::size_t)) {
+    const std::size_t chunks = (n + chunk - 1) / chunk;
+    if (chunks <= 1) {
+        if (n > 0) call(body, 0, n);
+        return;
+    }
+    tbb::parallel_for(
+        std::size_t{0}, chunks, [&](std::size_t c) { call(body, c * chunk, std::min(n, (c + 1) * chunk)); },
+        tbb::simple_partitioner{});
+}
 
 } // namespace facetmill

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <tbb/parallel_for.h>
+#include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -18,17 +19,17 @@ int threads();
 
 inline constexpr std::size_t default_chunk = 8192;
 
+/// Calls call(body, begin, end) for chunks of [0, n): parallel_chunks without its template, so that the
+/// scheduler's code is compiled once and not for every loop.
+void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*, std::size_t, std::size_t));
+
 /// Calls body(begin, end) for chunks of [0, n). An Error thrown by a body ends the loop and is rethrown.
 template <class Body>
 void parallel_chunks(std::size_t n, Body&& body, std::size_t chunk = default_chunk) {
-    const std::size_t chunks = (n + chunk - 1) / chunk;
-    if (chunks <= 1) {
-        if (n > 0) body(std::size_t{0}, n);
-        return;
-    }
-    tbb::parallel_for(
-        std::size_t{0}, chunks, [&](std::size_t c) { body(c * chunk, std::min(n, (c + 1) * chunk)); },
-        tbb::simple_partitioner{});
+    using Loop = std::remove_reference_t<Body>;
+    run_chunks(
+        n, chunk, const_cast<void*>(static_cast<const void*>(std::addressof(body))),
+        [](void* loop, std::size_t begin, std::size_t end) { (*static_cast<Loop*>(loop))(begin, end); });
 }
 
 /// Calls body(i) for i in [0, n).

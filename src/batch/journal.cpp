@@ -81,7 +81,7 @@ void for_each_done(std::string_view text, Take&& take) {
     while (!text.empty()) {
         const auto end = std::min(text.find('\n'), text.size());
         try {
-            take(done_from(Json::parse(text.substr(0, end))));
+            take(done_from(parse_json(text.substr(0, end))));
         } catch (const Json::exception&) {
         }
         text.remove_prefix(std::min(end + 1, text.size()));

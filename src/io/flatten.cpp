@@ -29,7 +29,7 @@ WorldMesh::WorldMesh(const Scene& scene) {
 
 void leave_documents(Written& written, const Scene& scene, const char* format) {
     for (const auto& document : scene.documents) {
-        const Json json = Json::parse(document->json, nullptr, false);
+        const Json json = parse_json(document->json, Broken::discarded);
         if (!json.is_object()) continue;
         const auto leave = [&](const std::string& what) {
             written.changes.push_back({what, Domain::face, AttributeChange::Kind::dropped,
@@ -56,8 +56,8 @@ void warn_of_textures(Written& written, const Scene& scene, const char* format) 
         if (material.document < 0 || material.index < 0) continue;
         const auto [at, fresh] = documents.try_emplace(material.document);
         if (fresh)
-            at->second = Json::parse(scene.documents[static_cast<std::size_t>(material.document)]->json,
-                                     nullptr, false);
+            at->second = parse_json(scene.documents[static_cast<std::size_t>(material.document)]->json,
+                                    Broken::discarded);
         const Json::json_pointer place(fmt::format("/materials/{}", material.index));
         if (at->second.is_object() && at->second.contains(place) &&
             at->second[place].dump(-1, ' ', false, Json::error_handler_t::replace).find("Texture\":") !=

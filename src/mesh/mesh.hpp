@@ -122,3 +122,7 @@ std::optional<AttributeChange> recompute_normals(Mesh& mesh);
 void apply(Mesh& mesh, const Transform& t);
 
 } // namespace facetmill
+
+// Compiled once, in mesh.cpp.
+extern template class std::vector<facetmill::Attribute>;
+extern template class std::vector<facetmill::Primitive>;

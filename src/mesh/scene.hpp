@@ -67,3 +67,7 @@ struct Scene {
 };
 
 } // namespace facetmill
+
+// Compiled once, in scene.cpp.
+extern template class std::vector<facetmill::Part>;
+extern template class std::vector<facetmill::Material>;

@@ -161,7 +161,7 @@ class GeoJson {
     FootprintRings read(std::string_view text) {
         Json json;
         try {
-            json = Json::parse(text);
+            json = parse_json(text);
         } catch (const Json::exception& e) {
             malformed(name_, 0, "E-GEOJSON", fmt::format("this is no JSON: {}", e.what()));
         }

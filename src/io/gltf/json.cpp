@@ -43,7 +43,7 @@ std::string shown(const Json& json) {
 Json parse_document(std::string_view text) {
     check_depth(text);
     try {
-        return Json::parse(text);
+        return parse_json(text);
     } catch (const Json::parse_error& e) {
         throw Error(ErrorKind::malformed, "E-JSON", fmt::format("not valid JSON at byte {}", e.byte));
     } catch (const Json::exception& e) {

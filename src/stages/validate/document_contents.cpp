@@ -68,7 +68,7 @@ Span bytes_in_buffer(const Document& d, const Json& json, const Json& image) {
 }
 
 void add_images(const Document& d, std::vector<DocumentImage>& images) {
-    const Json json = Json::parse(d.json, nullptr, false);
+    const Json json = parse_json(d.json, Broken::discarded);
     const Json list = list_at(json, "images");
     std::set<std::string> listed;
     for (std::size_t i = 0; i < list.size(); ++i) {
@@ -110,7 +110,7 @@ std::vector<DocumentExtension> extensions_of(const Scene& scene) {
     std::set<std::pair<std::string, std::string>> used;
     for (const auto& d : scene.documents)
         if (d)
-            for (const auto& e : list_at(Json::parse(d->json, nullptr, false), "extensionsUsed"))
+            for (const auto& e : list_at(parse_json(d->json, Broken::discarded), "extensionsUsed"))
                 if (e.is_string()) used.emplace(e.get<std::string>(), d->name);
     std::vector<DocumentExtension> all;
     for (const auto& [name, document] : used) all.push_back({name, document});

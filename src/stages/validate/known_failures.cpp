@@ -124,8 +124,8 @@ void add_fresh(const Failure& before, const Failure& now, KnownFailures::Verdict
 KnownFailures KnownFailures::read(const std::filesystem::path& path) {
     const io::Input input = io::Input::open(path);
     const auto bytes = input.bytes();
-    const Json json = Json::parse(reinterpret_cast<const char*>(bytes.data()),
-                                  reinterpret_cast<const char*>(bytes.data()) + bytes.size(), nullptr, false);
+    const Json json =
+        parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, Broken::discarded);
     const auto refuse = [&](const char* what = "is no baseline of validate") {
         return Error(ErrorKind::malformed, "E-BASELINE", fmt::format("'{}' {}", path.string(), what),
                      "write one with update_baseline: true");
