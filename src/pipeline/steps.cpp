@@ -32,8 +32,10 @@ std::vector<std::string> all_stage_names() {
 }
 
 void no_such_stage(const std::string& name, const Mark& where, Problems& problems) {
+    const bool is_file = name.find_first_of("./") != std::string::npos;
     problems.add(where, "E-STAGE", fmt::format("there is no stage '{}'", name),
-                 did_you_mean(name, all_stage_names(), "facetmill stages lists them all"));
+                 is_file ? fmt::format("a file is read by the stage load: load {}", name)
+                         : did_you_mean(name, all_stage_names(), "facetmill stages lists them all"));
 }
 
 /// Which entry of the item is its stage; null after a problem.

@@ -72,6 +72,10 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
                                       "    - test-cot: 3\n"
                                       "      ^~~~~~~~\n"
                                       "  hint: did you mean 'test-cut'?"},
+        {stages("  - a.ply: 3\n"), "p.yaml:4:5: error[E-STAGE]: there is no stage 'a.ply'\n"
+                                   "    - a.ply: 3\n"
+                                   "      ^~~~~\n"
+                                   "  hint: a file is read by the stage load: load a.ply"},
         {stages("  - test-cut: {faces: 3, capp: true}\n"),
          "p.yaml:4:26: error[E-KEY]: test-cut has no option 'capp'\n"
          "    - test-cut: {faces: 3, capp: true}\n"
