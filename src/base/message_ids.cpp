@@ -210,8 +210,10 @@ const std::vector<MessageId>& message_ids() {
          "Simplify earlier, or use fewer threads or a machine with more memory."},
         {"E-MESHOPT",
          {Kind::malformed},
-         "EXT_meshopt_compression data cannot be decoded.",
-         "Export the input again without it."},
+         "Data under EXT_meshopt_compression or KHR_meshopt_compression cannot be decoded: it is damaged, or "
+         "newer "
+         "than the library.",
+         "Export the input again without it, or with streams of version 0."},
         {"E-MISSING",
          {Kind::usage},
          "A required option or key is missing.",
@@ -514,8 +516,9 @@ const std::vector<MessageId>& message_ids() {
          "Write a separate file for each if animations or cameras are needed."},
         {"W-MESHOPT",
          {},
-         "EXT_meshopt_compression is not written; the data is stored uncompressed.",
-         "`write: {draco: true}` makes the file smaller."},
+         "The input is compressed by EXT_meshopt_compression or KHR_meshopt_compression, and the output is "
+         "not.",
+         "`write: {meshopt: true}` or `write: {draco: true}` makes the file smaller."},
         {"W-MORPH",
          {},
          "A mesh has lost its morph targets, so their animation is not written.",

@@ -153,6 +153,8 @@ const std::vector<Capability>& capabilities() {
         {"mesh_manifold", &Capabilities::mesh_manifold},
         {"lods", &Capabilities::lods},
         {"textures", &Capabilities::textures},
+        {"quantize", &Capabilities::quantize},
+        {"meshopt", &Capabilities::meshopt},
     };
     return all;
 }

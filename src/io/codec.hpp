@@ -46,6 +46,22 @@ struct DracoSettings {
     bool keep_degenerate = false; ///< faces that name a vertex twice stay, in a primitive of their own
 };
 
+/// KHR_mesh_quantization: attributes as small integers on a grid. What is stored as integers already stays.
+struct QuantizeSettings {
+    bool on = false;
+    int position_bits = 14, normal_bits = 8, uv_bits = 12, colour_bits = 8;
+    int weight_bits = 8; ///< 8: a byte, more: two bytes
+};
+
+/// EXT_meshopt_compression or KHR_meshopt_compression, with the streams that both have (version 0).
+struct MeshoptSettings {
+    enum class Extension { ext, khr };
+
+    bool on = false;
+    Extension extension = Extension::ext;
+    bool filters = true; ///< octahedral, quaternion and exponential coding of what is rounded anyway
+};
+
 /// Where the images go that a document names as files.
 enum class Textures {
     automatic, ///< into the file where it is one (GLB), else beside it
@@ -58,13 +74,21 @@ struct WriteSettings {
     bool ascii = false;      ///< PLY and STL: text instead of binary
     bool big_endian = false; ///< PLY
     bool double_positions =
-        false;                  ///< PLY, OBJ, OFF: positions with all their digits, else rounded to float32
-    DracoSettings draco{};      ///< glTF
-    bool mesh_manifold = false; ///< glTF: EXT_mesh_manifold
-    bool lods = false;          ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
-    std::string title{};        ///< the output's stem, for names inside the file
+        false;                   ///< PLY, OBJ, OFF: positions with all their digits, else rounded to float32
+    DracoSettings draco{};       ///< glTF
+    QuantizeSettings quantize{}; ///< glTF, without Draco
+    MeshoptSettings meshopt{};   ///< glTF, without Draco
+    bool mesh_manifold = false;  ///< glTF: EXT_mesh_manifold
+    bool lods = false;           ///< glTF: parts X.lod1, X.lod2 ... are levels of the part X (MSFT_lod)
+    std::string title{};         ///< the output's stem, for names inside the file
     Textures textures = Textures::automatic; ///< glTF
     std::filesystem::path directory{};       ///< the output's, for Textures::reference
+
+    /// Bits of the grid that positions are rounded to: the longest side of a part is divided into 2^bits - 1
+    /// steps. 0: there is none.
+    int grid_bits() const {
+        return draco.on ? draco.position_bits : quantize.on ? quantize.position_bits : 0;
+    }
 };
 
 /// A written file: the main one first, then its neighbours (a .gltf's .bin and images, an .obj's .mtl).
@@ -96,6 +120,8 @@ struct Capabilities {
     bool mesh_manifold = false;  ///< WriteSettings::mesh_manifold
     bool lods = false;           ///< WriteSettings::lods
     bool textures = false;       ///< WriteSettings::textures
+    bool quantize = false;       ///< WriteSettings::quantize
+    bool meshopt = false;        ///< WriteSettings::meshopt
     Draco draco = Draco::never;  ///< WriteSettings::draco
     std::string attributes{};    ///< which it holds, in words
     std::string companion{};     ///< the suffix of a file beside it that it cannot do without: ".bin"

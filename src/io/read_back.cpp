@@ -231,7 +231,8 @@ double float_step_at(const Box& box) {
 }
 
 /// How far the format may move a point: float32's rounding of the largest coordinate (twice, for a node's
-/// transform between), and half a step of Draco's grid in every direction.
+/// transform between), and half a step of the grid of Draco or of quantized
+/// positions in every direction.
 /// transforms: the file has the parts' own coordinates.
 void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& settings, bool transforms) {
     Box world;
@@ -251,10 +252,10 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
         largest = std::max(largest, reach);
         if (transforms)
             back.float_step = std::max(back.float_step, float_step_at(own) * greatest_stretch(to_world));
-        if (settings.draco.on && settings.draco.position_bits > 0) {
+        if (settings.grid_bits() > 0) {
             const Vec3 e = own.extent();
             const double range = std::max({e.x, e.y, e.z}) * std::sqrt(scale);
-            const auto steps = static_cast<double>((std::int64_t{1} << settings.draco.position_bits) - 1);
+            const auto steps = static_cast<double>((std::int64_t{1} << settings.grid_bits()) - 1);
             back.grid_step = std::max(back.grid_step, range / steps);
         }
     }

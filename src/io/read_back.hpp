@@ -26,20 +26,20 @@ struct ReadBack {
     double tolerance = 0;            ///< how far the format and its settings may move one
     double diagonal = 0;             ///< of the scene
     double float_step = 0;           ///< between neighbouring float32 numbers at the farthest coordinate
-    double grid_step = 0;            ///< of Draco's coarsest grid; 0 without
+    double grid_step = 0;            ///< of the coarsest grid of positions (Draco, quantize); 0 without
     Properties soundness;            ///< of the file as decoded
     std::vector<std::string> losses; ///< how it is less sound than the scene
     VertexChanges changes;           ///< why, when it is
     /// Whether coordinates are so far from the origin that float32 moved points by more than a millionth of
-    /// the diagonal, and not Draco's grid.
+    /// the diagonal, and not the grid.
     bool too_far_for_floats() const;
     Json json() const; ///< vertices, faces, position_error, closed, edge_manifold, vertex_manifold, ...
 };
 
 /// Decodes the file and compares it with the scene (in the file's convention): the number of faces (polygons,
 /// or the triangles that they are cut into), and the distance from every vertex that faces use to the nearest
-/// one of the other side, within what float32 or Draco's bits allow. Throws output (E-READBACK) when it does
-/// not hold what was written. What such rounding, or what the format cannot hold, did to closedness,
+/// one of the other side, within what float32 or the grid's bits allow. Throws output (E-READBACK) when it
+/// does not hold what was written. What such rounding, or what the format cannot hold, did to closedness,
 /// manifoldness, orientation and degenerate or duplicate faces is told, not judged. dropped_faces: degenerate
 /// triangles that the codec said it left out.
 ReadBack read_back(const Input& file, const Codec& codec, const Scene& scene, const WriteSettings& settings,

@@ -135,10 +135,10 @@ void Source::need(double bytes) {
 }
 
 bool Source::without_bytes(std::size_t index) const {
+    if (added_ && added_->contains(index)) return false;
     const Place view = item(*json_, "bufferViews", index);
-    const auto extensions = view.find("extensions");
-    const bool compressed = extensions && extensions->find("EXT_meshopt_compression");
-    return !compressed && (*buffers_)[view.at("buffer").index(buffers_->size(), "buffer")].empty();
+    return !meshopt_extension(view) &&
+           (*buffers_)[view.at("buffer").index(buffers_->size(), "buffer")].empty();
 }
 
 Span Source::view(const Place& reference) {
@@ -146,9 +146,10 @@ Span Source::view(const Place& reference) {
 }
 
 Span Source::view(std::size_t index) {
+    if (added_)
+        if (const auto added = added_->find(index); added != added_->end()) return added->second;
     const Place place = item(*json_, "bufferViews", index);
-    const auto extensions = place.find("extensions");
-    const auto meshopt = extensions ? extensions->find("EXT_meshopt_compression") : std::nullopt;
+    const auto meshopt = meshopt_extension(place);
     if (!meshopt) return range(place);
     auto found = decompressed_.find(index);
     if (found == decompressed_.end())

@@ -32,10 +32,13 @@ int component_type_of(const AttributeData& data);
 /// A parsed document and its buffers, with the buffer views that had to be decompressed.
 class Source {
   public:
-    Source(const Json& document, const std::vector<Bytes>& buffers) : json_(&document), buffers_(&buffers) {}
+    /// added: views that are in no buffer yet, by index.
+    Source(const Json& document, const std::vector<Bytes>& buffers,
+           const std::map<std::size_t, Bytes>* added = nullptr)
+        : json_(&document), buffers_(&buffers), added_(added) {}
 
     const Json& json() const { return *json_; }
-    /// The bytes of a buffer view, decompressed when it is under EXT_meshopt_compression.
+    /// The bytes of a buffer view, decompressed when it is under meshopt's extensions.
     Span view(const Place& reference);
     Span view(std::size_t index);
     /// True when the view is of a buffer without any bytes, which is legal as long as nothing reads it.
@@ -49,6 +52,7 @@ class Source {
   private:
     const Json* json_;
     const std::vector<Bytes>* buffers_;
+    const std::map<std::size_t, Bytes>* added_;
     std::map<std::size_t, Bytes> decompressed_;
     double needed_ = 0;
 };
@@ -70,8 +74,10 @@ AttributeData decode(Source& source, const Accessor& accessor);
 /// The indices of a primitive, each below count. Throws malformed (E-INDEX).
 std::vector<Index> decode_indices(Source& source, const Place& reference, std::size_t count);
 
-/// Decompresses a buffer view's EXT_meshopt_compression object. Throws malformed (E-MESHOPT), limit
-/// (E-MEMORY).
+/// The object of EXT_meshopt_compression or KHR_meshopt_compression in a buffer or a view.
+std::optional<Place> meshopt_extension(const Place& owner);
+/// Decompresses what a buffer view's object of either extension says. Throws malformed (E-MESHOPT; also for
+/// streams that the library is too old for), limit (E-MEMORY).
 Bytes decode_meshopt(Source& source, const Place& extension);
 
 } // namespace facetmill::io::gltf

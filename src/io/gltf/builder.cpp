@@ -1,5 +1,8 @@
 #include "io/gltf/builder.hpp"
 
+#include "base/parallel.hpp"
+#include "io/gltf/encode.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -28,10 +31,24 @@ void add_name(Json& document, const char* list, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
+constexpr const char* meshopt_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
+
+const char* name_of(const MeshoptSettings& settings) {
+    return meshopt_names[settings.extension == MeshoptSettings::Extension::khr ? 1 : 0];
+}
+
+void erase_positions(std::vector<std::size_t>& list, const std::set<std::size_t>& positions) {
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (!positions.count(i)) kept.push_back(list[i]);
+    list = std::move(kept);
+}
+
 } // namespace
 
 Builder::Builder(Json document, const std::vector<Bytes>* buffers)
-    : original_(document), json_(std::move(document)), source_(original_, buffers ? *buffers : no_buffers_) {
+    : original_(document), json_(std::move(document)), source_(original_, buffers ? *buffers : no_buffers_),
+      current_(json_, buffers ? *buffers : no_buffers_, &new_views_) {
     for (std::size_t i = 0; i < count_of(json_, "bufferViews"); ++i) old_view_.push_back(i);
 }
 
@@ -53,6 +70,14 @@ std::size_t Builder::add_view(Bytes bytes, int target, std::size_t stride) {
 }
 
 std::size_t Builder::add_accessor(Json accessor) { return add("accessors", std::move(accessor)); }
+
+std::size_t Builder::add_stored(Stored stored, int target) {
+    const std::size_t view = add_view(std::move(stored.bytes), target, stored.stride);
+    if (!stored.filter.empty()) filters_[view] = std::move(stored.filter);
+    Json accessor = {{"bufferView", view}};
+    accessor.update(stored.accessor);
+    return add_accessor(std::move(accessor));
+}
 
 void Builder::release(const Json& primitive) {
     Json alone = {{"meshes", {{{"primitives", Json::array({primitive})}}}}};
@@ -93,15 +118,115 @@ void Builder::drop_released() {
     erase_items(json_["accessors"], accessors,
                 [&](const auto& visit) { visit_accessor_references(json_, visit); });
     erase_items(json_["bufferViews"], views, [&](const auto& visit) { visit_view_references(json_, visit); });
-    std::vector<std::size_t> kept;
+    erase_positions(old_view_, views);
+}
+
+std::vector<std::optional<Packing>> Builder::packings_now() const {
+    std::map<std::size_t, std::string> filters; // by the index that views have now
     for (std::size_t i = 0; i < old_view_.size(); ++i)
-        if (!views.count(i)) kept.push_back(old_view_[i]);
-    old_view_ = std::move(kept);
+        if (const auto filter = filters_.find(old_view_[i]); filter != filters_.end())
+            filters[i] = filter->second;
+    return packings(json_, filters);
+}
+
+/// New views of one kind become one, which costs less JSON and compresses better.
+void Builder::join_views() {
+    if (has_unknown_extensions(json_)) return; // somebody may name views by number
+    const auto how = packings_now();
+    std::map<std::string, std::size_t> first;
+    std::map<std::size_t, std::pair<std::size_t, std::size_t>> moved; // to which view, behind how many bytes
+    std::set<std::size_t> joined;
+    for (std::size_t i = 0; i < how.size(); ++i) {
+        if (!how[i] || how[i]->kind.empty() || !new_views_.contains(old_view_[i])) continue;
+        const auto [at, is_first] = first.emplace(how[i]->kind, i);
+        if (is_first) continue;
+        Bytes& to = new_views_[old_view_[at->second]];
+        Bytes& from = new_views_[old_view_[i]];
+        moved[i] = {at->second, to.size()};
+        to.insert(to.end(), from.begin(), from.end());
+        from = {};
+        joined.insert(i);
+        Json& view = json_["bufferViews"][at->second];
+        view["byteLength"] = to.size();
+        // Vertex data that several accessors share needs to have its stride told.
+        if (view.value("target", 0) == array_buffer && !view.contains("byteStride"))
+            view["byteStride"] = how[i]->stride;
+    }
+    for (Json& accessor : json_["accessors"]) {
+        if (!accessor.contains("bufferView")) continue;
+        const auto at = moved.find(accessor["bufferView"].get<std::size_t>());
+        if (at == moved.end()) continue;
+        accessor["bufferView"] = at->second.first;
+        accessor["byteOffset"] = accessor.value("byteOffset", std::size_t{0}) + at->second.second;
+    }
+    erase_items(json_["bufferViews"], joined,
+                [&](const auto& visit) { visit_view_references(json_, visit); });
+    erase_positions(old_view_, joined);
+}
+
+/// Whether a compressed view of the source is written as it is.
+bool Builder::passes_through(std::size_t i) const {
+    if (!meshopt_.on || new_views_.contains(old_view_[i])) return false;
+    const Json* compressed = compression_of(json_["bufferViews"][i]);
+    if (!compressed) return false;
+    if (meshopt_.extension == MeshoptSettings::Extension::khr) return true;
+    const Span bytes = source_.range(Place(*compressed, "bufferViews"));
+    const bool version_1 = !bytes.empty() && bytes[0] == std::byte{0xA1};
+    return !version_1 && compressed->value("filter", "") != "COLOR";
+}
+
+/// The views' streams; empty for those that are written plain, since compression would not pay.
+std::vector<Bytes> Builder::packed_views(const std::vector<std::optional<Packing>>& how) {
+    constexpr std::size_t json_bytes = 160; // that the extension's object takes
+    std::vector<Bytes> packed(old_view_.size());
+    parallel_for(
+        packed.size(),
+        [&](std::size_t i) {
+            const auto added = new_views_.find(old_view_[i]);
+            if (i >= how.size() || !how[i] || added == new_views_.end()) return;
+            Bytes stream = encode_meshopt(added->second, *how[i]);
+            if (!how[i]->filter.empty() || stream.size() + json_bytes < added->second.size())
+                packed[i] = std::move(stream);
+        },
+        1);
+    return packed;
+}
+
+/// Appends a stream to the buffer. The view is then one of the buffer that is not there. Returns it.
+Json Builder::pack_view(std::size_t i, const std::optional<Packing>& packing, const Bytes& packed,
+                        Bytes& buffer) {
+    Json view = json_["bufferViews"][i], extension = Json::object();
+    if (packed.empty()) {
+        const Json original = *compression_of(view);
+        const Span bytes = source_.range(Place(original, "bufferViews"));
+        extension = original;
+        extension["byteOffset"] = buffer.size();
+        buffer.insert(buffer.end(), bytes.begin(), bytes.end());
+    } else {
+        extension = {{"buffer", 0},
+                     {"byteOffset", buffer.size()},
+                     {"byteLength", packed.size()},
+                     {"byteStride", packing->stride},
+                     {"mode", packing->mode},
+                     {"count", packing->count}};
+        if (!packing->filter.empty()) extension["filter"] = packing->filter;
+        buffer.insert(buffer.end(), packed.begin(), packed.end());
+    }
+    extension["buffer"] = 0;
+    for (const char* name : meshopt_names)
+        if (view.contains("extensions")) view["extensions"].erase(name);
+    view["extensions"][name_of(meshopt_)] = std::move(extension);
+    view["buffer"] = 1;
+    view["byteOffset"] = unpacked_bytes_;
+    unpacked_bytes_ += (view["byteLength"].get<std::size_t>() + 3) / 4 * 4;
+    return view;
 }
 
 Bytes Builder::build_buffer(std::vector<Diagnostic>& warnings) {
     Bytes buffer;
     bool decompressed = false;
+    const auto how = meshopt_.on ? packings_now() : std::vector<std::optional<Packing>>{};
+    const std::vector<Bytes> packed = packed_views(how);
     for (std::size_t i = 0; i < old_view_.size(); ++i) {
         Json& view = json_["bufferViews"][i];
         const auto added = new_views_.find(old_view_[i]);
@@ -109,25 +234,30 @@ Bytes Builder::build_buffer(std::vector<Diagnostic>& warnings) {
             dataless_[view["buffer"].get<std::size_t>()].push_back(i);
             continue;
         }
-        const Span bytes = added != new_views_.end() ? Span(added->second) : source_.view(old_view_[i]);
         while (buffer.size() % 4 != 0) buffer.push_back(std::byte{0});
+        if (!packed[i].empty() || passes_through(i)) {
+            view = pack_view(i, packed[i].empty() ? std::nullopt : how[i], packed[i], buffer);
+            continue;
+        }
+        const Span bytes = added != new_views_.end() ? Span(added->second) : source_.view(old_view_[i]);
         view["buffer"] = 0;
         view["byteOffset"] = buffer.size();
         view["byteLength"] = bytes.size();
-        if (view.contains("extensions") && view["extensions"].erase("EXT_meshopt_compression") > 0) {
+        for (const char* name : meshopt_names) {
+            if (!view.contains("extensions") || view["extensions"].erase(name) == 0) continue;
             decompressed = true;
             if (view["extensions"].empty()) view.erase("extensions");
         }
         buffer.insert(buffer.end(), bytes.begin(), bytes.end());
     }
-    if (decompressed) {
+    if (decompressed && !meshopt_.on)
         warnings.push_back({Severity::warning,
                             "W-MESHOPT",
-                            "EXT_meshopt_compression is not written: the data is stored plain",
+                            "the meshopt compression of the input is not written: the data is stored plain",
                             {},
-                            ""});
-    }
-    drop_extension("EXT_meshopt_compression");
+                            "write: {meshopt: true} compresses it"});
+    for (const char* name : meshopt_names) drop_extension(name);
+    if (unpacked_bytes_ > 0) use_extension(name_of(meshopt_), true);
     return buffer;
 }
 
@@ -135,6 +265,7 @@ Bytes Builder::finish(std::vector<Diagnostic>& warnings) {
     for (const char* name : {"accessors", "bufferViews"})
         if (!json_.contains(name)) json_[name] = Json::array();
     drop_released();
+    if (meshopt_.on) join_views();
     Bytes buffer = build_buffer(warnings);
     for (const char* name : {"accessors", "bufferViews", "meshes", "nodes", "materials"})
         erase_empty(json_, name);
@@ -153,6 +284,9 @@ void Builder::list_buffers(std::size_t bytes) {
         first["byteLength"] = bytes;
         add("buffers", std::move(first));
     }
+    if (unpacked_bytes_ > 0)
+        add("buffers",
+            {{"byteLength", unpacked_bytes_}, {"extensions", {{name_of(meshopt_), {{"fallback", true}}}}}});
     for (const auto& [buffer, views] : dataless_) {
         const std::size_t index = add("buffers", before[buffer]);
         for (const std::size_t view : views) json_["bufferViews"][view]["buffer"] = index;
@@ -195,17 +329,12 @@ void primitive_accessors(Json& primitive, const Visit& visit) {
 }
 
 bool known(const std::string& name) {
-    static const std::set<std::string> names = {"KHR_draco_mesh_compression",
-                                                "KHR_mesh_quantization",
-                                                "EXT_meshopt_compression",
-                                                "EXT_mesh_manifold",
-                                                "EXT_mesh_gpu_instancing",
-                                                "KHR_lights_punctual",
-                                                "KHR_xmp_json_ld",
-                                                "KHR_node_visibility",
-                                                "MSFT_lod",
-                                                "MSFT_texture_dds",
-                                                "EXT_lights_image_based"};
+    static const std::set<std::string> names = {"KHR_draco_mesh_compression", "KHR_mesh_quantization",
+                                                "EXT_meshopt_compression",    "KHR_meshopt_compression",
+                                                "EXT_mesh_manifold",          "EXT_mesh_gpu_instancing",
+                                                "KHR_lights_punctual",        "KHR_xmp_json_ld",
+                                                "KHR_node_visibility",        "MSFT_lod",
+                                                "MSFT_texture_dds",           "EXT_lights_image_based"};
     const auto starts = [&](const char* prefix) { return name.rfind(prefix, 0) == 0; };
     return names.count(name) > 0 || starts("KHR_materials_") || starts("KHR_texture_") ||
            starts("EXT_texture_");

@@ -19,26 +19,14 @@ namespace {
 /// What a reader of geometry must understand, or may safely not: materials, textures and lights do not move a
 /// face.
 bool understood(const std::string& extension) {
-    static const std::set<std::string> known = {"KHR_draco_mesh_compression",
-                                                "KHR_mesh_quantization",
-                                                "EXT_meshopt_compression",
-                                                "EXT_mesh_manifold",
-                                                "EXT_mesh_gpu_instancing",
-                                                "KHR_lights_punctual",
-                                                "EXT_lights_image_based",
-                                                "KHR_xmp_json_ld",
-                                                "KHR_animation_pointer",
-                                                "KHR_node_visibility",
-                                                "MSFT_lod",
-                                                "MSFT_texture_dds",
-                                                "KHR_audio_emitter",
-                                                "EXT_mesh_features",
-                                                "EXT_structural_metadata",
-                                                "KHR_techniques_webgl",
-                                                "KHR_physics_rigid_bodies",
-                                                "KHR_implicit_shapes",
-                                                "KHR_node_hoverability",
-                                                "KHR_node_selectability"};
+    static const std::set<std::string> known = {
+        "KHR_draco_mesh_compression", "KHR_mesh_quantization",  "EXT_meshopt_compression",
+        "KHR_meshopt_compression",    "EXT_mesh_manifold",      "EXT_mesh_gpu_instancing",
+        "KHR_lights_punctual",        "EXT_lights_image_based", "KHR_xmp_json_ld",
+        "KHR_animation_pointer",      "KHR_node_visibility",    "MSFT_lod",
+        "MSFT_texture_dds",           "KHR_audio_emitter",      "EXT_mesh_features",
+        "EXT_structural_metadata",    "KHR_techniques_webgl",   "KHR_physics_rigid_bodies",
+        "KHR_implicit_shapes",        "KHR_node_hoverability",  "KHR_node_selectability"};
     const auto starts = [&](const char* prefix) { return extension.rfind(prefix, 0) == 0; };
     return known.count(extension) > 0 || starts("KHR_materials_") || starts("KHR_texture_") ||
            starts("EXT_texture_") || starts("EXT_materials_") || starts("ADOBE_materials_");
@@ -314,6 +302,9 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
     const auto mesh_of_part = patch_meshes(patch);
     patch_levels(patch, patch_nodes(patch, mesh_of_part));
     drop_dead_meshes(patch, mesh_of_part);
+    store_meshes(patch);
+    store_streams(patch);
+    builder.compress(settings.meshopt);
     drop_unused_draco(builder);
     warn_of_losses(patch);
     const std::string stem = settings.title.empty() ? "scene" : settings.title;
@@ -353,6 +344,8 @@ Capabilities abilities(std::string companion) {
             .mesh_manifold = true,
             .lods = true,
             .textures = true,
+            .quantize = true,
+            .meshopt = true,
             .draco = Capabilities::Draco::on_request,
             .attributes = "all at vertices, with materials and textures",
             .companion = std::move(companion),

@@ -214,8 +214,7 @@ Bytes load_uri(const Place& buffer, const std::string& uri, std::size_t length, 
 }
 
 bool is_fallback(const Place& buffer) {
-    const auto extensions = buffer.find("extensions");
-    const auto meshopt = extensions ? extensions->find("EXT_meshopt_compression") : std::nullopt;
+    const auto meshopt = meshopt_extension(buffer);
     return meshopt && meshopt->boolean_or("fallback", false);
 }
 

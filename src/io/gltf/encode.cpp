@@ -11,8 +11,6 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-constexpr int array_buffer = 34962, element_buffer = 34963;
-
 /// One table per primitive that has faces; with `shared`, all use the same wedges.
 std::vector<Table> tables_of(const Mesh& mesh, bool shared) {
     const std::size_t primitives = std::max<std::size_t>(mesh.primitives.size(), 1);
@@ -88,10 +86,18 @@ std::size_t add_indices(Builder& builder, const Table& table) {
     return builder.add_accessor(std::move(accessor));
 }
 
+std::size_t add_positions(Builder& builder, const Mesh& mesh, const std::vector<Index>& wedges, bool exact) {
+    const std::size_t added = add_vertex_data(builder, positions_of(mesh, wedges), 3, false, true);
+    if (!exact) return added;
+    std::vector<Vec3>& positions = builder.exact_positions[added];
+    positions.reserve(wedges.size());
+    for (const Index w : wedges) positions.push_back(mesh.positions[mesh.vertex_of_wedge(w)]);
+    return added;
+}
+
 Json add_attributes(Builder& builder, const Mesh& mesh, const Table& table,
-                    const std::vector<Column>& columns) {
-    Json attributes = {
-        {"POSITION", add_vertex_data(builder, positions_of(mesh, table.wedges), 3, false, true)}};
+                    const std::vector<Column>& columns, const EncodeSettings& settings) {
+    Json attributes = {{"POSITION", add_positions(builder, mesh, table.wedges, settings.keep_exact)}};
     for (const auto& column : columns)
         if (column.target < 0 && has_column(mesh, table.primitive, column))
             attributes[column.semantic] =
@@ -183,8 +189,7 @@ void encode_manifold(Builder& builder, const Mesh& mesh, std::vector<Table>& tab
     const bool wide = needs_wide(tables[0].wedges.size());
     const std::size_t view = builder.add_view(index_bytes(all, wide), element_buffer);
     std::map<std::string, std::size_t> accessors; // one per column, shared by the primitives
-    const std::size_t position =
-        add_vertex_data(builder, positions_of(mesh, tables[0].wedges), 3, false, true);
+    const std::size_t position = add_positions(builder, mesh, tables[0].wedges, settings.keep_exact);
     const Json targets = add_targets(builder, mesh, columns, tables[0].wedges);
     std::size_t offset = 0;
     for (const auto& table : tables) {
@@ -246,9 +251,12 @@ Json accessor_json(const AttributeData& data, int components, bool normalised, b
             accessor["count"] = count;
             accessor["type"] = type_name(components);
             if (!bounds || count == 0) return accessor;
-            std::vector<double> low(width, HUGE_VAL), high(width, -HUGE_VAL);
+            using T = std::decay_t<decltype(numbers[0])>;
+            // Integers stay integers in JSON, too.
+            using Bound = std::conditional_t<std::is_integral_v<T>, std::int64_t, double>;
+            std::vector<Bound> low(numbers.begin(), numbers.begin() + components), high = low;
             for (std::size_t i = 0; i < numbers.size(); ++i) {
-                const double x = static_cast<double>(numbers[i]);
+                const auto x = static_cast<Bound>(numbers[i]);
                 low[i % width] = std::min(low[i % width], x);
                 high[i % width] = std::max(high[i % width], x);
             }
@@ -261,23 +269,7 @@ Json accessor_json(const AttributeData& data, int components, bool normalised, b
 
 std::size_t add_vertex_data(Builder& builder, const AttributeData& data, int components, bool normalised,
                             bool bounds) {
-    Bytes bytes;
-    std::size_t stride = 0;
-    std::visit(
-        [&](const auto& numbers) {
-            const std::size_t size = sizeof(numbers[0]) * static_cast<std::size_t>(components);
-            const std::size_t count = numbers.size() / static_cast<std::size_t>(components),
-                              padded = (size + 3) / 4 * 4;
-            if (padded != size) stride = padded;
-            bytes.resize(count * padded);
-            const auto* from = reinterpret_cast<const std::byte*>(numbers.data());
-            parallel_for(count,
-                         [&](std::size_t i) { std::memcpy(&bytes[i * padded], from + i * size, size); });
-        },
-        data);
-    Json accessor = {{"bufferView", builder.add_view(std::move(bytes), array_buffer, stride)}};
-    accessor.update(accessor_json(data, components, normalised, bounds));
-    return builder.add_accessor(std::move(accessor));
+    return builder.add_stored(plain(data, components, normalised, bounds), array_buffer);
 }
 
 Json add_targets(Builder& builder, const Mesh& mesh, const std::vector<Column>& columns,
@@ -322,7 +314,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
         if (settings.draco.on) {
             encode_draco_primitive(builder, mesh, table, columns, settings, primitive);
         } else {
-            primitive["attributes"] = add_attributes(builder, mesh, table, columns);
+            primitive["attributes"] = add_attributes(builder, mesh, table, columns, settings);
             const Json targets = add_targets(builder, mesh, columns, table.wedges);
             if (!targets.is_null()) primitive["targets"] = targets;
             primitive["indices"] = add_indices(builder, table);

@@ -7,9 +7,13 @@
 
 namespace facetmill::io::gltf {
 
+/// What a buffer view is for, as glTF says it.
+inline constexpr int array_buffer = 34962, element_buffer = 34963;
+
 struct EncodeSettings {
     DracoSettings draco;
-    bool manifold = false; ///< write EXT_mesh_manifold
+    bool manifold = false;   ///< write EXT_mesh_manifold
+    bool keep_exact = false; ///< positions in doubles go to Builder::exact_positions, too
     ColumnSettings columns;
     std::string name; ///< of the part, for messages
     /// The document's index for a scene material; -1: none.

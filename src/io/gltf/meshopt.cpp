@@ -1,5 +1,9 @@
 #include "io/gltf/accessor.hpp"
 
+#include "base/parallel.hpp"
+
+#include <bit>
+#include <cstring>
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
@@ -7,7 +11,7 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-/// What an EXT_meshopt_compression object says.
+/// What an object of EXT_meshopt_compression or KHR_meshopt_compression says.
 struct Compressed {
     Span bytes;
     std::size_t count, stride;
@@ -31,17 +35,53 @@ void check(const Place& place, const Compressed& c) {
                              : triangles ? c.bytes.size() * 3
                                          : c.bytes.size();
     if (c.count > most) refuse(fmt::format("{} bytes cannot hold {} elements", c.bytes.size(), c.count));
+    if (attributes && !c.bytes.empty() && c.bytes[0] == std::byte{0xA1} && MESHOPTIMIZER_VERSION < 230)
+        place.fail(
+            fmt::format("its stream of version 1 needs meshoptimizer 0.23, and this is {}.{}",
+                        MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION / 10 % 100),
+            "E-MESHOPT",
+            "write it with streams of version 0, or decompress it with another tool (gltf-transform copy)");
     if (c.filter == "NONE") return;
     if (!attributes) refuse("a filter needs mode ATTRIBUTES");
     if (c.filter == "OCTAHEDRAL" && c.stride != 4 && c.stride != 8)
         refuse(fmt::format("filter OCTAHEDRAL needs byteStride 4 or 8, found {}", c.stride));
     if (c.filter == "QUATERNION" && c.stride != 8)
         refuse(fmt::format("filter QUATERNION needs byteStride 8, found {}", c.stride));
-    if (c.filter != "OCTAHEDRAL" && c.filter != "QUATERNION" && c.filter != "EXPONENTIAL")
+    if (c.filter == "COLOR" && c.stride != 4 && c.stride != 8)
+        refuse(fmt::format("filter COLOR needs byteStride 4 or 8, found {}", c.stride));
+    if (c.filter != "OCTAHEDRAL" && c.filter != "QUATERNION" && c.filter != "EXPONENTIAL" &&
+        c.filter != "COLOR")
         refuse(fmt::format("filter \"{}\" is unknown", c.filter));
 }
 
+/// KHR_meshopt_compression's filter COLOR: luma and two chrominances of K bits, and alpha of one bit less
+/// below a bit that tells K, become red, green, blue and alpha.
+template <class Unsigned>
+void decode_colours(Bytes& bytes) {
+    using Signed = std::make_signed_t<Unsigned>;
+    constexpr double most = std::numeric_limits<Unsigned>::max();
+    parallel_for(bytes.size() / (4 * sizeof(Unsigned)), [&](std::size_t i) {
+        Unsigned in[4];
+        std::byte* at = bytes.data() + i * sizeof(in);
+        std::memcpy(in, at, sizeof(in));
+        const int y = in[0], co = static_cast<Signed>(in[1]), cg = static_cast<Signed>(in[2]);
+        const int scale = (1 << std::bit_width(unsigned{in[3]})) - 1;
+        const int alpha = in[3] & (scale >> 1);
+        const int given[4] = {y + co - cg, y + cg, y - co - cg, alpha << 1 | (alpha & 1)};
+        for (std::size_t c = 0; c < 4; ++c)
+            in[c] = scale == 0 ? Unsigned{0} : as_component<Unsigned>(given[c] * most / scale);
+        std::memcpy(at, in, sizeof(in));
+    });
+}
+
 } // namespace
+
+std::optional<Place> meshopt_extension(const Place& owner) {
+    const auto extensions = owner.find("extensions");
+    if (!extensions) return {};
+    const auto ext = extensions->find("EXT_meshopt_compression");
+    return ext ? ext : extensions->find("KHR_meshopt_compression");
+}
 
 Bytes decode_meshopt(Source& source, const Place& extension) {
     const Compressed c{source.range(extension), extension.at("count").natural(),
@@ -62,6 +102,8 @@ Bytes decode_meshopt(Source& source, const Place& extension) {
     if (c.filter == "OCTAHEDRAL") meshopt_decodeFilterOct(out.data(), c.count, c.stride);
     if (c.filter == "QUATERNION") meshopt_decodeFilterQuat(out.data(), c.count, c.stride);
     if (c.filter == "EXPONENTIAL") meshopt_decodeFilterExp(out.data(), c.count, c.stride);
+    if (c.filter == "COLOR" && c.stride == 4) decode_colours<std::uint8_t>(out);
+    if (c.filter == "COLOR" && c.stride == 8) decode_colours<std::uint16_t>(out);
     return out;
 }
 

@@ -55,6 +55,16 @@ void patch_levels(Patch& patch, const std::vector<int>& node_of_part);
 /// Drops meshes that the document placed and that no part uses any more.
 void drop_dead_meshes(Patch& patch, const std::vector<int>& mesh_of_part);
 
+/// Stores the attributes of all meshes as quantize says, and as meshopt's filters want them. The grid of a
+/// mesh's positions goes into the transforms of its nodes, or of new nodes below them where an animation, a
+/// camera, children or whatever else depends on the node itself. Positions of meshes with a skin, with
+/// EXT_mesh_gpu_instancing, or without a node stay float32, which is said in the changes. After patch_nodes
+/// and patch_levels.
+void store_meshes(Patch& patch);
+/// Under meshopt: puts animations, instances and bind matrices into views that can be compressed, rotations
+/// in 16 bits, translations and scales in steps of 2^-16 of their greatest extent or less.
+void store_streams(Patch& patch);
+
 /// The document's index for a scene material, added when it is new; -1 for none.
 int patch_material(Patch& patch, Index material);
 

@@ -25,11 +25,26 @@ bool has_draco(const Json& primitive) {
     return primitive.contains("extensions") && primitive["extensions"].contains("KHR_draco_mesh_compression");
 }
 
+/// Whether the view of the accessor is compressed by meshopt.
+bool has_meshopt(const Json& document, const Json& accessor) {
+    const Json& a = document["accessors"][accessor.get<std::size_t>()];
+    return a.contains("bufferView") &&
+           compression_of(document["bufferViews"][a["bufferView"].get<std::size_t>()]);
+}
+
+/// Triangles that meshopt can compress well: in an order for it, each attribute by itself.
+bool ready_for_meshopt(const Json& document, const Json& primitive) {
+    return primitive.contains("indices") && has_meshopt(document, primitive["indices"]) &&
+           has_meshopt(document, primitive["attributes"]["POSITION"]);
+}
+
 /// True when the primitives as they are in the document are what the settings ask for.
 bool stored_as_wanted(const Patch& patch, const Json& mesh) {
     for (const auto& primitive : mesh["primitives"]) {
         const bool triangles = makes_triangles(Place(primitive, ""));
         if (triangles && has_draco(primitive) != patch.settings.draco.on) return false;
+        if (triangles && patch.settings.meshopt.on && !ready_for_meshopt(patch.builder.json(), primitive))
+            return false;
     }
     const bool manifold = mesh.contains("extensions") && mesh["extensions"].contains("EXT_mesh_manifold");
     return manifold || patch.settings.draco.on || !patch.settings.mesh_manifold;
@@ -50,6 +65,7 @@ EncodeSettings settings_for(Patch& patch, const Part& part) {
     EncodeSettings s;
     s.draco = patch.settings.draco;
     s.manifold = patch.settings.mesh_manifold;
+    s.keep_exact = patch.settings.quantize.on;
     s.name = part.name;
     s.material = [&patch](Index m) { return patch_material(patch, m); };
     s.columns.skinned = part.document < 0 || part.document == patch.base;

@@ -26,7 +26,10 @@ std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io:
                                  : std::string("moved points onto lines of others");
     if (settings.draco.on && back.grid_step >= back.float_step)
         return fmt::format("Draco's {} bits {}: use more draco.position_bits, or no draco",
-                           settings.draco.position_bits, what);
+                           settings.grid_bits(), what);
+    if (settings.quantize.on && back.grid_step >= back.float_step)
+        return fmt::format("the grid of {} bits {}: use more bits of quantize.position, or no quantize",
+                           settings.grid_bits(), what);
     if (codec.can.full_precision && !settings.double_positions)
         return fmt::format("32-bit floats {}: precision: full keeps all bits", what);
     return fmt::format(
@@ -81,10 +84,13 @@ void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, 
 
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report) {
-    if (!s.draco.on) return;
-    const char* why = "as given";
-    if (!o.draco || !o.draco->position_bits) {
-        const int usual = io::DracoSettings{}.position_bits;
+    if (s.grid_bits() == 0) return;
+    int& bits = s.draco.on ? s.draco.position_bits : s.quantize.position_bits;
+    const int limit = s.draco.on ? 24 : 16;
+    const bool given = s.draco.on ? o.draco && o.draco->position_bits : o.quantize && o.quantize->position;
+    std::string why = "as given";
+    if (!given) {
+        const int usual = bits;
         std::optional<int> most = usual;
         const auto look = [&](const Mesh& mesh) {
             if (most) most = io::bits_that_keep_apart(mesh, *most);
@@ -93,11 +99,12 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
             look(in_one(scene));
         else
             for (const Part& part : scene.parts) look(part.mesh);
-        s.draco.position_bits = most.value_or(usual);
-        why =
-            most ? "the fewest from 14 on that keep vertices apart" : "24 would not keep all vertices apart";
+        const bool enough = most && *most <= limit;
+        bits = enough ? *most : usual;
+        why = enough ? fmt::format("the fewest from {} on that keep vertices apart", usual)
+                     : fmt::format("{} would not keep all vertices apart", limit);
     }
-    report.draco = WriteReport::Bits{s.draco.position_bits, why};
+    (s.draco.on ? report.draco : report.quantize) = WriteReport::Bits{bits, why};
 }
 
 void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,

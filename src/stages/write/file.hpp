@@ -12,7 +12,7 @@ struct WriteReport {
     };
     std::optional<double> factor;
     std::optional<std::string> up;
-    std::optional<Bits> draco;
+    std::optional<Bits> draco, quantize;
 };
 
 /// Converts to the file's convention, which the option or else the format says. Throws stage (E-UNIT, E-UP)
@@ -20,7 +20,7 @@ struct WriteReport {
 void to_convention(Scene& scene, const WriteOptions& o, const io::Codec& codec, Context& context,
                    WriteReport& report);
 
-/// Bits of position for a file that is compressed by Draco: those given, or as many as keep vertices apart.
+/// Bits of position for a file with a grid (Draco, quantize): those given, or as many as keep vertices apart.
 void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& codec, const Scene& scene,
                  WriteReport& report);
 

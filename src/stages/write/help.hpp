@@ -9,7 +9,7 @@ inline constexpr const char* about =
 inline constexpr const char* details =
     R"(Files are first written beside their targets and all replace them together when the run has
 succeeded; until then, existing files are untouched. Each file is decoded again and compared with
-the scene: the number of faces, and how far positions moved (float32, Draco). Units and the up axis
+the scene: the number of faces, and how far positions moved (float32, Draco, quantize). Units and the up axis
 are converted to the convention of the format; formats without nodes get all parts in world space.
 What the format cannot hold is listed under attribute_changes in the report. If the name ends in
 .gz, the file is compressed.)";

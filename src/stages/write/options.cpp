@@ -38,6 +38,45 @@ void declare_draco(Declare<DracoOptions>& d) {
                 });
 }
 
+void declare_quantize(Declare<QuantizeOptions>& d) {
+    d.option(
+         "position", &QuantizeOptions::position,
+         "Bits of each coordinate: the longest side of a mesh is divided into 2^bits - 1 steps (a count); "
+         "unless given, the fewest from 14 to 16 at which no two vertices coincide, or 14 if 16 are too few.")
+        .between(1, 16);
+    d.option("normal", &QuantizeOptions::normal, "Bits of each number of normals and tangents (a count).")
+        .between(2, 16);
+    d.option("uv", &QuantizeOptions::uv,
+             "Bits of texture coordinates (a count); those beyond [-1, 1] stay float32.")
+        .between(1, 16);
+    d.option("colour", &QuantizeOptions::colour, "Bits of each channel of colours (a count).").between(1, 16);
+    d.option("weights", &QuantizeOptions::weights,
+             "8 stores the weights of joints as bytes, more as 16 bits (a count).")
+        .between(8, 16);
+    d.shorthand("true or false", {{"type", "boolean"}},
+                [](const Value& v, QuantizeOptions& out, Problems& problems) {
+                    return OptionType<bool>::parse(v, out.on, problems);
+                });
+}
+
+void declare_meshopt(Declare<MeshoptOptions>& d) {
+    using Extension = io::MeshoptSettings::Extension;
+    d.choice<Extension>(
+        "extension", &MeshoptOptions::extension,
+        {{"EXT", Extension::ext, "EXT_meshopt_compression, which readers have known since 2020"},
+         {"KHR", Extension::khr, "KHR_meshopt_compression, with the same streams (version 0)"}},
+        "The name under which the compressed data stands.");
+    d.option(
+        "filters", &MeshoptOptions::filters,
+        "Codes normals and tangents on an octahedron, rotations of animations and instances in 16 bits, and "
+        "what stays float32 as multiples of a power of two: positions within quantize's bits, translations "
+        "and scales within 2^-16 of their extent. Without filters, these are compressed as they are.");
+    d.shorthand("true or false", {{"type", "boolean"}},
+                [](const Value& v, MeshoptOptions& out, Problems& problems) {
+                    return OptionType<bool>::parse(v, out.on, problems);
+                });
+}
+
 /// An option that only some formats know, and whether it asks for something.
 struct FormatOption {
     const char* name;
@@ -51,6 +90,8 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"big_endian", o.big_endian, &Can::big_endian},
             {"precision", o.precision == Precision::full, &Can::full_precision},
             {"draco", o.draco && o.draco->on, [](const Can& can) { return can.draco != Can::Draco::never; }},
+            {"quantize", o.quantize && o.quantize->on, &Can::quantize},
+            {"meshopt", o.meshopt && o.meshopt->on, &Can::meshopt},
             {"mesh_manifold", o.mesh_manifold, &Can::mesh_manifold},
             {"lods", o.lods, &Can::lods},
             {"textures", o.textures != io::Textures::automatic, &Can::textures},
@@ -69,6 +110,16 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
             fmt::format("write: '{}' goes with {}, not with {}", name, fmt::join(formats, ", "), codec.name),
             "leave it out");
     }
+    const bool draco = o.draco && o.draco->on;
+    for (const auto& [name, asked] : {std::pair("quantize", o.quantize && o.quantize->on),
+                                      std::pair("meshopt", o.meshopt && o.meshopt->on)})
+        if (draco && asked)
+            problems.add(
+                given.find_entry(name)->key_mark, "E-CONFLICT",
+                fmt::format("write: '{}' and 'draco' exclude each other, since Draco compresses the same "
+                            "data in its own way",
+                            name),
+                "leave one of them out");
     if (o.feature_angle && o.normals != NormalKind::smooth)
         problems.add(mark_at(given, "feature_angle"), "E-CONFLICT",
                      "write: 'feature_angle' goes with normals: smooth only", "add normals: smooth");
@@ -113,6 +164,13 @@ void declare_write(Declare<WriteOptions>& d) {
         .above(0);
     d.group("draco", &WriteOptions::draco,
             "Writes glTF with KHR_draco_mesh_compression: true, or its settings.", declare_draco);
+    d.group(
+        "quantize", &WriteOptions::quantize,
+        "Writes glTF with KHR_mesh_quantization, that is attributes as small integers: true, or its bits. "
+        "meshopt does so, too, unless this is false.",
+        declare_quantize);
+    d.group("meshopt", &WriteOptions::meshopt,
+            "Writes glTF with EXT_meshopt_compression: true, or its settings.", declare_meshopt);
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
              "Writes glTF with EXT_mesh_manifold, so that readers need not weld.");
     d.choice<io::Textures>(
@@ -176,6 +234,18 @@ io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
                    .generic_bits = static_cast<int>(o.draco->generic_bits),
                    .speed = static_cast<int>(o.draco->speed),
                    .keep_degenerate = o.draco->degenerate_faces == DracoOptions::Degenerate::keep};
+    if (o.meshopt && o.meshopt->on)
+        s.meshopt = {.on = true, .extension = o.meshopt->extension, .filters = o.meshopt->filters};
+    QuantizeOptions quantize;
+    quantize.on = s.meshopt.on;
+    if (o.quantize) quantize = *o.quantize;
+    if (quantize.on)
+        s.quantize = {.on = true,
+                      .position_bits = static_cast<int>(quantize.position.value_or(s.quantize.position_bits)),
+                      .normal_bits = static_cast<int>(quantize.normal),
+                      .uv_bits = static_cast<int>(quantize.uv),
+                      .colour_bits = static_cast<int>(quantize.colour),
+                      .weight_bits = static_cast<int>(quantize.weights)};
     s.draco.on |= codec.can.draco == io::Capabilities::Draco::always;
     return s;
 }

@@ -15,6 +15,17 @@ struct DracoOptions {
     Degenerate degenerate_faces = Degenerate::drop;
 };
 
+struct QuantizeOptions {
+    bool on = true;
+    std::optional<std::int64_t> position;
+    std::int64_t normal = 8, uv = 12, colour = 8, weights = 8;
+};
+
+struct MeshoptOptions {
+    bool on = true, filters = true;
+    io::MeshoptSettings::Extension extension = io::MeshoptSettings::Extension::ext;
+};
+
 struct WriteOptions {
     enum class Precision { single, full };
 
@@ -27,6 +38,8 @@ struct WriteOptions {
     NormalKind normals = NormalKind::keep;
     std::optional<Angle> feature_angle; ///< of smooth normals
     std::optional<DracoOptions> draco;
+    std::optional<QuantizeOptions> quantize;
+    std::optional<MeshoptOptions> meshopt;
     io::Textures textures = io::Textures::automatic;
 };
 

@@ -33,12 +33,14 @@ void declare_report(DeclareFields<WriteReport>& d) {
         .only_when("it is not 1");
     d.field("up", &WriteReport::up, "The axis that points up in the file.")
         .only_when("the scene was turned for it");
-    d.object("draco", &WriteReport::draco, "How positions were rounded.",
-             [](DeclareFields<WriteReport::Bits>& b) {
-                 b.field("position_bits", &WriteReport::Bits::position_bits, "Bits of each coordinate.");
-                 b.field("why", &WriteReport::Bits::why, "The reason for this number.");
-             })
+    const auto bits = [](DeclareFields<WriteReport::Bits>& b) {
+        b.field("position_bits", &WriteReport::Bits::position_bits, "Bits of each coordinate.");
+        b.field("why", &WriteReport::Bits::why, "The reason for this number.");
+    };
+    d.object("draco", &WriteReport::draco, "How positions were rounded.", bits)
         .only_when("the file is compressed by Draco");
+    d.object("quantize", &WriteReport::quantize, "How positions were rounded.", bits)
+        .only_when("attributes are stored as small integers");
 }
 
 Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& report) {
@@ -81,7 +83,7 @@ const RegisterStage registered = make_stage<WriteOptions>(
      .about = help::write::about,
      .details = help::write::details,
      .examples = {"write: part.glb", "write: {path: part.glb, draco: true}",
-                  "write: {path: print.stl, unit: mm, up: z}",
+                  "write: {path: part.glb, quantize: true}", "write: {path: print.stl, unit: mm, up: z}",
                   "write: {path: web.glb, normals: smooth, feature_angle: 40deg}"}},
     declare_write, declare_report, run, {.files = files_of_write, .verify = verify_write});
 

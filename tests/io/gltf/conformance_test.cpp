@@ -88,11 +88,13 @@ TEST_CASE("the Khronos validator finds no error in what is written", "[io]") {
     std::string files;
     int number = 0;
     for (const Scene& scene : scenes())
-        for (const bool draco : {false, true})
+        for (const char* how : {"plain", "draco", "quantize", "meshopt"})
             for (const bool manifold : {false, true})
                 for (const char* codec : {"glb", "gltf"}) {
                     io::WriteSettings settings;
-                    settings.draco.on = draco;
+                    settings.draco.on = how == std::string("draco");
+                    settings.meshopt.on = how == std::string("meshopt");
+                    settings.quantize.on = settings.meshopt.on || how == std::string("quantize");
                     settings.mesh_manifold = manifold;
                     settings.lods = number % 2 == 0; // most scenes have none: told, and no harm
                     settings.title = "f";

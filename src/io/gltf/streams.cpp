@@ -1,0 +1,123 @@
+// Animations, instances and bind matrices, each accessor in a view of its own, so that meshopt can compress
+// them: rotations by its filter QUATERNION, translations and scales by EXPONENTIAL, all else without loss.
+
+#include "io/gltf/accessor.hpp"
+#include "io/gltf/patch.hpp"
+#include "io/gltf/quantise.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::io::gltf {
+
+namespace {
+
+class Streams {
+  public:
+    explicit Streams(Patch& patch)
+        : builder_(patch.builder), json_(patch.builder.json()), filters_(patch.settings.meshopt.filters) {}
+
+    void run();
+
+  private:
+    void store(Json& reference, const std::string& path);
+    std::optional<Stored> stored(std::size_t accessor, const std::string& path);
+    void store_animation(Json& animation);
+
+    Builder& builder_;
+    Json& json_;
+    bool filters_;
+    std::map<std::string, std::size_t> made_; ///< by accessor and what it is for
+};
+
+/// Bits of translations and scales, over their greatest extent: half a step is below a hundred-thousandth.
+constexpr int path_bits = 16;
+
+std::optional<Stored> Streams::stored(std::size_t index, const std::string& path) {
+    const Json& given = json_["accessors"][index];
+    if (!given.contains("bufferView") || given.contains("sparse")) return {};
+    if (builder_.current().without_bytes(given["bufferView"].get<std::size_t>())) return {};
+    const Json reference = index;
+    const Accessor a = accessor(builder_.current(), Place(reference, fmt::format("accessors[{}]", index)));
+    const Attribute numbers{"",           Domain::wedge, Role::generic,
+                            a.components, a.normalised,  decode(builder_.current(), a)};
+    const bool floats = a.component_type == float32;
+    std::optional<Stored> coded;
+    if (filters_ && floats && path == "rotation" && a.components == 4) coded = quaternions(numbers);
+    if (filters_ && floats && path == "translation")
+        coded = exponential(numbers, exponent_of_range(numbers, path_bits), false);
+    if (coded) return coded;
+    // Only vertex data may have gaps.
+    if (size_of(a.component_type) * static_cast<std::size_t>(a.components) % 4 != 0) return {};
+    Stored plainly = plain(numbers.data, a.components, a.normalised, false);
+    for (const char* key : {"min", "max"})
+        if (given.contains(key)) plainly.accessor[key] = given[key];
+    return plainly;
+}
+
+/// Points the reference at a new accessor for what it is used.
+void Streams::store(Json& reference, const std::string& path) {
+    const auto index = reference.get<std::size_t>();
+    if (index >= count_of(json_, "accessors")) return;
+    const std::string key = fmt::format("{} {}", index, path);
+    auto known = made_.find(key);
+    if (known == made_.end()) {
+        std::size_t made = index;
+        if (auto better = stored(index, path)) {
+            for (const char* member : {"name", "extras"})
+                if (json_["accessors"][index].contains(member))
+                    better->accessor[member] = json_["accessors"][index][member];
+            made = builder_.add_stored(std::move(*better), 0);
+            builder_.release({{"attributes", {{"old", index}}}});
+        }
+        known = made_.emplace(key, made).first;
+    }
+    reference = known->second;
+}
+
+void Streams::store_animation(Json& animation) {
+    std::map<std::size_t, std::string> paths; // by sampler; empty where several disagree
+    for (const Json& channel : animation["channels"]) {
+        const std::string path = channel["target"].value("path", "");
+        const auto sampler = channel["sampler"].get<std::size_t>();
+        const auto [at, first] = paths.emplace(sampler, path == "scale" ? "translation" : path);
+        if (!first && at->second != (path == "scale" ? "translation" : path)) at->second.clear();
+    }
+    for (std::size_t s = 0; s < animation["samplers"].size(); ++s) {
+        Json& sampler = animation["samplers"][s];
+        store(sampler["input"], "");
+        const bool cubic = sampler.value("interpolation", "LINEAR") == "CUBICSPLINE";
+        store(sampler["output"], cubic ? "" : paths[s]);
+    }
+}
+
+void Streams::run() {
+    for (std::size_t a = 0; a < count_of(json_, "animations"); ++a) {
+        Json animation = json_["animations"][a];
+        store_animation(animation);
+        json_["animations"][a] = std::move(animation);
+    }
+    for (std::size_t s = 0; s < count_of(json_, "skins"); ++s) {
+        if (!json_["skins"][s].contains("inverseBindMatrices")) continue;
+        Json reference = json_["skins"][s]["inverseBindMatrices"];
+        store(reference, "");
+        json_["skins"][s]["inverseBindMatrices"] = reference;
+    }
+    const Json::json_pointer instances("/extensions/EXT_mesh_gpu_instancing/attributes");
+    for (std::size_t n = 0; n < count_of(json_, "nodes"); ++n) {
+        if (!json_["nodes"][n].contains(instances)) continue;
+        Json attributes = json_["nodes"][n][instances];
+        for (auto& [name, reference] : attributes.items())
+            store(reference, name == "ROTATION"                         ? "rotation"
+                             : name == "TRANSLATION" || name == "SCALE" ? "translation"
+                                                                        : "");
+        json_["nodes"][n][instances] = std::move(attributes);
+    }
+}
+
+} // namespace
+
+void store_streams(Patch& patch) {
+    if (patch.settings.meshopt.on) Streams(patch).run();
+}
+
+} // namespace facetmill::io::gltf

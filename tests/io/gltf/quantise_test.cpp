@@ -1,0 +1,400 @@
+// KHR_mesh_quantization and meshopt's compression: what is read again is within half a step of what was
+// written, wherever the mesh stands.
+#include "base/portable_math.hpp"
+#include "base/random.hpp"
+#include "io/codec.hpp"
+#include "io/gltf/accessor.hpp"
+#include "io/gltf/compress.hpp"
+#include "io/png.hpp"
+#include "io/read_back.hpp"
+#include "mesh/shapes.hpp"
+#include "mesh/transform.hpp"
+#include "support/catch.hpp"
+#include "support/gltf.hpp"
+#include "support/run_stage.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+io::WriteSettings with_bits(int position, int normal, int uv, int colour, int weights) {
+    io::WriteSettings settings;
+    settings.quantize = {.on = true,
+                         .position_bits = position,
+                         .normal_bits = normal,
+                         .uv_bits = uv,
+                         .colour_bits = colour,
+                         .weight_bits = weights};
+    return settings;
+}
+
+void add(Mesh& mesh, const char* name, Role role, int components, std::vector<float> numbers) {
+    mesh.attributes.push_back({name, Domain::vertex, role, components, false, std::move(numbers)});
+}
+
+/// A torus with every kind of attribute, and a number for each vertex that nothing rounds.
+Mesh dressed(std::uint64_t seed) {
+    Mesh mesh = shapes::torus(16, 12);
+    std::uint64_t drawn = 0;
+    const auto number = [&](double low, double high) {
+        return static_cast<float>(low + (high - low) * uniform(hashed(seed, drawn++)));
+    };
+    std::vector<float> normals, tangents, uv, colours, weights, deltas, ids;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        const Vec3 n = normalised({number(-1, 1), number(-1, 1), number(-1, 1)});
+        const Vec3 t = normalised({number(-1, 1), number(-1, 1), number(-1, 1)});
+        for (std::size_t c = 0; c < 3; ++c) {
+            normals.push_back(static_cast<float>(n[c]));
+            tangents.push_back(static_cast<float>(t[c]));
+            colours.push_back(number(0, 1));
+            deltas.push_back(number(-0.5, 0.5));
+        }
+        tangents.push_back(v % 2 == 0 ? 1.0F : -1.0F);
+        for (int c = 0; c < 2; ++c) uv.push_back(number(0, 1));
+        const float w = number(0, 1);
+        weights.insert(weights.end(), {w, (1 - w) / 2, (1 - w) / 2, 0});
+        ids.push_back(static_cast<float>(v));
+    }
+    add(mesh, "NORMAL", Role::normal, 3, std::move(normals));
+    add(mesh, "TANGENT", Role::tangent, 4, std::move(tangents));
+    add(mesh, "TEXCOORD_0", Role::uv, 2, std::move(uv));
+    add(mesh, "COLOR_0", Role::colour, 3, std::move(colours));
+    add(mesh, "WEIGHTS_0", Role::weights, 4, std::move(weights));
+    mesh.attributes.push_back({"JOINTS_0", Domain::vertex, Role::joints, 4, false,
+                               std::vector<std::uint16_t>(4 * mesh.vertex_count(), 1)});
+    add(mesh, "TARGET_0_POSITION", Role::morph_vector, 3, std::move(deltas));
+    add(mesh, "_id", Role::generic, 1, std::move(ids));
+    return mesh;
+}
+
+/// The largest difference of an attribute's numbers to those of the vertices that they were written for.
+double difference(const Mesh& mesh, const Mesh& given, const char* name, double scale = 1) {
+    const Attribute& here = *mesh.find(name, Domain::wedge);
+    const Attribute& there = *given.find(name, Domain::vertex);
+    const Attribute& ids = *mesh.find("_id", Domain::wedge);
+    double most = 0;
+    for (std::size_t w = 0; w < mesh.wedge_count(); ++w)
+        for (int c = 0; c < here.components; ++c)
+            most = std::max(most, std::abs(here.value(w, c) * scale -
+                                           there.value(static_cast<std::size_t>(ids.value(w, 0)), c)));
+    return most;
+}
+
+/// The largest difference of a coordinate in the world.
+double moved(const Part& part, const Part& given) {
+    const Attribute& ids = *part.mesh.find("_id", Domain::wedge);
+    double most = 0;
+    for (Index w = 0; w < part.mesh.wedge_count(); ++w) {
+        const Vec3 is = part.transform.point(part.mesh.positions[part.mesh.vertex_of_wedge(w)]);
+        const auto id = static_cast<std::size_t>(ids.value(w, 0));
+        const Vec3 was = given.transform.point(given.mesh.positions[id]);
+        for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(is[c] - was[c]));
+    }
+    return most;
+}
+
+double step_of(const Mesh& mesh, int bits) {
+    const Vec3 e = mesh.bounds().extent();
+    return std::max({e.x, e.y, e.z}) / ((1 << bits) - 1);
+}
+
+Json json_of(const io::Written& written) { return Json::parse(test::json_of(written.files.at(0).bytes)); }
+
+/// The document of a torus at a node, changed before it is read.
+template <class Change>
+Scene torus_in(Change&& change) {
+    const Scene scene = test::scene_in_metres(dressed(1));
+    const Scene plain = test::again(scene);
+    Json json = Json::parse(plain.documents.at(0)->json);
+    change(json);
+    // As a GLB again, with the bytes that it had.
+    const auto& bytes = plain.documents[0]->buffers.at(0);
+    json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + io::base64(bytes);
+    return test::read_text(json.dump());
+}
+
+} // namespace
+
+TEST_CASE("quantized attributes are within half a step", "[io]") {
+    const std::vector<std::array<int, 5>> cases = {
+        {14, 8, 12, 8, 8}, {8, 2, 1, 1, 8}, {16, 16, 16, 16, 16}, {5, 12, 10, 10, 9}};
+    for (const bool meshopt : {false, true})
+        for (const auto& [position, normal, uv, colour, weights] : cases) {
+            INFO(meshopt << " " << position << " " << normal);
+            io::WriteSettings settings = with_bits(position, normal, uv, colour, weights);
+            settings.meshopt = {.on = meshopt, .extension = {}, .filters = false};
+            Scene scene = test::scene_in_metres(dressed(static_cast<std::uint64_t>(position)));
+            scene.parts[0].transform.m[1][3] = 3;
+            const Part part = test::again(scene, settings).parts.at(0);
+            const Mesh& given = scene.parts[0].mesh;
+            constexpr double slack = 1 + 1e-6; // of float32's rounding of a step
+            const double step = step_of(given, position);
+            CHECK(moved(part, scene.parts[0]) <= step / 2 * slack);
+            CHECK(difference(part.mesh, given, "TARGET_0_POSITION", step) <= step / 2 * slack);
+            const auto half = [](int bits, int stored) { // of a step of the bits, and of the integers
+                const double steps = (1 << bits) - 1, most = (1 << stored) - 1;
+                return 0.5 / steps + (bits == stored ? 0 : 0.5 / most) + 1e-7;
+            };
+            CHECK(difference(part.mesh, given, "NORMAL") <= half(normal - 1, normal <= 8 ? 7 : 15));
+            CHECK(difference(part.mesh, given, "TANGENT") <= half(normal - 1, normal <= 8 ? 7 : 15));
+            CHECK(difference(part.mesh, given, "TEXCOORD_0") <= half(uv, uv <= 8 ? 8 : 16));
+            CHECK(difference(part.mesh, given, "COLOR_0") <= half(colour, colour <= 8 ? 8 : 16));
+            CHECK(difference(part.mesh, given, "_id") == 0);
+            const Attribute& stored = *part.mesh.find("WEIGHTS_0", Domain::wedge);
+            CHECK(std::string(stored.type()) == (weights <= 8 ? "uint8" : "uint16"));
+            const double whole = weights <= 8 ? 255 : 65535;
+            CHECK(difference(part.mesh, given, "WEIGHTS_0") <=
+                  1 / whole + 1e-7); // shares are rounded together
+            for (std::size_t w = 0; w < stored.size(); ++w) {
+                double sum = 0;
+                for (int c = 0; c < 4; ++c) sum += stored.value(w, c) * whole;
+                REQUIRE(std::abs(sum - whole) < 1e-6);
+            }
+        }
+}
+
+TEST_CASE("meshopt's filters keep attributes within half a step", "[io]") {
+    for (const bool quantize : {true, false}) {
+        INFO(quantize);
+        io::WriteSettings settings = with_bits(14, 8, 12, 8, 8);
+        settings.quantize.on = quantize;
+        settings.meshopt.on = true;
+        const Scene scene = test::scene_in_metres(dressed(5));
+        const io::Written written = test::written(scene, "glb", settings);
+        CHECK(written.warnings.empty());
+        const Scene again = test::read_bytes(written.files[0].bytes, "glb");
+        const Mesh &mesh = again.parts.at(0).mesh, &given = scene.parts[0].mesh;
+        const double step = step_of(given, 14), float_step = 1.0 / (1 << 23);
+        CHECK(moved(again.parts[0], scene.parts[0]) <= (quantize ? step / 2 * (1 + 1e-6) : 2 * float_step));
+        CHECK(difference(mesh, given, "_id") == 0);
+        // Half a step h = 0.5 / 127 in two coordinates is up to h sqrt(6) on the octahedron, whose faces are
+        // 1 / sqrt(3) from the middle: h sqrt(18) on the sphere; and half a step of int8 after that.
+        const double of_octahedron = (std::sqrt(18.0) + 1) * 0.5 / 127;
+        for (const char* name : {"NORMAL", "TANGENT"})
+            CHECK(difference(mesh, given, name) <= (quantize ? of_octahedron : 2 * float_step));
+        CHECK(difference(mesh, given, "TEXCOORD_0") <= (quantize ? 0.5 / 4095 + 0.5 / 65535 : float_step));
+        const Json json = json_of(written);
+        const Json required = json["extensionsRequired"];
+        CHECK(std::count(required.begin(), required.end(), "EXT_meshopt_compression") == 1);
+        CHECK(std::count(required.begin(), required.end(), "KHR_mesh_quantization") == (quantize ? 1 : 0));
+        REQUIRE(json["buffers"].size() == 2);
+        CHECK(json["buffers"][1]["extensions"]["EXT_meshopt_compression"]["fallback"] == true);
+        CHECK(json["buffers"][1]["byteLength"].get<std::size_t>() >
+              json["buffers"][0]["byteLength"].get<std::size_t>());
+    }
+}
+
+TEST_CASE("a node that something depends on gets the grid's transform below it", "[io]") {
+    io::WriteSettings settings = with_bits(14, 8, 12, 8, 8);
+    const auto nodes = [&](auto&& change) {
+        const Scene scene = torus_in(change);
+        const io::Written written = test::written(scene, "glb", settings);
+        const Scene again = test::read_bytes(written.files[0].bytes, "glb");
+        CHECK(again.parts.at(0).name == scene.parts.at(0).name);
+        CHECK(moved(again.parts[0], scene.parts[0]) <=
+              step_of(scene.parts[0].mesh, 14) * greatest_stretch(scene.parts[0].transform));
+        io::read_back(io::Input::of("a.glb", written.files[0].bytes), *io::codec_named("glb"), scene,
+                      settings);
+        return json_of(written);
+    };
+    // By itself it takes the grid, whatever its transform is made of.
+    CHECK(nodes([](Json& j) { j["nodes"][0]["rotation"] = {0.6, 0, 0, 0.8}; })["nodes"].size() == 1);
+    CHECK(nodes([](Json& j) {
+              j["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0, 4, 5, 6, 1};
+          })["nodes"]
+              .size() == 1);
+    const Json parent = nodes([](Json& j) {
+        j["nodes"][0]["translation"] = {1, 2, 3};
+        j["nodes"][0]["children"] = {1};
+        j["nodes"].push_back({{"name", "child"}});
+    });
+    CHECK(parent["nodes"][0]["translation"] == Json::array({1, 2, 3}));
+    CHECK(parent["nodes"][0]["children"] == Json::array({1, 2}));
+    CHECK_FALSE(parent["nodes"][0].contains("mesh"));
+    const Json animated = nodes([](Json& j) {
+        const Json& primitive = j["meshes"][0]["primitives"][0];
+        const Json positions = primitive["attributes"]["POSITION"], id = primitive["attributes"]["_id"];
+        j["nodes"][0]["weights"] = {0.5};
+        j["animations"] = {
+            {{"channels",
+              {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
+               {{"sampler", 1}, {"target", {{"node", 0}, {"path", "weights"}}}}}},
+             {"samplers", {{{"input", id}, {"output", positions}}, {{"input", id}, {"output", id}}}}}};
+    });
+    CHECK(animated["animations"][0]["channels"][0]["target"]["node"] == 0);
+    CHECK(animated["animations"][0]["channels"][1]["target"]["node"] == 1);
+    CHECK(animated["nodes"][1]["weights"] == Json::array({0.5}));
+    CHECK_FALSE(animated["nodes"][0].contains("weights"));
+}
+
+TEST_CASE("positions without a node for their grid stay float32, and that is said", "[io]") {
+    io::WriteSettings settings = with_bits(14, 8, 12, 8, 8);
+    const auto type = [&](auto&& change) {
+        const io::Written written = test::written(torus_in(change), "glb", settings);
+        const bool said =
+            std::any_of(written.changes.begin(), written.changes.end(), [](const AttributeChange& c) {
+                return c.attribute == "POSITION" && c.why.rfind("stays float32", 0) == 0;
+            });
+        const Json json = json_of(written);
+        const Json& primitive = json["meshes"][0]["primitives"][0];
+        const Json& positions = json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
+        const Json& normals = json["accessors"][primitive["attributes"]["NORMAL"].get<std::size_t>()];
+        CHECK(normals["componentType"] == 5120);
+        CHECK(said == (positions["componentType"] == 5126));
+        return positions["componentType"].get<int>();
+    };
+    CHECK(type([](Json&) {}) == 5123);
+    CHECK(type([](Json& j) {
+              j["skins"] = {{{"joints", {1}}}};
+              j["nodes"][0]["skin"] = 0;
+              j["nodes"].push_back(Json::object());
+          }) == 5126);
+    CHECK(type([](Json& j) {
+              const Json id = j["meshes"][0]["primitives"][0]["attributes"]["NORMAL"];
+              j["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = id;
+              j["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+          }) == 5126);
+}
+
+TEST_CASE("texture coordinates beyond the unit square are signed, or stay float32", "[io]") {
+    for (const auto& [low, high, type] :
+         {std::tuple(0.0F, 1.0F, "uint16"), {-0.5F, 1.0F, "int16"}, {0.0F, 1.5F, "float32"}}) {
+        Scene scene = test::scene_in_metres(dressed(2));
+        auto& uv = std::get<std::vector<float>>(scene.parts[0].mesh.find("TEXCOORD_0", Domain::vertex)->data);
+        uv[0] = low;
+        uv[1] = high;
+        const Mesh mesh = test::again(scene, with_bits(14, 8, 12, 8, 8)).parts.at(0).mesh;
+        CHECK(std::string(mesh.find("TEXCOORD_0", Domain::wedge)->type()) == type);
+        CHECK(difference(mesh, scene.parts[0].mesh, "TEXCOORD_0") <= 0.5 / 4095 + 0.5 / 32767);
+    }
+}
+
+TEST_CASE("a grid far from the origin loses nothing to float32", "[io]") {
+    Scene scene = test::scene_in_metres(dressed(3));
+    for (Vec3& p : scene.parts[0].mesh.positions) p = p * 0.1 + Vec3{455000.123, 5427000.456, 80};
+    const Part part = test::again(scene, with_bits(14, 8, 12, 8, 8)).parts.at(0);
+    CHECK(moved(part, scene.parts[0]) <= step_of(scene.parts[0].mesh, 14) / 2 + 2e-9); // of doubles there
+}
+
+TEST_CASE("what is quantized or compressed already stays as it is", "[io]") {
+    for (const auto extension : {io::MeshoptSettings::Extension::ext, io::MeshoptSettings::Extension::khr}) {
+        io::WriteSettings settings = with_bits(14, 8, 12, 8, 8);
+        settings.meshopt = {.on = true, .extension = extension, .filters = true};
+        const auto first = test::written(test::scene_in_metres(dressed(4)), "glb", settings).files[0].bytes;
+        const io::Written second = test::written(test::read_bytes(first, "glb"), "glb", settings);
+        CHECK(second.files[0].bytes == first);
+        settings.meshopt.on = false;
+        const io::Written plainly = test::written(test::read_bytes(first, "glb"), "glb", settings);
+        REQUIRE(plainly.warnings.size() == 1);
+        CHECK(plainly.warnings[0].id == "W-MESHOPT");
+        const Json json = json_of(plainly);
+        CHECK(json["extensionsRequired"] == Json::array({"KHR_mesh_quantization"}));
+        CHECK(json["buffers"].size() == 1);
+    }
+}
+
+TEST_CASE("rotations and paths of animations are compressed within 16 bits", "[io]") {
+    std::vector<float> times, turns, places;
+    for (int i = 0; i < 64; ++i) {
+        const double angle = 0.05 * i;
+        times.push_back(static_cast<float>(i) / 24);
+        for (const double x : {0.0, sine(angle), 0.0, cosine(angle)}) turns.push_back(static_cast<float>(x));
+        for (const double x : {angle, 100 + angle, sine(angle)}) places.push_back(static_cast<float>(x));
+    }
+    Scene scene = torus_in([&](Json& j) {
+        const auto add_numbers = [&](const std::vector<float>& numbers, const char* type, int width) {
+            const auto bytes = std::as_bytes(std::span(numbers));
+            const std::size_t buffer = j["buffers"].size();
+            j["buffers"].push_back({{"byteLength", bytes.size()},
+                                    {"uri", "data:application/octet-stream;base64," + io::base64(bytes)}});
+            j["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", bytes.size()}});
+            Json accessor = {{"bufferView", j["bufferViews"].size() - 1},
+                             {"componentType", 5126},
+                             {"count", numbers.size() / static_cast<std::size_t>(width)},
+                             {"type", type}};
+            if (width == 1) {
+                accessor["min"] = {times.front()};
+                accessor["max"] = {times.back()};
+            }
+            j["accessors"].push_back(std::move(accessor));
+            return j["accessors"].size() - 1;
+        };
+        const auto input = add_numbers(times, "SCALAR", 1), rotation = add_numbers(turns, "VEC4", 4),
+                   translation = add_numbers(places, "VEC3", 3);
+        j["animations"] = {
+            {{"channels",
+              {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}},
+               {{"sampler", 1}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+             {"samplers",
+              {{{"input", input}, {"output", rotation}}, {{"input", input}, {"output", translation}}}}}};
+    });
+    io::WriteSettings settings = with_bits(14, 8, 12, 8, 8);
+    settings.meshopt.on = true;
+    const Scene again = test::again(scene, settings);
+    const Json json = Json::parse(again.documents.at(0)->json);
+    io::gltf::Source source(json, again.documents[0]->buffers);
+    const auto numbers = [&](std::size_t sampler, const char* which) {
+        const io::gltf::Place place(json["animations"][0]["samplers"][sampler][which], "");
+        const io::gltf::Accessor a = io::gltf::accessor(source, place);
+        return Attribute{"", {}, {}, a.components, a.normalised, io::gltf::decode(source, a)};
+    };
+    CHECK(std::get<std::vector<float>>(numbers(0, "input").data) == times);
+    const Attribute rotation = numbers(0, "output"), translation = numbers(1, "output");
+    CHECK(std::string(rotation.type()) == "int16");
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        double same = 0, norm = 0, given = 0;
+        for (int c = 0; c < 4; ++c) {
+            same += rotation.value(i, c) * turns[4 * i + static_cast<std::size_t>(c)];
+            norm += rotation.value(i, c) * rotation.value(i, c);
+            given += double{turns[4 * i + static_cast<std::size_t>(c)]} *
+                     turns[4 * i + static_cast<std::size_t>(c)];
+        }
+        // Either sign is the same rotation; the cosine of half the angle between is 1 - angle^2 / 8.
+        CHECK(std::abs(same) > (1 - 2e-9) * std::sqrt(norm * given));
+        for (int c = 0; c < 3; ++c)
+            CHECK(std::abs(translation.value(i, c) - places[3 * i + static_cast<std::size_t>(c)]) <=
+                  3.2 / 65536); // of the greatest extent, 64 * 0.05
+    }
+}
+
+TEST_CASE("KHR_meshopt_compression is read, colours too, and version 1 is refused by name", "[io]") {
+    // Two colours of 8 bits: luma, two chrominances, alpha below a bit.
+    const std::vector<std::uint8_t> coded = {100, 10, 246, 0x80 | 0x7F, 50, 0, 0, 0x80 | 0x00};
+    io::Bytes bytes =
+        io::gltf::encode_meshopt(std::as_bytes(std::span(coded)), {"ATTRIBUTES", "COLOR", 4, 2});
+    const auto document = [&] {
+        return Json{{"bufferViews",
+                     {{{"buffer", 1},
+                       {"byteLength", 8},
+                       {"extensions",
+                        {{"KHR_meshopt_compression",
+                          {{"buffer", 0},
+                           {"byteLength", bytes.size()},
+                           {"byteStride", 4},
+                           {"mode", "ATTRIBUTES"},
+                           {"filter", "COLOR"},
+                           {"count", 2}}}}}}}}};
+    };
+    const Json json = document();
+    const std::vector<io::Bytes> buffers{bytes, {}};
+    io::gltf::Source source(json, buffers);
+    const auto view = source.view(std::size_t{0});
+    const std::vector<int> wanted = {120, 90, 100, 255, 50, 50, 50, 0};
+    for (std::size_t i = 0; i < 8; ++i) CHECK(std::to_integer<int>(view[i]) == wanted[i]);
+
+    const std::vector<io::Bytes> newer{[&] {
+                                           io::Bytes copy = bytes;
+                                           copy[0] = std::byte{0xA1};
+                                           return copy;
+                                       }(),
+                                       {}};
+    io::gltf::Source refused(json, newer);
+    CHECK_THROWS_AS(refused.view(std::size_t{0}), Error);
+}
+
+TEST_CASE("write refuses quantize and meshopt beside draco", "[stages]") {
+    for (const char* options :
+         {"{path: a.glb, draco: true, quantize: true}", "{path: a.glb, draco: true, meshopt: true}",
+          "{path: a.ply, quantize: true}", "{path: a.obj, meshopt: true}"})
+        CHECK_THROWS_AS(test::run_stage("write", options, test::scene_in_metres(shapes::cube())), Error);
+}
