@@ -10,7 +10,7 @@
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
 #   make format   run clang-format over the sources
-#   make check-style   the layers, clang-format, and statements separated by commas
+#   make check-style   the layers, clang-format, clang-tidy, and statements separated by commas
 
 PRESET ?= release
 JOBS ?= $(shell n=$$(nproc); [ $$n -gt 2 ] && echo 2 || echo $$n)

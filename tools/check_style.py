@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""check_style.py [BUILD]: clang-format over all sources, and clang's warning about statements separated by commas, which
-read as one.
+"""check_style.py [BUILD]: clang-format over all sources, clang-tidy (.clang-tidy) over src, and over the tests clang's warning
+about statements separated by commas, which read as one.
 
-Versions of clang-format differ in what they make, so only the one of Debian 12 judges; elsewhere the script says that it
-is skipped. BUILD is a configured build directory (build/release), whose list of compilations is used; files of CGAL and
-OpenMesh are left out, because clang takes minutes for them."""
+Versions of these tools differ in what they say, so only the ones of Debian 12 judge; elsewhere the script says that it
+is skipped. BUILD is a configured build directory (build/release), whose list of compilations is used, rooms together as
+it compiles them; files of CGAL and OpenMesh are left out, because clang takes minutes for them."""
 
 import concurrent.futures
 import json
@@ -15,9 +15,11 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 VERSION = "14"
+COMMAS = ["-Wno-everything", "-Wcomma"]  # not -w, which silences the second one, too
 
 
 def tool(name):
@@ -38,43 +40,76 @@ def unformatted(clang_format):
 
 
 def compilations(build):
-    """(directory, arguments for clang, file) of what the build compiles without CGAL and OpenMesh."""
+    """(directory, arguments for clang, precompiled header, file) of what the build compiles without CGAL and OpenMesh."""
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         made = re.search(r" -o (\S+)", entry["command"]).group(1)
         if re.search(r"facetmill_(cgal|openmesh|oracle)\.dir/|cmake_pch", made):
             continue
-        words, kept = iter(shlex.split(entry["command"])[1:]), []
+        words, kept, header = iter(shlex.split(entry["command"])[1:]), [], None
         for word in words:
             if word in ("-o", "-c"):
                 next(words)
-            elif word == "-include":  # a header precompiled by another compiler; its text will do
-                header = pathlib.Path(next(words)).read_text(encoding="utf-8")
-                kept += ["-include", re.search(r'#include "(.*)"', header).group(1)]
+            elif word == "-include":  # precompiled by another compiler
+                text = pathlib.Path(next(words)).read_text(encoding="utf-8")
+                header = re.search(r'#include "(.*)"', text).group(1)
             elif word.startswith(("-I", "-D", "-isystem", "-std")):
                 kept.append(word)
                 if word == "-isystem":
                     kept.append(next(words))
-        yield entry["directory"], kept, entry["file"]
+        yield entry["directory"], kept, header, entry["file"]
 
 
-def commas(clang, work):
-    directory, arguments, file = work
-    run = subprocess.run([clang, *arguments, "-w", "-Wcomma", "-fsyntax-only", file], cwd=directory,
-                         capture_output=True, text=True)
-    if run.returncode != 0:
-        return [f"{file}: {run.stderr.strip()}"]
-    return [line for line in run.stderr.splitlines() if "-Wcomma" in line]
+def precompile(clang, work, folder):
+    """Compiles the headers that the compilations begin with, each once: {header: arguments that use it}."""
+    made = {None: []}
+    for directory, arguments, header, _ in work:
+        if header not in made:
+            path = str(pathlib.Path(folder) / f"{len(made)}.pch")
+            subprocess.run([clang, *arguments, "-w", "-x", "c++-header", header, "-o", path], cwd=directory, check=True)
+            made[header] = ["-include-pch", path]
+    return made
+
+
+def judge(clang, clang_tidy, arguments, directory, file):
+    """What the tools say about one compilation: clang-tidy of the program, clang alone of tests and benchmarks."""
+    if "/tests/" in file or "/bench/" in file:
+        command = [clang, *arguments, *COMMAS, "-fsyntax-only", file]
+    else:
+        command = [clang_tidy, "--quiet", f"--config-file={ROOT}/.clang-tidy", f"--header-filter={ROOT}/src/.*", file,
+                   "--", *arguments, *COMMAS]
+    run = subprocess.run(command, cwd=directory, capture_output=True, text=True)
+    said = run.stdout + run.stderr
+    if run.returncode != 0 and " error: " not in said:
+        return [f"{file}: {said.strip()}"]
+    return [line for line in said.splitlines() if re.search(r": (warning|error): ", line)]
+
+
+def can_fail(clang, clang_tidy, folder):
+    """Whether the tools find what they are there to find: a check that says nothing may have looked at nothing."""
+    file = pathlib.Path(folder) / "wrong.cpp"
+    file.write_text("int f() { int aB = 1, b = 0; aB = 2, b = 3; return aB + b; }\n", encoding="utf-8")
+    for place in (str(file), str(pathlib.Path(folder) / "tests" / "wrong.cpp")):
+        pathlib.Path(place).parent.mkdir(exist_ok=True)
+        pathlib.Path(place).write_text(file.read_text(encoding="utf-8"), encoding="utf-8")
+        said = "\n".join(judge(clang, clang_tidy, ["-std=c++20"], folder, place))
+        if "comma" not in said or ("tests" not in place and "readability-identifier-naming" not in said):
+            return False
+    return True
 
 
 def main():
     build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/release").resolve()
-    clang_format, clang = tool("clang-format"), tool("clang++")
-    if not clang_format or not clang:
-        print(f"style: skipped, clang and clang-format of version {VERSION} are missing")
+    clang_format, clang, clang_tidy = tool("clang-format"), tool("clang++"), tool("clang-tidy")
+    if not clang_format or not clang or not clang_tidy:
+        print(f"style: skipped, clang, clang-format and clang-tidy of version {VERSION} are not all there")
         return 1 if os.environ.get("FACETMILL_REQUIRE_STYLE") == "1" else 0
     found = [f"{name}: not formatted (make format)" for name in unformatted(clang_format)]
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for warnings in pool.map(lambda work: commas(clang, work), compilations(build)):
+    work = list(compilations(build))
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        if not can_fail(clang, clang_tidy, folder):
+            found.append("clang or clang-tidy does not find what is wrong on purpose")
+        headers = precompile(clang, work, folder)
+        for warnings in pool.map(lambda w: judge(clang, clang_tidy, w[1] + headers[w[2]], w[0], w[3]), work):
             found += warnings
     for problem in sorted(set(found)):
         print(problem)

@@ -10,7 +10,7 @@ build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohman
     libpng-dev libjpeg-dev"
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
-optional="ccache zsh fish draco nodejs npm mandoc meson clang clang-format"
+optional="ccache zsh fish draco nodejs npm mandoc meson clang clang-format clang-tidy"
 
 list=no wanted="$build $test"
 for argument in "$@"; do

@@ -90,7 +90,7 @@ class CsvReader {
 };
 
 std::vector<Row> csv_rows(std::shared_ptr<const SourceText> source) {
-    CsvReader reader(source);
+    CsvReader reader(std::move(source));
     std::vector<Cell> heading, record;
     if (!reader.next(heading)) refuse_table({source}, "the table is empty", "its first line names params");
     std::set<std::string> names;

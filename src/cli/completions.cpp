@@ -80,7 +80,7 @@ void add_command(const Command& command, Tables& tables) {
             const std::string name = argument.names.substr(at, end - at);
             if (name.starts_with("--")) options.push_back({name, brief_help(argument.help)});
             if (!argument.choices.empty())
-                tables.emplace_back("values " + owner + " " + name, plain(argument.choices));
+                tables.emplace_back(fmt::format("values {} {}", owner, name), plain(argument.choices));
             at = end + 1;
         }
     }

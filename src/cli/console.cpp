@@ -122,7 +122,7 @@ void Console::say(std::string_view text) const {
         tell("{}\n", text);
 }
 
-void Console::event(Json object) const {
+void Console::event(const Json& object) const {
     if (json && !quiet) line(object);
 }
 

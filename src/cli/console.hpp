@@ -29,7 +29,7 @@ class Console {
     /// For people; left out with quiet. In JSON: {"level": "info", "message": ...}.
     void say(std::string_view text) const;
     /// The same for programs: an object of its own, only with --log json.
-    void event(Json object) const;
+    void event(const Json& object) const;
     /// Whether a line may be drawn anew to show progress: on a terminal, unless messages are lines or JSON.
     bool redraws() const;
     /// A bar on a terminal, lines with verbose, else null.

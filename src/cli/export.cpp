@@ -29,14 +29,14 @@ struct ExportOptions : AssetOptions {
 Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline::PlanSettings& of_all) {
     const auto own = settings_for(work.asset, of_all);
     Job job{work.asset.name, {"run", options.pipeline}, {}, {}, work.memory};
-    for (const auto& [name, value] : own.defines) {
-        job.arguments.emplace_back("-D");
-        job.arguments.push_back(name + "=" + value);
-    }
-    for (const auto& [name, value] : own.sets) {
-        job.arguments.emplace_back("--set");
-        job.arguments.push_back(name + "=" + value);
-    }
+    const auto give = [&](const char* option, const auto& pairs) {
+        for (const auto& [name, value] : pairs) {
+            job.arguments.emplace_back(option);
+            job.arguments.push_back(fmt::format("{}={}", name, value));
+        }
+    };
+    give("-D", own.defines);
+    give("--set", own.sets);
     for (const auto& id : options.common.strict)
         job.arguments.push_back(id == "*" ? "--strict" : "--strict=" + id);
     for (const auto& id : options.common.allowed) {

@@ -279,12 +279,13 @@ class Parser {
                     list.items.push_back(std::move(b));
             one = std::move(list);
         }
+        const Mark at = one.mark;
         if (value.is_null())
             value = std::move(one);
         else if (primary)
-            add(value, primary->name, std::move(one), one.mark, primary);
+            add(value, primary->name, std::move(one), at, primary);
         else if (stage) // an unknown stage has its own error
-            problems_.add(one.mark, "E-PIPE", "a bare value does not go with options here",
+            problems_.add(at, "E-PIPE", "a bare value does not go with options here",
                           "give it by its option's name");
         if (!value.mark.known()) value.mark = where;
     }

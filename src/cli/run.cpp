@@ -47,6 +47,7 @@ int run(const std::vector<std::string>& pipelines, const PipelineOptions& option
                          fmt::format("{} takes one pipeline, found {}", option, pipelines.size()),
                          "run them one by one");
     std::vector<pipeline::Plan> plans;
+    plans.reserve(pipelines.size());
     for (const auto& pipeline : pipelines) plans.push_back(plan_of(pipeline, settings, problems));
     if (!problems.any_errors() && plans.size() > 1) refuse_common_outputs(plans, problems);
     if (refused(plans, problems, console)) return static_cast<int>(ErrorKind::usage);

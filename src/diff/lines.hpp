@@ -18,7 +18,7 @@ struct Comparing {
         add(section, std::move(name), x, y, x == y);
     }
     /// A line that tells nothing, and why.
-    void leave(const char* section, std::string name, Json x, Json y, std::string why) const {
+    void leave(const char* section, std::string name, Json x, Json y, const std::string& why) const {
         result.lines.push_back(
             {section, std::move(name), std::move(x), std::move(y), true, "not compared: " + why, false});
     }

@@ -43,7 +43,7 @@ Json with_expressions(Json schema) {
 }
 
 /// A map with one stage (or branch, foreach) key, and the common keys beside it.
-Json step_schema(const std::string& key, Json value, Json beside = Json::object()) {
+Json step_schema(const std::string& key, Json value, const Json& beside = Json::object()) {
     Json properties = {{key, std::move(value)}};
     properties.update(beside);
     for (const auto& common : common_keys()) properties[common.name] = ref(common.name.c_str());

@@ -194,7 +194,7 @@ Input Input::staged_as(const std::filesystem::path& target, std::shared_ptr<cons
 }
 
 std::filesystem::path Input::path_beside(const std::filesystem::path& relative) const {
-    const std::filesystem::path path = path_.parent_path() / relative;
+    std::filesystem::path path = path_.parent_path() / relative;
     if (instead_)
         if (const auto staged = instead_->find(path.lexically_normal()); staged != instead_->end())
             return staged->second;

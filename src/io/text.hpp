@@ -62,7 +62,11 @@ class Text {
 
     /// Parts of a word, read where the text stands: an integer, or one character; false when it is not there.
     bool take(std::int64_t& value) { return scan_integer(at_, end_, value); }
-    bool take(char c) { return at_ < end_ && *at_ == c ? (++at_, true) : false; }
+    bool take(char c) {
+        const bool there = at_ < end_ && *at_ == c;
+        if (there) ++at_;
+        return there;
+    }
     bool at_word_end() const { return ends_word(); }
 
     int line() const { return line_; }

@@ -325,6 +325,7 @@ class DeclareFields {
     FieldRef choice(std::string_view name, Get get, const std::vector<NamedChoice<E>>& choices,
                     std::string_view help) {
         std::vector<Choice> told;
+        told.reserve(choices.size());
         for (const auto& c : choices) told.push_back({c.name, c.help});
         Json schema = choice_schema(told);
         Field& f = start<Value<Get>>(name, "choice", std::move(schema), help);
@@ -448,7 +449,9 @@ class DeclareFields {
     }
 
     template <class T>
-    Field& start(std::string_view name, const char* type, Json schema, std::string_view help) {
+    Field& start(std::string_view name, const char* type,
+                 Json schema,             // NOLINT(performance-unnecessary-value-param)
+                 std::string_view help) { // it is moved on, which is not seen in a template
         return facetmill::fields::start(fields, name, type, std::move(schema), help,
                                         facetmill::fields::optionals<T>);
     }

@@ -78,6 +78,7 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components
         if (place.pairs++ == 0) place.face = first ? f : g;
     }
     std::vector<NotDone> all;
+    all.reserve(places.size());
     for (const auto& [component, place] : places)
         all.push_back({"self_intersections",
                        fmt::format("{} pairs of faces intersect on a component that {}", place.pairs,

@@ -85,8 +85,8 @@ class Trial {
     }
 
   private:
-    void fail(std::uint32_t mark, std::string why) {
-        if ((mark & ~fresh) != 0) failures_.try_emplace((mark & ~fresh) - 1, std::move(why));
+    void fail(std::uint32_t mark, const std::string& why) {
+        if ((mark & ~fresh) != 0) failures_.try_emplace((mark & ~fresh) - 1, why);
     }
 
     bool one_pass(const Solids& solids, const SelfIntersections& found, double tolerance) {

@@ -109,6 +109,7 @@ class Cutter {
         trace(mesh, name);
         Mesh others = select_faces(mesh, rest);
         std::vector<Index> origin;
+        origin.reserve(rest.size());
         for (const Index f : rest) origin.push_back(origin_[f]);
         mesh = select_faces(mesh, about);
         for (Index& f : about) f = origin_[f];

@@ -52,7 +52,8 @@ void classify_vertices(PlaneCut& cut, const OnPlane& on) {
             ++t.remembered;
             return 0;
         }
-        return s > 0 ? (++t.above, 1) : (++t.below, -1);
+        ++(s > 0 ? t.above : t.below);
+        return s > 0 ? 1 : -1;
     };
     cut.signs.resize(positions.size());
     const Tally tally = parallel_reduce(
@@ -138,6 +139,7 @@ std::uint64_t edge_key(Index low, Index high) { return std::uint64_t{low} << 32 
 void add_passing(PlaneCut& cut, const std::vector<Index>& whole, std::vector<Crossing>& found, Index& slots) {
     const Mesh& mesh = *cut.mesh;
     std::vector<std::uint64_t> edges;
+    edges.reserve(found.size());
     for (const Crossing& c : found)
         edges.push_back(edge_key(mesh.vertex_of_wedge(c.low), mesh.vertex_of_wedge(c.high)));
     std::sort(edges.begin(), edges.end());

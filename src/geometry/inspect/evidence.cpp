@@ -115,6 +115,7 @@ namespace inspect_room {
 
 std::vector<Location> locations_of_faces(const Mesh& mesh, const std::vector<Index>& faces) {
     std::vector<Location> found;
+    found.reserve(faces.size());
     for (const Index f : faces) found.push_back(location_of(mesh, f));
     return found;
 }

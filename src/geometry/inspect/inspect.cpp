@@ -275,6 +275,7 @@ std::vector<Properties> inspect_components(const Mesh& mesh, std::size_t limit) 
         add_face(one, face);
     }
     std::vector<Properties> properties;
+    properties.reserve(meshes.size());
     for (const Mesh& one : meshes) properties.push_back(inspect(one));
     return properties;
 }

@@ -161,6 +161,7 @@ std::vector<std::uint64_t> keys_of_components(const Mesh& mesh, const std::vecto
         for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
             if (is_lower(mesh.point(c), lowest[of_face[f]])) lowest[of_face[f]] = mesh.point(c);
     std::vector<std::uint64_t> keys;
+    keys.reserve(lowest.size());
     for (const Vec3& p : lowest) keys.push_back(hashed(5, inspect_room::key_of_point(p)));
     return keys;
 }

@@ -88,8 +88,8 @@ Picture developed(const Canvas& canvas, const std::optional<Colour>& ground) {
         }
         if (covered == 0) return;
         for (std::size_t c = 0; c < 3; ++c)
-            picture.rgba[4 * pixel + c] = static_cast<std::uint8_t>(
-                255 * std::sqrt(std::clamp(sum[c] / static_cast<float>(covered), 0.0f, 1.0f)) + 0.5f);
+            picture.rgba[4 * pixel + c] = static_cast<std::uint8_t>(std::floor(
+                255 * std::sqrt(std::clamp(sum[c] / static_cast<float>(covered), 0.0f, 1.0f)) + 0.5f));
         picture.rgba[4 * pixel + 3] = static_cast<std::uint8_t>(255 * covered / (n * n));
     });
     return picture;

@@ -92,6 +92,7 @@ std::vector<Piece> pieces_of(const Mesh& mesh, const StackPlanes& stack, const P
             cutter.cut(static_cast<Index>(f), found[begin / default_chunk]);
     });
     std::vector<std::size_t> first;
+    first.reserve(found.size());
     for (const auto& pieces : found) first.push_back(pieces.size());
     const std::size_t count = exclusive_scan(first);
     if (count > (std::size_t{1} << 30))

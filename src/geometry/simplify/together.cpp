@@ -170,6 +170,7 @@ std::vector<std::vector<SimplifyResult>> simplify_together(std::span<const Mesh*
     else
         all = simplify_levels(joined(meshes), settings);
     std::vector<std::vector<SimplifyResult>> results;
+    results.reserve(all.size());
     for (SimplifyResult& r : all) results.push_back(split_up(std::move(r), meshes));
     return results;
 }

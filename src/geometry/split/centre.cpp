@@ -115,7 +115,7 @@ std::vector<double> weights_of(const std::vector<Vec2>& polygon, const Vec2& poi
 
 CentreWeights centre_weights(const Mesh& mesh, Index f) {
     const Index n = mesh.face_size(f);
-    const CentreWeights same{1.0 / n, 1.0 / n, {}};
+    CentreWeights same{1.0 / n, 1.0 / n, {}};
     if (n == 3) return same;
     if (n == 4) {
         const QuadDiagonals quad = quad_diagonals(mesh, f);

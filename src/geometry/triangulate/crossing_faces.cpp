@@ -125,6 +125,7 @@ class OutlineSplitter {
     /// One for each place where the same edges of the mesh meet, whichever face says so.
     Index vertex_for(const std::vector<Index>& corners, const Lineage::Edge& at) {
         std::vector<Index> edges;
+        edges.reserve(corners.size());
         for (const Index c : corners) edges.push_back(edges_.corner_edge[c]);
         std::sort(edges.begin(), edges.end());
         const auto next = static_cast<Index>(mesh_.vertex_count() + added_.size());

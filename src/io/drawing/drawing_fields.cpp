@@ -154,8 +154,7 @@ void declare_contour(DeclareFields<SectionContour>& d) {
         const auto kind = static_cast<polygon::Kind>(k);
         kinds.push_back({polygon::to_string(kind), kind, ""});
     }
-    d.choice("kind", of_closed([](const Contour& c) { return c.kind; }), std::move(kinds),
-             "Its type of polygon.")
+    d.choice("kind", of_closed([](const Contour& c) { return c.kind; }), kinds, "Its type of polygon.")
         .only_when(closed);
     d.field("area", of_closed([](const Contour& c) { return c.area; }), "Negative when it is clockwise.")
         .unit("square scene units")

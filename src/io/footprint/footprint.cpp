@@ -247,7 +247,11 @@ class Wkt {
                 p.x = number();
                 p.y = number();
                 int numbers = 2;
-                for (; skip(), at_ < end_ && *at_ != ',' && *at_ != ')'; ++numbers) number(); // Z and M
+                const auto more = [&] {
+                    skip();
+                    return at_ < end_ && *at_ != ',' && *at_ != ')';
+                };
+                for (; more(); ++numbers) number(); // Z and M
                 if (numbers_ == 0) numbers_ = numbers;
                 if (numbers != numbers_ || numbers > 4)
                     fail(fmt::format("expected a position of {} numbers, found {}", std::min(numbers_, 4),

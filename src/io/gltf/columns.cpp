@@ -162,7 +162,7 @@ std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings,
             continue;
         }
         auto [target, semantic] = target_of(a);
-        if (target < 0 && !standard(semantic, a.components) && semantic[0] != '_') semantic = "_" + semantic;
+        if (target < 0 && !standard(semantic, a.components) && semantic[0] != '_') semantic.insert(0, "_");
         const bool skin = semantic.rfind("JOINTS_", 0) == 0 || semantic.rfind("WEIGHTS_", 0) == 0;
         if (!settings.skinned && skin) {
             drop(a, "its skin is in another document");

@@ -60,6 +60,7 @@ struct Colours {
         Attribute a{"COLOR_0", domain, Role::colour, static_cast<int>(most), bytes, {}};
         if (bytes) {
             std::vector<std::uint8_t> small;
+            small.reserve(numbers.size());
             for (const float x : numbers) small.push_back(static_cast<std::uint8_t>(std::min(x, 255.0F)));
             a.data = std::move(small);
         } else {
@@ -291,7 +292,7 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
         text.at_end();
         for (const char c : {'O', 'F', 'F'}) text.take(c);
         kind.emplace();
-    } else if (!kind && (word.find("4") == 0 || word.find("OFF") != std::string_view::npos) &&
+    } else if (!kind && (word.starts_with('4') || word.find("OFF") != std::string_view::npos) &&
                word.ends_with("OFF")) {
         text.fail(fmt::format("{} is a kind of OFF that is not read: points have three coordinates here",
                               in_quotes(word)),

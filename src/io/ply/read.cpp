@@ -289,7 +289,7 @@ class Builder {
     [[noreturn]] void fail(const Element& e, std::string message) const {
         malformed(input_.name(), e.line, "E-PLY", std::move(message));
     }
-    void skipped(std::string what) {
+    void skipped(const std::string& what) {
         log_.warnings.push_back({Severity::warning, "W-SKIPPED", what + " cannot be kept: skipped",
                                  file_mark(input_.name()), ""});
     }

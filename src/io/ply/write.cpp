@@ -42,6 +42,7 @@ std::vector<std::string> names_of(const Attribute& a) {
         if (static_cast<unsigned char>(c) <= ' ') c = '_';
     if (a.components == 1) return {stem};
     std::vector<std::string> names;
+    names.reserve(static_cast<std::size_t>(a.components));
     for (int c = 0; c < a.components; ++c) names.push_back(fmt::format("{}_{}", stem, c));
     return names;
 }

@@ -63,8 +63,7 @@ std::optional<Value> list_in_text(const Value& text) { return ListReader(text.te
 
 Value listed(const Value& value) {
     if (!value.is_scalar() || value.deferred) return value;
-    auto list = list_in_text(value);
-    return list ? std::move(*list) : value;
+    return list_in_text(value).value_or(value);
 }
 
 } // namespace facetmill

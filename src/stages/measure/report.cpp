@@ -94,6 +94,7 @@ NamedCounts kinds_of(const FaceResult& faces) {
 
 void declare_faces(DeclareFields<FaceResult>& d) {
     std::vector<std::string> names;
+    names.reserve(polygon::kinds);
     for (int k = 0; k < polygon::kinds; ++k)
         names.push_back(polygon::to_string(static_cast<polygon::Kind>(k)));
     d.object("area", &FaceResult::area, "Their areas.", statistics_fields("square scene units"));

@@ -113,6 +113,7 @@ std::vector<DocumentExtension> extensions_of(const Scene& scene) {
             for (const auto& e : list_at(parse_json(d->json, Broken::discarded), "extensionsUsed"))
                 if (e.is_string()) used.emplace(e.get<std::string>(), d->name);
     std::vector<DocumentExtension> all;
+    all.reserve(used.size());
     for (const auto& [name, document] : used) all.push_back({name, document});
     return all;
 }
