@@ -6,7 +6,8 @@
 
 namespace facetmill {
 
-/// The text with & < > and both quotes as entities; control characters, which XML cannot hold, become U+FFFD.
+/// The text with & < > and both quotes as entities; control characters and bytes that are no UTF-8, which XML
+/// cannot hold, become U+FFFD, each.
 std::string escaped(std::string_view text);
 
 } // namespace facetmill

@@ -1,0 +1,19 @@
+#include "base/markup.hpp"
+
+#include "support/catch.hpp"
+
+using namespace facetmill;
+
+TEST_CASE("escaped texts have only what XML can hold", "[base]") {
+    const std::string bad = "\xEF\xBF\xBD";
+    CHECK(escaped("a<b>&\"'") == "a&lt;b&gt;&amp;&quot;&#39;");
+    CHECK(escaped("one\ttwo\nthree") == "one\ttwo\nthree");
+    CHECK(escaped("\x01") == bad);
+    CHECK(escaped("\xC3\xA4 \xE2\x82\xAC \xF0\x9F\x98\x80") == "\xC3\xA4 \xE2\x82\xAC \xF0\x9F\x98\x80");
+    CHECK(escaped("a\xE4z") == "a" + bad + "z");                 // Latin-1
+    CHECK(escaped("\xE2\x82") == bad + bad);                     // cut short
+    CHECK(escaped("\xC0\xAF") == bad + bad);                     // spelled longer than needed
+    CHECK(escaped("\xED\xA0\x80") == bad + bad + bad);           // a surrogate
+    CHECK(escaped("\xF4\x90\x80\x80") == bad + bad + bad + bad); // beyond the last character
+    CHECK(escaped("\xE4<") == bad + "&lt;");                     // what follows is read for itself
+}
