@@ -40,6 +40,8 @@ TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages
     CHECK(plain.find("transform: {centre: true}") != std::string::npos);
     const std::string draco = warnings_of(scene, fmt::format("{{path: {}, draco: true}}", glb));
     CHECK(draco.find("so far from the origin") != std::string::npos);
+    // Its grid stands in the node, in 64 bits.
+    CHECK(warnings_of(scene, fmt::format("{{path: {}, quantize: true}}", glb)).empty());
     CHECK(draco.find("draco.position_bits") == std::string::npos);
     CHECK(warnings_of(scene, ply).find("precision: full keeps all digits") != std::string::npos);
     CHECK(warnings_of(scene, fmt::format("{{path: {}, precision: full}}", ply)).empty());

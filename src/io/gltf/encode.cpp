@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/draco/draco.hpp"
+#include "io/gltf/order.hpp"
 
 #include <cstring>
 #include <fmt/format.h>
@@ -136,6 +137,21 @@ Json primitive_frame(const Mesh& mesh, Index p, const EncodeSettings& settings, 
              ""});
     }
     return out;
+}
+
+/// Whether the order of vertices says something: EXT_mesh_features numbers features by vertices where it
+/// names neither an attribute nor a texture.
+bool keeps_order(const Mesh& mesh, const EncodeSettings& settings) {
+    if (settings.keep_order) return true;
+    for (const Primitive& primitive : mesh.primitives) {
+        if (primitive.json.find("EXT_mesh_features") == std::string::npos) continue;
+        const Json::json_pointer place("/extensions/EXT_mesh_features/featureIds");
+        const Json kept = parse_document(primitive.json);
+        if (!kept.contains(place)) continue;
+        for (const Json& ids : kept[place])
+            if (!ids.contains("attribute") && !ids.contains("texture")) return true;
+    }
+    return false;
 }
 
 /// The table of some of another one's faces.
@@ -304,6 +320,8 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
     for (const auto& column : columns)
         out.targets = std::max(out.targets, static_cast<std::size_t>(column.target + 1));
     auto tables = tables_of(mesh, settings.manifold && !settings.draco.on);
+    if (!settings.draco.on && !keeps_order(mesh, settings))
+        order_for_caches(mesh, tables, settings.manifold, out.cache);
     if (settings.manifold && !settings.draco.on) {
         encode_manifold(builder, mesh, tables, columns, settings, written, out);
         return out;

@@ -13,11 +13,18 @@ inline constexpr int array_buffer = 34962, element_buffer = 34963;
 struct EncodeSettings {
     DracoSettings draco;
     bool manifold = false;   ///< write EXT_mesh_manifold
+    bool keep_order = false; ///< of triangles and vertices
     bool keep_exact = false; ///< positions in doubles go to Builder::exact_positions, too
     ColumnSettings columns;
     std::string name; ///< of the part, for messages
     /// The document's index for a scene material; -1: none.
     std::function<int(Index)> material;
+};
+
+/// Indexed triangles as a cache of 16 transformed vertices, first in, first out, meets them.
+struct VertexCacheUse {
+    std::size_t triangles = 0, vertices = 0;
+    std::size_t before = 0, after = 0; ///< how often a vertex is transformed, as given and as written
 };
 
 /// What goes into a mesh object; the accessors and views are in the builder already.
@@ -26,6 +33,7 @@ struct EncodedMesh {
     Json extensions;                 ///< of the mesh, or null
     std::size_t targets = 0;         ///< morph targets of each primitive
     std::size_t dropped_faces = 0;   ///< degenerate ones, under Draco
+    VertexCacheUse cache;            ///< not under Draco
 };
 
 /// Polygons are triangulated. Positions become float32 with min and max, indices uint16 where they fit, else

@@ -65,6 +65,7 @@ EncodeSettings settings_for(Patch& patch, const Part& part) {
     EncodeSettings s;
     s.draco = patch.settings.draco;
     s.manifold = patch.settings.mesh_manifold;
+    s.keep_order = !patch.settings.meshopt.on; // which compresses neighbours well
     s.keep_exact = patch.settings.quantize.on;
     s.name = part.name;
     s.material = [&patch](Index m) { return patch_material(patch, m); };

@@ -1,0 +1,106 @@
+// Triangles and vertices in an order for caches: the same faces, fewer vertices transformed.
+#include "base/random.hpp"
+#include "io/gltf/encode.hpp"
+#include "mesh/shapes.hpp"
+#include "support/catch.hpp"
+#include "support/gltf.hpp"
+
+#include <algorithm>
+
+using namespace facetmill;
+
+namespace {
+
+/// A sphere whose faces come in no order at all.
+Mesh shuffled_sphere() {
+    Mesh mesh = shapes::icosphere(4);
+    for (std::size_t f = mesh.face_count() - 1; f > 0; --f) {
+        const std::size_t other = hashed(7, f) % (f + 1);
+        std::swap_ranges(mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * f),
+                         mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * f + 3),
+                         mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * other));
+    }
+    std::vector<float> ids(mesh.vertex_count());
+    for (std::size_t v = 0; v < ids.size(); ++v) ids[v] = static_cast<float>(v);
+    mesh.attributes.push_back({"_id", Domain::vertex, Role::generic, 1, false, std::move(ids)});
+    return mesh;
+}
+
+/// Under meshopt, which takes that order, with all numbers as they are.
+io::WriteSettings ordered() {
+    io::WriteSettings settings;
+    settings.meshopt = {.on = true, .extension = {}, .filters = false};
+    return settings;
+}
+
+} // namespace
+
+TEST_CASE("an order for caches transforms fewer vertices", "[io]") {
+    const Mesh mesh = shuffled_sphere();
+    for (const bool manifold : {false, true}) {
+        io::gltf::Builder builder(Json::object(), nullptr);
+        io::Written written;
+        io::gltf::EncodeSettings settings;
+        settings.manifold = manifold;
+        const io::gltf::VertexCacheUse cache = io::gltf::encode_mesh(builder, mesh, settings, written).cache;
+        CHECK(written.warnings.empty());
+        CHECK(cache.triangles == 5120);
+        CHECK(cache.vertices == 2562);
+        CHECK(cache.before > 5120 * 2); // without order nearly every corner is transformed
+        CHECK(cache.after < 5120 * 0.75);
+        CHECK(cache.after >= 2562);
+    }
+}
+
+TEST_CASE("an order for caches keeps faces and attributes", "[io]") {
+    const Scene scene = test::scene_in_metres(shuffled_sphere());
+    for (const bool manifold : {false, true}) {
+        io::WriteSettings settings = ordered();
+        settings.mesh_manifold = manifold;
+        const io::Written written = test::written(scene, "glb", settings);
+        CHECK(written.warnings.empty());
+        CHECK(written.files[0].bytes == test::written(scene, "glb", settings).files[0].bytes);
+        const Mesh read = test::read_bytes(written.files[0].bytes, "glb").parts.at(0).mesh;
+        CHECK(test::drawn(read) == test::drawn(test::again(scene).parts.at(0).mesh));
+        Index next = 0; // vertices come by their first use
+        for (const Index corner : read.corners) {
+            CHECK(corner <= next + 2); // meshopt begins a triangle with whichever corner it likes
+            next = std::max(next, corner + 1);
+        }
+    }
+}
+
+TEST_CASE("what numbers features by vertices keeps its order", "[io]") {
+    Scene scene = test::scene_in_metres(shuffled_sphere());
+    const std::vector<Index> corners = scene.parts[0].mesh.corners;
+    const auto ids = [&](const char* json) {
+        scene.parts[0].mesh.primitives.resize(1);
+        scene.parts[0].mesh.primitives[0].json = json;
+        const Mesh read = test::again(scene, ordered()).parts.at(0).mesh;
+        return std::get<std::vector<float>>(read.find("_id", Domain::wedge)->data);
+    };
+    const auto given = std::get<std::vector<float>>(scene.parts[0].mesh.find("_id", Domain::vertex)->data);
+    CHECK(ids(R"({"extensions":{"EXT_mesh_features":{"featureIds":[{"featureCount":2562}]}}})") == given);
+    CHECK(
+        ids(R"({"extensions":{"EXT_mesh_features":{"featureIds":[{"featureCount":2562,"attribute":0}]}}})") !=
+        given);
+}
+
+TEST_CASE("meshes of several primitives are ordered one by one", "[io]") {
+    Scene scene = test::scene_in_metres(shuffled_sphere());
+    Mesh& mesh = scene.parts[0].mesh;
+    std::vector<Index> primitive(mesh.face_count());
+    for (std::size_t f = 0; f < primitive.size(); ++f) primitive[f] = static_cast<Index>(f % 3);
+    mesh.primitives.resize(3);
+    mesh.attributes.push_back(
+        {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(primitive)});
+    for (const bool manifold : {false, true}) {
+        io::WriteSettings settings = ordered();
+        settings.mesh_manifold = manifold;
+        const Mesh read = test::again(scene, settings).parts.at(0).mesh;
+        CHECK(test::drawn(read) == test::drawn(test::again(scene).parts.at(0).mesh));
+        std::vector<std::size_t> counts(3);
+        for (Index f = 0; f < read.face_count(); ++f) ++counts[read.primitive_of(f)];
+        CHECK(counts == std::vector<std::size_t>{1707, 1707, 1706});
+    }
+}
