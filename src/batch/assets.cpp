@@ -1,6 +1,7 @@
 // What the assets of a batch are.
 
 #include "base/glob.hpp"
+#include "base/words.hpp"
 #include "batch/batch.hpp"
 #include "batch/table.hpp"
 #include "io/bytes.hpp"
@@ -77,7 +78,7 @@ class AssetFinder {
         const auto input = io::Input::open(list);
         std::string_view text = io::as_text(input.bytes());
         const bool nul = text.find('\0') != text.npos;
-        if (!nul && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3); // a byte order mark
+        if (!nul) text = without_byte_order_mark(text);
         bool any = false;
         while (!text.empty()) {
             const auto end = std::min(text.find(nul ? '\0' : '\n'), text.size());

@@ -2,6 +2,7 @@
 
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 #include "batch/batch.hpp"
 #include "batch/words.hpp"
 #include "report/diagnostics_json.hpp"
@@ -54,12 +55,12 @@ std::string line_of(const Asset& asset, const Outcome& out, BatchForm form, bool
         "  {}  {}", paint(colour, bad ? "1;31" : "32", fmt::format("{:<11}", word)), one_line(asset.name));
     if (out.verdict == Outcome::Verdict::failed) text += fmt::format("  exit code {}", out.exit_code);
     if (out.verdict == Outcome::Verdict::ok && out.faces_in + out.faces_out > 0)
-        text += fmt::format("  {} -> {} faces", grouped(out.faces_in), grouped(out.faces_out));
+        text += fmt::format("  {} -> {} {}", grouped(out.faces_in), grouped(out.faces_out),
+                            noun_for(out.faces_out, "face"));
     if (out.verdict == Outcome::Verdict::ok && !out.outputs.empty())
         text += fmt::format("  {}", sized(out.bytes));
     if (terminal && out.seconds > 0) text += fmt::format("  {}", timed(out.seconds));
-    if (!out.warnings.empty())
-        text += fmt::format("  {} warning{}", out.warnings.size(), out.warnings.size() == 1 ? "" : "s");
+    if (!out.warnings.empty()) text += "  " + counted(out.warnings.size(), "warning");
     text += "\n";
     for (const auto& error : out.errors)
         text += fmt::format("{:15}[{}] {}\n", "", error.id, one_line(error.message));
@@ -69,9 +70,8 @@ std::string line_of(const Asset& asset, const Outcome& out, BatchForm form, bool
 std::string totals(const Summary& summary, BatchForm form) {
     std::size_t kept = 0;
     for (const auto& out : summary.outcomes) kept += out.kept;
-    std::string text =
-        fmt::format("{} asset{}: {} ok", summary.assets.size(), summary.assets.size() == 1 ? "" : "s",
-                    count(summary, Outcome::Verdict::ok));
+    std::string text = fmt::format("{}: {} ok", counted(summary.assets.size(), "asset"),
+                                   count(summary, Outcome::Verdict::ok));
     if (form == BatchForm::terminal && kept > 0) text += fmt::format(" ({} kept from before)", kept);
     for (const auto& [verdict, word] : {std::pair{Outcome::Verdict::failed, "failed"},
                                         std::pair{Outcome::Verdict::interrupted, "interrupted"},

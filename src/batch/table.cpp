@@ -1,6 +1,7 @@
 #include "batch/table.hpp"
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "io/bytes.hpp"
 #include "pipeline/document.hpp"
 
@@ -142,12 +143,13 @@ std::vector<Row> yaml_rows(std::shared_ptr<const SourceText> source) {
 } // namespace
 
 std::vector<Row> read_params_table(const std::filesystem::path& file) {
-    std::string text(io::as_text(io::Input::open(file).bytes()));
+    const auto input = io::Input::open(file);
+    std::string_view bytes = io::as_text(input.bytes());
     const std::string extension = file.extension().string();
     const bool yaml = extension == ".yaml" || extension == ".yml";
-    if (!yaml && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3); // a byte order mark
+    if (!yaml) bytes = without_byte_order_mark(bytes); // the reader of YAML counts it in its marks
     const std::string name = file == "-" ? "standard input" : file.string();
-    const auto source = std::make_shared<const SourceText>(SourceText{name, std::move(text)});
+    const auto source = std::make_shared<const SourceText>(SourceText{name, std::string(bytes)});
     auto rows = yaml ? yaml_rows(source) : csv_rows(source);
     std::erase_if(rows, [](const Row& row) { return row.empty(); });
     if (rows.empty()) refuse_table({source}, "the table has no rows");

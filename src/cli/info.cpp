@@ -1,6 +1,7 @@
 // facetmill info: the properties of mesh files.
 
 #include "base/parallel.hpp"
+#include "base/words.hpp"
 #include "cli/command.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "io/codec.hpp"
@@ -54,12 +55,15 @@ std::string entry_text(const Json& entry) {
 
 /// "'body': 1240 faces, euler 2, closed, genus 0"
 std::string component_text(const Json& component) {
-    std::string text = fmt::format("'{}': {} faces, euler {}, ", text_of(component["part"]),
-                                   text_of(component["faces"]), text_of(component["euler"]));
+    const auto count = [&](const char* key, const char* noun) {
+        return counted(component[key].get<std::size_t>(), noun);
+    };
+    std::string text = fmt::format("'{}': {}, euler {}, ", text_of(component["part"]), count("faces", "face"),
+                                   text_of(component["euler"]));
     if (component["closed"].get<bool>())
         text += "closed";
     else
-        text += fmt::format("open, {} boundary loops", text_of(component["boundary_loops"]));
+        text += "open, " + count("boundary_loops", "boundary loop");
     return component["genus"].is_null() ? text : text + ", genus " + text_of(component["genus"]);
 }
 

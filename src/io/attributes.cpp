@@ -1,6 +1,7 @@
 #include "io/attributes.hpp"
 
 #include "base/parallel.hpp"
+#include "base/words.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -114,7 +115,7 @@ void drop_short_faces(Mesh& mesh, const std::string& file, ReadLog& log) {
     mesh.corners = std::move(corners);
     mesh.face_offsets = std::move(offsets);
     log.warnings.push_back({Severity::warning, "W-FACES",
-                            fmt::format("{} faces of fewer than three corners are skipped", dropped),
+                            counted(dropped, "face") + " of fewer than three corners skipped",
                             file_mark(file), ""});
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
+#include "base/words.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -72,9 +73,8 @@ std::vector<std::size_t> places_of(std::span<const std::string_view> names,
 class Table {
   public:
     Table(const Input& input, std::size_t columns, std::span<const std::string_view> names)
-        : input_(input), columns_(columns), names_(names), text_(as_text(input.bytes())) {
-        if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3); // a byte order mark
-    }
+        : input_(input), columns_(columns), names_(names),
+          text_(without_byte_order_mark(as_text(input.bytes()))) {}
 
     std::vector<double> read() {
         bool first = true;

@@ -1,6 +1,7 @@
 #include "io/flatten.hpp"
 
 #include "base/json.hpp"
+#include "base/words.hpp"
 
 #include <charconv>
 #include <cstring>
@@ -68,8 +69,8 @@ void warn_of_textures(Written& written, const Scene& scene, const char* format) 
         written.warnings.push_back(
             {Severity::warning,
              "W-TEXTURES",
-             fmt::format("the textures of {} material{} are not written to {}: {}", textured.size(),
-                         textured.size() == 1 ? "" : "s", format, fmt::join(textured, ", ")),
+             fmt::format("the textures of {} are not written to {}: {}", counted(textured.size(), "material"),
+                         format, fmt::join(textured, ", ")),
              {},
              "glTF keeps them: write .glb"});
 }

@@ -62,9 +62,10 @@ fs::path followed(fs::path path) {
 }
 
 fs::path identity(const fs::path& path) {
+    if (path == "-") return path;
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(fs::absolute(path), error);
-    return error ? path : whole;
+    return error ? fs::absolute(path).lexically_normal() : whole;
 }
 
 std::string temporary_name(const fs::path& target, int attempt) {

@@ -20,7 +20,8 @@ bool is_stream(const std::filesystem::path& target);
 /// The file that is replaced: symbolic links at the end are followed, also when they lead nowhere yet.
 std::filesystem::path followed(std::filesystem::path path);
 
-/// One name for a file, however it is spelled.
+/// One name for a file, however it is spelled; "-" stays. Where a folder cannot be looked into, links there
+/// are not followed.
 std::filesystem::path identity(const std::filesystem::path& path);
 
 /// A hidden name beside the target, of this process.

@@ -1,5 +1,6 @@
 #include "pipeline/document.hpp"
 
+#include "base/words.hpp"
 #include "pipeline/yaml_text.hpp"
 
 #include <fmt/format.h>
@@ -270,7 +271,7 @@ class Builder : public YAML::EventHandler {
 /// Parses the text, which is the source's but for what stands for unknown texts. Throws Unquoted.
 Value parse_text(const std::string& text, const SourceIndex& index, const std::set<std::size_t>& unknown,
                  Problems& problems) {
-    const std::size_t mark_bytes = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    const std::size_t mark_bytes = text.size() - without_byte_order_mark(text).size();
     std::istringstream stream(text.substr(mark_bytes));
     Builder builder(index, mark_bytes, unknown, problems);
     try {

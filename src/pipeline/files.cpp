@@ -1,6 +1,7 @@
 #include "base/glob.hpp"
 #include "base/once_each.hpp"
 #include "base/spelling.hpp"
+#include "io/output_files.hpp"
 #include "pipeline/plan.hpp"
 
 #include <algorithm>
@@ -39,14 +40,6 @@ void add_files(const Step& step, const Places& places, std::vector<PlannedFile>&
     }
     for (const auto& output : named.outputs)
         if (!output.text.empty()) files.push_back({places.output(output.text), where(output), true});
-}
-
-/// The same text for all spellings of a path.
-std::string identity(const fs::path& path) {
-    if (path == "-") return "-";
-    std::error_code error;
-    const fs::path canonical = fs::weakly_canonical(fs::absolute(path), error);
-    return (error ? fs::absolute(path).lexically_normal() : canonical).string();
 }
 
 std::string nearest_file(const fs::path& path) {
@@ -110,7 +103,7 @@ bool check_inputs(const std::vector<PlannedFile>& files, std::map<std::string, c
     bool good = true;
     for (const auto& file : files) {
         if (file.written) continue;
-        const auto [first, is_new] = inputs.emplace(identity(file.path), &file);
+        const auto [first, is_new] = inputs.emplace(io::identity(file.path).string(), &file);
         if (is_new || file.path != "-") continue;
         good = false;
         problems.add(file.where, "E-DUPLICATE-INPUT", "standard input can be read only once",
@@ -126,7 +119,7 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
     bool good = check_inputs(files, inputs, problems);
     for (const auto& file : files) {
         if (!file.written) continue;
-        const std::string path = identity(file.path);
+        const std::string path = io::identity(file.path).string();
         if (const auto input = inputs.find(path); input != inputs.end() && path != "-") {
             good = false;
             problems.add(
@@ -138,7 +131,7 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
         const auto [first, is_new] = outputs.emplace(lower_case(path), &file);
         if (is_new) continue;
         good = false;
-        const bool same = identity(first->second->path) == path;
+        const bool same = io::identity(first->second->path).string() == path;
         problems.add(file.where, "E-DUPLICATE-OUTPUT",
                      same ? fmt::format("'{}' is written twice", file.path.string())
                           : fmt::format("'{}' and '{}' are one file where case does not count",

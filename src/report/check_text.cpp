@@ -1,6 +1,7 @@
 #include "report/check_text.hpp"
 
 #include "base/numbers.hpp"
+#include "base/words.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -85,8 +86,7 @@ std::string locations_text(const Check& check) {
     if (!first.contains("at")) return shares_text(check.evidence);
     std::string text = "first ";
     const std::string count =
-        check.locations ? fmt::format("{} location{}, ", *check.locations, *check.locations == 1 ? "" : "s")
-                        : "";
+        check.locations ? counted(static_cast<std::size_t>(*check.locations), "location") + ", " : "";
     if (check.locations) text = count + "the first ";
     if (check.fresh && *check.fresh > 0) text = count + fmt::format("{} new, the first ", *check.fresh);
     return text + location_text(first);

@@ -1,4 +1,5 @@
 #include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 #include "report/check_text.hpp"
 #include "report/render.hpp"
 
@@ -23,10 +24,10 @@ std::uint64_t faces_of(const Json& brief) {
 /// "12,000 -> 3,000 faces", or one number when the stage left it.
 std::string face_change(const StageRecord& stage) {
     const auto before = faces_of(stage.before), after = faces_of(stage.after);
-    if (stage.after.is_null()) return fmt::format("{} faces -> failed", grouped(before));
-    if (before == after) return fmt::format("{} faces", grouped(after));
-    return before == 0 ? fmt::format("-> {} faces", grouped(after))
-                       : fmt::format("{} -> {} faces", grouped(before), grouped(after));
+    const auto faces = [](std::uint64_t n) { return grouped(n) + " " + noun_for(n, "face"); };
+    if (stage.after.is_null()) return faces(before) + " -> failed";
+    if (before == after) return faces(after);
+    return before == 0 ? "-> " + faces(after) : grouped(before) + " -> " + faces(after);
 }
 
 enum class Form { report, terminal };

@@ -1,5 +1,6 @@
 #include "support/catch.hpp"
 
+#include "io/output_files.hpp"
 #include "io/outputs.hpp"
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
@@ -225,4 +226,17 @@ TEST_CASE("runs on several threads share folders that failing ones remove", "[io
     second.join();
     third.join();
     CHECK(failures == 0);
+}
+
+TEST_CASE("a file has one name, however it is spelled", "[io]") {
+    test::TemporaryDirectory directory;
+    const auto folder = std::filesystem::canonical(directory.path());
+    std::filesystem::create_directory(folder / "real");
+    std::filesystem::create_directory_symlink(folder / "real", folder / "link");
+    CHECK(io::identity(folder / "link" / "a.ply") == folder / "real" / "a.ply");
+    CHECK(io::identity(folder / "real" / "." / ".." / "real" / "a.ply") == folder / "real" / "a.ply");
+    CHECK(io::identity("-") == "-");
+    // A name too long to be looked up, which has no other name than it says.
+    const std::string longest(300, 'x');
+    CHECK(io::identity(folder / "real" / ".." / longest) == folder / longest);
 }

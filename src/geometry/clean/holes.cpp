@@ -1,5 +1,6 @@
 // The step of clean that fills holes.
 #include "base/predicates.hpp"
+#include "base/words.hpp"
 #include "geometry/cgal/fair_patch.hpp"
 #include "geometry/clean/span_outline.hpp"
 #include "geometry/clean/steps.hpp"
@@ -232,7 +233,8 @@ class Filler {
         for (std::size_t i = 0; i < n; ++i) around += length(ring[(i + 1) % n] - ring[i]);
         if (n < 3) return refuse("its boundary loop has fewer than three edges", ring[0]);
         if (settings_.max_edges > 0 && n > settings_.max_edges)
-            return refuse(fmt::format("its boundary loop has {} edges, more than {}", n, settings_.max_edges),
+            return refuse(fmt::format("its boundary loop has {}, more than {}", counted(n, "edge"),
+                                      settings_.max_edges),
                           ring[0]);
         if (settings_.max_length > 0 && around > settings_.max_length)
             return refuse(fmt::format("its boundary loop is {:.6g} long, more than {:.6g}", around,

@@ -4,6 +4,7 @@
 #include "base/numbers.hpp"
 #include "base/portable_math.hpp"
 #include "base/spelling.hpp"
+#include "base/words.hpp"
 #include "io/text.hpp"
 
 #include <algorithm>
@@ -307,7 +308,8 @@ class Wkt {
 };
 
 std::string_view without_space(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+    text = without_byte_order_mark(text);
+    const auto first = text.find_first_not_of(" \t\r\n");
     return first == std::string_view::npos ? std::string_view{} : text.substr(first);
 }
 

@@ -1,6 +1,7 @@
 // A glTF file as a Scene and back: its document, its materials, and one part per node with triangles.
 
 #include "base/memory.hpp"
+#include "base/words.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/lines.hpp"
 #include "io/gltf/mesh.hpp"
@@ -326,8 +327,8 @@ int sniff_glb(Span bytes) { return is_glb(bytes) ? 2 : 0; }
 
 /// An object that names its asset near its beginning or end is glTF; any other object may be.
 int sniff_gltf(Span bytes) {
-    const std::string_view text = as_text(bytes);
-    const auto first = text.find_first_not_of("\xEF\xBB\xBF \t\r\n");
+    const std::string_view text = without_byte_order_mark(as_text(bytes));
+    const auto first = text.find_first_not_of(" \t\r\n");
     if (first == std::string_view::npos || text[first] != '{') return 0;
     constexpr std::size_t near = 65536;
     const std::string_view tail = text.substr(text.size() > near ? text.size() - near : 0);

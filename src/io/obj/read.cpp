@@ -1,4 +1,5 @@
 #include "base/parallel.hpp"
+#include "base/words.hpp"
 #include "io/attributes.hpp"
 #include "io/flatten.hpp"
 #include "io/image_files.hpp"
@@ -324,7 +325,7 @@ void report_skipped(const Statements& s, const std::string& file, ReadLog& log) 
         warn("W-INDEX", fmt::format("{} corners name a texture point or normal that the file does not have",
                                     s.dangling));
     if (s.short_faces > 0)
-        warn("W-FACES", fmt::format("{} faces of fewer than three corners are skipped", s.short_faces));
+        warn("W-FACES", counted(s.short_faces, "face") + " of fewer than three corners skipped");
 }
 
 /// The lines of each object, with what they have of the file's points.

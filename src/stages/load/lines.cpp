@@ -1,5 +1,6 @@
 #include "stages/load/lines.hpp"
 
+#include "base/words.hpp"
 #include "geometry/tubes/tubes.hpp"
 #include "mesh/power_scale.hpp"
 
@@ -68,15 +69,13 @@ void add_tubes(Scene& scene, const std::vector<Lines>& all, const Length& thickn
         part.mesh = std::move(r.mesh);
         scene.parts.push_back(std::move(part));
     }
-    context.say(fmt::format("{} line{} became {} tube{}", segments, segments == 1 ? "" : "s", made,
-                            made == 1 ? "" : "s"));
+    context.say(counted(segments, "line") + " became " + counted(made, "tube"));
     if (sharp > 0)
         context.warn(
             "W-LINES",
-            fmt::format(
-                "the tubes go through themselves at {} corner{} too sharp, or with too short sides, for "
-                "their thickness",
-                sharp, sharp == 1 ? "" : "s"),
+            fmt::format("the tubes go through themselves at {} too sharp, or with too short sides, for "
+                        "their thickness",
+                        counted(sharp, "corner")),
             "clean: {self_intersections: union} makes one solid of them");
 }
 

@@ -1,5 +1,6 @@
 #include "geometry/orient/orient.hpp"
 
+#include "base/words.hpp"
 #include "mesh/placement.hpp"
 #include "stage/stage.hpp"
 #include "stages/orient/help.hpp"
@@ -49,7 +50,7 @@ void declare_report(DeclareFields<OrientReport>& d) {
     d.list("parts", &OrientReport::parts, "Each part that was oriented.", declare_part).tallied("no faces");
 }
 
-OrientedPart counted(const Part& part, const OrientResult& r) {
+OrientedPart counts_of(const Part& part, const OrientResult& r) {
     const auto count = [&](auto&& is) {
         return static_cast<std::size_t>(std::count_if(r.components.begin(), r.components.end(), is));
     };
@@ -73,18 +74,18 @@ void warn(const Part& part, const OrientResult& r, Context& context) {
     }
     if (crossed > 0) {
         const Vec3 at = in_world(part, first->conflict);
-        context.warn("W-ORIENT",
-                     fmt::format("orient: {} of part '{}' is not orientable, like a Moebius strip, and stays "
-                                 "as it was; neighbours cannot be consistent at ({:.6g}, {:.6g}, {:.6g})",
-                                 crossed == 1 ? "a component" : fmt::format("{} components", crossed),
-                                 part.name, at.x, at.y, at.z),
-                     "cut it there, or use two-sided");
+        context.warn(
+            "W-ORIENT",
+            fmt::format("orient: {} of part '{}' cannot be oriented, like a Moebius strip, and stayed "
+                        "as before; neighbours cannot be consistent at ({:.6g}, {:.6g}, {:.6g})",
+                        counted(crossed, "component"), part.name, at.x, at.y, at.z),
+            "cut it there, or use two-sided");
     }
     if (undecided > 0)
         context.warn(
             "W-ORIENT-OPEN",
             fmt::format("orient: {} of part '{}' without a side that is the outside: only made consistent",
-                        undecided == 1 ? "a component" : fmt::format("{} components", undecided), part.name),
+                        counted(undecided, "component"), part.name),
             "method: flip reverses them");
 }
 
@@ -94,7 +95,7 @@ Scene run(Scene scene, const OrientSettings& settings, Context& context, OrientR
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         warn(part, r, context);
-        report.parts.push_back(counted(part, r));
+        report.parts.push_back(counts_of(part, r));
     });
     return scene;
 }

@@ -1,6 +1,7 @@
 #include "stages/section/report.hpp"
 
 #include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "io/drawing/drawing_fields.hpp"
 
@@ -59,11 +60,10 @@ void add_volume(SectionReport& report, const Scene& scene, double spacing, const
 
 void warn(const SectionReport& report, Context& context) {
     if (report.open > 0)
-        context.warn(
-            "W-OPEN-SECTION",
-            fmt::format("{} of {} contours are open: the mesh has a boundary where the plane cuts it",
-                        report.open, report.contours),
-            "use clean first, to weld the mesh or fill its holes");
+        context.warn("W-OPEN-SECTION",
+                     fmt::format("{} of {} open: the mesh has a boundary where the plane cuts it",
+                                 report.open, counted(report.contours, "contour")),
+                     "use clean first, to weld the mesh or fill its holes");
     if (!report.oriented)
         context.warn("W-UNORIENTED",
                      "neighbouring faces are inconsistent, so nesting decided which contours are outlines "
@@ -118,19 +118,20 @@ std::optional<SectionFrame> first_frame(const SectionReport& r) {
 
 // --- lines
 
-std::string counted(std::size_t n, const char* one, const char* several) {
-    return n == 0 ? std::string() : fmt::format("{} {}", grouped(n), n == 1 ? one : several);
+/// Empty for none.
+std::string some(std::size_t n, const char* one, const char* several) {
+    return n == 0 ? std::string() : grouped(n) + " " + noun_for(n, one, several);
 }
 
 std::vector<std::string> lines_of(const SectionReport& r) {
     const Unit known = r.drawing->unit;
     const std::string in = known == Unit::unknown ? "" : std::string(" ") + to_string(known);
-    std::string what = counted(r.contours, "contour", "contours");
-    const std::string of = join_texts({counted(r.holes, "hole", "holes"), counted(r.open, "open", "open")});
+    std::string what = some(r.contours, "contour", "contours");
+    const std::string of = join_texts({some(r.holes, "hole", "holes"), some(r.open, "open", "open")});
     if (!of.empty()) what += " (" + of + ")";
     if (r.empty > 0) what = join_texts({what, fmt::format("{} empty", grouped(r.empty))});
     std::vector<std::string> lines{fmt::format("{}: area {}{}{}, {}",
-                                               counted(r.sections.size(), "section", "sections"),
+                                               some(r.sections.size(), "section", "sections"),
                                                readable(r.area), in, in.empty() ? "" : "2", what)};
     const auto& parts = r.sections[0].parts;
     if (r.sections.size() == 1 && parts && parts->size() == 1 && parts->front().get().section.moments) {

@@ -1,4 +1,5 @@
 #include "stages/thicken/report.hpp"
+#include "base/words.hpp"
 
 #include <fmt/format.h>
 
@@ -66,7 +67,7 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
 }
 
 std::string line_of(const ThickenedEdges& edges) {
-    return fmt::format("{}: {} cylinders", edges.part, edges.cylinders);
+    return fmt::format("{}: {}", edges.part, counted(edges.cylinders, "cylinder"));
 }
 
 std::string line_of(const ThickenedSurface& surface) {
@@ -74,9 +75,10 @@ std::string line_of(const ThickenedSurface& surface) {
     std::string line = surface.part + ":";
     if (r.wall)
         line += fmt::format(" wall thickness at least {:.6g}, mean {:.6g},", r.wall->thinnest, r.wall->mean);
-    if (r.filled > 0) line += fmt::format(" {} component{} filled,", r.filled, r.filled == 1 ? "" : "s");
-    if (r.turned > 0) line += fmt::format(" {} faces turned over,", r.turned);
-    if (r.self_intersections) line += fmt::format(" {} self-intersections,", *r.self_intersections);
+    if (r.filled > 0) line += fmt::format(" {} filled,", counted(r.filled, "component"));
+    if (r.turned > 0) line += fmt::format(" {} turned over,", counted(r.turned, "face"));
+    if (r.self_intersections)
+        line += fmt::format(" {},", counted(*r.self_intersections, "self-intersection"));
     line.pop_back();
     return line;
 }
@@ -100,9 +102,9 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, b
                    Context& context) {
     if (r.unbalanced > 0)
         context.warn("W-THICKEN-OPEN",
-                     fmt::format("thicken: part '{}' is not closed at {} edges: its surface is not oriented "
+                     fmt::format("thicken: part '{}' is not closed at {}: its surface is not oriented "
                                  "there",
-                                 part.name, r.unbalanced),
+                                 part.name, counted(r.unbalanced, "edge")),
                      "use orient first; a Moebius strip has no inside");
     if (r.wall && r.wall->thinnest < 0.5 * thickness)
         context.warn(

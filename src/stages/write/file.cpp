@@ -1,5 +1,6 @@
 #include "stages/write/file.hpp"
 
+#include "base/words.hpp"
 #include "io/convert.hpp"
 #include "io/gltf/gltf.hpp"
 #include "io/read_back.hpp"
@@ -21,9 +22,8 @@ Mesh in_one(const Scene& scene) {
 /// Why rounding put points on others or faces on lines, and the hint.
 std::string rounding(const io::ReadBack& back, const io::Codec& codec, const io::WriteSettings& settings) {
     const std::size_t points = back.changes.rounded;
-    const std::string what = points > 0
-                                 ? fmt::format("put {} point{} on others", points, points == 1 ? "" : "s")
-                                 : std::string("moved points onto lines of others");
+    const std::string what = points > 0 ? fmt::format("put {} on others", counted(points, "point"))
+                                        : std::string("moved points onto lines of others");
     if (settings.draco.on && back.grid_step >= back.float_step)
         return fmt::format("Draco's {} bits {}: use more draco.position_bits, or no draco",
                            settings.grid_bits(), what);

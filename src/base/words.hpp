@@ -1,0 +1,28 @@
+#pragma once
+// Small matters of text that is read, or told.
+
+#include <cstddef>
+#include <fmt/format.h>
+#include <string>
+#include <string_view>
+
+namespace facetmill {
+
+/// The noun for so many: "face" for 1, else its plural, which is the noun and an s unless given.
+inline std::string noun_for(std::size_t count, std::string_view noun, std::string_view plural = {}) {
+    if (count == 1) return std::string(noun);
+    return plural.empty() ? std::string(noun) + "s" : std::string(plural);
+}
+
+/// "1 face", "2 faces".
+inline std::string counted(std::size_t count, std::string_view noun, std::string_view plural = {}) {
+    return fmt::format("{} {}", count, noun_for(count, noun, plural));
+}
+
+/// The text behind the mark of UTF-8 that some editors put at its beginning.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view mark = "\xEF\xBB\xBF";
+    return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
+} // namespace facetmill
