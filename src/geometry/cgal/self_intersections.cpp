@@ -93,6 +93,7 @@ struct First {
 /// Pairs that run into each other, and pairs that only touch.
 struct Kinds {
     First real, touching;
+    std::size_t box_pairs = 0;
 };
 
 /// The triangles to test, those of a polygon one by one.
@@ -116,6 +117,7 @@ class Search {
         Kinds all = pairs_.reduce(
             Kinds{},
             [&](Kinds& found, std::size_t i, std::size_t j) {
+                ++found.box_pairs;
                 const Facet &s = facets_[i], &t = facets_[j];
                 const int shared = facets_meet(s, t);
                 if (shared < 0) return;
@@ -126,6 +128,7 @@ class Search {
             [&](Kinds a, const Kinds& b) {
                 a.real.add(b.real, kept);
                 a.touching.add(b.touching, kept);
+                a.box_pairs += b.box_pairs;
                 return a;
             });
         in_order(all.real, polygons);
@@ -139,11 +142,17 @@ class Search {
         }
         for (First* first : {&all.real, &all.touching})
             first->pairs.resize(std::min(limit, first->pairs.size()));
-        return {all.real.count, std::move(all.real.pairs), all.touching.count, std::move(all.touching.pairs)};
+        return {all.real.count, std::move(all.real.pairs), all.touching.count, std::move(all.touching.pairs),
+                all.box_pairs};
     }
 
-    MeetingFaces faces(std::size_t count, std::span<const std::pair<Index, Index>> exempt) const {
-        MeetingFaces known{std::vector<std::uint8_t>(count)};
+    MeetingFaces faces(std::size_t count, std::span<const std::pair<Index, Index>> exempt,
+                       std::size_t max_box_pairs) const {
+        MeetingFaces known;
+        if (max_box_pairs < std::size_t(-1)) known.box_pairs = pairs_.count(max_box_pairs);
+        known.too_many = known.box_pairs > max_box_pairs;
+        if (known.too_many) return known;
+        known.faces.resize(count);
         const auto flag = [&](Index f) { return std::atomic_ref(known.faces[f]); };
         constexpr auto relaxed = std::memory_order_relaxed;
         known.box_pairs = pairs_.reduce(
@@ -222,8 +231,9 @@ SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersecti
 }
 
 MeetingFaces self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
-                                     std::span<const std::pair<Index, Index>> exempt) {
-    return Search(mesh, among).faces(mesh.face_count(), exempt);
+                                     std::span<const std::pair<Index, Index>> exempt,
+                                     std::size_t max_box_pairs) {
+    return Search(mesh, among).faces(mesh.face_count(), exempt, max_box_pairs);
 }
 
 } // namespace facetmill

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace facetmill {
 
@@ -50,6 +51,11 @@ constexpr int widening_rounds = 16;    ///< after these, twice as far around in 
 /// Pairs of triangles with boxes that meet, for each face, that are looked at before shares fall in larger
 /// steps: enough for moves as long as the faces' edges.
 constexpr std::size_t pairs_a_face = 48;
+/// The same in one round: where there are more, faces are drawn out too far to be told apart one by one.
+constexpr std::size_t pairs_a_round = 32;
+/// As many times the pairs before the move are looked at in any case, in all and in one round: faces may lie
+/// close.
+constexpr std::size_t times_before = 3, times_before_a_round = 2;
 constexpr std::uint8_t large_step = 3; ///< to an eighth
 constexpr int large_rounds = 3;        ///< after these, to nothing
 // Of the longest edge of a face: where moves draw two of its corners apart by more, it is nearly sure to meet
@@ -81,6 +87,7 @@ class TestSheet {
     }
 
     std::size_t exempt() const { return exempt_.size(); }
+    std::size_t pairs_before() const { return pairs_before_; }
     const Mesh& mesh() const { return mesh_; }
 
     /// Puts the vertices whose level has changed where they belong now, and remembers their faces.
@@ -112,8 +119,9 @@ class TestSheet {
         return pairs;
     }
 
-    /// [faces] 1 for those that the moves, by the shares at the levels, draw out too far.
-    std::vector<std::uint8_t> overstretched(const std::vector<std::uint8_t>& levels) const {
+    /// [faces] 1 for those of which the moves, by the shares at the levels, draw two corners apart by more
+    /// than so many times the longest edge.
+    std::vector<std::uint8_t> overstretched(const std::vector<std::uint8_t>& levels, double stretch) const {
         std::vector<std::uint8_t> faces(mesh_.face_count());
         const auto moved = [&](Index v) { return sheet_.moves.moves[v] * share_of(levels[places_[v]]); };
         parallel_for(faces.size(), [&](std::size_t i) {
@@ -125,7 +133,7 @@ class TestSheet {
                 longest = std::max(longest, dot(edge, edge));
                 farthest = std::max(farthest, dot(apart, apart));
             }
-            faces[f] = farthest > max_stretch * max_stretch * longest;
+            faces[f] = farthest > stretch * stretch * longest;
         });
         return faces;
     }
@@ -133,9 +141,12 @@ class TestSheet {
     /// Looks at these faces only; the others count as not touched.
     void touch_only(std::vector<std::uint8_t> faces) { touched_ = std::move(faces); }
 
-    /// Those of all new pairs among faces that were touched.
+    /// Those of all new pairs among faces that were touched, unless there is too much to look at.
     MeetingFaces in_trouble() const {
-        auto found = self_intersecting_faces(mesh_, touched_, exempt_);
+        const std::size_t most =
+            std::max(pairs_a_round * mesh_.face_count(), times_before_a_round * pairs_before_);
+        auto found = self_intersecting_faces(mesh_, touched_, exempt_, most);
+        if (found.too_many) return found;
         parallel_for(found.faces.size(), [&](std::size_t f) {
             if (touched_[f] && !flat_[f] && is_flat(static_cast<Index>(f))) found.faces[f] = 1;
         });
@@ -168,6 +179,7 @@ class TestSheet {
         return true;
     }
 
+    const std::vector<std::uint8_t>& touched() const { return touched_; }
     const Vec3& position(std::size_t vertex) const { return mesh_.positions[first_[vertex]]; }
 
   private:
@@ -200,6 +212,7 @@ class TestSheet {
                     found.count, max_pairs_),
                 "clean removes duplicate faces; self_intersections: allow does not search for intersections");
         exempt_ = found.pairs;
+        pairs_before_ = found.box_pairs;
     }
 
     SelfIntersections find(const std::vector<std::uint8_t>& among, std::size_t limit) const {
@@ -218,6 +231,7 @@ class TestSheet {
     std::vector<Index> first_;                    ///< [vertices]
     Mesh mesh_;                                   ///< corners go to the first of equal vertices
     std::vector<std::pair<Index, Index>> exempt_; ///< ascending
+    std::size_t pairs_before_ = 0;                ///< of triangles with boxes that meet
     std::vector<std::uint8_t> flat_, touched_;    ///< [faces]
 };
 
@@ -252,7 +266,7 @@ void look(std::vector<TestSheet>& tests, const std::vector<std::uint8_t>& levels
         result.found += pairs.size();
     };
     for (std::size_t s = 0; s < tests.size(); ++s) {
-        std::vector<std::uint8_t> faces = tests[s].overstretched(levels);
+        std::vector<std::uint8_t> faces = tests[s].overstretched(levels, max_stretch);
         std::size_t count = 0;
         for (std::uint8_t& f : faces) f = f && ++count <= few;
         if (count == 0) continue;
@@ -274,17 +288,22 @@ void add(const std::vector<std::uint8_t>& faces, std::vector<std::uint8_t>& to) 
 }
 
 /// Lowers the places of overstretched faces until there are none, and adds those that there were to `found`.
-void slacken(const std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, FacesOfSheets& found) {
+/// [places] 1 for those that were lowered.
+std::vector<std::uint8_t> slacken(const std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels,
+                                  double stretch, FacesOfSheets& found) {
+    std::vector<std::uint8_t> lowered(levels.size());
     for (bool any = true; any;) {
         std::vector<std::uint8_t> marked(levels.size());
         any = false;
         for (std::size_t s = 0; s < tests.size(); ++s) {
-            const auto faces = tests[s].overstretched(levels);
+            const auto faces = tests[s].overstretched(levels, stretch);
             any |= tests[s].mark(faces, 0, marked);
             add(faces, found[s]);
         }
         any = any && lower(marked, levels);
+        if (any) add(marked, lowered);
     }
+    return lowered;
 }
 
 /// How the places of faces in trouble are lowered in a round.
@@ -297,7 +316,8 @@ struct Lowering {
 class Patience {
   public:
     explicit Patience(const std::vector<TestSheet>& tests) {
-        for (const TestSheet& test : tests) most_ += pairs_a_face * test.mesh().face_count();
+        for (const TestSheet& test : tests)
+            most_ += std::max(pairs_a_face * test.mesh().face_count(), times_before * test.pairs_before());
     }
     /// For the next round, so many more pairs having been looked at.
     Lowering next(std::size_t box_pairs) {
@@ -321,38 +341,91 @@ void note(const std::vector<std::uint8_t>& marked, const std::vector<std::uint8_
         if (marked[p] && levels[p] < last_level) hurried[p] = 1;
 }
 
-/// Lowers places until no new faces meet, and adds those of the first round to `found`.
-void separate(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, FacesOfSheets& found,
-              AvoidResult& result) {
-    Patience patience(tests);
-    std::vector<std::uint8_t> hurried(levels.size());
-    for (;; ++result.rounds) {
-        std::vector<MeetingFaces> trouble;
-        std::size_t box_pairs = 0;
-        for (const TestSheet& test : tests) box_pairs += trouble.emplace_back(test.in_trouble()).box_pairs;
-        result.box_pairs += box_pairs;
-        const Lowering how = patience.next(box_pairs);
-        std::vector<std::uint8_t> marked(levels.size());
-        bool more = false;
-        for (std::size_t s = 0; s < tests.size(); ++s) {
-            if (result.rounds == 0) add(trouble[s].faces, found[s]);
-            more |= tests[s].mark(trouble[s].faces, how.rings, marked);
+/// Lowers places until no new faces meet.
+class Separation {
+  public:
+    Separation(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, FacesOfSheets& found,
+               AvoidResult& result)
+        : tests_(tests), levels_(levels), found_(found), result_(result), patience_(tests),
+          hurried_(levels.size()) {}
+
+    /// Adds the faces that meet in the first round that looks at all to `found`.
+    void run() {
+        for (bool is_first = true;; ++result_.rounds) {
+            std::vector<MeetingFaces> trouble;
+            std::size_t box_pairs = 0;
+            bool too_many = false;
+            for (const TestSheet& test : tests_) {
+                const MeetingFaces& meeting = trouble.emplace_back(test.in_trouble());
+                box_pairs += meeting.box_pairs;
+                too_many |= meeting.too_many;
+            }
+            result_.box_pairs += box_pairs;
+            const Lowering how = patience_.next(box_pairs);
+            const std::vector<std::uint8_t> changed =
+                too_many ? calm_down(trouble, how)
+                         : lower_meeting(trouble, how, std::exchange(is_first, false));
+            if (changed.empty()) break;
+            for (TestSheet& test : tests_) test.place(levels_, changed);
         }
-        if (!more) break;
-        if (how.step > 1) note(marked, levels, hurried);
-        if (!lower(marked, levels, how.step)) // where nothing moves, all pairs were there before
-            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
-        for (auto& test : tests) test.place(levels, marked);
+        result_.hurried = static_cast<std::size_t>(std::count(hurried_.begin(), hurried_.end(), 1));
     }
-    result.hurried = static_cast<std::size_t>(std::count(hurried.begin(), hurried.end(), 1));
-}
+
+  private:
+    /// [places] 1 for those that were lowered; empty when no faces meet.
+    std::vector<std::uint8_t> lower_meeting(const std::vector<MeetingFaces>& trouble, const Lowering& how,
+                                            bool is_first) {
+        std::vector<std::uint8_t> marked(levels_.size());
+        bool more = false;
+        for (std::size_t s = 0; s < tests_.size(); ++s) {
+            if (is_first) add(trouble[s].faces, found_[s]);
+            more |= tests_[s].mark(trouble[s].faces, how.rings, marked);
+        }
+        if (!more) return {};
+        if (how.step > 1) note(marked, levels_, hurried_);
+        if (!lower(marked, levels_, how.step)) // where nothing moves, all pairs were there before
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
+        return marked;
+    }
+
+    /// Where there is too much to look at: half as much stretch, or half of that, until some places are
+    /// lowered. Without patience left, or where all faces keep their shape, nothing moves of what was to be
+    /// looked at. [places] as above.
+    std::vector<std::uint8_t> calm_down(const std::vector<MeetingFaces>& trouble, const Lowering& how) {
+        constexpr double least_stretch = 1.0 / 64;
+        const std::vector<std::uint8_t> before = levels_;
+        while (how.step == 1 && stretch_ > least_stretch) {
+            stretch_ /= 2;
+            FacesOfSheets found(tests_.size());
+            const auto lowered = slacken(tests_, levels_, stretch_, found);
+            if (levels_ == before) continue;
+            note(lowered, before, hurried_);
+            return lowered;
+        }
+        std::vector<std::uint8_t> marked(levels_.size());
+        for (std::size_t s = 0; s < tests_.size(); ++s)
+            if (trouble[s].too_many) tests_[s].mark(tests_[s].touched(), how.rings, marked);
+        note(marked, levels_, hurried_);
+        if (!lower(marked, levels_, last_level))
+            throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move are too many to look at");
+        return marked;
+    }
+
+    std::vector<TestSheet>& tests_;
+    std::vector<std::uint8_t>& levels_;
+    FacesOfSheets& found_;
+    AvoidResult& result_;
+    Patience patience_;
+    std::vector<std::uint8_t> hurried_;
+    double stretch_ = max_stretch;
+};
 
 /// Moves as far as faces do not come to meet.
 void avoid(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, AvoidResult& result) {
     FacesOfSheets found(tests.size());
-    slacken(tests, levels, found);
+    slacken(tests, levels, max_stretch, found);
     for (TestSheet& test : tests) test.place(levels, {});
-    separate(tests, levels, found, result);
+    Separation(tests, levels, found, result).run();
     for (const auto& faces : found)
         result.found += static_cast<std::size_t>(std::count(faces.begin(), faces.end(), 1));
 }

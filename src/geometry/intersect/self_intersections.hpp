@@ -23,6 +23,8 @@ struct SelfIntersections {
         pairs;                ///< the first by (lower, higher face), as many as the limit allows
     std::size_t touching = 0; ///< with `apart`: pairs that only touch, which `count` and `pairs` leave out
     std::vector<std::pair<Index, Index>> touching_pairs; ///< the first of them, likewise
+    /// Pairs of triangles whose boxes meet: what the work is, the same for any number of threads.
+    std::size_t box_pairs = 0;
 };
 
 /// Finds the pairs of faces that meet elsewhere than in the vertices and edges they share, decided exactly
@@ -36,15 +38,17 @@ struct SelfIntersections {
 SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings = {});
 
 struct MeetingFaces {
+    bool too_many = false;           ///< box pairs: faces were not looked for
     std::vector<std::uint8_t> faces; ///< [faces] 1 for those that meet another
-    /// Pairs of triangles whose boxes meet: what the work is, the same for any number of threads.
-    std::size_t box_pairs = 0;
+    std::size_t box_pairs = 0;       ///< as above
 };
 
 /// The faces of the pairs that find_self_intersections would find, the exempt ones (lower face first,
 /// ascending) left out. Where a face is in many pairs this is much faster: a pair of faces that are known
 /// both is not looked at. Which pair tells of a face depends on the threads, whether one does, does not.
+/// Where more than max_box_pairs would have to be looked at, they are only counted, up to there.
 MeetingFaces self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
-                                     std::span<const std::pair<Index, Index>> exempt);
+                                     std::span<const std::pair<Index, Index>> exempt,
+                                     std::size_t max_box_pairs = std::size_t(-1));
 
 } // namespace facetmill

@@ -5,7 +5,9 @@
 #include "geometry/spatial/box_levels.hpp"
 #include "mesh/mesh.hpp"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <span>
 
@@ -32,10 +34,31 @@ class BoxPairs {
             [&](std::size_t begin, std::size_t end) {
                 T result = identity;
                 for (std::size_t i = begin; i < end; ++i)
-                    walk(tasks[i], [&](std::size_t a, std::size_t b) { found(result, a, b); });
+                    walk(tasks[i], [&](std::size_t a, std::size_t b) {
+                        found(result, a, b);
+                        return true;
+                    });
                 return result;
             },
             join, 4);
+    }
+
+    /// How many pairs there are, or most + 1 when there are more: then the rest is not walked through.
+    std::size_t count(std::size_t most) const {
+        constexpr std::size_t batch = 1024;
+        const std::vector<Couple> tasks = couples_above();
+        std::atomic<std::size_t> all = 0;
+        parallel_for(
+            tasks.size(),
+            [&](std::size_t i) {
+                std::size_t mine = 0;
+                walk(tasks[i], [&](std::size_t, std::size_t) {
+                    return ++mine % batch != 0 || all.fetch_add(batch) + batch <= most;
+                });
+                all += mine % batch;
+            },
+            4);
+        return std::min(all.load(), most + 1);
     }
 
   private:
@@ -73,19 +96,21 @@ class BoxPairs {
         return flags[a] || flags[b];
     }
 
+    /// found(i, j): whether to go on.
     template <class Found>
     void walk(const Couple& from, Found&& found) const {
         std::array<Couple, 16 * 17> stack; // 17 levels of four hold all indices; fifteen wait at each
         std::size_t size = 0;
         stack[size++] = from;
-        while (size > 0) {
+        bool goes_on = true;
+        while (size > 0 && goes_on) {
             const Couple c = stack[--size];
             children(c, [&](std::uint32_t s, std::uint32_t t) {
                 if (!wanted(c.level, s, t)) return;
                 if (c.level > 0)
                     stack[size++] = {c.level - 1, s, t};
                 else if (s != t)
-                    found(std::size_t{s}, std::size_t{t});
+                    goes_on = found(std::size_t{s}, std::size_t{t}) && goes_on;
             });
         }
     }

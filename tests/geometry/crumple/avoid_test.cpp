@@ -211,6 +211,37 @@ TEST_CASE("on a terrain with crossings the work is bounded, and no faces come to
     CHECK(calm.hurried == 0);
 }
 
+TEST_CASE("moves of many edges end after little work, whatever the number of faces", "[geometry]") {
+    for (const int n : {40, 80}) {
+        const Mesh sheet = shapes::grid(n, n);
+        AvoidResult r;
+        const Mesh after = apart(sheet, by(12.0 / n), &r);
+        CHECK(r.box_pairs < 200 * sheet.face_count());
+        CHECK(r.hurried > 0);
+        CHECK(r.shares.back() < sheet.vertex_count() / 2); // it is crumpled all the same
+        CHECK(find_self_intersections(after).count == 0);
+        CHECK(test::count(after).flat == 0);
+    }
+}
+
+TEST_CASE("faces that lie close are looked at, however many they are", "[geometry]") {
+    Mesh layers; // every box meets those of the next sheets
+    for (int i = 0; i < 40; ++i) {
+        Mesh sheet = shapes::grid(4, 4);
+        for (Vec3& p : sheet.positions) p = {p.x, p.y, p.x / 2 + i * 1e-3};
+        const auto first = static_cast<Index>(layers.positions.size());
+        layers.positions.insert(layers.positions.end(), sheet.positions.begin(), sheet.positions.end());
+        for (Index f = 0; f < sheet.face_count(); ++f) {
+            std::vector<Index> corners;
+            for (const Index v : sheet.face_wedges(f)) corners.push_back(first + v);
+            add_face(layers, corners);
+        }
+    }
+    AvoidResult r;
+    const Mesh after = apart(layers, by(0.05), &r);
+    CHECK(find_self_intersections(after).count == 0);
+}
+
 TEST_CASE("faces at short edges may be drawn out, as long as they do not meet", "[geometry]") {
     // One short edge among long ones, and a smooth move that is many times as long.
     Mesh mesh = shapes::grid(4, 4);

@@ -98,3 +98,19 @@ TEST_CASE("triangles are surely apart only when they are", "[geometry]") {
     const Corners tiny{{{0, 0, 0}, {1e-120, 0, 0}, {0, 1e-120, 0}}};
     CHECK_FALSE(surely_apart(tiny, {{{0, 0, 1e-120}, {1e-120, 0, 1e-120}, {0, 1e-120, 1e-120}}}, 0));
 }
+
+TEST_CASE("pairs of boxes are counted up to a limit", "[geometry]") {
+    for (const double size : {0.01, 0.2}) {
+        const auto boxes = random_boxes(3000, size, 7);
+        std::vector<std::uint8_t> among(boxes.size());
+        for (std::size_t i = 0; i < among.size(); i += 3) among[i] = 1;
+        for (const auto& flags : {std::vector<std::uint8_t>{}, among}) {
+            const BoxPairs tree(boxes, flags);
+            const std::size_t all = pairs_of(boxes, flags).size();
+            REQUIRE(all > 0);
+            for (const std::size_t most :
+                 {std::size_t{0}, all / 2, all - 1, all, all + 1, std::size_t{1} << 40})
+                CHECK(tree.count(most) == std::min(all, most + 1));
+        }
+    }
+}
