@@ -460,9 +460,7 @@ const std::vector<MessageId>& message_ids() {
          "Nothing, unless this leaves holes in the surface."},
         {"W-FANS",
          {},
-         "triangulate, simplify or clip cut faces so that their triangles may overlap: fans of faces without "
-         "area or that "
-         "intersect "
+         "Triangles stand for faces so that they may overlap: fans of faces without area or that intersect "
          "themselves in no plane, and faces with neighbours that wind around points several times.",
          "Check the faces given in the message."},
         {"W-FORMAT", {}, "The content of a file does not match its suffix.", "Rename it."},

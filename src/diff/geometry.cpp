@@ -1,7 +1,7 @@
 #include "diff/lines.hpp"
 
 #include "diff/sides.hpp"
-#include "mesh/surface.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -22,7 +22,8 @@ void compare_frames(const Comparing& with) {
 /// What a scene's distances are of.
 struct Shape {
     Surface surface, points; ///< its faces, and the vertices that none of them uses
-    explicit Shape(const Scene& scene) : surface(surface_of(scene)), points(unreferenced_points_of(scene)) {}
+    explicit Shape(const Scene& scene)
+        : surface(surface_of(scene, filled_surface)), points(unreferenced_points_of(scene)) {}
     bool has_faces() const { return surface.size() > 0; }
     /// The faces, or the points of a cloud.
     const Surface& main() const { return has_faces() ? surface : points; }
@@ -54,6 +55,19 @@ class Distances {
     const DeviationResult& d_;
 };
 
+/// Says that faces may be taken for more than they cover.
+void compare_fans(const Comparing& with) {
+    const auto fans = [](const Scene& scene) {
+        std::size_t count = 0;
+        for (const Part& part : scene.parts) count += count_fans(part.mesh);
+        return count;
+    };
+    const std::size_t a = fans(with.a), b = fans(with.b);
+    if (a + b > 0)
+        with.add("geometry", "overlapping fans", a, b, true,
+                 "faces that intersect themselves in no plane: distances are of fans of triangles");
+}
+
 /// Points beside faces: from each of them to the nearest point of all that the other scene holds.
 void compare_loose(const Comparing& with, const Shape& a, const Shape& b, const Distances& distances) {
     const auto loose = [](const Shape& s) { return s.has_faces() ? s.points.size() : 0; };
@@ -79,6 +93,7 @@ std::optional<Limit> maximum_of(const ComparisonSettings& s) {
 void compare_geometry(const Comparing& with) {
     const auto& settings = with.settings;
     compare_frames(with);
+    compare_fans(with);
     const Turned turned = turned_round(with.a, with.b);
     with.add("geometry", "reversed", false, turned.round, !turned.round, turned.note);
     const Shape a(with.a), b(with.b);

@@ -1,6 +1,6 @@
 #include "diff/lines.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/gltf.hpp"
-#include "mesh/surface.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -100,7 +100,7 @@ void compare_places(const Comparing& with) {
     std::set<Index> all(a.begin(), a.end());
     all.insert(b.begin(), b.end());
     if (all.size() < 2 || a.empty() || b.empty()) return;
-    const Surface x = surface_of(with.a), y = surface_of(with.b);
+    const Surface x = surface_of(with.a, filled_surface), y = surface_of(with.b, filled_surface);
     const auto limit = maximum_of(with.settings);
     const double most = !limit           ? std::numeric_limits<double>::max()
                         : limit->percent ? limit->amount / 100 * x.bounds().diagonal()

@@ -36,7 +36,8 @@ std::string field_entry(const FieldRow& row) {
 
 std::string section(const StageInfo& s) {
     std::string text = fmt::format(".SH {}\n{}\n", roff(upper(s.name)), roff(s.about));
-    if (!std::string_view(s.details).empty()) text += fmt::format(".PP\n{}\n", roff(joined_lines(s.details)));
+    if (const std::string details = details_of(s); !details.empty())
+        text += fmt::format(".PP\n{}\n", roff(details));
     if (!s.options->shorthand_help.empty())
         text += fmt::format(".PP\nA bare value: {}\n", roff(s.options->shorthand_help));
     for (const auto& row : rows(*s.options)) text += option_entry(row);

@@ -53,7 +53,8 @@ std::string stages_markdown() {
                        stages_markdown_table();
     for (const auto& s : stages()) {
         text += fmt::format("\n## {}\n\n{}\n", s.name, s.about);
-        if (!std::string_view(s.details).empty()) text += fmt::format("\n{}\n", joined_lines(s.details));
+        if (const std::string details = details_of(s); !details.empty())
+            text += fmt::format("\n{}\n", details);
         if (!s.options->shorthand_help.empty())
             text += fmt::format("\nA bare value: {}\n", s.options->shorthand_help);
         const auto options = rows(*s.options);

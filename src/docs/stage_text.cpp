@@ -42,9 +42,28 @@ std::string field_text(const FieldRow& row) {
 
 } // namespace
 
+std::string details_of(const StageInfo& stage) {
+    std::string text = joined_lines(stage.details);
+    const auto add = [&](const char* sentences) {
+        text += text.empty() ? sentences : std::string("\n\n") + sentences;
+    };
+    if (stage.crossing_faces == CrossingFacePolicy::fill)
+        add(stage.crossing_faces_with ? "Where faces are cut or moved, planar ones that intersect themselves "
+                                        "become triangles first, as in "
+                                        "triangulate; the others are named (W-FANS)."
+                                      : "Planar faces that intersect themselves become triangles first, as "
+                                        "in triangulate; the others are "
+                                        "named (W-FANS).");
+    if (stage.crossing_faces == CrossingFacePolicy::name)
+        add("Planar faces that intersect themselves count for what triangulate would make of them; the "
+            "others are named "
+            "(W-FANS).");
+    return text;
+}
+
 std::string stage_page(const StageInfo& stage) {
     std::string text = fmt::format("{}: {}\n", stage.name, stage.about);
-    if (!std::string_view(stage.details).empty()) text += "\n" + wrapped(joined_lines(stage.details), 2);
+    if (const std::string details = details_of(stage); !details.empty()) text += "\n" + wrapped(details, 2);
     const auto options = rows(*stage.options);
     if (!stage.options->shorthand_help.empty())
         text += "\n" + wrapped("A bare value: " + stage.options->shorthand_help, 2);
@@ -81,7 +100,7 @@ Json stages_json() {
             result.push_back({{"name", row.name}, {"type", row.type}, {"help", row.help}});
         all.push_back({{"name", s.name},
                        {"about", s.about},
-                       {"details", joined_lines(s.details)},
+                       {"details", details_of(s)},
                        {"options", options},
                        {"rules", rules(*s.options)},
                        {"result", result},

@@ -6,6 +6,8 @@
 
 namespace facetmill::docs {
 
+/// The paragraphs of a stage, and what is done about faces that intersect themselves.
+std::string details_of(const StageInfo& stage);
 /// One line per stage.
 std::string stage_list();
 /// All of one stage: what it does, its options, rules, spelling of quantities and examples.

@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
+#include "base/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 #include "mesh/placement.hpp"
@@ -296,9 +297,9 @@ std::vector<std::string> losses(const Properties& before, const Properties& afte
 std::optional<Scene> with_filled_faces(const Scene& scene) {
     std::optional<Scene> filled;
     for (std::size_t i = 0; i < scene.parts.size(); ++i)
-        if (auto faces = fill_crossing_faces(scene.parts[i].mesh)) {
+        if (auto faces = fill_crossing_faces(scene.parts[i].mesh); faces.mesh) {
             if (!filled) filled = scene;
-            filled->parts[i].mesh = std::move(faces->mesh);
+            filled->parts[i].mesh = std::move(*faces.mesh);
         }
     return filled;
 }
@@ -350,7 +351,7 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
     for (const auto& part : back.scene.parts) back.vertices += part.mesh.vertex_count();
     back.faces = back.scene.face_count();
     if (back.faces != polygons && back.faces != triangles)
-        refuse(fmt::format("{} faces, expected {}", back.faces,
+        refuse(fmt::format("{}, expected {}", counted(back.faces, "face"),
                            polygons == triangles ? fmt::format("{}", polygons)
                                                  : fmt::format("{} (or {} triangles)", polygons, triangles)));
     set_tolerance(back, scene, settings, codec.can.transforms);

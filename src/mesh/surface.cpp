@@ -65,8 +65,8 @@ Surface surface_of(const Mesh& mesh) {
     return surface;
 }
 
-Surface surface_of(const Part& part) {
-    Surface surface = surface_of(part.mesh);
+Surface surface_of(const Part& part, SurfaceOfMesh of_mesh) {
+    Surface surface = of_mesh(part.mesh);
     if (!part.transform.identity())
         parallel_for(surface.positions.size(), [&](std::size_t v) {
             surface.positions[v] = part.transform.point(surface.positions[v]);
@@ -74,21 +74,21 @@ Surface surface_of(const Part& part) {
     return surface;
 }
 
-Surface surface_of(std::span<const Part* const> parts) {
-    if (parts.size() == 1) return surface_of(*parts[0]);
+Surface surface_of(std::span<const Part* const> parts, SurfaceOfMesh of_mesh) {
+    if (parts.size() == 1) return surface_of(*parts[0], of_mesh);
     Surface all;
     Index first_face = 0;
     for (const Part* part : parts) {
-        append(all, surface_of(*part), first_face);
+        append(all, surface_of(*part, of_mesh), first_face);
         first_face += static_cast<Index>(part->mesh.face_count());
     }
     return all;
 }
 
-Surface surface_of(const Scene& scene) {
+Surface surface_of(const Scene& scene, SurfaceOfMesh of_mesh) {
     std::vector<const Part*> parts;
     for (const auto& part : scene.parts) parts.push_back(&part);
-    return surface_of(parts);
+    return surface_of(parts, of_mesh);
 }
 
 namespace {
@@ -116,8 +116,8 @@ Surface unreferenced_points_of(const Scene& scene) {
     return points;
 }
 
-Surface surface_or_points_of(const Scene& scene) {
-    return scene.face_count() > 0 ? surface_of(scene) : unreferenced_points_of(scene);
+Surface surface_or_points_of(const Scene& scene, SurfaceOfMesh of_mesh) {
+    return scene.face_count() > 0 ? surface_of(scene, of_mesh) : unreferenced_points_of(scene);
 }
 
 Surface joined(Surface a, const Surface& b) {

@@ -27,14 +27,18 @@ struct Surface {
     Box bounds() const;
 };
 
-/// The mesh in its own space; polygons are cut as `triangulated` does.
+/// The mesh in its own space, between its own vertices; polygons are cut as `triangulated` does, so that
+/// those that cross themselves are fans that overlap (geometry/triangulate/crossing_faces.hpp has
+/// filled_surface).
 Surface surface_of(const Mesh& mesh);
+
+using SurfaceOfMesh = Surface (*)(const Mesh&);
 /// The part in world space.
-Surface surface_of(const Part& part);
+Surface surface_of(const Part& part, SurfaceOfMesh of_mesh = surface_of);
 /// These parts, or all of a scene, in world space. Throws limit (E-LIMIT) when the vertices of all cannot be
 /// numbered.
-Surface surface_of(std::span<const Part* const> parts);
-Surface surface_of(const Scene& scene);
+Surface surface_of(std::span<const Part* const> parts, SurfaceOfMesh of_mesh = surface_of);
+Surface surface_of(const Scene& scene, SurfaceOfMesh of_mesh = surface_of);
 
 /// The vertices that no face uses, of all parts in world space, each as a triangle of one point: distances to
 /// them, and from them, are taken as those of a surface are. They have no face. In the order of parts and
@@ -42,7 +46,7 @@ Surface surface_of(const Scene& scene);
 Surface unreferenced_points_of(const Scene& scene);
 
 /// What distances of a scene are of: its surface, or, where it has no faces, its points. Throws as above.
-Surface surface_or_points_of(const Scene& scene);
+Surface surface_or_points_of(const Scene& scene, SurfaceOfMesh of_mesh = surface_of);
 
 /// Both as one. Throws as above.
 Surface joined(Surface a, const Surface& b);

@@ -3,10 +3,10 @@
 #include "base/parallel.hpp"
 #include "base/point_json.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "io/png.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
-#include "mesh/surface.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
 #include "report/render.hpp"
@@ -203,7 +203,7 @@ class Runner {
         if (done) stage.after = brief(scene);
         if (done && step.stage->loads) state_.load_diagonal = diagonal(scene.bounds());
         if (done && step.stage->loads && keeps_loaded_)
-            state_.loaded = std::make_shared<const Surface>(surface_or_points_of(scene));
+            state_.loaded = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
         if (done && takes_pictures_) add_picture(scene, stage);
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
@@ -266,7 +266,7 @@ class Runner {
         if (!step.ensure || !step.ensure->deviation) return {};
         if (step.ensure->deviation->from == DeviationLimits::From::load && state_.loaded)
             return state_.loaded;
-        return std::make_shared<const Surface>(surface_or_points_of(scene));
+        return std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
     }
 
     /// entered: the bounds of the scene that entered the step.

@@ -2,7 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
-#include "mesh/surface.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 
 #include <fmt/format.h>
 
@@ -112,7 +112,9 @@ std::string to_string(const DeviationLimits& limits) {
 
 void check_deviation(const DeviationLimits& limits, const Mark& where, const Surface& before,
                      const Scene& scene, Context& context) {
-    const DeviationResult measured = deviation(before, surface_or_points_of(scene), limits.settings());
+    const DeviationResult measured =
+        deviation(before, surface_or_points_of(scene, filled_surface), limits.settings());
+    name_fans(scene, context);
     context.result()["deviation"] = deviation_json(measured);
     const auto check = [&](const std::string& name, const std::optional<Length>& limit, double value,
                            const std::string& words) {

@@ -1,38 +1,49 @@
 #include "stage/crossing_faces.hpp"
 
+#include "base/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "stage/context.hpp"
 
 #include <fmt/format.h>
 
 namespace facetmill {
 
-FilledFaces fill_crossing_faces(Scene& scene, Context& context) {
-    FilledFaces all;
+void prepare_crossing_faces(CrossingFacePolicy policy, Scene& scene, Context& context) {
+    if (policy == CrossingFacePolicy::name) name_fans(scene, context);
+    if (policy != CrossingFacePolicy::fill) return;
+    FanCounts all;
     for (Part& part : scene.parts) {
         if (part.mesh.all_triangles() || !context.selects(part, scene)) continue;
-        if (auto filled = fill_crossing_faces(part.mesh)) {
-            context.attribute_changes(part, filled->changes);
-            all.overlapping += filled->overlapping;
-            part.mesh = std::move(filled->mesh);
-        }
-        all.fans += count_crossing_faces(part.mesh);
+        CrossingFaces faces = fill_crossing_faces(part.mesh);
+        all.fans += faces.fans;
+        all.overlapping += faces.overlapping;
+        if (!faces.mesh) continue;
+        context.attribute_changes(part, faces.changes);
+        part.mesh = std::move(*faces.mesh);
     }
-    return all;
+    warn_of_fans(all, context);
 }
 
-void warn_of_fans(const FilledFaces& faces, Context& context) {
+void name_fans(const Scene& scene, Context& context) {
+    FanCounts all;
+    for (const Part& part : scene.parts)
+        if (context.selects(part, scene)) all.fans += count_fans(part.mesh);
+    warn_of_fans(all, context);
+}
+
+void warn_of_fans(const FanCounts& faces, Context& context) {
     if (faces.fans > 0)
         context.warn(
             "W-FANS",
-            fmt::format("{} faces that have no area, or intersect themselves in no plane, were cut as "
-                        "fans, whose triangles may overlap",
-                        faces.fans));
+            fmt::format("{} have no area, or intersect themselves in no plane: they count as fans of "
+                        "triangles, which may overlap",
+                        counted(faces.fans, "face")));
     if (faces.overlapping > 0)
-        context.warn(
-            "W-FANS",
-            fmt::format("{} faces wind around points several times, and their triangles overlap there: "
-                        "faces beside them would be open otherwise",
-                        faces.overlapping));
+        context.warn("W-FANS",
+                     fmt::format("{} {} around points several times, and the triangles overlap there: faces "
+                                 "beside them would be open otherwise",
+                                 counted(faces.overlapping, "face"),
+                                 faces.overlapping == 1 ? "winds" : "wind"));
 }
 
 } // namespace facetmill

@@ -28,6 +28,9 @@ const StageInfo* stage_named(std::string_view name) {
 }
 
 Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context) {
+    prepare_crossing_faces(stage.crossing_faces_with ? stage.crossing_faces_with(options)
+                                                     : stage.crossing_faces,
+                           scene, context);
     const MayLose may_lose = stage.may_lose_with ? stage.may_lose_with(options) : stage.may_lose;
     if (stage.checks || stage.loads || may_lose == MayLose::all)
         return stage.run(std::move(scene), options, context);

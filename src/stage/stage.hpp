@@ -19,6 +19,7 @@
 #include "options/declaration.hpp"
 #include "options/fields.hpp"
 #include "stage/context.hpp"
+#include "stage/crossing_faces.hpp"
 #include "stage/surface_loss.hpp"
 
 namespace facetmill {
@@ -39,6 +40,9 @@ struct StageInfo {
     bool checks = false; ///< it only judges: several in a row all run before a failure ends the branch
     bool loads = false;  ///< it adds to the scene rather than working on it (may come first)
     MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options say otherwise
+    /// What is done about faces that cross themselves before it runs, unless its options say otherwise: the
+    /// most that any of them ask for.
+    CrossingFacePolicy crossing_faces = CrossingFacePolicy::keep;
 
     // Filled by make_stage. Declarations are made when they are first asked for.
     Lazy<Declaration> options = {};
@@ -53,6 +57,8 @@ struct StageInfo {
     std::function<void(const void* options, const Value& given, Problems&)> verify = {};
     /// What these options ask the stage to take of the surface. May be empty.
     std::function<MayLose(const void* options)> may_lose_with = {};
+    /// What these options need of faces that cross themselves. May be empty.
+    std::function<CrossingFacePolicy(const void* options)> crossing_faces_with = {};
 };
 
 struct RegisterStage {
@@ -64,7 +70,7 @@ const std::vector<StageInfo>& stages();
 const StageInfo* stage_named(std::string_view name);
 std::vector<std::string> stage_names();
 
-/// Runs the stage, and warns of the surface that it loses.
+/// Runs the stage on faces as it needs them (crossing_faces), and warns of the surface that it loses.
 Scene perform(const StageInfo& stage, Scene scene, const void* options, Context& context);
 
 template <class Options>
@@ -73,6 +79,7 @@ struct StageHooks {
     std::function<void(const Options&, const Value&, Problems&)> verify = {};
     std::function<io::FileHeader(const Options&, const std::filesystem::path&)> header = {};
     std::function<MayLose(const Options&)> may_lose = {};
+    std::function<CrossingFacePolicy(const Options&)> crossing_faces = {};
 };
 
 template <class Options, class DeclareFunction>
@@ -93,6 +100,10 @@ void add_options(StageInfo& info, DeclareFunction declare, StageHooks<Options> h
         };
     if (hooks.may_lose)
         info.may_lose_with = [f = hooks.may_lose](const void* options) {
+            return f(*static_cast<const Options*>(options));
+        };
+    if (hooks.crossing_faces)
+        info.crossing_faces_with = [f = hooks.crossing_faces](const void* options) {
             return f(*static_cast<const Options*>(options));
         };
     if (hooks.verify)

@@ -1,8 +1,12 @@
-// A prism over a bow-tie, whose floor and roof cross themselves, through stages that need triangles.
+// A prism over a bow-tie, whose floor and roof cross themselves, through all that goes by what faces cover.
 #include "support/catch.hpp"
 
+#include "geometry/deviation/deviation.hpp"
+#include "geometry/edit/moved.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/polygon/polygon.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
+#include "mesh/invariants.hpp"
 #include "support/measure.hpp"
 #include "support/run_stage.hpp"
 #include "support/temporary.hpp"
@@ -26,6 +30,14 @@ Mesh bow_tie_prism(double lifted = 0) {
     add_face(mesh, std::vector<Index>{3, 2, 1, 0});
     add_face(mesh, std::vector<Index>{4, 5, 6, 7});
     for (Index i = 0; i < 4; ++i) add_face(mesh, std::vector<Index>{i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i});
+    return mesh;
+}
+
+/// Its floor, seen from above.
+Mesh bow_tie() {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {6, 0, 0}, {2, 4, 0}, {4, 4, 0}};
+    add_face(mesh, std::vector<Index>{0, 1, 2, 3});
     return mesh;
 }
 
@@ -64,10 +76,84 @@ TEST_CASE("files of triangles have what faces that cross themselves cover", "[st
     }
 }
 
+TEST_CASE("stages that cut faces cut what faces that cross themselves cover", "[stages]") {
+    double area = 0;
+    for (const Part& tile : run_stage("tile", "3", scene_of(bow_tie_prism())).scene.parts)
+        area += test::area(tile.mesh);
+    CHECK(area == Approx(2 * floor_area + walls_area));
+    const auto half = run_stage("crop", "{footprint: [[0, 0], [3, 0], [3, 4], [0, 4]], axis: z}",
+                                scene_of(bow_tie_prism()));
+    CHECK(test::area(half.mesh()) == Approx(floor_area + walls_area / 2));
+    CHECK(test::area(run_stage("split", "centroid", scene_of(bow_tie_prism())).mesh()) ==
+          Approx(2 * floor_area + walls_area));
+    // Its two triangles face opposite ways; each gets a wall behind it.
+    CHECK(test::volume(run_stage("thicken", "1", scene_of(bow_tie())).mesh()) == Approx(9 + 1));
+    CHECK(run_stage("thicken", "{thickness: 1%, mode: edges}", scene_of(bow_tie()))
+              .record.result["parts"][0]["edges"] == 4);
+}
+
+TEST_CASE("stages that move vertices leave no faces that cross themselves", "[stages]") {
+    for (const auto& [stage, options] : {std::pair{"relax", "3"},
+                                         {"relax", "{method: implicit}"},
+                                         {"crumple", "0.1%"},
+                                         {"crumple", "{amplitude: 0.1%, self_intersections: avoid}"},
+                                         {"clean", "{self_intersections: local}"}}) {
+        INFO(stage << ": " << options);
+        const auto run = run_stage(stage, options, scene_of(bow_tie_prism()));
+        CHECK(inspect(run.mesh()).closed);
+        CHECK_FALSE(fill_crossing_faces(run.mesh()).mesh);
+        CHECK(count_fans(run.mesh()) == 0);
+        CHECK(run.warnings().empty());
+    }
+}
+
+TEST_CASE("what is measured is what faces that cross themselves cover", "[stages]") {
+    CHECK(inspect(bow_tie()).area == Approx(floor_area));
+    CHECK(surface_size(bow_tie()).area == Approx(floor_area));
+    const auto probed = run_stage("probe", "[2, 3, 0]", scene_of(bow_tie())); // beside it
+    CHECK(probed.record.result["answers"][0]["distance"].get<double>() == Approx(std::sqrt(0.5)));
+    const auto rays = run_stage("probe", "{rays: [2, 3, 1, 0, 0, -1]}", scene_of(bow_tie()));
+    CHECK(rays.record.result["answers"][0]["hits"].empty());
+
+    Mesh lobes; // the same by its two triangles
+    lobes.positions = {{0, 0, 0}, {6, 0, 0}, {3, 3, 0}, {2, 4, 0}, {4, 4, 0}};
+    lobes.corners = {0, 1, 2, 2, 4, 3};
+    const auto d = deviation(bow_tie(), lobes, {});
+    CHECK(d.forward.maximum == 0);
+    CHECK(d.backward.maximum == 0);
+
+    const auto curved = run_stage("measure", "{curvature: true}", scene_of(bow_tie_prism()));
+    CHECK(curved.mesh().find("gaussian_curvature", Domain::vertex)->size() == 8);
+    CHECK(broken_invariants(curved.mesh()).empty());
+}
+
 TEST_CASE("faces that cross themselves in no plane are named", "[stages]") {
-    CHECK(run_stage("simplify", "100%", scene_of(bow_tie_prism(0.5))).warnings() ==
-          std::vector<std::string>{"W-FANS"});
-    CHECK(run_stage("clip", options({{"plane", "z=0.5"}, {"triangulate", "true"}}),
-                    scene_of(bow_tie_prism(0.5)))
-              .warnings() == std::vector<std::string>{"W-FANS"});
+    test::TemporaryDirectory directory;
+    const auto path = [&](const char* name) { return (directory / name).string(); };
+    for (const auto& [stage, options] : std::vector<std::pair<std::string, std::string>>{
+             {"simplify", "100%"},
+             {"clip", "{plane: z=0.5}"},
+             {"crop", "{footprint: [[0, 0], [3, 0], [3, 4], [0, 4]], axis: z}"},
+             {"tile", "3"},
+             {"split", "centroid"},
+             {"relax", "1"},
+             {"crumple", "0.1%"},
+             {"thicken", "1%"},
+             {"triangulate", "triangles"},
+             {"measure", "{}"},
+             {"probe", "[2, 3, 0]"},
+             {"render", "{path: " + path("a.png") + "}"},
+             {"write", "{path: " + path("a.stl") + "}"}}) {
+        INFO(stage << ": " << options);
+        const auto ids = run_stage(stage, options, scene_of(bow_tie_prism(0.5))).warnings();
+        CHECK(std::count(ids.begin(), ids.end(), "W-FANS") == 1);
+    }
+    for (const auto& [stage, options] :
+         std::vector<std::pair<std::string, std::string>>{{"transform", "{scale: 2}"},
+                                                          {"thicken", "{thickness: 1%, mode: edges}"},
+                                                          {"write", "{path: " + path("a.ply") + "}"}}) {
+        INFO(stage << ": " << options);
+        const auto ids = run_stage(stage, options, scene_of(bow_tie_prism(0.5))).warnings();
+        CHECK(std::count(ids.begin(), ids.end(), "W-FANS") == 0);
+    }
 }

@@ -4,6 +4,7 @@
 #include "base/random.hpp"
 #include "geometry/deviation/bound.hpp"
 #include "geometry/spatial/closest_point.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/power_scale.hpp"
 
 #include <algorithm>
@@ -247,7 +248,7 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
 }
 
 DeviationResult deviation(const Mesh& first, const Mesh& second, const DeviationSettings& settings) {
-    return deviation(surface_of(first), surface_of(second), settings);
+    return deviation(filled_surface(first), filled_surface(second), settings);
 }
 
 } // namespace facetmill

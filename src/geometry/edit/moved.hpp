@@ -25,7 +25,7 @@ struct MoveSize {
 MoveSize move_size(const std::vector<Vec3>& before, const std::vector<Vec3>& after,
                    const Transform& to_world = {});
 
-/// Area (of a face, the length of its area vector) and, when closed, signed volume, in world space. Closed is
+/// Area (of a face, its covered_area) and, when closed, signed volume, in world space. Closed is
 /// decided by a 64-bit sum of hashed directed edges, which is zero when they cancel, unless it is known.
 /// O(corners), parallel.
 struct SurfaceSize {

@@ -1,6 +1,7 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "geometry/edit/moved.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/power_scale.hpp"
 
 namespace facetmill {
@@ -14,7 +15,7 @@ struct Sums {
 
 /// place(corner): where it is, seen from a point near the surface.
 template <class Place>
-void add_face(Sums& sums, const Mesh& mesh, Index f, Place&& place) {
+void add_face(Sums& sums, const Mesh& mesh, Index f, std::vector<Vec3>& corners, Place&& place) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
     const Vec3 first = place(begin);
     Vec3 twice;
@@ -23,7 +24,13 @@ void add_face(Sums& sums, const Mesh& mesh, Index f, Place&& place) {
         twice += normal;
         sums.volume += dot(first, normal) / 6;
     }
-    sums.area += safe_length(twice) / 2; // together: of a concave face, parts of the fan run back
+    if (end - begin == 3) {
+        sums.area += safe_length(twice) / 2;
+        return;
+    }
+    corners.clear();
+    for (Index c = begin; c < end; ++c) corners.push_back(place(c));
+    sums.area += covered_area(corners);
 }
 
 void add_boundary(Sums& sums, const Mesh& mesh, Index f) {
@@ -41,8 +48,9 @@ Sums sums_of(const Mesh& mesh, bool with_boundary, Place&& place) {
         mesh.face_count(), Sums{},
         [&](std::size_t begin, std::size_t end) {
             Sums s;
+            std::vector<Vec3> corners;
             for (auto f = static_cast<Index>(begin); f < end; ++f) {
-                add_face(s, mesh, f, place);
+                add_face(s, mesh, f, corners, place);
                 if (with_boundary) add_boundary(s, mesh, f);
             }
             return s;

@@ -3,10 +3,10 @@
 #include "base/portable_math.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "geometry/spatial/box_tree.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/aspect_ratio.hpp"
 #include "mesh/face.hpp"
 #include "mesh/power_scale.hpp"
-#include "mesh/surface.hpp"
 
 #include <algorithm>
 
@@ -103,7 +103,7 @@ std::vector<double> nonplanarities(const Mesh& mesh) {
 }
 
 std::vector<double> wall_thicknesses(const Mesh& mesh) {
-    const Surface surface = surface_of(mesh);
+    const Surface surface = filled_surface(mesh);
     std::vector<Box> boxes(surface.size());
     parallel_for(boxes.size(), [&](std::size_t t) {
         for (std::size_t i = 0; i < 3; ++i)

@@ -5,6 +5,7 @@
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/inspect/measures.hpp"
 #include "geometry/intersect/self_intersections.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
 
@@ -47,11 +48,20 @@ void add_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& origi
     volume += dot(p - origin, product);
 }
 
+double polygon_area(const Mesh& mesh, const std::vector<Vec3>& positions, Index f,
+                    std::vector<Vec3>& corners) {
+    corners.clear();
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+        corners.push_back(positions[mesh.vertex(c)]);
+    return covered_area(corners);
+}
+
 FaceSums face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, const Vec3& origin) {
     return parallel_reduce(
         mesh.face_count(), FaceSums{},
         [&](std::size_t first, std::size_t last) {
             FaceSums sums;
+            std::vector<Vec3> corners;
             for (std::size_t i = first; i < last; ++i) {
                 const auto f = static_cast<Index>(i);
                 const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
@@ -59,7 +69,8 @@ FaceSums face_sums(const Mesh& mesh, const std::vector<Vec3>& positions, const V
                 for (Index c = begin + 1; c + 1 < end; ++c)
                     add_triangle(positions[mesh.vertex(begin)], positions[mesh.vertex(c)],
                                  positions[mesh.vertex(c + 1)], origin, area, sums.volume);
-                sums.area += safe_length(area) / 2;
+                sums.area +=
+                    end - begin == 3 ? safe_length(area) / 2 : polygon_area(mesh, positions, f, corners);
                 sums.triangles += end - begin == 3;
                 sums.degenerate += is_degenerate(mesh, f);
                 sums.repeating += end - begin == 3 && repeats_a_vertex(mesh, f);

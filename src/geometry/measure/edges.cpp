@@ -96,11 +96,7 @@ double area_of_face(const Mesh& mesh, Index f, const Vec3& area) {
     if (mesh.face_size(f) == 3) return safe_length(area);
     std::vector<Vec3> corners;
     face_corners(mesh, f, corners);
-    const auto covering = covering_triangles(corners);
-    if (covering.empty()) return safe_length(area);
-    double twice = 0;
-    for (const auto& [a, b, c] : covering) twice += safe_length(cross(b - a, c - a));
-    return twice / 2;
+    return covered_area(corners);
 }
 
 FaceResult faces_of(const Mesh& mesh) {
@@ -127,7 +123,7 @@ FaceResult faces_of(const Mesh& mesh) {
 }
 
 CurvatureResult curvature_of(const Mesh& given) {
-    const Mesh mesh = triangulated(given);
+    const Mesh mesh = triangles_of(given); // vertices where faces cross themselves come last
     const std::vector<Vec3> areas = area_vectors(mesh);
     const Turns t = turns_of(mesh, areas);
     const VertexLists corners = corners_at_vertices(mesh);
@@ -171,6 +167,8 @@ CurvatureResult curvature_of(const Mesh& given) {
         r.mean[v] = bends[v] / 4 / (area / 3);
     });
     for (const double m : missing) r.total += m;
+    r.gaussian.resize(given.vertex_count());
+    r.mean.resize(given.vertex_count());
     r.of_gaussian = statistics(r.gaussian);
     r.of_mean = statistics(r.mean);
     return r;

@@ -8,11 +8,14 @@
 #include "geometry/triangulate/triangulate.hpp"
 #include "mesh/face.hpp"
 #include "mesh/lineage.hpp"
+#include "mesh/placement.hpp"
+#include "mesh/power_scale.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace facetmill {
@@ -29,8 +32,7 @@ Contours outline_of(const std::vector<Vec2>& ring) {
 
 /// Whether the outline winds around points more than once or both ways, or touches itself so that its corners
 /// alone do not bound its triangles.
-bool crosses(const std::vector<Vec2>& ring) {
-    const polygon::Kind kind = polygon::classify(ring);
+bool crosses(const std::vector<Vec2>& ring, polygon::Kind kind) {
     if (kind != polygon::Kind::complex) return kind == polygon::Kind::self_intersecting;
     return fill(outline_of(ring)).triangles.size() != ring.size() - 2;
 }
@@ -50,9 +52,15 @@ bool is_parted_quad(std::span<const Vec3> p) {
     return side(p[1]) * side(p[3]) < 0;
 }
 
-bool crosses_in_plane(std::span<const Vec3> corners) {
-    return corners.size() > 3 && !is_parted_quad(corners) && crosses(polygon::flattened(corners)) &&
-           is_planar(corners, polygon::plane_deviation(corners));
+enum class Crossing : std::uint8_t { none, in_plane, in_no_plane };
+
+Crossing crossing_of(std::span<const Vec3> corners) {
+    if (corners.size() < 4 || is_parted_quad(corners)) return Crossing::none;
+    const std::vector<Vec2> ring = polygon::flattened(corners);
+    const polygon::Kind kind = polygon::classify(ring);
+    if (!crosses(ring, kind)) return Crossing::none;
+    if (is_planar(corners, polygon::plane_deviation(corners))) return Crossing::in_plane;
+    return kind == polygon::Kind::self_intersecting ? Crossing::in_no_plane : Crossing::none;
 }
 
 Contours flat_outline(const Mesh& mesh, Index f) {
@@ -61,21 +69,29 @@ Contours flat_outline(const Mesh& mesh, Index f) {
     return outline_of(polygon::flattened(corners));
 }
 
-/// The planar faces whose outlines cross or touch themselves elsewhere than along bridges to holes.
-std::vector<Index> crossing_faces(const Mesh& mesh) {
-    std::vector<std::uint8_t> crossing(mesh.face_count(), 0);
-    if (!mesh.all_triangles())
-        parallel_chunks(mesh.face_count(), [&](std::size_t begin, std::size_t end) {
-            std::vector<Vec3> corners;
-            for (auto f = static_cast<Index>(begin); f < end; ++f) {
-                face_corners(mesh, f, corners);
-                crossing[f] = crosses_in_plane(corners);
-            }
-        });
-    std::vector<Index> faces;
-    for (Index f = 0; f < crossing.size(); ++f)
-        if (crossing[f]) faces.push_back(f);
-    return faces;
+/// Faces whose outlines cross or touch themselves elsewhere than along bridges to holes.
+struct Found {
+    std::vector<Index> in_plane;
+    std::size_t in_no_plane = 0; ///< as seen along the axis nearest to their normal
+};
+
+Found find_crossing_faces(const Mesh& mesh) {
+    Found found;
+    if (mesh.all_triangles()) return found;
+    std::vector<Crossing> crossings(mesh.face_count(), Crossing::none);
+    parallel_chunks(mesh.face_count(), [&](std::size_t begin, std::size_t end) {
+        std::vector<Vec3> corners;
+        for (auto f = static_cast<Index>(begin); f < end; ++f) {
+            if (mesh.face_size(f) < 4) continue;
+            face_corners(mesh, f, corners);
+            crossings[f] = crossing_of(corners);
+        }
+    });
+    for (Index f = 0; f < crossings.size(); ++f) {
+        if (crossings[f] == Crossing::in_plane) found.in_plane.push_back(f);
+        found.in_no_plane += crossings[f] == Crossing::in_no_plane;
+    }
+    return found;
 }
 
 /// Puts vertices where the outlines of faces meet themselves, on all faces along their edges.
@@ -177,7 +193,7 @@ class FaceFiller {
             if (auto triangles = filling_of(f); !triangles.empty()) fillings[f] = std::move(triangles);
         Descent descent;
         descent.vertices.identity = descent.wedges.identity = true;
-        Mesh& m = out_.mesh;
+        Mesh& m = out_.mesh.emplace();
         m.positions = mesh_.positions;
         m.wedge_vertex = mesh_.wedge_vertex;
         m.face_offsets = {0};
@@ -201,6 +217,7 @@ class FaceFiller {
         normalise_offsets(m);
         out_.changes = changes_in_sequence(out_.changes, inherit_attributes(m, mesh_, descent));
         out_.filled = fillings.size();
+        out_.fans += faces.size() - fillings.size();
     }
 
   private:
@@ -236,7 +253,7 @@ class FaceFiller {
 
 std::vector<std::array<Vec3, 3>> covering_triangles(std::span<const Vec3> corners) {
     std::vector<std::array<Vec3, 3>> covering;
-    if (!crosses_in_plane(corners)) return covering;
+    if (crossing_of(corners) != Crossing::in_plane) return covering;
     const std::vector<Vec2> flat = polygon::flattened(corners);
     const polygon::Ring ring = flat;
     const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));
@@ -249,38 +266,57 @@ std::vector<std::array<Vec3, 3>> covering_triangles(std::span<const Vec3> corner
     return covering;
 }
 
-std::optional<CrossingFaces> fill_crossing_faces(const Mesh& mesh) {
-    const auto crossing = crossing_faces(mesh);
-    if (crossing.empty()) return {};
+double covered_area(std::span<const Vec3> corners) {
+    double twice = 0;
+    for (const auto& [a, b, c] : covering_triangles(corners)) twice += safe_length(cross(b - a, c - a));
+    return twice > 0 ? twice / 2 : safe_length(polygon::area_vector(corners));
+}
+
+namespace {
+
+CrossingFaces fill_found(const Mesh& mesh, const Found& found) {
     CrossingFaces out;
+    out.fans = found.in_no_plane;
+    if (found.in_plane.empty()) return out;
     OutlineSplitter splitter(mesh);
-    for (const Index f : crossing) splitter.add(f);
+    for (const Index f : found.in_plane) splitter.add(f);
     const Mesh split = splitter.run(out.changes);
-    FaceFiller(split, out).run(crossing_faces(split));
+    const Found left = find_crossing_faces(split);
+    out.fans = left.in_no_plane;
+    FaceFiller(split, out).run(left.in_plane);
     return out;
 }
 
-std::size_t count_crossing_faces(const Mesh& mesh) {
-    if (mesh.all_triangles()) return 0;
-    return parallel_reduce(
-        mesh.face_count(), std::size_t{0},
-        [&](std::size_t begin, std::size_t end) {
-            std::size_t count = 0;
-            std::vector<Vec3> corners;
-            for (auto f = static_cast<Index>(begin); f < end; ++f) {
-                if (mesh.face_size(f) < 4) continue;
-                face_corners(mesh, f, corners);
-                count += !is_parted_quad(corners) &&
-                         polygon::classify(polygon::flattened(corners)) == polygon::Kind::self_intersecting;
-            }
-            return count;
-        },
-        [](std::size_t a, std::size_t b) { return a + b; });
+} // namespace
+
+CrossingFaces fill_crossing_faces(const Mesh& mesh) { return fill_found(mesh, find_crossing_faces(mesh)); }
+
+std::size_t count_fans(const Mesh& mesh) {
+    const Found found = find_crossing_faces(mesh);
+    return found.in_plane.empty() ? found.in_no_plane : fill_found(bare(mesh), found).fans;
 }
 
 Mesh triangles_of(const Mesh& mesh) {
-    if (const auto filled = fill_crossing_faces(mesh)) return triangulated(filled->mesh);
-    return triangulated(mesh);
+    const CrossingFaces faces = fill_crossing_faces(mesh);
+    return triangulated(faces.mesh ? *faces.mesh : mesh);
+}
+
+Surface filled_surface(const Mesh& mesh) {
+    const Found found = find_crossing_faces(mesh);
+    if (found.in_plane.empty()) return surface_of(mesh);
+    Mesh numbered = bare(mesh);
+    std::vector<std::uint32_t> numbers(mesh.face_count());
+    std::iota(numbers.begin(), numbers.end(), 0U);
+    numbered.attributes.push_back({"face", Domain::face, Role::index, 1, false, std::move(numbers)});
+    const CrossingFaces faces = fill_found(numbered, found);
+    Surface surface = surface_of(*faces.mesh);
+    const auto& face_before =
+        std::get<std::vector<std::uint32_t>>(faces.mesh->find("face", Domain::face)->data);
+    if (surface.faces.empty())
+        surface.faces = face_before;
+    else
+        for (Index& f : surface.faces) f = face_before[f];
+    return surface;
 }
 
 } // namespace facetmill

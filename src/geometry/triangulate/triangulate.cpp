@@ -91,7 +91,7 @@ class FaceCutter {
     std::vector<Vec2> flat_;
 };
 
-FaceKinds joined(FaceKinds a, const FaceKinds& b) {
+FaceKinds sum_of(FaceKinds a, const FaceKinds& b) {
     for (std::size_t k = 0; k < a.of_kind.size(); ++k) a.of_kind[k] += b.of_kind[k];
     a.non_planar += b.non_planar;
     if (b.deviation > a.deviation || a.worst == none) {
@@ -142,13 +142,13 @@ FaceKinds face_kinds(const Mesh& mesh, double planar) {
             }
             return kinds;
         },
-        joined, 1024);
+        sum_of, 1024);
 }
 
 FaceKinds face_kinds(const Scene& scene, double planar) {
     FaceKinds all;
     for (const Part& part : scene.parts)
-        all = joined(all, part.transform.identity() ? face_kinds(part.mesh, planar)
+        all = sum_of(all, part.transform.identity() ? face_kinds(part.mesh, planar)
                                                     : face_kinds(in_world(part), planar));
     all.worst = none;
     return all;

@@ -1,3 +1,4 @@
+#include "base/words.hpp"
 #include "stages/clean/help.hpp"
 #include "stages/clean/options.hpp"
 #include "stages/clean/report.hpp"
@@ -11,8 +12,8 @@ namespace {
 void warn(const Part& part, const std::vector<NotDone>& all, Context& context) {
     if (all.empty()) return;
     context.warn("W-CLEAN",
-                 fmt::format("clean: {} repairs of part '{}' were not done, the first in step '{}': {}",
-                             all.size(), part.name, all[0].step, all[0].why),
+                 fmt::format("clean: {} of part '{}' not done, the first in step '{}': {}",
+                             counted(all.size(), "repair"), part.name, all[0].step, all[0].why),
                  "the report lists the first of them with their places");
 }
 
@@ -34,15 +35,21 @@ MayLose may_lose(const CleanOptions& o) {
     return unites ? MayLose::half : MayLose::tenth;
 }
 
+/// What is done about intersecting faces is done for those that intersect themselves, too.
+CrossingFacePolicy crossing_faces(const CleanOptions& o) {
+    return o.self_intersections == Untangle::off ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
+}
+
 const RegisterStage registered = make_stage<CleanOptions>(
     {.name = "clean",
      .about = help::clean::about,
      .details = help::clean::details,
      .examples = {"clean", "clean: {holes: minimal, components: {min_faces: 10}}",
                   "clean: {self_intersections: union}", "clean: {weld: near, stitch: near, tolerance: 0.01%}",
-                  "clean: {holes: {method: smooth, max_edges: 50}, inner_components: true}"}},
+                  "clean: {holes: {method: smooth, max_edges: 50}, inner_components: true}"},
+     .crossing_faces = CrossingFacePolicy::fill},
     declare_clean, declare_clean_report, run,
-    StageHooks<CleanOptions>{.verify = verify_clean, .may_lose = may_lose});
+    StageHooks<CleanOptions>{.verify = verify_clean, .may_lose = may_lose, .crossing_faces = crossing_faces});
 
 } // namespace
 

@@ -9,7 +9,7 @@ inline constexpr const char* details =
     R"(Every vertex is classified once, by the exact sign of its distance, so neighbouring faces always
 agree, and a vertex on the plane is neither in front of it nor behind it. Each cut edge gets one new
 vertex, shared by all faces at that edge. Triangles, quads and larger faces, convex or concave, are
-cut directly; planar faces that intersect themselves become triangles first, as in triangulate.
+cut directly.
 A closed part that is capped stays closed in every case: after several planes in a
 row, when it is non-manifold, and when it intersects itself (where it covers a region twice, so does
 its cap). Points that a clip placed on a plane count as lying on it when the same plane is used

@@ -1,5 +1,4 @@
 #include "stage/both_sides.hpp"
-#include "stage/crossing_faces.hpp"
 #include "stage/options/box.hpp"
 #include "stage/options/cap.hpp"
 #include "stage/options/plane.hpp"
@@ -184,8 +183,6 @@ ClipReport clip_parts(Scene& scene, const Cutter& cutter, const PartsToClip& how
 }
 
 Scene run(Scene scene, const ClipOptions& o, Context& context, ClipReport& report) {
-    const FilledFaces filled = fill_crossing_faces(scene, context);
-    if (o.triangulate) warn_of_fans(filled, context);
     PartsToClip how;
     how.settings.keep = o.keep;
     how.settings.convex = o.box || (o.keep == Keep::both && o.planes.size() > 1);
@@ -212,7 +209,8 @@ const RegisterStage clip_stage = make_stage<ClipOptions>(
                   "clip: {planes: [x=20%, y=20%], keep: both, cap: true}",
                   "clip: {box: {min: [0, 0, 0], max: [1, 1, 0.5]}, cap: true}",
                   "clip: {box: {centre: [0, 0, 0], size: [2, 1, 1], angle: 30deg}, keep: outside}"},
-     .may_lose = MayLose::all},
+     .may_lose = MayLose::all,
+     .crossing_faces = CrossingFacePolicy::fill},
     declare, declare_report, run, StageHooks<ClipOptions>{.files = {}, .verify = verify});
 
 } // namespace

@@ -201,6 +201,11 @@ void verify(const CropOptions& o, const Value& given, Problems& problems) {
                      "leave out cap, or use by: cut");
 }
 
+/// Faces that are kept whole stay as they are.
+CrossingFacePolicy crossing_faces(const CropOptions& o) {
+    return o.by == CropBy::cut ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
+}
+
 StageFiles files(const CropOptions& o) {
     if (o.footprint.path.empty()) return {};
     return {{PathText{o.footprint.path}}, {}};
@@ -215,8 +220,10 @@ const RegisterStage registered{make_stage<CropOptions>(
                   "crop: {footprint: parcel.geojson, keep: outside, axis: z}",
                   "crop: {footprint: parcel.geojson, keep: both, cap: true}",
                   "crop: {footprint: [[0, 0], [4, 0], [4, 3], [2, 1], [0, 3]], cap: true}"},
-     .may_lose = MayLose::all},
-    declare, declare_report, run, StageHooks<CropOptions>{.files = files, .verify = verify})};
+     .may_lose = MayLose::all,
+     .crossing_faces = CrossingFacePolicy::fill},
+    declare, declare_report, run,
+    StageHooks<CropOptions>{.files = files, .verify = verify, .crossing_faces = crossing_faces})};
 
 } // namespace
 

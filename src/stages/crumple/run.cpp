@@ -99,7 +99,8 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
      .examples = {"crumple: 0.2%", "crumple: {grid: 3, amplitude: 0.5mm, seed: 7}",
                   "crumple: {grid: 1, amplitude: 1%, direction: normal, boundary: fixed}",
                   "crumple: {grid: 4, amplitude: 1%, self_intersections: avoid}",
-                  "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"}},
+                  "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"},
+     .crossing_faces = CrossingFacePolicy::fill},
     declare_crumple, declare_crumple_report, run, {.verify = verify_crumple});
 
 } // namespace

@@ -79,7 +79,8 @@ const RegisterStage registered = make_stage<MeasureOptions>(
      .about = help::measure::about,
      .details = help::measure::details,
      .examples = {"measure", "measure: {density: 7.85, path: part.json}",
-                  "measure: {curvature: true, path: [all.json, faces.csv]}"}},
+                  "measure: {curvature: true, path: [all.json, faces.csv]}"},
+     .crossing_faces = CrossingFacePolicy::name},
     declare_measure, declare_measure_report, run, {.files = files_of_measure, .verify = verify_measure});
 
 } // namespace

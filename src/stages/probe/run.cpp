@@ -1,5 +1,6 @@
 #include "geometry/inspect/connectivity.hpp"
 #include "geometry/probe/probe.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/face.hpp"
 #include "mesh/placement.hpp"
 #include "stages/probe/help.hpp"
@@ -178,7 +179,7 @@ LineAnswers answer_lines(const FaceTree& tree, const ProbeOptions& o, const Ques
 
 Scene run(Scene scene, const ProbeOptions& o, Context& context, ProbeReport& report) {
     const Questions q = questions_of(scene, o, context);
-    const FaceTree tree(surface_of(q.surface));
+    const FaceTree tree(surface_of(q.surface, filled_surface));
     const bool wants_csv = std::any_of(o.path.begin(), o.path.end(), is_csv);
     const bool wants_json = o.path.size() > (wants_csv ? 1 : 0) || (!o.path.empty() && !wants_csv);
     constexpr std::size_t no_limit = std::size_t(-1);
@@ -208,7 +209,8 @@ const RegisterStage registered = make_stage<ProbeOptions>(
      .details = help::probe::details,
      .examples = {"probe: [0, 0, 1]", "probe: {points: probes.csv, path: answers.csv}",
                   "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
-                  "probe: {along: NORMAL, reverse: true, path: walls.csv}"}},
+                  "probe: {along: NORMAL, reverse: true, path: walls.csv}"},
+     .crossing_faces = CrossingFacePolicy::name},
     declare_probe, declare_probe_report, run, {.files = probe_files, .verify = verify_probe});
 
 } // namespace

@@ -81,7 +81,8 @@ const RegisterStage registered{make_stage<RenderOptions>(
      .details = help::render::details,
      .examples = {"render: view.png", "render: {path: sides.png, shading: beside, background: white}",
                   "render: {path: top.png, view: top, width: 2000, height: 2000, edges: all}",
-                  "render: {path: failed.png, attribute: failed}"}},
+                  "render: {path: failed.png, attribute: failed}"},
+     .crossing_faces = CrossingFacePolicy::name},
     declare_render, declare_report, run,
     StageHooks<RenderOptions>{.files =
                                   [](const RenderOptions& o) {

@@ -24,8 +24,6 @@ parts with the same node transform, attributes and shading whose boundaries coin
 as one, to a common target. Where a part meets another that differs in these, or that is not
 selected, its vertices stay. Non-manifold regions are left as they are. Where neighbouring faces are
 oriented inconsistently, the work is done as if they agreed, and each face keeps its orientation.
-Faces that intersect themselves become triangles first, as in triangulate (W-FANS names those that may
-overlap).
 With shortest-edge, vertices where a boundary turns by more than the feature angle stay. Isolated
 vertices are removed. With topology: allow, components may vanish, holes may close and
 handles may be pinched off, which can leave edges of four faces; the report gives the counts before

@@ -1,10 +1,10 @@
 #include "stages/simplify/parts.hpp"
 
+#include "base/words.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "mesh/equal_meshes.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/transform.hpp"
-#include "stage/crossing_faces.hpp"
 #include "stages/simplify/report.hpp"
 #include "stages/simplify/samples.hpp"
 
@@ -33,14 +33,14 @@ std::optional<std::size_t> share(std::optional<std::int64_t> whole, std::size_t 
 /// asked: whether less than all of the part was asked for.
 void warn(const Part& part, const SimplifyResult& r, bool asked, Context& context) {
     if (r.stop == Stop::nothing && asked)
-        context.warn(
-            "W-SIMPLIFY-NOTHING",
-            fmt::format("part '{}' has {} triangles and {} vertices, at or below the target: nothing to do",
-                        part.name, r.faces_before, r.vertices_before));
+        context.warn("W-SIMPLIFY-NOTHING",
+                     fmt::format("part '{}' has {} and {}, at or below the target: nothing to do", part.name,
+                                 counted(r.faces_before, "triangle"),
+                                 counted(r.vertices_before, "vertex", "vertices")));
     if (r.stop == Stop::stuck)
         context.warn("W-SIMPLIFY-STOPPED",
-                     fmt::format("part '{}' stopped at {} triangles, above the target: {}", part.name,
-                                 r.faces_after, held_by(r)),
+                     fmt::format("part '{}' stopped at {}, above the target: {}", part.name,
+                                 counted(r.faces_after, "triangle"), held_by(r)),
                      hint_for(r));
     if (r.faces_before > 0 && r.faces_after == 0)
         context.warn("W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
@@ -307,7 +307,6 @@ class Simplifier {
 } // namespace
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {
-    warn_of_fans(fill_crossing_faces(scene, context), context);
     return Simplifier(std::move(scene), o, context, report).run();
 }
 

@@ -61,7 +61,8 @@ const RegisterStage split_stage = make_stage<SplitOptions>(
      .details = help::split::details,
      .examples = {"split: midpoint", "split: {method: bisect, passes: 3}", "split: {grid: 3}",
                   "split: {max_edge: 2%}", "split: {method: loop, passes: 2, feature_angle: 30deg}"},
-     .may_lose = MayLose::half},
+     .may_lose = MayLose::half,
+     .crossing_faces = CrossingFacePolicy::fill},
     declare_split, declare_split_report, run, {.verify = verify_split, .may_lose = may_lose});
 
 } // namespace

@@ -53,14 +53,20 @@ Scene run(Scene scene, const ThickenOptions& o, Context& context, ThickenReport&
     return scene;
 }
 
-const RegisterStage registered =
-    make_stage<ThickenOptions>({.name = "thicken",
-                                .about = help::thicken::about,
-                                .details = help::thicken::details,
-                                .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
-                                             "thicken: {thickness: 0.5%, mode: edges, sides: 6}"},
-                                .may_lose = MayLose::area},
-                               declare_thicken, declare_thicken_report, run);
+/// Of wires, only the edges count.
+CrossingFacePolicy crossing_faces(const ThickenOptions& o) {
+    return o.mode == Mode::surface ? CrossingFacePolicy::fill : CrossingFacePolicy::keep;
+}
+
+const RegisterStage registered = make_stage<ThickenOptions>(
+    {.name = "thicken",
+     .about = help::thicken::about,
+     .details = help::thicken::details,
+     .examples = {"thicken: 2mm", "thicken: {thickness: 1%, side: centred}",
+                  "thicken: {thickness: 0.5%, mode: edges, sides: 6}"},
+     .may_lose = MayLose::area,
+     .crossing_faces = CrossingFacePolicy::fill},
+    declare_thicken, declare_thicken_report, run, {.crossing_faces = crossing_faces});
 
 } // namespace
 

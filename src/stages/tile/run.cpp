@@ -177,7 +177,8 @@ const RegisterStage registered{make_stage<TileOptions>(
      .about = help::tile::about,
      .details = help::tile::details,
      .examples = {"tile: 100", "tile: {size: 100, axes: xy, origin: [0, 0]}",
-                  "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"}},
+                  "tile: {size: [10mm, 20mm, 5mm], axes: xyz, cap: true}"},
+     .crossing_faces = CrossingFacePolicy::fill},
     declare, declare_report, run, StageHooks<TileOptions>{.files = {}, .verify = verify})};
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "base/portable_math.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
-#include "stage/crossing_faces.hpp"
 #include "stage/stage.hpp"
 #include "stages/triangulate/help.hpp"
 
@@ -61,16 +60,15 @@ void declare_report(DeclareFields<TriangulateReport>& d) {
 Scene run(Scene scene, const TriangulateOptions& o, Context& context, TriangulateReport& report) {
     std::size_t fans = 0, overlapping = 0;
     context.for_each_part(scene, [&](Part& part) {
-        const FaceKinds kinds = face_kinds(part.mesh);
-        const auto filled = fill_crossing_faces(part.mesh);
-        auto result = triangulate(filled ? filled->mesh : part.mesh);
-        if (filled) result.changes = changes_in_sequence(filled->changes, std::move(result.changes));
-        TriangulatedPart entry{.part = part.name, .kinds = kinds, .cut = result.cut, .fans = result.fans};
-        if (filled) {
-            entry.filled = filled->filled;
-            entry.cut += filled->filled;
-            overlapping += filled->overlapping;
-        }
+        const CrossingFaces filled = fill_crossing_faces(part.mesh);
+        auto result = triangulate(filled.mesh ? *filled.mesh : part.mesh);
+        if (filled.mesh) result.changes = changes_in_sequence(filled.changes, std::move(result.changes));
+        TriangulatedPart entry{.part = part.name,
+                               .kinds = filled.mesh ? face_kinds(part.mesh) : result.kinds,
+                               .cut = result.cut + filled.filled,
+                               .fans = result.fans,
+                               .filled = filled.filled};
+        overlapping += filled.overlapping;
         fans += result.fans;
         part.mesh = std::move(result.mesh);
         if (o.to == To::quads) {
@@ -83,7 +81,7 @@ Scene run(Scene scene, const TriangulateOptions& o, Context& context, Triangulat
         context.attribute_changes(part, result.changes);
         report.parts.push_back(std::move(entry));
     });
-    warn_of_fans({overlapping, fans}, context);
+    warn_of_fans({.fans = fans, .overlapping = overlapping}, context);
     return scene;
 }
 

@@ -78,14 +78,22 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     return scene;
 }
 
+/// A file of polygons has them as they are.
+CrossingFacePolicy crossing_faces(const WriteOptions& o) {
+    const io::Codec* codec = codec_of(o);
+    return codec && !codec->can.polygons ? CrossingFacePolicy::name : CrossingFacePolicy::keep;
+}
+
 const RegisterStage registered = make_stage<WriteOptions>(
     {.name = "write",
      .about = help::write::about,
      .details = help::write::details,
      .examples = {"write: part.glb", "write: {path: part.glb, draco: true}",
                   "write: {path: part.glb, quantize: true}", "write: {path: print.stl, unit: mm, up: z}",
-                  "write: {path: web.glb, normals: smooth, feature_angle: 40deg}"}},
-    declare_write, declare_report, run, {.files = files_of_write, .verify = verify_write});
+                  "write: {path: web.glb, normals: smooth, feature_angle: 40deg}"},
+     .crossing_faces = CrossingFacePolicy::name},
+    declare_write, declare_report, run,
+    {.files = files_of_write, .verify = verify_write, .crossing_faces = crossing_faces});
 
 } // namespace
 

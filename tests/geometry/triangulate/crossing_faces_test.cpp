@@ -75,13 +75,13 @@ TEST_CASE("a face that crosses itself covers what it winds around, once", "[geom
         INFO("ring " << seed);
         const auto filled = fill_crossing_faces(face_of(ring));
         crossing += kind == polygon::Kind::self_intersecting;
-        CHECK((filled || kind != polygon::Kind::self_intersecting));
-        if (!filled) continue;
-        const Mesh& mesh = filled->mesh;
+        CHECK((filled.mesh || kind != polygon::Kind::self_intersecting));
+        if (!filled.mesh) continue;
+        const Mesh& mesh = *filled.mesh;
         CHECK(broken_invariants(mesh).empty());
-        CHECK(filled->overlapping == 0); // it has no neighbours
-        fans += filled->filled == 0;
-        if (filled->filled == 0) continue;
+        CHECK(filled.overlapping == 0); // it has no neighbours
+        fans += filled.filled == 0;
+        if (filled.filled == 0) continue;
         REQUIRE(mesh.all_triangles());
         for (double x = 0.2370913; x < 6; x += 0.71031) // on no line through lattice points
             for (double y = 0.1190377; y < 6; y += 0.67093) {
@@ -97,11 +97,11 @@ TEST_CASE("a face that crosses itself covers what it winds around, once", "[geom
 
 TEST_CASE("a bow-tie has the area of its two triangles", "[geometry]") {
     const auto filled = fill_crossing_faces(face_of({{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
-    REQUIRE(filled);
-    CHECK(filled->filled == 1);
-    CHECK(filled->mesh.vertex_count() == 5);
-    CHECK(filled->mesh.face_count() == 2);
-    CHECK(test::area(filled->mesh) == 0.5);
+    REQUIRE(filled.mesh);
+    CHECK(filled.filled == 1);
+    CHECK(filled.mesh->vertex_count() == 5);
+    CHECK(filled.mesh->face_count() == 2);
+    CHECK(test::area(*filled.mesh) == 0.5);
     CHECK(test::area(triangles_of(face_of({{0, 0}, {4, 0}, {3, 4}, {1, 4}}))) == Approx(12)); // no crossing
     CHECK(test::area(triangles_of(face_of({{0, 0}, {6, 0}, {2, 4}, {4, 4}}))) == Approx(9 + 1));
     const double middle = 2.5 * std::sin(2 * M_PI / 5) * std::pow((3 - std::sqrt(5.0)) / 2, 2); // wound twice
@@ -115,11 +115,10 @@ TEST_CASE("prisms over rings that cross themselves stay closed", "[geometry]") {
         const Mesh prism = prism_of(ring);
         REQUIRE(inspect(prism).closed);
         const auto filled = fill_crossing_faces(prism);
-        REQUIRE(filled);
-        CHECK(filled->filled == 2);
-        CHECK(filled->overlapping ==
-              (ring.size() == 5 ? 2 : 0)); // a pentagram's middle is wound around twice
-        for (const Mesh& mesh : {filled->mesh, triangles_of(prism)}) {
+        REQUIRE(filled.mesh);
+        CHECK(filled.filled == 2);
+        CHECK(filled.overlapping == (ring.size() == 5 ? 2 : 0)); // a pentagram's middle is wound around twice
+        for (const Mesh& mesh : {*filled.mesh, triangles_of(prism)}) {
             CHECK(broken_invariants(mesh).empty());
             CHECK(inspect(mesh).closed);
             CHECK(test::volume(mesh) == Approx(polygon::signed_area(ring)).margin(1e-12));
@@ -150,10 +149,12 @@ TEST_CASE("attributes are interpolated where a face crosses itself", "[geometry]
 TEST_CASE("faces that cross themselves in no plane, or not at all, are left alone", "[geometry]") {
     Mesh skew = face_of({{0, 0}, {1, 0}, {0, 1}, {1, 1}});
     skew.positions[2].z = 3;
-    CHECK_FALSE(fill_crossing_faces(skew));
-    CHECK_FALSE(fill_crossing_faces(shapes::quad_cube()));
-    CHECK_FALSE(fill_crossing_faces(face_of(test::keyhole())));
-    CHECK_FALSE(fill_crossing_faces(face_of({{0, 0}, {1, 1}, {3, 3}, {2, 2}})));
+    CHECK_FALSE(fill_crossing_faces(skew).mesh);
+    CHECK(fill_crossing_faces(skew).fans == 1);
+    CHECK(count_fans(skew) == 1);
+    CHECK_FALSE(fill_crossing_faces(shapes::quad_cube()).mesh);
+    CHECK_FALSE(fill_crossing_faces(face_of(test::keyhole())).mesh);
+    CHECK_FALSE(fill_crossing_faces(face_of({{0, 0}, {1, 1}, {3, 3}, {2, 2}})).mesh);
     const Mesh cube = shapes::quad_cube();
     CHECK(triangles_of(cube).corners == triangulated(cube).corners);
 }
