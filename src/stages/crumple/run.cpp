@@ -1,5 +1,6 @@
 #include "base/memory.hpp"
 #include "geometry/edit/moved.hpp"
+#include "stage/grid_faces.hpp"
 #include "stage/stage.hpp"
 #include "stages/crumple/help.hpp"
 #include "stages/crumple/options.hpp"
@@ -62,6 +63,7 @@ void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, c
 Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport& report) {
     CrumpleSettings settings = crumple_settings(o, scene);
     require_room(scene, o, context);
+    warn_of_crossing_faces_in_grid(scene, context);
     std::vector<CrumpledPart> works;
     std::vector<CrumpleSheet> sheets;
     MaskOfParts masks(scene, o.mask);
@@ -99,8 +101,7 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
      .examples = {"crumple: 0.2%", "crumple: {grid: 3, amplitude: 0.5mm, seed: 7}",
                   "crumple: {grid: 1, amplitude: 1%, direction: normal, boundary: fixed}",
                   "crumple: {grid: 4, amplitude: 1%, self_intersections: avoid}",
-                  "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"},
-     .crossing_faces = CrossingFacePolicy::fill},
+                  "crumple: {grid: 8, amplitude: 2%, frequency: 4, octaves: 6, direction: normal}"}},
     declare_crumple, declare_crumple_report, run, {.verify = verify_crumple});
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "stage/grid_faces.hpp"
 #include "stages/split/help.hpp"
 #include "stages/split/options.hpp"
 #include "stages/split/report.hpp"
@@ -30,6 +31,7 @@ SplitResult split_part(const Part& part, const SplitSettings& settings) {
 
 Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& report) {
     SplitSettings settings = split_settings(o);
+    if (o.chosen() == SplitMethod::grid) warn_of_crossing_faces_in_grid(scene, context);
     double total = 0;
     for (const Part& part : scene.parts)
         if (context.selects(part, scene)) total += static_cast<double>(part.mesh.face_count());
@@ -55,6 +57,11 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
 /// Smooth methods approach a surface inside the corners of the first, however much that is.
 MayLose may_lose(const SplitOptions& o) { return is_smooth(o.chosen()) ? MayLose::area : MayLose::half; }
 
+/// A grid takes faces of four corners at most, so that they cannot be filled.
+CrossingFacePolicy crossing_faces(const SplitOptions& o) {
+    return o.chosen() == SplitMethod::grid ? CrossingFacePolicy::keep : CrossingFacePolicy::fill;
+}
+
 const RegisterStage split_stage = make_stage<SplitOptions>(
     {.name = "split",
      .about = help::split::about,
@@ -63,7 +70,8 @@ const RegisterStage split_stage = make_stage<SplitOptions>(
                   "split: {max_edge: 2%}", "split: {method: loop, passes: 2, feature_angle: 30deg}"},
      .may_lose = MayLose::half,
      .crossing_faces = CrossingFacePolicy::fill},
-    declare_split, declare_split_report, run, {.verify = verify_split, .may_lose = may_lose});
+    declare_split, declare_split_report, run,
+    {.verify = verify_split, .may_lose = may_lose, .crossing_faces = crossing_faces});
 
 } // namespace
 

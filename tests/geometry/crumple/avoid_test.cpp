@@ -217,7 +217,6 @@ TEST_CASE("moves of many edges end after little work, whatever the number of fac
         AvoidResult r;
         const Mesh after = apart(sheet, by(12.0 / n), &r);
         CHECK(r.box_pairs < 200 * sheet.face_count());
-        CHECK(r.hurried > 0);
         CHECK(r.shares.back() < sheet.vertex_count() / 2); // it is crumpled all the same
         CHECK(find_self_intersections(after).count == 0);
         CHECK(test::count(after).flat == 0);

@@ -150,8 +150,11 @@ TEST_CASE("faces that cross themselves in no plane, or not at all, are left alon
     Mesh skew = face_of({{0, 0}, {1, 0}, {0, 1}, {1, 1}});
     skew.positions[2].z = 3;
     CHECK_FALSE(fill_crossing_faces(skew).mesh);
-    CHECK(fill_crossing_faces(skew).fans == 1);
-    CHECK(count_fans(skew) == 1);
+    Mesh bent = face_of({{0, 0}, {6, 0}, {2, 4}, {4, 4}});
+    bent.positions[2].z = 0.25;
+    CHECK_FALSE(fill_crossing_faces(bent).mesh);
+    CHECK(fill_crossing_faces(bent).fans == 1);
+    CHECK(count_fans(bent) == 1);
     CHECK_FALSE(fill_crossing_faces(shapes::quad_cube()).mesh);
     CHECK_FALSE(fill_crossing_faces(face_of(test::keyhole())).mesh);
     CHECK_FALSE(fill_crossing_faces(face_of({{0, 0}, {1, 1}, {3, 3}, {2, 2}})).mesh);
