@@ -584,6 +584,13 @@ const std::vector<MessageId>& message_ids() {
          {},
          "Contours of a section intersect themselves. What they wind around, either way, counts as inside.",
          "Use `clean: {self_intersections: all}` first."},
+        {"W-SIMPLIFY-CEILING",
+         {},
+         "simplify stopped above its target, because any fewer triangles would move the surface by more than "
+         "`max_quadric_error`, which is 1 % of each part's diagonal unless it is given.",
+         "Ask for more triangles. `max_quadric_error: off` goes on to the target, whatever becomes of the "
+         "shape; a "
+         "larger one, such as `5% of part`, some of the way."},
         {"W-SIMPLIFY-NOTHING",
          {},
          "simplify has nothing to do, because the target is not below the size of the mesh.",

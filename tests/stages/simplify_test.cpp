@@ -37,7 +37,7 @@ TEST_CASE("simplify says on the terminal what it did", "[stages]") {
     };
     CHECK(said("10%").starts_with("part: 1,280 -> 128 triangles (10 %), stopped by ratio; deviation "));
     CHECK(said("{ratio: 10%, measure: false}") == "part: 1,280 -> 128 triangles (10 %), stopped by ratio");
-    CHECK(said("{faces: 1, measure: false}") ==
+    CHECK(said("{faces: 1, measure: false, max_quadric_error: off}") ==
           "part: 1,280 -> 4 triangles (0.312 %), stopped above the target");
     CHECK(said("{faces: 5000, measure: false}") == "part: 1,280 -> 1,280 triangles (100 %), nothing to do");
 }
@@ -141,7 +141,7 @@ TEST_CASE("simplify: levels of parts that touch match level by level", "[stages]
 
 TEST_CASE("simplify: a part that is gone is told", "[stages]") {
     Scene scene = scene_of(shapes::cube());
-    const auto r = run_stage("simplify", "{faces: 1, topology: allow}", scene);
+    const auto r = run_stage("simplify", "{faces: 1, topology: allow, max_quadric_error: off}", scene);
     CHECK(r.mesh().face_count() == 0);
     CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-VANISHED", "W-SURFACE-LOST"});
 }
@@ -237,7 +237,8 @@ TEST_CASE("simplify takes faces without area, and targets above and below what t
         CHECK(above.warnings() == std::vector<std::string>{"W-SIMPLIFY-NOTHING"});
         CHECK(above.mesh().corners == flat.corners);
     }
-    const auto stuck = run_stage("simplify", "{faces: 1}", scene_of(shapes::icosphere(2)));
+    const auto stuck =
+        run_stage("simplify", "{faces: 1, max_quadric_error: off}", scene_of(shapes::icosphere(2)));
     CHECK(stuck.warnings() == std::vector<std::string>{"W-SIMPLIFY-STOPPED"});
     CHECK(stuck.mesh().face_count() == 4);
 }
@@ -295,7 +296,8 @@ TEST_CASE("simplify: parts with one mesh become what each becomes alone, however
     for (std::size_t p = 1; p < 4; ++p) scene.parts[p].transform.m[0][3] = 16 * double(p);
     std::swap(scene.parts[2].transform.m[0], scene.parts[2].transform.m[1]); // and mirrored
     for (int i = 0; i < 3; ++i) scene.parts[3].transform.m[i][i] = 2;
-    for (const std::string asked : {"{ratio: 10%}", "{lods: [50%, 10%]}", "{ratio: 10%, method: cluster}"}) {
+    for (const std::string asked : {"{ratio: 10%, share: equal}", "{lods: [50%, 10%], share: equal}",
+                                    "{ratio: 10%, method: cluster}"}) {
         const auto all = run_stage("simplify", asked, scene);
         for (std::size_t p = 0; p < 4; ++p) {
             Scene alone = one;
@@ -305,7 +307,7 @@ TEST_CASE("simplify: parts with one mesh become what each becomes alone, however
             CHECK(all.scene.parts[p].mesh.corners == r.scene.parts[0].mesh.corners);
         }
     }
-    const Json parts = run_stage("simplify", "{ratio: 10%}", scene).record.result["parts"];
+    const Json parts = run_stage("simplify", "{ratio: 10%, share: equal}", scene).record.result["parts"];
     const auto maximum = [&](std::size_t p) { return parts[p]["deviation"]["maximum"].get<double>(); };
     const auto x_of = [&](std::size_t p, const char* end) {
         return parts[p]["deviation"]["forward"]["at"][end][0].get<double>();
@@ -346,7 +348,7 @@ TEST_CASE("simplify: what topology does not allow is said, and is no failure", "
 TEST_CASE("simplify: a count is shared among the parts", "[stages]") {
     Scene scene = scene_of(shapes::icosphere(3));
     scene.parts.push_back(scene_of(shapes::icosphere(2)).parts.front());
-    const auto r = run_stage("simplify", options({{"faces", "400"}}), scene);
+    const auto r = run_stage("simplify", "{faces: 400, share: equal}", scene);
     CHECK(r.scene.parts[0].mesh.face_count() == 320);
     CHECK(r.scene.parts[1].mesh.face_count() == 80);
 }
@@ -355,4 +357,188 @@ TEST_CASE("simplify: needs a target, and a bare 1 or 5000 is no ratio", "[stages
     CHECK(problems_of("simplify", {}) != "");
     CHECK(problems_of("simplify", Value::scalar("1")) != "");
     CHECK(problems_of("simplify", Value::scalar("5000")) != "");
+}
+
+// --- one target for several parts
+
+namespace {
+
+std::size_t faces_of(const test::StageRun& r, std::size_t part) {
+    return r.scene.parts[part].mesh.face_count();
+}
+
+/// A sphere and a flat sheet beside it.
+Scene sphere_and_sheet() {
+    Scene scene = scene_of(shapes::icosphere(3));           // 1280 triangles
+    scene.parts.push_back({"sheet", shapes::grid(16, 16)}); // 512
+    scene.parts[1].transform.m[0][3] = 4;
+    return scene;
+}
+
+double largest_deviation(const test::StageRun& r) {
+    double largest = 0;
+    for (const Json& part : r.record.result["parts"])
+        largest = std::max(largest, part["deviation"]["maximum"].get<double>());
+    return largest;
+}
+
+} // namespace
+
+TEST_CASE("simplify: several parts keep their triangles where they are needed", "[stages]") {
+    const auto by_error = run_stage("simplify", "50%", sphere_and_sheet());
+    const auto equal = run_stage("simplify", "{ratio: 50%, share: equal}", sphere_and_sheet());
+    CHECK(faces_of(equal, 0) == 640);
+    CHECK(faces_of(equal, 1) == 256);
+    CHECK(by_error.scene.face_count() == 896);
+    CHECK(faces_of(by_error, 1) < 64); // it is flat
+    CHECK(largest_deviation(by_error) < 0.8 * largest_deviation(equal));
+    CHECK(by_error.warnings().empty());
+    for (const Json& part : by_error.record.result["parts"]) CHECK(part["stopped_by"] == "ratio");
+    CHECK(run_stage("simplify", "{faces: 900}", sphere_and_sheet()).scene.face_count() == 900);
+    const auto vertices = run_stage("simplify", "{vertices: 400}", sphere_and_sheet());
+    CHECK(vertices.scene.parts[0].mesh.vertex_count() + vertices.scene.parts[1].mesh.vertex_count() == 400);
+    CHECK(vertices.record.result["parts"][0]["stopped_by"] == "vertices");
+}
+
+TEST_CASE("simplify: each level of several parts is a target of all", "[stages]") {
+    const auto r = run_stage("simplify", "{lods: [100%, 50%, 25%]}", sphere_and_sheet());
+    REQUIRE(r.scene.parts.size() == 6); // sphere, sheet, and two levels of each
+    CHECK(faces_of(r, 0) + faces_of(r, 1) == 1792);
+    CHECK(faces_of(r, 2) + faces_of(r, 4) == 896);
+    CHECK(faces_of(r, 3) + faces_of(r, 5) == 448);
+    const auto once = run_stage("simplify", "50%", sphere_and_sheet());
+    CHECK(faces_of(once, 0) == faces_of(r, 2));
+}
+
+TEST_CASE("simplify: errors of parts are compared as their nodes scale them", "[stages]") {
+    Scene scene = scene_of(shapes::icosphere(3));
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].name = "large";
+    for (int i = 0; i < 3; ++i) scene.parts[1].transform.m[i][i] = 8;
+    scene.parts[1].transform.m[0][3] = 20;
+    for (const char* options : {"20%", "{ratio: 20%, method: shortest-edge}"}) {
+        INFO(options);
+        const auto r = run_stage("simplify", options, scene);
+        CHECK(r.scene.face_count() == 512);
+        CHECK(faces_of(r, 1) > 2 * faces_of(r, 0));
+    }
+}
+
+TEST_CASE("simplify: parts with one mesh and one scale share alike, and each of them counts", "[stages]") {
+    Scene scene = sphere_and_sheet();
+    for (const char* name : {"second", "turned"}) {
+        scene.parts.push_back(scene.parts[0]);
+        scene.parts.back().name = name;
+        scene.parts.back().transform.m[1][3] = 4.0 * double(scene.parts.size());
+    }
+    std::swap(scene.parts[3].transform.m[0], scene.parts[3].transform.m[1]);
+    const auto r = run_stage("simplify", "50%", scene);
+    CHECK(test::same(r.scene.parts[0].mesh, r.scene.parts[2].mesh));
+    CHECK(test::same(r.scene.parts[0].mesh, r.scene.parts[3].mesh));
+    const std::size_t target = 3 * 640 + 256;
+    CHECK(r.scene.face_count() <= target);
+    CHECK(r.scene.face_count() + 6 > target); // one collapse takes two faces of each of the three
+}
+
+TEST_CASE("simplify: parts share a target by error also within max_error and without crossings", "[stages]") {
+    const auto plain = run_stage("simplify", "50%", sphere_and_sheet());
+    for (const char* more : {"max_error: 1", "self_intersections: count", "self_intersections: avoid"}) {
+        INFO(more);
+        const auto r = run_stage("simplify", fmt::format("{{ratio: 50%, {}}}", more), sphere_and_sheet());
+        for (std::size_t p = 0; p < 2; ++p) {
+            CHECK(faces_of(r, p) == faces_of(plain, p));
+            CHECK(r.record.result["parts"][p]["stopped_by"] == "ratio");
+        }
+        CHECK(r.warnings().empty());
+    }
+}
+
+TEST_CASE("simplify: borders of parts stay matched where others share the target", "[stages]") {
+    Scene scene = halves();
+    scene.parts.push_back({"sheet", shapes::grid(32, 32)});
+    scene.parts.back().transform.m[0][3] = 4;
+    const auto r = run_stage("simplify", "{faces: 1000}", scene);
+    CHECK(r.scene.face_count() == 1000);
+    Scene ball = r.scene;
+    ball.parts.pop_back();
+    CHECK(welded(ball).open == 0);
+    CHECK(r.record.result["parts"][0]["together_with"] == Json{"upper"});
+}
+
+// --- the limit on the error
+
+TEST_CASE("simplify stops before the shape is lost, and says so", "[stages]") {
+    const auto r = run_stage("simplify", "30%", scene_of(shapes::cube()));
+    CHECK(test::same(r.mesh(), shapes::cube()));
+    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-CEILING"});
+    CHECK(r.record.warnings[0].message == "part 'part' stopped at 12 of 12 triangles, above the target: any "
+                                          "fewer would move the surface by more "
+                                          "than max_quadric_error (1% of part)");
+    const Json& part = r.record.result["parts"][0];
+    CHECK(part["stopped_by"] == "max_quadric_error");
+    CHECK(part["max_quadric_error"].get<double>() == Approx(0.01 * std::sqrt(3.0)));
+    CHECK(part["blocked_edges"]["error"].get<int>() > 0);
+    for (const char* off : {"{ratio: 30%, max_quadric_error: off}", "{ratio: 30%, max_quadric_error: false}",
+                            "{ratio: 30%, max_quadric_error: 50% of part}"}) {
+        const auto all = run_stage("simplify", off, scene_of(shapes::cube()));
+        CHECK(all.mesh().face_count() == 4);
+        CHECK(all.warnings() == std::vector<std::string>{"W-SURFACE-LOST"});
+    }
+}
+
+TEST_CASE("simplify: separate boxes do not become slivers, and one warning tells of all", "[stages]") {
+    Scene scene;
+    for (int i = 0; i < 20; ++i) {
+        Mesh box = shapes::cube();
+        for (Vec3& p : box.positions) p = Vec3{p.x * (1 + 0.1 * i), p.y, p.z * 0.5} + Vec3{4.0 * i, 0, 0};
+        scene.parts.push_back({fmt::format("box{}", i), std::move(box)});
+    }
+    const auto r = run_stage("simplify", "30%", scene);
+    CHECK(r.scene.face_count() == 240);
+    REQUIRE(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-CEILING"});
+    CHECK(r.record.warnings[0].message.starts_with(
+        "20 parts, the first part 'box0', stopped at 240 of 240 triangles, above the target"));
+    // What is flat goes all the same.
+    scene.parts.push_back({"sheet", shapes::grid(16, 16)});
+    scene.parts.back().transform.m[1][3] = 4;
+    const auto more = run_stage("simplify", "50%", scene);
+    CHECK(more.scene.face_count() == 376);
+    CHECK(more.warnings().empty());
+}
+
+TEST_CASE("simplify: the limit on the error is a length, of the part's diagonal or in the world",
+          "[stages]") {
+    Scene scene = scene_of(shapes::icosphere(3));
+    for (int i = 0; i < 3; ++i) scene.parts[0].transform.m[i][i] = 10;
+    const auto left = [&](const char* options) {
+        return run_stage("simplify", options, scene).mesh().face_count();
+    };
+    const double diagonal = 10 * shapes::icosphere(3).bounds().diagonal();
+    const auto r = run_stage("simplify", "{faces: 4, max_quadric_error: 0.5% of part}", scene);
+    const Json& part = r.record.result["parts"][0];
+    CHECK(part["max_quadric_error"].get<double>() == Approx(0.005 * diagonal));
+    CHECK(part["largest_error"].get<double>() <= 0.005 * diagonal);
+    CHECK(part["largest_error"].get<double>() > 0.004 * diagonal);
+    CHECK(left(fmt::format("{{faces: 4, max_quadric_error: {}}}", 0.005 * diagonal).c_str()) ==
+          r.mesh().face_count());
+    CHECK(left("{faces: 4}") < r.mesh().face_count());
+    CHECK(left("{faces: 4}") > 4);
+}
+
+TEST_CASE("simplify: what the limit on the error and the sharing do not go with is refused", "[stages]") {
+    const auto problems = [](const char* text) {
+        Problems found;
+        const auto source = std::make_shared<const SourceText>(SourceText{"test.yaml", text});
+        return test::problems_of("simplify", pipeline::parse_yaml(source, found));
+    };
+    const auto refuses = [&](const char* text, const char* what) {
+        return problems(text).find(what) != std::string::npos;
+    };
+    CHECK(refuses("{ratio: 10%, max_error: 1%, max_quadric_error: 1%}", "in place of max_quadric_error"));
+    CHECK(refuses("{ratio: 10%, method: cluster, max_quadric_error: 1%}", "goes with the methods quadric"));
+    CHECK(refuses("{ratio: 10%, method: cluster, share: error}", "no cost that parts could share by"));
+    CHECK(refuses("{ratio: 10%, max_quadric_error: -1}", "E-RANGE"));
+    CHECK(refuses("{ratio: 10%, max_quadric_error: none}", "a length"));
+    CHECK(problems("{ratio: 10%, max_error: 1%, max_quadric_error: off}") == "");
+    CHECK(problems("{ratio: 10%, method: cluster, share: equal}") == "");
 }

@@ -416,9 +416,9 @@ Attempt collapse(State& s, Index c, Around& around, Pricer& pricer, Tally& tally
     const Index a = around.a = p.keep_second ? v : u, b = around.b = p.keep_second ? u : v;
     const bool stays = p.keep_first || p.keep_second;
     Collapse edit(s, around);
-    const bool beyond = s.limits && !(p.error < std::min((*s.limits)[a], (*s.limits)[b]));
-    const auto why =
-        beyond ? blocked_border : edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge);
+    const bool held = s.limits && !(p.error < std::min((*s.limits)[a], (*s.limits)[b]));
+    auto why = held ? blocked_border : edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge);
+    if (!why && p.error > s.ceiling) why = blocked_error;
     if (why == outside) return Attempt::outside;
     if (why) {
         s.flags[c] |= why;

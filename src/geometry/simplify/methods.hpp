@@ -5,6 +5,8 @@
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/simplify/collapse.hpp"
 
+#include <span>
+
 namespace facetmill::simplification {
 
 /// At most so many faces, or so many vertices, whichever comes first.
@@ -22,13 +24,21 @@ struct Outcome {
     std::size_t passes = 0, collapses = 0;
     double largest = 0; ///< largest error squared, in the frame
     bool stuck = false; ///< no collapse was left, and the goal is not met
-
-    /// More work on the same state.
-    Outcome& operator+=(const Outcome& more);
 };
 
 /// Collapses edges in the order of their costs until the goal is met or none can go.
 Outcome run_passes(State& s, const Goal& goal);
+
+/// One of several states that go to a goal together.
+struct Member {
+    State* state;
+    double unit = 1;      ///< of the state's frame, as a length that all members share
+    std::size_t uses = 1; ///< how often its faces, its vertices and what its collapses take away count
+    Outcome done{};       ///< of all work on it
+};
+/// As run_passes, of all members in one order of cost, for a goal of all together; what is used several times
+/// may go beyond it by one collapse of each use.
+void run_passes(std::span<Member> members, const Goal& goal);
 /// The edges that the last pass left, by reason; means something once the work is stuck.
 SimplifyResult::Blocked count_blocked(const State& s);
 

@@ -73,21 +73,25 @@ struct SimplifySettings {
     /// seed), stays within this. In the mesh's units.
     std::optional<double> max_error = {};
     std::size_t samples = 100000; ///< each way, that max_error is judged by
+    /// For quadric and quadric-endpoints: no collapse has a larger error (see
+    /// SimplifyResult::largest_error). In the mesh's units.
+    std::optional<double> max_quadric_error = {};
     /// Levels of detail: ratios, descending. No other target may be given then.
     std::vector<double> levels = {};
 };
 
 struct SimplifyResult {
     enum class Stop {
-        nothing,   ///< the mesh was at or below every target already: it is returned as it was
-        ratio,     ///< met
-        faces,     ///< met
-        vertices,  ///< met
-        max_error, ///< any more would deviate too much
-        stuck,     ///< no collapse was left that keeps the guarantees
+        nothing,           ///< the mesh was at or below every target already: it is returned as it was
+        ratio,             ///< met
+        faces,             ///< met
+        vertices,          ///< met
+        max_error,         ///< any more would deviate too much
+        max_quadric_error, ///< that held most of the edges that were left
+        stuck,             ///< no collapse was left that keeps the guarantees
     };
     /// Edges that were left because a collapse would have broken something; counted when the work stopped as
-    /// stuck or for max_error.
+    /// stuck, for max_error or for max_quadric_error.
     struct Blocked {
         std::size_t borders = 0;      ///< boundaries and locks; and where faces would cross, with avoid
         std::size_t seams = 0;        ///< at a seam, or a border of primitives or groups
@@ -99,6 +103,7 @@ struct SimplifyResult {
     Mesh mesh;
     AttributeChanges changes;
     Stop stop = Stop::nothing;
+    bool unchanged = false; ///< no collapse was made: the mesh is as it came
     Blocked blocked;
     NormalSeams::Shading shading = NormalSeams::Shading::as_given; ///< what was done about normal seams
     std::size_t merged_wedges = 0;                                 ///< by them
@@ -218,5 +223,34 @@ bool fit_together(std::span<const Mesh* const> meshes, const SimplifySettings& s
 /// and changes of all.
 std::vector<std::vector<SimplifyResult>> simplify_together(std::span<const Mesh* const> meshes,
                                                            const SimplifySettings& settings);
+
+// Meshes that share one target: triangles stay where they are needed.
+
+/// A mesh, or several for which fit_together holds and which are worked on as one.
+struct SharingMeshes {
+    std::vector<Mesh> meshes;
+    SimplifyLocks lock{};                      ///< in place of that of the settings
+    std::optional<double> max_quadric_error{}; ///< likewise
+    double scale = 1;     ///< takes lengths of the meshes' space to the one in which errors are compared
+    std::size_t uses = 1; ///< how often the result is used: what a collapse takes away counts as often
+};
+
+/// As simplify, or simplify_levels when settings has levels, of meshes with one target for all: edges are
+/// collapsed in one order of cost over all of them, so that all end at about the same cost. The ratio asks
+/// for as many triangles as it would of each; faces and vertices are those of all, and each use counts.
+/// [sharing][levels][meshes]; without levels there is one. A mesh in which no collapse was made stays as it
+/// came; when no collapse is left, those that are at or below their own part of the target have met it.
+///
+/// Requires quadric, quadric-endpoints or shortest-edge; max_error and self_intersections other than ignore
+/// are refused (E-RANGE), see simplify_shares.
+std::vector<std::vector<std::vector<SimplifyResult>>> simplify_sharing(std::vector<SharingMeshes> sharing,
+                                                                       const SimplifySettings& settings);
+
+/// What each would have after simplify_sharing without max_error and self_intersections.
+struct SimplifyShares {
+    std::vector<std::size_t> faces;                            ///< [sharing] triangles
+    SimplifyResult::Stop stop = SimplifyResult::Stop::nothing; ///< stuck: the target was not met
+};
+SimplifyShares simplify_shares(std::vector<SharingMeshes> sharing, const SimplifySettings& settings);
 
 } // namespace facetmill

@@ -1,4 +1,4 @@
-#include "geometry/simplify/simplify.hpp"
+#include "geometry/simplify/together.hpp"
 
 #include "geometry/edit/surgery.hpp"
 #include "mesh/topology.hpp"
@@ -77,7 +77,16 @@ bool same_attributes(const Mesh& a, const Mesh& b) {
                       });
 }
 
-/// All in one, the faces numbered by where they are from. Primitives stay numbers.
+std::size_t used_vertices(const Mesh& mesh) {
+    std::vector<std::uint8_t> used(mesh.vertex_count());
+    for (Index c = 0; c < mesh.corner_count(); ++c) used[mesh.vertex(c)] = 1;
+    return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
+}
+
+} // namespace
+
+namespace simplification {
+
 Mesh joined(std::span<const Mesh* const> meshes) {
     Mesh all;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -91,17 +100,10 @@ Mesh joined(std::span<const Mesh* const> meshes) {
     return all;
 }
 
-std::size_t used_vertices(const Mesh& mesh) {
-    std::vector<std::uint8_t> used(mesh.vertex_count());
-    for (Index c = 0; c < mesh.corner_count(); ++c) used[mesh.vertex(c)] = 1;
-    return static_cast<std::size_t>(std::count(used.begin(), used.end(), 1));
-}
-
-/// What became of each mesh.
 std::vector<SimplifyResult> split_up(SimplifyResult all, std::span<const Mesh* const> meshes) {
     std::vector<Mesh> pieces(meshes.size());
     const Attribute* member = all.mesh.find(member_attribute, Domain::face);
-    if (all.stop != SimplifyResult::Stop::nothing && member)
+    if (!all.unchanged && member)
         pieces = separated(all.mesh, std::get<std::vector<std::uint32_t>>(member->data), meshes.size());
     all.mesh = {};
     forget_change(all.changes, member_attribute);
@@ -112,7 +114,7 @@ std::vector<SimplifyResult> split_up(SimplifyResult all, std::span<const Mesh* c
         r.faces_given = given.face_count();
         r.faces_before = given.corner_count() - 2 * given.face_count();
         r.vertices_before = used_vertices(given);
-        if (all.stop == SimplifyResult::Stop::nothing) {
+        if (all.unchanged) {
             r.mesh = given;
             r.faces_after = r.faces_before;
             r.vertices_after = r.vertices_before;
@@ -127,7 +129,7 @@ std::vector<SimplifyResult> split_up(SimplifyResult all, std::span<const Mesh* c
     return results;
 }
 
-} // namespace
+} // namespace simplification
 
 Contacts find_contacts(std::span<const PlacedMesh> meshes) {
     const std::vector<PlacedEdge> edges = open_edges(meshes);
@@ -166,12 +168,12 @@ std::vector<std::vector<SimplifyResult>> simplify_together(std::span<const Mesh*
                                                            const SimplifySettings& settings) {
     std::vector<SimplifyResult> all;
     if (settings.levels.empty())
-        all.push_back(simplify(joined(meshes), settings));
+        all.push_back(simplify(simplification::joined(meshes), settings));
     else
-        all = simplify_levels(joined(meshes), settings);
+        all = simplify_levels(simplification::joined(meshes), settings);
     std::vector<std::vector<SimplifyResult>> results;
     results.reserve(all.size());
-    for (SimplifyResult& r : all) results.push_back(split_up(std::move(r), meshes));
+    for (SimplifyResult& r : all) results.push_back(simplification::split_up(std::move(r), meshes));
     return results;
 }
 

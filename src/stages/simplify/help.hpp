@@ -15,13 +15,30 @@ faces turn back on each other by more than 90 degrees are held as boundaries are
 always collapses the shortest edge. Collapses run in passes with a common cost threshold, so they
 follow the order of cost except at vertices that the same pass has already changed.
 
+Several parts have one target (share: error): edges are collapsed in one order of cost over all of
+them, in world space, until all together have as many triangles or vertices as were asked for; so
+does each level of lods. A part that needs all its triangles stays as it came. Where a node scales
+unevenly, its largest scale counts. Parts with one mesh and one scale are worked on once and get one
+result, and each of them counts, so that the work may go beyond the target by one collapse in each.
+With max_error or self_intersections, the shares are found so first, and each part is simplified
+to its share. share: equal gives each part the ratio, or its share of faces and vertices in
+proportion to its own; the methods cluster and constrained, which have no cost to compare, always do.
+
+The work stops above the target rather than lose the shape: no collapse of the quadric methods has a
+larger error (see largest_error below) than max_quadric_error, 1 % of the diagonal of the part's box
+in its own axes; of parts simplified as one, of the box of all. W-SIMPLIFY-CEILING says so when it
+holds most of the edges left. Scans reach a few hundred triangles within it; the boxes of a
+collection of them stay boxes. It is not the measured deviation, which is usually two to four times
+as large; max_error limits that, and takes the place of max_quadric_error. max_quadric_error: off
+goes on to the target whatever becomes of the shape.
+
 Guaranteed by default: a closed manifold stays closed and manifold; genus, components and boundary
 loops are kept; no face turns by more than 60 degrees in one collapse; and no face becomes
 degenerate or a duplicate. Boundaries, UV seams, sharp normal seams, and the borders of materials
 and groups collapse only along themselves and stay matched; where several of them meet, the vertex
 stays. The same holds for boundaries at exactly the same position, within a part and between parts:
 parts with the same node transform, attributes and shading whose boundaries coincide are simplified
-as one, to a common target. Where a part meets another that differs in these, or that is not
+as one. Where a part meets another that differs in these, or that is not
 selected, its vertices stay. Non-manifold regions are left as they are. Where neighbouring faces are
 oriented inconsistently, the work is done as if they agreed, and each face keeps its orientation.
 With shortest-edge, vertices where a boundary turns by more than the feature angle stay. Isolated

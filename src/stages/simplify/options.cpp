@@ -90,8 +90,7 @@ void declare_constraints(Declare<ConstraintOptions>& d) {
 
 void declare_levels(Declare<LevelOptions>& d) {
     d.option("ratios", &LevelOptions::ratios,
-             "The ratio of the triangles of each part that remains at each level, from fine to coarse: "
-             "[100%, 50%, 10%].")
+             "The ratio of the triangles that remains at each level, from fine to coarse: [100%, 50%, 10%].")
         .required();
     d.shorthand("a list of ratios", {{"type", "array"}},
                 [](const Value& v, LevelOptions& out, Problems& problems) {
@@ -99,23 +98,54 @@ void declare_levels(Declare<LevelOptions>& d) {
                 });
 }
 
+/// A length, or off.
+void declare_max_quadric_error(Declare<SimplifyOptions>& d) {
+    Option& o =
+        d.option("max_quadric_error", &SimplifyOptions::max_quadric_error,
+                 "Where ratio, faces, vertices or lods ask for so few triangles that the shape would be "
+                 "lost, the work stops: no collapse has a larger root mean square distance of the new "
+                 "vertex to the planes that it stands for. of part: the diagonal of the part's box in "
+                 "its own axes. off: no limit (with max_error, too). For quadric and quadric-endpoints.")
+            .above(0)
+            .option();
+    o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
+        if (!v.is_scalar() || v.deferred || !(v.text == "off" || v.as_bool() == false))
+            return plain(self, v, target, problems);
+        static_cast<SimplifyOptions*>(target)->max_quadric_error.reset();
+        return true;
+    };
+    o.schema = {{"anyOf", Json::array({o.schema, {{"enum", {"off", false}}}})}};
+}
+
+void declare_share(Declare<SimplifyOptions>& d) {
+    using Share = SimplifyOptions::Share;
+    d.choice<Share>(
+        "share", &SimplifyOptions::share,
+        {{"error", Share::error,
+          "triangles stay where they are needed: edges are collapsed in one order of cost over all parts, "
+          "until "
+          "all together meet the target"},
+         {"equal", Share::equal, "each part meets the ratio, or its share of faces and vertices, by itself"}},
+        "How several parts share a target; cluster and constrained always share it equally.");
+}
+
 void declare_targets(Declare<SimplifyOptions>& d) {
     d.option("ratio", &SimplifyOptions::ratio,
-             "The ratio of the triangles of each part that remains: 25%, or 0.25.")
+             "The ratio of the triangles that remains, of all parts together: 25%, or 0.25.")
         .above(0)
         .at_most(1)
         .primary();
     d.option("faces", &SimplifyOptions::faces,
-             "The maximum number of triangles that remain (a count), shared among the parts in proportion to "
-             "their own.")
+             "The maximum number of triangles that remain (a count), of all parts together.")
         .at_least(1);
     d.option("vertices", &SimplifyOptions::vertices,
-             "The maximum number of vertices that remain (a count), shared among the parts in proportion to "
-             "their own.")
+             "The maximum number of vertices that remain (a count), of all parts together.")
         .at_least(1);
     d.option("max_error", &SimplifyOptions::max_error,
              "The largest deviation from the input, measured both ways.")
         .above(0);
+    declare_share(d);
+    declare_max_quadric_error(d);
 }
 
 /// What the algorithm takes just as users say it.
@@ -191,6 +221,15 @@ void verify_levels(const SimplifyOptions& o, Together& together, const Mark& mar
 
 } // namespace
 
+bool has_quadrics(const SimplifyOptions& o) {
+    return o.settings.method == Method::quadric || o.settings.method == Method::quadric_endpoints;
+}
+
+bool shares_by_error(const SimplifyOptions& o) {
+    return o.share == SimplifyOptions::Share::error && (o.ratio || o.faces || o.vertices || o.lods) &&
+           (has_quadrics(o) || o.settings.method == Method::shortest_edge);
+}
+
 void declare_simplify(Declare<SimplifyOptions>& d) {
     declare_targets(d);
     d.embed(&SimplifyOptions::settings, declare_settings);
@@ -233,10 +272,20 @@ void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& pro
                     "cluster cannot avoid self-intersections", "count them, or use the method quadric");
     together.refuse(!constrained && together.has("constraints"), "constraints",
                     "constraints go with the method constrained only", "method: constrained");
-    together.refuse(o.settings.method != Method::quadric && o.settings.method != Method::quadric_endpoints &&
-                        together.has("weights"),
-                    "weights", "weights go with the methods quadric and quadric-endpoints only",
+    together.refuse(!has_quadrics(o) && together.has("weights"), "weights",
+                    "weights go with the methods quadric and quadric-endpoints only",
                     "method: quadric, which is the default");
+    const bool limited = o.max_quadric_error && together.has("max_quadric_error");
+    together.refuse(!has_quadrics(o) && limited, "max_quadric_error",
+                    "max_quadric_error goes with the methods quadric and quadric-endpoints only",
+                    "method: quadric, which is the default");
+    together.refuse(o.max_error && limited, "max_quadric_error",
+                    "max_error limits the deviation already, in place of max_quadric_error",
+                    "leave out one of the two");
+    together.refuse((constrained || cluster) && together.has("share") &&
+                        o.share == SimplifyOptions::Share::error,
+                    "share", "cluster and constrained have no cost that parts could share by",
+                    "share: equal, or the method quadric");
     if (o.lock.box) verify_box(*o.lock.box, together.mark("lock"), problems);
     if (o.lods) verify_levels(o, together, together.mark("lods"), problems);
 }
@@ -252,6 +301,7 @@ SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to
     s.faces = share.faces;
     s.vertices = share.vertices;
     s.max_error = share.max_error;
+    s.max_quadric_error = share.max_quadric_error;
     s.constraints = {.least_cosine = cosine(o.constraints.normal_deviation.radians),
                      .aspect_ratio = o.constraints.aspect_ratio.value_or(0),
                      .roundness = o.constraints.roundness.value_or(0),

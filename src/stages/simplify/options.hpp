@@ -22,9 +22,12 @@ struct LevelOptions {
 };
 
 struct SimplifyOptions {
+    enum class Share { error, equal };
     std::optional<Ratio> ratio;
     std::optional<std::int64_t> faces, vertices;
     std::optional<Length> max_error;
+    Share share = Share::error;
+    std::optional<Length> max_quadric_error = Length::percent(1, Length::Of::part); ///< none: off
     SimplifySettings settings{}; ///< what the algorithm takes just as users say it; the rest is unset
     LockOptions lock;
     Angle feature_angle = Angle::degrees(30);
@@ -33,6 +36,11 @@ struct SimplifyOptions {
     bool measure = true, certify = false;
 };
 
+/// Whether the method measures the error that max_quadric_error limits.
+bool has_quadrics(const SimplifyOptions& o);
+/// Whether several parts come to one target in one order of cost.
+bool shares_by_error(const SimplifyOptions& o);
+
 void declare_simplify(Declare<SimplifyOptions>& d);
 /// What the declaration cannot say: options that do not go together.
 void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems);
@@ -40,7 +48,7 @@ void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& pro
 /// A part's share of what is meant for all parts.
 struct SimplifyShare {
     std::optional<std::size_t> faces, vertices;
-    std::optional<double> max_error, hausdorff; ///< in the part's own units
+    std::optional<double> max_error, max_quadric_error, hausdorff; ///< in the part's own units
 };
 /// The settings for a part of that transform.
 SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to_world,

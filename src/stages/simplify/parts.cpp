@@ -1,9 +1,11 @@
 #include "stages/simplify/parts.hpp"
 
+#include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "mesh/equal_meshes.hpp"
 #include "mesh/placement.hpp"
+#include "mesh/power_scale.hpp"
 #include "mesh/transform.hpp"
 #include "stages/simplify/report.hpp"
 #include "stages/simplify/samples.hpp"
@@ -47,11 +49,45 @@ void warn(const Part& part, const SimplifyResult& r, bool asked, Context& contex
                      "ask for more faces, or keep the topology (topology: keep, and no cluster)");
 }
 
+/// How far a scale may be off where it only orders the errors of parts: nodes that differ by a rotation have
+/// the same.
+double rounded_scale(double scale) {
+    int exponent = 0;
+    const double mantissa = std::frexp(scale, &exponent);
+    return std::ldexp(std::round(std::ldexp(mantissa, 20)), exponent - 20);
+}
+
 /// A part as it came, as far as the report compares with it.
 struct Before {
     Surface surface;       ///< in the world
     Properties properties; ///< in the world
 };
+
+/// A part that max_quadric_error stopped above its target.
+struct Limited {
+    std::string part;
+    std::size_t before, after; ///< triangles
+};
+
+void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Context& context) {
+    if (limited.empty()) return;
+    std::size_t before = 0, after = 0;
+    for (const Limited& l : limited) {
+        before += l.before;
+        after += l.after;
+    }
+    const std::string first = fmt::format("part '{}'", limited.front().part);
+    const std::string who = limited.size() == 1
+                                ? first + " stopped at"
+                                : fmt::format("{} parts, the first {}, stopped at", limited.size(), first);
+    context.warn(
+        "W-SIMPLIFY-CEILING",
+        fmt::format("{} {} of {} triangles, above the target: any fewer would move the surface by more "
+                    "than max_quadric_error ({})",
+                    who, grouped(after), grouped(before), limit.text),
+        "max_quadric_error: off goes on to the target, whatever becomes of the shape; a larger one, "
+        "such as 5% of part, some of the way");
+}
 
 /// What was measured of a part, which holds wherever it is moved to.
 struct Measured {
@@ -87,6 +123,11 @@ class Simplifier {
         if (o.constraints.hausdorff)
             hausdorff_ = context.resolve(*o.constraints.hausdorff, scene_, "constraints.hausdorff");
         if (o.max_error) max_error_ = context.resolve(*o.max_error, scene_, "max_error");
+        const bool limited = o.max_quadric_error && has_quadrics(o) && !max_error_;
+        if (limited && !is_of_part(*o.max_quadric_error))
+            max_quadric_error_ = context.resolve(*o.max_quadric_error, scene_, "max_quadric_error");
+        else if (limited)
+            max_of_diagonal_ = o.max_quadric_error->amount / 100;
     }
 
     Scene run() {
@@ -96,6 +137,8 @@ class Simplifier {
         results_.resize(scene_.parts.size());
         before_.resize(scene_.parts.size());
         measured_.resize(scene_.parts.size());
+        limits_.resize(scene_.parts.size());
+        share_target();
         std::vector<Part> levels;
         context_.for_each_part(scene_, [&](Part& part) {
             const auto number = static_cast<std::size_t>(&part - scene_.parts.data());
@@ -104,10 +147,14 @@ class Simplifier {
             if (--uses_[work_as_[number]] == 0) repeated_.erase(work_as_[number]);
         });
         for (Part& level : levels) scene_.parts.push_back(std::move(level));
+        if (o_.max_quadric_error) warn_of_limit(limited_, *o_.max_quadric_error, context_);
         return std::move(scene_);
     }
 
   private:
+    static bool is_of_part(const Length& length) {
+        return length.kind == Length::Kind::percent && length.of == Length::Of::part;
+    }
     bool measures() const { return o_.measure || o_.certify; }
     bool changes_topology() const {
         return o_.settings.topology == SimplifySettings::Topology::allow ||
@@ -175,7 +222,11 @@ class Simplifier {
             const bool touches = !contacts_.shared.empty() && !contacts_.shared[p].empty();
             if (touches || !context_.selects(scene_.parts[p], scene_)) continue;
             const Transform to_world = scene_.parts[p].transform;
-            const double scale = max_error_ || hausdorff_ ? greatest_stretch(to_world) : 1;
+            double scale = 1;
+            if (max_error_ || hausdorff_ || max_quadric_error_)
+                scale = greatest_stretch(to_world);
+            else if (shares_by_error(o_))
+                scale = rounded_scale(greatest_stretch(to_world));
             work_as_[p] = worked.try_emplace({equal[p], scale}, p).first->second;
             if (work_as_[p] != p) ++uses_[work_as_[p]];
             measured_as_[p] = measured.try_emplace({work_as_[p], linear_part(to_world)}, p).first->second;
@@ -189,43 +240,138 @@ class Simplifier {
             vertices += scene_.parts[p].mesh.vertex_count();
         }
         SimplifyShare mine{share(o_.faces, faces, faces_), share(o_.vertices, vertices, vertices_),
-                           max_error_, hausdorff_};
-        for (auto* length : {&mine.max_error, &mine.hausdorff})
+                           max_error_, max_quadric_error_, hausdorff_};
+        for (auto* length : {&mine.max_error, &mine.max_quadric_error, &mine.hausdorff})
             if (*length) **length /= scale;
+        if (max_of_diagonal_) {
+            Box box;
+            for (const std::size_t p : set) box.add(scene_.parts[p].mesh.bounds());
+            mine.max_quadric_error = *max_of_diagonal_ * diagonal(box);
+        }
+        if (!(mine.max_quadric_error > 0.0)) mine.max_quadric_error.reset(); // of a single point
         return mine;
     }
 
-    /// Sets the results of the parts of a set, one for each level.
-    void simplify_set(const Set& set) {
+    SimplifySettings settings_for(const Set& set) const {
+        const Transform to_world = scene_.parts[set.front()].transform;
+        SimplifySettings s = simplify_settings(o_, to_world, share_of(set, greatest_stretch(to_world)));
+        s.samples = 0;
+        for (const std::size_t p : set) s.samples += samples_[p];
+        if (set.size() == 1 && !contacts_.shared.empty()) s.lock.vertices = contacts_.shared[set.front()];
+        return s;
+    }
+
+    // A target that several parts share by error.
+
+    /// The sets whose work is not another's; those that one target is shared by.
+    std::vector<Set> sharing_sets() const {
+        std::vector<Set> sets;
+        for (std::size_t p = 0; p < scene_.parts.size() && shares_by_error(o_); ++p) {
+            if (!context_.selects(scene_.parts[p], scene_) || work_as_[p] != p) continue;
+            if (Set set = set_of(p); set.front() == p) sets.push_back(std::move(set));
+        }
+        return sets;
+    }
+
+    /// Where several sets share a target: sets their results; or, where each has more to do than to collapse
+    /// edges, how many triangles it is to have.
+    void share_target() {
+        const std::vector<Set> sets = sharing_sets();
+        if (sets.size() < 2) return;
+        SimplifySettings all = settings_for(sets.front());
+        all.faces = o_.faces;
+        all.vertices = o_.vertices;
+        const bool more =
+            !o_.lods && (max_error_ || all.self_intersections != SimplifySettings::Intersections::ignore);
+        if (o_.lods) all.self_intersections = SimplifySettings::Intersections::ignore;
+        std::vector<SharingMeshes> sharing;
+        for (const Set& set : sets) {
+            if (!more) note_before(set);
+            sharing.push_back(sharing_meshes(set, more));
+        }
+        if (more) {
+            const SimplifyShares shares = simplify_shares(std::move(sharing), all);
+            shared_stop_ = shares.stop;
+            if (shares.stop != Stop::stuck) // else each goes as far as it can
+                for (std::size_t i = 0; i < sets.size(); ++i) shares_[sets[i].front()] = shares.faces[i];
+            return;
+        }
+        auto results = simplify_sharing(std::move(sharing), all);
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            for (auto& level : results[i])
+                for (std::size_t k = 0; k < sets[i].size(); ++k)
+                    results_[sets[i][k]].push_back(std::move(level[k]));
+            keep_for_repeats(sets[i].front());
+        }
+    }
+
+    /// keep: the meshes stay in the scene, too.
+    SharingMeshes sharing_meshes(const Set& set, bool keep) {
+        SimplifySettings settings = settings_for(set);
+        SharingMeshes sharing;
+        sharing.lock = std::move(settings.lock);
+        sharing.max_quadric_error = settings.max_quadric_error;
+        sharing.scale = rounded_scale(greatest_stretch(scene_.parts[set.front()].transform));
+        sharing.uses = uses_[set.front()];
+        for (const std::size_t p : set) {
+            Mesh& mesh = scene_.parts[p].mesh;
+            if (keep) {
+                sharing.meshes.push_back(mesh);
+                continue;
+            }
+            Mesh left; // `only` may name a material
+            left.primitives = mesh.primitives;
+            sharing.meshes.push_back(std::exchange(mesh, std::move(left)));
+        }
+        return sharing;
+    }
+
+    /// Notes what is compared with the results.
+    void note_before(const Set& set) {
         for (const std::size_t p : set) {
             const bool is_first = measures() && measured_as_[p] == p;
             if (is_first) before_[p].surface = surface_of(scene_.parts[p]);
             if (is_first || changes_topology()) before_[p].properties = inspect(scene_.parts[p]);
+            limits_[p] = settings_for(set).max_quadric_error;
         }
+    }
+
+    void keep_for_repeats(std::size_t part) {
+        if (uses_[part] > 1) repeated_[part] = results_[part];
+    }
+
+    /// Sets the results of the parts of a set, one for each level.
+    void simplify_set(const Set& set) {
+        note_before(set);
         if (const std::size_t as = work_as_[set.front()]; as != set.front()) {
             results_[set.front()] = repeated_.at(as);
             return;
         }
-        const Transform to_world = scene_.parts[set.front()].transform;
-        SimplifySettings settings =
-            simplify_settings(o_, to_world, share_of(set, greatest_stretch(to_world)));
-        settings.samples = 0;
-        for (const std::size_t p : set) settings.samples += samples_[p];
+        SimplifySettings settings = settings_for(set);
+        const auto share = shares_.find(set.front());
+        if (share != shares_.end()) {
+            settings.ratio.reset();
+            settings.vertices.reset();
+            settings.faces = share->second;
+        }
         if (set.size() > 1) {
             std::vector<const Mesh*> meshes;
             for (const std::size_t p : set) meshes.push_back(&scene_.parts[p].mesh);
             for (auto& level : simplify_together(meshes, settings))
                 for (std::size_t i = 0; i < set.size(); ++i) results_[set[i]].push_back(std::move(level[i]));
-            return;
+        } else if (o_.lods) {
+            results_[set.front()] = simplify_levels(std::move(scene_.parts[set.front()].mesh), settings);
+        } else {
+            results_[set.front()].push_back(simplify(std::move(scene_.parts[set.front()].mesh), settings));
         }
-        const std::size_t p = set.front();
-        Mesh& mesh = scene_.parts[p].mesh;
-        if (!contacts_.shared.empty()) settings.lock.vertices = contacts_.shared[p];
-        if (o_.lods)
-            results_[p] = simplify_levels(std::move(mesh), settings);
-        else
-            results_[p].push_back(simplify(std::move(mesh), settings));
-        if (uses_[p] > 1) repeated_[p] = results_[p];
+        if (share != shares_.end())
+            for (const std::size_t p : set) say_shared(results_[p].front());
+        keep_for_repeats(set.front());
+    }
+
+    /// A part that has its share met the target of all, if that was met.
+    void say_shared(SimplifyResult& r) const {
+        if (r.stop == Stop::faces || r.stop == Stop::nothing) r.stop = shared_stop_;
     }
 
     /// Gives a part its result; coarser levels become parts of their own.
@@ -256,7 +402,13 @@ class Simplifier {
         part.mesh = std::move(r.mesh);
         context_.attribute_changes(part, r.changes);
         warn(part, r, asks_for_less(number_of_level), context_);
-        SimplifiedPart entry{std::move(r), greatest_stretch(part.transform), part.name, {}, {}, {}, {}};
+        if (r.stop == Stop::max_quadric_error) limited_.push_back({part.name, r.faces_before, r.faces_after});
+        const double scale = greatest_stretch(part.transform);
+        SimplifiedPart entry;
+        entry.result = std::move(r);
+        entry.scale = scale;
+        entry.part = part.name;
+        if (const auto limit = limits_[number]) entry.max_quadric_error = *limit * scale;
         if (const Set set = set_of(number); set.size() > 1)
             for (const std::size_t p : set) {
                 if (p == number) continue;
@@ -291,7 +443,12 @@ class Simplifier {
     Context& context_;
     SimplifyReport& report_;
     std::size_t faces_ = 0, vertices_ = 0; ///< of all parts selected
-    std::optional<double> max_error_, hausdorff_;
+    std::optional<double> max_error_, max_quadric_error_, hausdorff_;
+    std::optional<double> max_of_diagonal_;     ///< max_quadric_error as a share of each part's diagonal
+    std::vector<std::optional<double>> limits_; ///< [parts] max_quadric_error, in the part's own units
+    std::map<std::size_t, std::size_t> shares_; ///< [first parts of sets] triangles that each is to have
+    Stop shared_stop_ = Stop::nothing;          ///< what ended the work that gave the shares
+    std::vector<Limited> limited_;
     Contacts contacts_;
     std::vector<const Set*> set_of_;                   ///< [parts] of contacts_, when simplified as one
     std::vector<std::vector<SimplifyResult>> results_; ///< [parts][levels] those found and not yet taken

@@ -22,7 +22,8 @@ std::vector<Reason> reasons(const SimplifyResult::Blocked& b) {
             {b.borders, "by boundaries and locks", "ask for more faces, or lock less"},
             {b.non_manifold, "at places that are not manifold", "use clean before simplify to repair them"},
             {b.topology, "by topology", "topology: allow lets small components, holes and handles vanish"},
-            {b.flips, "would flip a face", "ask for more faces"}};
+            {b.flips, "would flip a face", "ask for more faces"},
+            {b.error, "by max_quadric_error", "a larger max_quadric_error, or off"}};
 }
 
 } // namespace
@@ -68,7 +69,8 @@ void declare_blocked(DeclareFields<SimplifyResult::Blocked>& d) {
     d.field("topology", &Blocked::topology,
             "Their collapse would change the genus, close a hole, or make a component vanish.");
     d.field("flips", &Blocked::flips, "Their collapse would flip or flatten a face.");
-    d.field("error", &Blocked::error, "Their collapse would move the surface too far.");
+    d.field("error", &Blocked::error,
+            "Their collapse would move the surface too far, by max_error or max_quadric_error.");
 }
 
 void declare_intersections(DeclareFields<SimplifyResult>& d) {
@@ -125,6 +127,7 @@ void declare_counts(DeclareFields<SimplifiedPart>& d) {
               {"faces", Stop::faces, "met"},
               {"vertices", Stop::vertices, "met"},
               {"max_error", Stop::max_error, "any more would deviate too far"},
+              {"max_quadric_error", Stop::max_quadric_error, "it holds most of the edges that are left"},
               {"stuck", Stop::stuck, "no collapse was left that keeps the guarantees"}},
              "What ended the work.");
 }
@@ -135,6 +138,9 @@ void declare_work(DeclareFields<SimplifiedPart>& d) {
             "The largest error of a collapse, as the method measures it.")
         .unit("scene units")
         .null_when("the method has none");
+    d.field("max_quadric_error", &SimplifiedPart::max_quadric_error, "The limit on largest_error.")
+        .unit("scene units")
+        .null_when("there was none");
     d.field("collapses", of_result(&SimplifyResult::collapses), "Collapses that led to the result.");
     d.object("blocked_edges", of_result(&SimplifyResult::blocked), "What holds the edges that are left.",
              declare_blocked);
@@ -220,6 +226,8 @@ std::string stop_text(Stop stop) {
         return ", stopped by vertices";
     case Stop::max_error:
         return ", stopped by max_error";
+    case Stop::max_quadric_error:
+        return ", stopped by max_quadric_error";
     default:
         return ", stopped above the target";
     }

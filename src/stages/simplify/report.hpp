@@ -26,8 +26,9 @@ struct SimplifiedPart {
     struct Sizes {
         Size before, after;
     };
-    SimplifyResult result; ///< without its mesh
-    double scale = 1;      ///< takes lengths from the part's space to the scene's
+    SimplifyResult result;                     ///< without its mesh
+    double scale = 1;                          ///< takes lengths from the part's space to the scene's
+    std::optional<double> max_quadric_error{}; ///< that held, in scene units
     std::string part;
     std::optional<std::vector<std::string>> together_with;
     std::optional<Topology> topology; ///< of methods that may change it

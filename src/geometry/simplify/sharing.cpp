@@ -1,0 +1,219 @@
+// Meshes that share one target: their states go to it together, see order.cpp.
+
+#include "geometry/simplify/together.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "geometry/simplify/subject.hpp"
+#include "geometry/simplify/targets.hpp"
+
+#include <memory>
+
+namespace facetmill {
+
+namespace {
+
+using namespace simplification;
+using Stop = SimplifyResult::Stop;
+using Method = SimplifySettings::Method;
+
+/// One of those that share, from what was given to its results.
+class Sharer {
+  public:
+    const std::size_t uses;
+    Member member{};
+
+    Sharer(SharingMeshes given, const SimplifySettings& settings)
+        : uses(given.uses), scale_(given.scale), settings_(settings), meshes_(std::move(given.meshes)) {
+        settings_.lock = std::move(given.lock);
+        settings_.max_quadric_error = given.max_quadric_error;
+        subject_ = std::make_unique<Subject>(
+            meshes_.size() == 1 ? std::move(meshes_.front()) : joined(pointers()), settings_);
+        vertices_given_ = subject_->vertices();
+    }
+    Sharer(const Sharer&) = delete; // the subject refers to the settings
+    Sharer& operator=(const Sharer&) = delete;
+
+    std::size_t faces_given() const { return subject_->faces(); }
+    std::size_t vertices_given() const { return vertices_given_; }
+    std::size_t faces() const { return state_ ? state_->live_faces : faces_given(); }
+    std::size_t vertices() const { return state_ ? state_->live_vertices : vertices_given(); }
+    const CoincidentBorders* borders() const { return subject_->borders(); }
+
+    void lay_out() {
+        if (state_) return;
+        state_ = subject_->state(false);
+        member = {&*state_, scale_ / state_->frame.scale, uses};
+    }
+
+    /// The results of its meshes as they came.
+    std::vector<SimplifyResult> untouched() const { return split(subject_->unchanged()); }
+    /// ... and as they are now. met: the target; own: its own part of it, which it may have met where all
+    /// together did not.
+    std::vector<SimplifyResult> results(Stop met, const Goal& own) {
+        const bool stuck = member.done.stuck && !own.met(*state_);
+        const auto blocked = stuck ? count_blocked(*state_) : SimplifyResult::Blocked{};
+        const Stop stop = stuck ? stuck_by(blocked) : met;
+        if (member.done.collapses == 0) {
+            SimplifyResult r = subject_->unchanged(stop);
+            r.blocked = blocked;
+            return split(std::move(r));
+        }
+        compact(*state_);
+        SimplifyResult r = subject_->result(stop, *state_, state_->log, member.done);
+        r.blocked = blocked;
+        return split(std::move(r));
+    }
+
+  private:
+    std::vector<const Mesh*> pointers() const {
+        std::vector<const Mesh*> all;
+        for (const Mesh& mesh : meshes_) all.push_back(&mesh);
+        return all;
+    }
+
+    std::vector<SimplifyResult> split(SimplifyResult r) const {
+        if (meshes_.size() > 1) return split_up(std::move(r), pointers());
+        std::vector<SimplifyResult> one;
+        one.push_back(std::move(r));
+        return one;
+    }
+
+    double scale_;
+    SimplifySettings settings_;
+    std::vector<Mesh> meshes_; ///< as given; a single one is the subject's
+    std::unique_ptr<Subject> subject_;
+    std::size_t vertices_given_ = 0;
+    std::optional<State> state_;
+};
+
+class Sharing {
+  public:
+    using Results = std::vector<std::vector<std::vector<SimplifyResult>>>; ///< [sharing][levels][meshes]
+
+    Sharing(std::vector<SharingMeshes> given, const SimplifySettings& settings)
+        : settings_(settings), sharers_(given.size()) {
+        each([&](std::size_t i) { sharers_[i] = std::make_unique<Sharer>(std::move(given[i]), settings); });
+        for (const auto& s : sharers_) given_ += s->uses * s->faces_given();
+        for (const auto& s : sharers_) vertices_given_ += s->uses * s->vertices();
+    }
+
+    /// Goes to the target. ratio: as the settings', or of a level.
+    void go(std::optional<double> ratio) {
+        const Targets targets = targets_of(ratio);
+        std::size_t faces = 0, vertices = 0;
+        for (const auto& s : sharers_) {
+            faces += s->uses * s->faces();
+            vertices += s->uses * s->vertices();
+        }
+        moved_ = !targets.goal.met(faces, vertices);
+        if (!moved_) return;
+        each([&](std::size_t i) { sharers_[i]->lay_out(); });
+        std::vector<Member> members;
+        std::vector<const CoincidentBorders*> borders;
+        for (const auto& s : sharers_) {
+            members.push_back(s->member);
+            borders.push_back(s->borders());
+        }
+        run_passes_separate(members, borders, targets.goal);
+        faces = 0;
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            sharers_[i]->member = members[i];
+            faces += members[i].uses * sharers_[i]->faces();
+        }
+        stop_ = members.front().done.stuck ? Stop::stuck : targets.met(faces);
+        met_ = targets.met(faces);
+    }
+
+    /// Adds the results as they are now to those of finer levels.
+    void add_results(std::optional<double> ratio, Results& results) {
+        results.resize(sharers_.size());
+        each([&](std::size_t i) {
+            auto& mine = results[i];
+            if (moved_)
+                mine.push_back(sharers_[i]->results(met_, own_part(ratio, *sharers_[i])));
+            else
+                mine.push_back(mine.empty() ? sharers_[i]->untouched() : mine.back());
+        });
+    }
+
+    /// What each has now.
+    SimplifyShares shares() const {
+        SimplifyShares shares{{}, stop_};
+        for (const auto& s : sharers_) shares.faces.push_back(s->faces());
+        return shares;
+    }
+
+  private:
+    template <class Body>
+    void each(Body&& body) {
+        parallel_for(sharers_.size(), body, std::clamp<std::size_t>(sharers_.size() / 256, 1, 64));
+    }
+
+    Targets targets_of(std::optional<double> ratio) const {
+        std::size_t by_ratio = 0;
+        for (const auto& s : sharers_)
+            if (ratio) by_ratio += s->uses * share_of(s->faces_given(), *ratio);
+        return {by_ratio, settings_.faces.value_or(0), settings_.vertices.value_or(0)};
+    }
+
+    /// What is asked of a single one, in proportion to what it had.
+    Goal own_part(std::optional<double> ratio, const Sharer& s) const {
+        const auto part = [](std::size_t whole, std::size_t own, std::size_t all) {
+            return static_cast<std::size_t>(double(whole) * (double(own) / double(all)));
+        };
+        const std::size_t by_faces = part(settings_.faces.value_or(0), s.faces_given(), given_);
+        return {std::max(ratio ? share_of(s.faces_given(), *ratio) : 0, by_faces),
+                part(settings_.vertices.value_or(0), s.vertices_given(), vertices_given_)};
+    }
+
+    const SimplifySettings& settings_;
+    std::vector<std::unique_ptr<Sharer>> sharers_;
+    std::size_t given_ = 0, vertices_given_ = 0; ///< faces and vertices of all, each use counted
+    bool moved_ = false;                         ///< the last target was below what there was
+    Stop stop_ = Stop::nothing;                  ///< what ended the work of all
+    Stop met_ = Stop::nothing;                   ///< the target that single ones met, also where all did not
+};
+
+void check_sharing(const SimplifySettings& s) {
+    if (s.levels.empty())
+        check(s);
+    else
+        check_levels(s);
+    if (s.method == Method::cluster || s.method == Method::constrained || s.max_error ||
+        s.self_intersections != SimplifySettings::Intersections::ignore)
+        throw Error(
+            ErrorKind::usage, "E-RANGE",
+            "simplify: meshes share a target with quadric, quadric-endpoints and shortest-edge, without "
+            "max_error and self_intersections");
+}
+
+} // namespace
+
+std::vector<std::vector<std::vector<SimplifyResult>>> simplify_sharing(std::vector<SharingMeshes> given,
+                                                                       const SimplifySettings& settings) {
+    check_sharing(settings);
+    Sharing::Results results;
+    if (given.empty()) return results;
+    Sharing all(std::move(given), settings);
+    std::vector<std::optional<double>> ratios(settings.levels.begin(), settings.levels.end());
+    if (ratios.empty()) ratios.push_back(settings.ratio);
+    for (const auto& ratio : ratios) {
+        all.go(ratio);
+        all.add_results(ratio, results);
+    }
+    return results;
+}
+
+SimplifyShares simplify_shares(std::vector<SharingMeshes> given, const SimplifySettings& settings) {
+    SimplifySettings bare = settings;
+    bare.max_error.reset();
+    bare.self_intersections = SimplifySettings::Intersections::ignore;
+    check_sharing(bare);
+    if (given.empty()) return {};
+    Sharing all(std::move(given), bare);
+    all.go(bare.ratio);
+    return all.shares();
+}
+
+} // namespace facetmill

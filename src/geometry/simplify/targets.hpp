@@ -1,0 +1,40 @@
+#pragma once
+// What is asked of the work: checked, and as goals.
+
+#include "geometry/simplify/features.hpp"
+#include "geometry/simplify/methods.hpp"
+
+namespace facetmill::simplification {
+
+/// Throws usage (E-RANGE) for settings that simplify, or simplify_levels, cannot follow.
+void check(const SimplifySettings& settings);
+void check_levels(const SimplifySettings& settings);
+
+/// The face count that the ratio asks for: rounded up, so that 10% of 15 faces is 2.
+std::size_t share_of(std::size_t faces, double ratio);
+
+/// The targets of a mesh, or of several together.
+struct Targets {
+    Goal goal;
+    std::size_t by_ratio = 0, by_faces = 0;
+
+    Targets(std::size_t faces, const SimplifySettings& settings);
+    /// by_ratio: triangles that the ratio asks for.
+    Targets(std::size_t by_ratio, std::size_t by_faces, std::size_t vertices);
+
+    /// Which of them was met, by the number of faces.
+    SimplifyResult::Stop met(std::size_t faces) const;
+    /// What stopped the work.
+    SimplifyResult::Stop reason(const Ended& end) const;
+};
+
+/// What keeps the edges from going when no collapse is left: the limit on their error, where no other reason
+/// holds more of them.
+SimplifyResult::Stop stuck_by(const SimplifyResult::Blocked& blocked);
+
+/// As run_passes, with the vertices counted as they will be once coincident borders are separate again.
+/// borders: of each member, null where it has none.
+void run_passes_separate(std::span<Member> members, std::span<const CoincidentBorders* const> borders,
+                         Goal goal);
+
+} // namespace facetmill::simplification
