@@ -108,7 +108,8 @@ class Completions(Case):
         self.assertEqual(self.candidates(shell, "facetmill schema p"), ["pipeline"])
         self.assertLessEqual({"text", "json"}, set(self.candidates(shell, "facetmill run --log ")))
         self.assertEqual(self.candidates(shell, "facetmill pipe load a.ply ! simp"), ["simplify"])
-        self.assertEqual(self.candidates(shell, "facetmill pipe load a.ply ! simplify --max"), ["--max_error"])
+        self.assertEqual(self.candidates(shell, "facetmill pipe load a.ply ! simplify --max"),
+                         ["--max_error", "--max_quadric_error"])
         self.assertIn("quadric", self.candidates(shell, "facetmill pipe load a.ply ! simplify --method q"))
         self.assertIn("--plane.normal", self.candidates(shell, "facetmill pipe load a.ply + clip --plane"))
         self.assertIn("--ensure.closed", self.candidates(shell, "facetmill pipe load a.ply ! relax 3 --ensure.clos"))

@@ -50,8 +50,9 @@ class Sharer {
     std::vector<SimplifyResult> untouched() const { return split(subject_->unchanged()); }
     /// ... and as they are now. met: the target; own: its own part of it, which it may have met where all
     /// together did not.
-    std::vector<SimplifyResult> results(Stop met, const Goal& own) {
-        const bool stuck = member.done.stuck && !own.met(*state_);
+    std::vector<SimplifyResult> results(Stop met, const Targets& own) {
+        const bool stuck = member.done.stuck && !own.goal.met(*state_);
+        if (member.done.stuck && !stuck) met = own.met(faces());
         const auto blocked = stuck ? count_blocked(*state_) : SimplifyResult::Blocked{};
         const Stop stop = stuck ? stuck_by(blocked) : met;
         if (member.done.collapses == 0) {
@@ -122,7 +123,6 @@ class Sharing {
             faces += members[i].uses * sharers_[i]->faces();
         }
         stop_ = members.front().done.stuck ? Stop::stuck : targets.met(faces);
-        met_ = targets.met(faces);
     }
 
     /// Adds the results as they are now to those of finer levels.
@@ -131,7 +131,7 @@ class Sharing {
         each([&](std::size_t i) {
             auto& mine = results[i];
             if (moved_)
-                mine.push_back(sharers_[i]->results(met_, own_part(ratio, *sharers_[i])));
+                mine.push_back(sharers_[i]->results(stop_, own_part(ratio, *sharers_[i])));
             else
                 mine.push_back(mine.empty() ? sharers_[i]->untouched() : mine.back());
         });
@@ -158,13 +158,12 @@ class Sharing {
     }
 
     /// What is asked of a single one, in proportion to what it had.
-    Goal own_part(std::optional<double> ratio, const Sharer& s) const {
-        const auto part = [](std::size_t whole, std::size_t own, std::size_t all) {
-            return static_cast<std::size_t>(double(whole) * (double(own) / double(all)));
+    Targets own_part(std::optional<double> ratio, const Sharer& s) const {
+        const auto part = [](std::optional<std::size_t> whole, std::size_t own, std::size_t all) {
+            return static_cast<std::size_t>(double(whole.value_or(0)) * (double(own) / double(all)));
         };
-        const std::size_t by_faces = part(settings_.faces.value_or(0), s.faces_given(), given_);
-        return {std::max(ratio ? share_of(s.faces_given(), *ratio) : 0, by_faces),
-                part(settings_.vertices.value_or(0), s.vertices_given(), vertices_given_)};
+        return {ratio ? share_of(s.faces_given(), *ratio) : 0, part(settings_.faces, s.faces_given(), given_),
+                part(settings_.vertices, s.vertices_given(), vertices_given_)};
     }
 
     const SimplifySettings& settings_;
@@ -172,7 +171,6 @@ class Sharing {
     std::size_t given_ = 0, vertices_given_ = 0; ///< faces and vertices of all, each use counted
     bool moved_ = false;                         ///< the last target was below what there was
     Stop stop_ = Stop::nothing;                  ///< what ended the work of all
-    Stop met_ = Stop::nothing;                   ///< the target that single ones met, also where all did not
 };
 
 void check_sharing(const SimplifySettings& s) {

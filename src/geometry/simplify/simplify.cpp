@@ -40,7 +40,10 @@ Ended run(State s, const Subject& subject, Goal goal, const SimplifySettings& se
 }
 
 SimplifyResult result_of(const Subject& subject, const Targets& targets, const Ended& end) {
-    SimplifyResult r = subject.result(targets.reason(end), end.shape, end.log, end.outcome);
+    const Stop stop = targets.reason(end);
+    SimplifyResult r = stop == Stop::max_quadric_error && end.outcome.collapses == 0
+                           ? subject.unchanged(stop)
+                           : subject.result(stop, end.shape, end.log, end.outcome);
     if (r.stop == Stop::max_error || r.stop == Stop::max_quadric_error || r.stop == Stop::stuck)
         r.blocked = end.blocked;
     r.measured = end.measured;

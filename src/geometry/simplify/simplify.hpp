@@ -87,7 +87,7 @@ struct SimplifyResult {
         faces,             ///< met
         vertices,          ///< met
         max_error,         ///< any more would deviate too much
-        max_quadric_error, ///< that held most of the edges that were left
+        max_quadric_error, ///< any more would have a larger error
         stuck,             ///< no collapse was left that keeps the guarantees
     };
     /// Edges that were left because a collapse would have broken something; counted when the work stopped as

@@ -88,7 +88,7 @@ Stop Targets::reason(const Ended& end) const {
 }
 
 Stop stuck_by(const SimplifyResult::Blocked& b) {
-    const std::size_t most = std::max({b.borders, b.seams, b.non_manifold, b.topology, b.flips});
+    const std::size_t most = std::max({b.borders, b.seams, b.non_manifold});
     return b.error > 0 && b.error >= most ? Stop::max_quadric_error : Stop::stuck;
 }
 

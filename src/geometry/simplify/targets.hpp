@@ -28,8 +28,9 @@ struct Targets {
     SimplifyResult::Stop reason(const Ended& end) const;
 };
 
-/// What keeps the edges from going when no collapse is left: the limit on their error, where no other reason
-/// holds more of them.
+/// What keeps the edges from going when no collapse is left: the limit on their error, where neither borders,
+/// seams nor places that are not manifold hold more of them. (Topology and flips hold an edge only as long as
+/// those around it stay.)
 SimplifyResult::Stop stuck_by(const SimplifyResult::Blocked& blocked);
 
 /// As run_passes, with the vertices counted as they will be once coincident borders are separate again.

@@ -26,9 +26,9 @@ proportion to its own; the methods cluster and constrained, which have no cost t
 
 The work stops above the target rather than lose the shape: no collapse of the quadric methods has a
 larger error (see largest_error below) than max_quadric_error, 1 % of the diagonal of the part's box
-in its own axes; of parts simplified as one, of the box of all. W-SIMPLIFY-CEILING says so when it
-holds most of the edges left. Scans reach a few hundred triangles within it; the boxes of a
-collection of them stay boxes. It is not the measured deviation, which is usually two to four times
+in its own axes; of parts simplified as one, of the box of all. W-SIMPLIFY-CEILING says so, unless
+borders, seams or non-manifold places hold more edges. Scans reach a few hundred triangles within
+it; the boxes of a collection of them stay boxes. It is not the measured deviation, which is usually two to four times
 as large; max_error limits that, and takes the place of max_quadric_error. max_quadric_error: off
 goes on to the target whatever becomes of the shape.
 

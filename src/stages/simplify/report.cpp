@@ -127,7 +127,7 @@ void declare_counts(DeclareFields<SimplifiedPart>& d) {
               {"faces", Stop::faces, "met"},
               {"vertices", Stop::vertices, "met"},
               {"max_error", Stop::max_error, "any more would deviate too far"},
-              {"max_quadric_error", Stop::max_quadric_error, "it holds most of the edges that are left"},
+              {"max_quadric_error", Stop::max_quadric_error, "any more would have a larger error"},
               {"stuck", Stop::stuck, "no collapse was left that keeps the guarantees"}},
              "What ended the work.");
 }

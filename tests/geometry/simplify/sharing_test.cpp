@@ -35,7 +35,7 @@ TEST_CASE("a mesh that shares its target with none becomes what it becomes alone
         const SimplifySettings settings{.method = method, .ratio = 0.1};
         const auto alone = simplify(rough_ball(5), settings);
         std::vector<SharingMeshes> one;
-        one.push_back(sharing(rough_ball(5), 3, 7));
+        one.push_back(sharing(rough_ball(5), 3));
         const auto shared = simplify_sharing(std::move(one), settings);
         CHECK(test::same(shared[0][0][0].mesh, alone.mesh));
         CHECK(shared[0][0][0].stop == Stop::ratio);
