@@ -48,6 +48,7 @@ class Passes {
         : members_(members), goal_(goal), changed_(members.size(), 1) {
         double largest = 0;
         for (const Member& m : members_) largest = std::max(largest, m.unit);
+        factors_.reserve(members_.size());
         for (const Member& m : members_) factors_.push_back(factor(m, m.unit / largest));
     }
 

@@ -69,6 +69,7 @@ class Sharer {
   private:
     std::vector<const Mesh*> pointers() const {
         std::vector<const Mesh*> all;
+        all.reserve(meshes_.size());
         for (const Mesh& mesh : meshes_) all.push_back(&mesh);
         return all;
     }
@@ -140,6 +141,7 @@ class Sharing {
     /// What each has now.
     SimplifyShares shares() const {
         SimplifyShares shares{{}, stop_};
+        shares.faces.reserve(sharers_.size());
         for (const auto& s : sharers_) shares.faces.push_back(s->faces());
         return shares;
     }
