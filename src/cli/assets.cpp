@@ -40,7 +40,11 @@ pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSet
         return asset.of_table && asset.defined_at.contains(define.first);
     });
     settings.defines.insert(settings.defines.end(), asset.defines.begin(), asset.defines.end());
-    settings.defined_at = asset.defined_at;
+    for (const auto& [name, text] : asset.defines) {
+        settings.defined_at.erase(name);
+        settings.defined_in.erase(name);
+    }
+    for (const auto& [name, mark] : asset.defined_at) settings.defined_at[name] = mark;
     if (!asset.folder.empty()) settings.places.output_base /= asset.folder;
     return settings;
 }

@@ -50,6 +50,7 @@ Command batch_command();
 Command export_command();
 Command plan_command();
 Command pipe_command();
+Command new_command();
 Command check_command();
 Command info_command();
 Command diff_command();

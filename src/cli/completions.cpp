@@ -41,6 +41,7 @@ Words stage_words() {
     for (const auto& stage : stages()) words.push_back({stage.name, brief_help(stage.about)});
     words.push_back({"branch", "Runs several lists of stages on the same scene"});
     words.push_back({"foreach", "Runs stages for each of some values"});
+    words.push_back({"include", "Runs the stages of another file"});
     return words;
 }
 

@@ -31,10 +31,15 @@ Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline
     Job job{work.asset.name, {"run", options.pipeline}, {}, {}, work.memory};
     const auto give = [&](const char* option, const auto& pairs) {
         for (const auto& [name, value] : pairs) {
+            if (own.defined_in.contains(name)) continue; // the preset has it
             job.arguments.emplace_back(option);
             job.arguments.push_back(fmt::format("{}={}", name, value));
         }
     };
+    for (const auto& preset : options.common.presets) {
+        job.arguments.emplace_back("--preset");
+        job.arguments.push_back(preset);
+    }
     give("-D", own.defines);
     give("--set", own.sets);
     for (const auto& id : options.common.strict)

@@ -193,6 +193,7 @@ class Parser {
         const Mark where = mark();
         if (name == "foreach") return foreach_step(where);
         if (name == "branch") return branch_step(where);
+        if (name == "include") return include_step(where);
         if (is_option(name) || is_bracket(name)) wrong(fmt::format("expected a stage, found '{}'", name));
         ++at_;
         return stage_step(name, where);
@@ -229,7 +230,7 @@ class Parser {
     /// words or files may be called so, and so may a file that is there.
     bool is_forgotten_separator(const Option* primary, bool first) const {
         const std::string& word = all_[at_];
-        if (!stage_named(word) && word != "foreach" && word != "branch") return false;
+        if (!stage_named(word) && word != "foreach" && word != "branch" && word != "include") return false;
         std::error_code ignored;
         if (!primary) return true;
         if (std::any_of(primary->choices.begin(), primary->choices.end(),
@@ -473,6 +474,30 @@ class Parser {
             else
                 arms.set(arm, std::move(body), arm_mark);
         }
+        return item;
+    }
+
+    /// include finish.yaml --with.ratio=10%
+    Value include_step(const Mark& where) {
+        Value item = Value::map({{"include", where, Value{}}}, where);
+        Value options = Value::map({{"include", where, Value{}}}, where); // as a stage would have them
+        for (++at_; !at_end_of_step();) {
+            const std::string& word = all_[at_];
+            if (word.starts_with("--with.")) {
+                option(options, nullptr);
+                continue;
+            }
+            if (is_option(word))
+                wrong(fmt::format("include has no option '{}'", word), "include FILE --with.NAME=VALUE");
+            else if (!item.entries[0].value.is_null())
+                wrong(fmt::format("include takes one file, found '{}'", word),
+                      "stages are separated by ! or +");
+            else
+                item.entries[0].value = Value::scalar(expressions(word), mark());
+            ++at_;
+        }
+        if (const Value& all = options.entries[0].value; all.is_map())
+            item.set("with", *all.find("with"), where);
         return item;
     }
 

@@ -23,9 +23,4 @@ Value pipe_value(std::string text, const Option* option, const Mark& mark, Probl
 /// The options of a stage by dotted name: "plane.normal". Null when there is none.
 const Option* find_dotted(const Declaration& declaration, std::string_view name);
 
-/// Rewrites the relative paths that stages of the document read so that they mean the same from another
-/// folder: what a pipeline file reads is relative to that file. Throws usage (E-SAVE) when a path is known
-/// only at run time.
-void rebase_inputs(Value& document, const std::filesystem::path& from, const std::filesystem::path& to);
-
 } // namespace facetmill::cli

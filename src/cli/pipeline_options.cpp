@@ -32,6 +32,9 @@ void add_message_options(Arguments& arguments, Console& console) {
 
 void add_param_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("-D,--define", &options.defines, "A param of the pipeline: -D name=value.");
+    arguments.add("-p,--preset", &options.presets,
+                  "A YAML file of params (keep: 10%), its paths relative to it. -D goes before it, a later "
+                  "one before an earlier one.");
     arguments.add("--set", &options.sets, "An option of a stage: --set simplify.ratio=10%.");
 }
 
@@ -112,6 +115,13 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
     settings.allowed = options.allowed;
     settings.working_directory = fs::current_path();
     settings.extra_reports = options.reports;
+    for (auto file = options.presets.rbegin(); file != options.presets.rend(); ++file) {
+        try {
+            pipeline::add_preset(*file, settings, problems);
+        } catch (Error& e) {
+            throw e.at(line.value(*file));
+        }
+    }
     if (!options.timings.empty())
         settings.others.push_back({settings.places.output(options.timings), line.find("--timings"), true});
     if (!options.depfile.empty()) settings.others.push_back({options.depfile, line.find("--depfile"), true});

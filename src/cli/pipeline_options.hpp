@@ -8,13 +8,14 @@ namespace facetmill::cli {
 
 struct PipelineOptions {
     std::vector<std::string> defines, sets; ///< "name=value", as given
+    std::vector<std::string> presets;       ///< files of params, a later one before an earlier one
     std::vector<std::string> reports, strict, allowed;
     std::string output_dir, depfile, depfile_target, timings;
     int threads = 0;
     bool check_invariants = false, update_baseline = false;
 };
 
-/// -D and --set.
+/// -D, --preset and --set.
 void add_param_options(Arguments& arguments, PipelineOptions& options);
 /// ... and --update-baseline.
 void add_value_options(Arguments& arguments, PipelineOptions& options);

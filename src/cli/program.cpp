@@ -12,9 +12,9 @@ namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{
-        run_command(),     batch_command(),   export_command(),     plan_command(),   pipe_command(),
-        check_command(),   info_command(),    diff_command(),       stages_command(), schema_command(),
-        formats_command(), explain_command(), completions_command()};
+        run_command(),    batch_command(),   export_command(),  plan_command(),       pipe_command(),
+        new_command(),    check_command(),   info_command(),    diff_command(),       stages_command(),
+        schema_command(), formats_command(), explain_command(), completions_command()};
     return all;
 }
 
@@ -58,7 +58,7 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
         if (c.name == name) return c;
         names.push_back(c.name);
     }
-    if (stage_named(name) || name == "branch" || name == "foreach")
+    if (stage_named(name) || name == "branch" || name == "foreach" || name == "include")
         throw Error(
             ErrorKind::usage, "E-COMMAND", fmt::format("'{}' is a stage, not a command", name),
             stage_named(name)

@@ -83,6 +83,17 @@ Json foreach_step() {
     return step;
 }
 
+Json include_step() {
+    return {{"title", "include"},
+            {"description", "The stages of another file in this place."},
+            {"type", "object"},
+            {"required", Json::array({"include"})},
+            {"properties",
+             {{"include", {{"type", "string"}, {"description", "The file, relative to this one."}}},
+              {"with", {{"type", "object"}, {"description", "Values of its params."}}}}},
+            {"additionalProperties", false}};
+}
+
 Json step_forms() {
     Json forms = Json::array(), bare = Json::array();
     for (const auto& s : stages())
@@ -91,6 +102,7 @@ Json step_forms() {
     for (const auto& s : stages()) forms.push_back(stage_step(s));
     forms.push_back(branch_step());
     forms.push_back(foreach_step());
+    forms.push_back(include_step());
     return {{"anyOf", forms}};
 }
 

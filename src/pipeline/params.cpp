@@ -1,7 +1,10 @@
 #include "pipeline/params.hpp"
 
 #include "base/spelling.hpp"
+#include "io/bytes.hpp"
+#include "pipeline/document.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <map>
 
@@ -115,12 +118,14 @@ std::optional<double> checked(Type type, const Value& value, bool& good, Problem
     return checked<std::string>(value, good, problems);
 }
 
-/// A file named on the command line, as a pipeline file would name it: relative to the pipeline when that
-/// leads to the same file, else absolute.
-std::string from_working_directory(const std::string& text, const PlanSettings& settings) {
+/// A file named on the command line, or in a file in that folder, as a pipeline file would name it: relative
+/// to the pipeline when that leads to the same file, else absolute.
+std::string from_working_directory(const std::string& text, const fs::path& folder_of_text,
+                                   const PlanSettings& settings) {
     const fs::path given(text);
     if (text == "-" || text.empty() || given.is_absolute()) return text;
-    const fs::path here = fs::absolute(settings.working_directory / given).lexically_normal();
+    const fs::path here =
+        fs::absolute(settings.working_directory / folder_of_text / given).lexically_normal();
     // Empty when the pipeline's file is named without a folder; absolute() refuses that.
     const fs::path folder = settings.working_directory / settings.places.input_base;
     const fs::path base = (folder.empty() ? fs::current_path() : fs::absolute(folder)).lexically_normal();
@@ -133,7 +138,9 @@ std::string from_working_directory(const std::string& text, const PlanSettings& 
 
 class Params {
   public:
-    Params(const PlanSettings& settings, Problems& problems) : settings_(settings), problems_(problems) {}
+    /// given: values that come from no command line (a map), or null.
+    Params(const PlanSettings& settings, const Value* given, Problems& problems)
+        : settings_(settings), given_(given), problems_(problems) {}
 
     void add(const Value::Entry& entry, Json& json) {
         if (!is_variable_name(entry.key))
@@ -196,12 +203,18 @@ class Params {
     Value value(const Value::Entry& entry, const ParamOptions& options, Json& shown) {
         Value out;
         const Value* default_value = entry.value.is_map() ? entry.value.find("default") : nullptr;
-        if (const auto* define = defined(entry.key)) {
+        if (const Value* value = given_ ? given_->find(entry.key) : nullptr) {
+            out = *value;
+            shown = value_json(out);
+        } else if (const auto* define = given_ ? nullptr : defined(entry.key)) {
             const Mark mark =
                 mark_of_define(settings_, define->first, define->second, define->first.size() + 1);
             out = Value::scalar(define->second, mark, options.type == Type::text);
             shown = value_json(out);
-            if (options.type == Type::path) out.text = from_working_directory(out.text, settings_);
+            const auto folder = settings_.defined_in.find(entry.key);
+            if (options.type == Type::path)
+                out.text = from_working_directory(
+                    out.text, folder == settings_.defined_in.end() ? fs::path() : folder->second, settings_);
         } else if (default_value && !default_value->is_null()) {
             out = resolved(*default_value, scope, problems_);
             shown = value_json(out);
@@ -210,14 +223,18 @@ class Params {
         } else if (options.required || !entry.value.is_map() || !entry.value.find("required")) {
             problems_.add(entry.key_mark, "E-PARAM",
                           fmt::format("the parameter '{}' has no value", entry.key),
-                          fmt::format("give it with -D {}=...{}", entry.key,
-                                      options.help.empty() ? "" : " (" + options.help + ")"));
+                          way_to_give(entry.key) + (options.help.empty() ? "" : " (" + options.help + ")"));
             out.deferred = true;
         } else {
             return out;
         }
         check(entry, options, out);
         return out;
+    }
+
+    std::string way_to_give(const std::string& name) const {
+        return given_ ? fmt::format("give it where the file is included, with: {{{}: ...}}", name)
+                      : fmt::format("give it with -D {}=...", name);
     }
 
     void check(const Value::Entry& entry, const ParamOptions& options, Value& value) {
@@ -280,8 +297,25 @@ class Params {
     }
 
     const PlanSettings& settings_;
+    const Value* given_;
     Problems& problems_;
 };
+
+/// Adds the params of a document.
+void add_params(const Value* params, Params& all, Json& json, Problems& problems) {
+    if (!params || params->is_null()) return;
+    if (!params->is_map())
+        problems.add(params->mark, "E-TYPE",
+                     fmt::format("params is a map of names to declarations, found {}", params->described()),
+                     "params: {keep: {type: ratio, default: 10%}}");
+    for (const auto& entry : params->entries) all.add(entry, json);
+}
+
+std::string no_such_param(const std::string& name, const Scope& scope) {
+    std::vector<std::string> names;
+    for (const auto& variable : scope) names.push_back(variable.name);
+    return names.empty() ? "it declares none" : suggestion(name, names);
+}
 
 /// Which of two values was meant is not ours to say.
 void refuse_repeated(const PlanSettings& settings, Problems& problems) {
@@ -295,22 +329,50 @@ void refuse_repeated(const PlanSettings& settings, Problems& problems) {
 
 } // namespace
 
+void add_preset(const fs::path& file, PlanSettings& settings, Problems& problems) {
+    const auto input = io::Input::open(file);
+    const Value all = parse_yaml(std::make_shared<const SourceText>(
+                                     SourceText{file.string(), std::string(io::as_text(input.bytes()))}),
+                                 problems);
+    settings.others.push_back({file, {}, false});
+    if (!all.is_map() && !all.is_null())
+        problems.add(all.mark, "E-TYPE",
+                     fmt::format("a preset is a map of params to values, found {}", all.described()),
+                     "keep: 10%");
+    for (const auto& [name, mark, value] : all.entries) {
+        const auto is_it = [&](const auto& define) { return define.first == name; };
+        if (std::any_of(settings.defines.begin(), settings.defines.end(), is_it)) continue;
+        if (!value.is_scalar())
+            problems.add(value.mark.known() ? value.mark : mark, "E-TYPE",
+                         fmt::format("a param has one value, found {}", value.described()));
+        settings.defines.emplace_back(name, value.text);
+        settings.defined_at[name] = value.mark.known() ? value.mark : mark;
+        settings.defined_in[name] = file.parent_path();
+    }
+}
+
 Scope read_params(const Value* params, const PlanSettings& settings, Json& json, Problems& problems) {
-    Params all(settings, problems);
-    if (params && !params->is_map() && !params->is_null())
-        problems.add(params->mark, "E-TYPE",
-                     fmt::format("params is a map of names to declarations, found {}", params->described()),
-                     "params: {keep: {type: ratio, default: 10%}}");
-    if (params)
-        for (const auto& entry : params->entries) all.add(entry, json);
-    std::vector<std::string> names;
-    for (const auto& variable : all.scope) names.push_back(variable.name);
+    Params all(settings, nullptr, problems);
+    add_params(params, all, json, problems);
     for (const auto& [name, text] : settings.defines)
         if (!find_variable(all.scope, name))
             problems.add(mark_of_define(settings, name, text, 0), "E-PARAM",
                          fmt::format("the pipeline has no parameter '{}'", name),
-                         names.empty() ? "it declares none" : suggestion(name, names));
+                         no_such_param(name, all.scope));
     refuse_repeated(settings, problems);
+    return std::move(all.scope);
+}
+
+Scope fragment_params(const Value& document, const Value& given, const PlanSettings& settings,
+                      Problems& problems) {
+    Params all(settings, &given, problems);
+    Json unused;
+    add_params(document.find("params"), all, unused, problems);
+    for (const auto& entry : given.entries)
+        if (!find_variable(all.scope, entry.key))
+            problems.add(entry.key_mark, "E-PARAM",
+                         fmt::format("what is included has no parameter '{}'", entry.key),
+                         no_such_param(entry.key, all.scope));
     return std::move(all.scope);
 }
 

@@ -10,6 +10,11 @@ namespace facetmill::pipeline {
 /// the report. Adds E-PARAM and what the types of values add.
 Scope read_params(const Value* params, const PlanSettings& settings, Json& json, Problems& problems);
 
+/// The same for a document that is included: its params with the values that are given (a map), else their
+/// defaults.
+Scope fragment_params(const Value& document, const Value& given, const PlanSettings& settings,
+                      Problems& problems);
+
 /// A place on the command line: "-D keep=10%" with the caret under it.
 Mark command_line_mark(const std::string& option, const std::string& text, std::size_t from = 0);
 

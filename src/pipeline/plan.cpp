@@ -77,12 +77,20 @@ namespace {
 const std::vector<std::string> top_level_keys = {"facetmill", "requires", "about", "params",
                                                  "stages",    "report",   "allow"};
 
-void check_keys(const Value& document, Problems& problems) {
-    for (const auto& entry : document.entries)
-        if (!entry.key.starts_with("x-") &&
-            std::find(top_level_keys.begin(), top_level_keys.end(), entry.key) == top_level_keys.end())
+void check_keys(const Value& document, const std::vector<std::string>& keys, Problems& problems) {
+    for (const auto& entry : document.entries) {
+        if (entry.key.starts_with("x-") || std::find(keys.begin(), keys.end(), entry.key) != keys.end())
+            continue;
+        const bool of_pipelines =
+            std::find(top_level_keys.begin(), top_level_keys.end(), entry.key) != top_level_keys.end();
+        if (of_pipelines)
+            problems.add(entry.key_mark, "E-KEY",
+                         fmt::format("a file that is included has no '{}'", entry.key),
+                         "it belongs to the pipeline that includes it");
+        else
             problems.add(entry.key_mark, "E-KEY", fmt::format("a pipeline has no key '{}'", entry.key),
-                         suggestion(entry.key, top_level_keys) + "; keys that begin with x- are free");
+                         suggestion(entry.key, keys) + "; keys that begin with x- are free");
+    }
 }
 
 void check_format(const Value& document, Problems& problems) {
@@ -159,6 +167,12 @@ std::vector<std::string> read_allowed(const Value* allow, const PlanSettings& se
 
 } // namespace
 
+void check_head(const Value& document, const std::vector<std::string>& keys, Problems& problems) {
+    check_format(document, problems);
+    check_requires(document, problems);
+    check_keys(document, keys, problems);
+}
+
 Plan make_plan(const Value& document, const PlanSettings& settings, Problems& problems) {
     Plan plan;
     plan.name = settings.name;
@@ -173,9 +187,7 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
             "facetmill: 1\n    stages:\n      - load: scan.ply");
         return plan;
     }
-    check_format(document, problems);
-    check_requires(document, problems);
-    check_keys(document, problems);
+    check_head(document, top_level_keys, problems);
     if (const Value* about = document.find("about"))
         OptionType<std::string>::parse(*about, plan.about, problems);
     plan.allowed = read_allowed(document.find("allow"), settings, problems);
@@ -188,6 +200,7 @@ Plan make_plan(const Value& document, const PlanSettings& settings, Problems& pr
         problems.add(stages ? stages->mark : document.mark, "E-MISSING", "a pipeline needs stages",
                      "stages: [{load: scan.ply}]");
     planner.finish();
+    plan.others.insert(plan.others.end(), planner.included().begin(), planner.included().end());
     plan.reports = read_reports(document.find("report"), scope, settings, plan.others, problems);
     auto files = planned_files(plan.steps, plan.places);
     files.insert(files.end(), plan.others.begin(), plan.others.end());

@@ -62,7 +62,10 @@ struct PlannedFile {
 struct PlanSettings {
     std::string name; ///< of the pipeline, for messages and the report
     std::vector<std::pair<std::string, std::string>> defines; ///< -D
-    std::map<std::string, Mark> defined_at; ///< where values of defines stand that are not of -D: in a table
+    /// Where values of defines stand that are not of -D: in a table, in a preset.
+    std::map<std::string, Mark> defined_at;
+    /// The folders that their paths start from, where that is not the working directory.
+    std::map<std::string, std::filesystem::path> defined_in;
     std::vector<std::pair<std::string, std::string>> sets; ///< --set stage.option=value
     bool update_baselines = false; ///< --update-baseline: stages with a baseline write it
     Places places;
@@ -84,6 +87,10 @@ struct Plan {
     std::vector<Diagnostic> warnings;
     std::vector<std::string> allowed; ///< ids of warnings that are neither told nor made to fail
 };
+
+/// Adds the values of a preset, a YAML file with a map of params to values. What is defined already stays.
+/// Throws missing.
+void add_preset(const std::filesystem::path& file, PlanSettings& settings, Problems& problems);
 
 /// Plans a parsed document. All problems (E-FORMAT-VERSION, E-REQUIRES, E-STAGE, E-KEY, E-PARAM, ...) are
 /// added; the plan is to be run only when there are no errors among them.

@@ -47,13 +47,15 @@ class Planner {
     std::vector<Arm> foreach_arms(const Value& variables, const Value& body, const Scope& scope,
                                   const Position& position,
                                   const std::optional<std::vector<std::string>>& parts, bool has_scene);
+    /// The files that were included, as a plan reads them.
+    const std::vector<PlannedFile>& included() const { return included_; }
     void finish() const { overrides_.check_all_used(names_, problems_); }
 
   private:
     /// Counts one more step; false, after a problem (E-FOREACH), when there are too many.
     bool count_step(const Mark& where);
-    std::optional<Step> step(const Value& item, const Scope& scope, const Position& position,
-                             std::size_t index, bool& has_scene);
+    /// Appends what the item at that position says.
+    void step(const Value& item, const Scope& scope, const Position& position, bool& has_scene, Steps& steps);
     void plan_stage(Step& step, const Value::Entry& entry, const Scope& scope, bool& has_scene);
     void plan_branch(Step& step, const Value::Entry& entry, const Scope& scope, const Position& inner,
                      bool& has_scene);
@@ -61,6 +63,12 @@ class Planner {
                       const Position& inner, bool& has_scene);
     void common_keys(Step& step, const Value& item, const Scope& scope, const std::string& base,
                      const Position& position);
+    /// The stages of the file that an item includes.
+    Steps include(const Value& item, const Value::Entry& entry, const Scope& scope, const Position& position,
+                  bool& has_scene);
+    /// The document in a file, its paths relative to the pipeline's folder; null after a problem. Throws
+    /// missing.
+    const Value* fragment(const std::filesystem::path& file, const Mark& where);
     std::string unique_name(const std::string& base, const std::string& prefix, const Mark& explicit_at);
 
     const PlanSettings& settings_;
@@ -68,11 +76,17 @@ class Planner {
     Overrides overrides_;
     std::size_t steps_ = 0; ///< planned so far: nested foreach multiply
     std::set<std::string> used_names_;
-    std::set<std::string> names_; ///< by which --set may name the steps
+    std::set<std::string> names_;                      ///< by which --set may name the steps
+    std::map<std::filesystem::path, Value> fragments_; ///< that were read
+    std::vector<std::filesystem::path> open_;          ///< included, the innermost last
+    std::vector<PlannedFile> included_;
 };
 
 /// The common key `when`: a truth, a comparison of expressions, or predicates on the scene.
 Condition read_condition(const Value& value, const Scope& scope, Problems& problems);
+
+/// Checks the format, `requires` and the keys of a file of stages.
+void check_head(const Value& document, const std::vector<std::string>& keys, Problems& problems);
 
 /// Whether the version satisfies a range like ">=0.3,<2"; none when the range cannot be read.
 std::optional<bool> satisfies(const std::string& version, const std::string& range);

@@ -11,23 +11,27 @@ namespace {
 
 /// Keys that belong to an item beside its stage.
 bool belongs(std::string_view key, std::string_view stage) {
-    return is_common_key(key) || (key == "join" && (stage == "branch" || stage == "foreach")) ||
-           (key == "do" && stage == "foreach");
+    return (is_common_key(key) && stage != "include") ||
+           (key == "join" && (stage == "branch" || stage == "foreach")) ||
+           (key == "do" && stage == "foreach") || (key == "with" && stage == "include");
 }
 
 std::vector<std::string> keys_beside(const std::string& stage) {
     std::vector<std::string> keys;
-    for (const auto& common : common_keys()) keys.push_back(common.name);
-    for (const char* key : {"join", "do"})
+    for (const auto& common : common_keys())
+        if (belongs(common.name, stage)) keys.push_back(common.name);
+    for (const char* key : {"join", "do", "with"})
         if (belongs(key, stage)) keys.emplace_back(key);
     return keys;
 }
 
-bool is_stage(std::string_view key) { return key == "branch" || key == "foreach" || stage_named(key); }
+bool is_stage(std::string_view key) {
+    return key == "branch" || key == "foreach" || key == "include" || stage_named(key);
+}
 
 std::vector<std::string> all_stage_names() {
     auto names = stage_names();
-    names.insert(names.end(), {"branch", "foreach"});
+    names.insert(names.end(), {"branch", "foreach", "include"});
     return names;
 }
 
@@ -104,7 +108,8 @@ Steps Planner::steps(const Value& list, const Scope& scope, const Position& posi
         return all;
     }
     for (std::size_t i = 0; i < list.items.size() && count_step(list.items[i].mark); ++i)
-        if (auto one = step(list.items[i], scope, position, i, has_scene)) all.push_back(std::move(*one));
+        step(list.items[i], scope, {fmt::format("{}[{}]", position.path, i), position.prefix}, has_scene,
+             all);
     return all;
 }
 
@@ -118,13 +123,13 @@ bool Planner::count_step(const Mark& where) {
     return false;
 }
 
-std::optional<Step> Planner::step(const Value& item, const Scope& scope, const Position& position,
-                                  std::size_t index, bool& has_scene) {
+void Planner::step(const Value& item, const Scope& scope, const Position& position, bool& has_scene,
+                   Steps& steps) {
     Value as_map = item;
     if (item.is_scalar()) {
         if (!is_stage(item.text)) {
             no_such_stage(item.text, item.mark, problems_);
-            return std::nullopt;
+            return;
         }
         as_map = Value::map({{item.text, item.mark, Value{}}}, item.mark);
         as_map.entries[0].value.mark = item.mark;
@@ -132,16 +137,20 @@ std::optional<Step> Planner::step(const Value& item, const Scope& scope, const P
     if (!as_map.is_map()) {
         problems_.add(item.mark, "E-TYPE", fmt::format("expected a stage, found {}", item.described()),
                       "- clip: {plane: z=0}");
-        return {};
+        return;
     }
     const Value::Entry* entry = stage_entry(as_map, problems_);
     if (!entry) {
         has_scene = true; // it may have been the load; do not complain of what follows
-        return {};
+        return;
+    }
+    if (entry->key == "include") {
+        for (auto& one : include(as_map, *entry, scope, position, has_scene)) steps.push_back(std::move(one));
+        return;
     }
     Step step;
     step.where = entry->key_mark;
-    step.path = fmt::format("{}[{}]", position.path, index);
+    step.path = position.path;
     common_keys(step, as_map, scope, entry->key, position);
     const bool auto_named = step.name == position.prefix + entry->key;
     const Position inner{step.path + "." + entry->key, auto_named ? position.prefix : step.name + "/"};
@@ -155,7 +164,7 @@ std::optional<Step> Planner::step(const Value& item, const Scope& scope, const P
         OptionType<bool>::parse(resolved(*join, scope, problems_), step.join, problems_);
         has_scene = has_scene || step.join;
     }
-    return step;
+    steps.push_back(std::move(step));
 }
 
 void Planner::common_keys(Step& step, const Value& item, const Scope& scope, const std::string& base,

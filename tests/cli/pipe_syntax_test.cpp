@@ -124,6 +124,16 @@ TEST_CASE("mistakes in a one-liner are pointed out in it", "[cli]") {
     CHECK(yaml("relax --lambda").starts_with("command line:1:22: error[E-PIPE]: '--lambda' needs a value\n"));
 }
 
+TEST_CASE("include takes a file and values for its params", "[cli]") {
+    CHECK(same("load a ! include b.yaml --with.keep=10pct --with.name x ! write c",
+               "[{load: a}, {include: b.yaml, with: {keep: 10%, name: x}}, {write: c}]"));
+    CHECK(same("load a ! include b.yaml", "[{load: a}, {include: b.yaml}]"));
+    CHECK(yaml("load a ! include b.yaml c.yaml").find("include takes one file, found 'c.yaml'") !=
+          std::string::npos);
+    CHECK(yaml("load a ! include b.yaml --keep 1").find("include has no option '--keep'") !=
+          std::string::npos);
+}
+
 TEST_CASE("a stage among the values of another lacks its separator", "[cli]") {
     CHECK(yaml("load a.ply simplify 25% ! write o.glb") ==
           "command line:1:27: error[E-PIPE]: 'simplify' is a stage, found among the values of 'load'\n"

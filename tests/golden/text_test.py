@@ -5,6 +5,7 @@ import json
 import pathlib
 import re
 import subprocess
+import tempfile
 
 from support import SOURCE, Case, main
 
@@ -23,13 +24,29 @@ class Text(Case):
 
     def test_help_everywhere(self):
         self.assertIn("Examples", self.mill("--help").stdout)
-        for command in ("run", "batch", "export", "plan", "pipe", "check", "info", "diff", "stages", "schema", "formats", "explain",
+        for command in ("run", "batch", "export", "plan", "pipe", "new", "check", "info", "diff", "stages", "schema", "formats", "explain",
                         "completions"):
             text = self.mill(command, "--help").stdout
             self.assertIn("Examples", text, command)
             self.assertIn(f"facetmill {command}", text)
             self.assertLessEqual(max(map(len, text.splitlines())), 120, command)
         self.assertTrue(self.mill("pipe", "load", "a.stl", "!", "clip", "--help").stdout.startswith("clip: "))
+
+    def test_a_new_pipeline_runs_as_it_is(self):
+        mesh = SOURCE / "examples/data/nefertiti.ply"
+        for options in ([], ["--from", "scan-to-web"]):
+            with tempfile.TemporaryDirectory() as folder:
+                file = pathlib.Path(folder) / "new.yaml"
+                self.mill("new", str(file), *options)
+                self.assertEqual(self.mill("new", "-", *options).stdout, file.read_text())
+                self.mill("check", str(file))
+                self.mill("run", str(file), "-D", f"input={mesh}", "--output-dir", folder, "--strict")
+                self.assertTrue(list(pathlib.Path(folder).glob("*.glb")))
+                file.write_text("mine")
+                again = self.mill("new", str(file), *options, expect=2)
+                self.assertIn("E-EXISTS", again.stderr)
+                self.assertEqual(file.read_text(), "mine")
+        self.assertIn("scan-to-web", self.mill("new", "x.yaml", "--from", "scan-to-wep", expect=2).stderr)
 
     def test_the_readme_lists_every_stage(self):
         readme = (SOURCE / "README.md").read_text()

@@ -1,0 +1,91 @@
+// facetmill new: a pipeline to begin with.
+
+#include "base/spelling.hpp"
+#include "cli/command.hpp"
+#include "docs/ready.hpp"
+#include "io/outputs.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* new_examples = R"(Examples
+  facetmill new scan.yaml
+  facetmill run scan.yaml -D input=scan.ply --output-dir out
+  facetmill new web.yaml --from scan-to-web
+)";
+
+constexpr const char* starter =
+    R"(# A pipeline: stages that run in order. All of it is checked before the first stage begins.
+#
+#   facetmill check FILE                          all that is wrong, each with its place and a hint
+#   facetmill plan FILE -D input=scan.ply         what would run, everything resolved
+#   facetmill run FILE -D input=scan.ply --output-dir out
+#   facetmill batch FILE --input 'scans/**/*.ply' --output-dir out
+#
+# facetmill stages lists the stages, facetmill stages simplify the options of one.
+# facetmill schema pipeline prints a schema by which editors complete and check this file.
+facetmill: 1
+about: A mesh becomes a checked file for the web.
+
+params:                            # values come from -D keep=10%, or from a file of them: -p phone.yaml
+  input: {type: path, help: The mesh to read}
+  keep: {type: ratio, default: 25%, help: The share of the triangles to keep}
+
+stages:
+  - load: "${input}"               # paths in this file are relative to it; -D paths to where you are
+  - clean                          # welds what coincides, drops degenerate and duplicate faces
+  - simplify: "${keep}"
+    ensure: {deviation: 2%}        # a promise, checked right after the stage: exit code 1 if it does not hold
+  - write: "${input.stem}.glb"     # written when all is well, or not at all
+
+report: "${input.stem}.html"       # what was done, and whether the result is sound
+)";
+
+struct NewOptions {
+    std::string file, from;
+};
+
+std::string text_of(const NewOptions& options, const CommandLine& line) {
+    if (options.from.empty()) return starter;
+    if (const auto* ready = docs::ready_pipeline(options.from)) return std::string(ready->text);
+    std::vector<std::string> names;
+    for (const auto& ready : docs::ready_pipelines()) names.emplace_back(ready.name);
+    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no ready pipeline '{}'", options.from),
+                did_you_mean(options.from, names, fmt::format("{}", fmt::join(names, ", "))),
+                line.value(options.from));
+}
+
+int write_new(const NewOptions& options, const CommandLine& line, const Console& console) {
+    const std::string text = text_of(options, line);
+    if (options.file == "-") {
+        print(text);
+        return 0;
+    }
+    std::error_code ignored;
+    if (std::filesystem::exists(std::filesystem::symlink_status(options.file, ignored)))
+        throw Error(ErrorKind::usage, "E-EXISTS", fmt::format("'{}' is there already", options.file),
+                    "name a new file, or - to print", line.value(options.file));
+    io::write_now(options.file, std::as_bytes(std::span(text)));
+    console.say(fmt::format("wrote {0}; next: facetmill plan {0} -D input=FILE", options.file));
+    return 0;
+}
+
+} // namespace
+
+Command new_command() {
+    return {"new", "Writes a commented pipeline to begin with.", new_examples, false,
+            [](Arguments& arguments, Console& console) {
+                auto options = std::make_shared<NewOptions>();
+                arguments.add("FILE", &options->file, "The file to write; -: print it.").required();
+                arguments.add("--from", &options->from, "A ready pipeline to begin with.");
+                return [=, &console](const Invocation& invocation) {
+                    return write_new(*options, invocation.line, console);
+                };
+            }};
+}
+
+} // namespace facetmill::cli

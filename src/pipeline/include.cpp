@@ -1,0 +1,109 @@
+// An item `include`: the stages of another file in its place, with params of their own.
+
+#include "io/bytes.hpp"
+#include "pipeline/document.hpp"
+#include "pipeline/params.hpp"
+#include "pipeline/planner.hpp"
+#include "pipeline/rebase.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::pipeline {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The values that `with` gives, as the includer's scope has them.
+Value given_values(const Value& item, const Scope& scope, Problems& problems) {
+    const Value* with = item.find("with");
+    if (!with || with->is_null()) return Value::map({}, item.mark);
+    Value values = resolved(*with, scope, problems);
+    if (values.is_map()) return values;
+    problems.add(with->mark, "E-TYPE",
+                 fmt::format("with is a map of params to their values, found {}", values.described()),
+                 "- include: finish.yaml\n      with: {ratio: 10%}");
+    return Value::map({}, item.mark);
+}
+
+/// Paths among the values start in the folder of the file that spells them out.
+void rebase_given(const Value& document, const Value& item, const fs::path& prefix, Value& given) {
+    const Value* params = document.find("params");
+    if (!params || prefix == ".") return;
+    for (auto& entry : given.entries) {
+        const Value* param = params->find(entry.key);
+        const Value* type = param && param->is_map() ? param->find("type") : param;
+        const Value* spelled = item.find("with")->find(entry.key);
+        if (type && type->text == "path" && spelled && !spelled->text.starts_with("${"))
+            rebase(entry.value, prefix, RunTimePaths::kept);
+    }
+}
+
+} // namespace
+
+const Value* Planner::fragment(const fs::path& file, const Mark& where) {
+    if (const auto known = fragments_.find(file); known != fragments_.end()) return &known->second;
+    included_.push_back({file, where, false});
+    std::shared_ptr<const SourceText> source;
+    try {
+        const auto input = io::Input::open(file);
+        source = std::make_shared<const SourceText>(
+            SourceText{file.string(), std::string(io::as_text(input.bytes()))});
+    } catch (Error& e) {
+        throw e.at(where);
+    }
+    Problems found;
+    Value document = parse_yaml(std::move(source), found);
+    for (const auto& d : found.all()) problems_.add(d.where, d.id, d.message, d.hint);
+    if (found.any_errors()) return nullptr;
+    if (!document.is_map()) {
+        problems_.add(document.mark, "E-TYPE",
+                      fmt::format("what is included is a map with facetmill and stages, found {}",
+                                  document.described()),
+                      "facetmill: 1\n    stages:\n      - relax: 3");
+        return nullptr;
+    }
+    check_head(document, {"facetmill", "requires", "about", "params", "stages"}, problems_);
+    rebase_inputs(document, file.parent_path(), settings_.places.input_base, RunTimePaths::kept);
+    return &fragments_.emplace(file, std::move(document)).first->second;
+}
+
+Steps Planner::include(const Value& item, const Value::Entry& entry, const Scope& scope,
+                       const Position& position, bool& has_scene) {
+    const Value path = resolved(entry.value, scope, problems_);
+    PathText text;
+    if (!OptionType<PathText>::parse(path, text, problems_) || is_deferred(path)) {
+        has_scene = true; // it may load one; do not complain of what follows
+        return {};
+    }
+    const fs::path file = settings_.places.input(text.text).lexically_normal();
+    if (const auto open = std::find(open_.begin(), open_.end(), file); open != open_.end()) {
+        std::string chain;
+        for (auto one = open; one != open_.end(); ++one) chain += fmt::format("{} -> ", one->string());
+        problems_.add(path.mark, "E-INCLUDE", fmt::format("'{}' includes itself", file.string()),
+                      fmt::format("{}{}", chain, file.string()));
+        return {};
+    }
+    const Value* document = fragment(file, path.mark);
+    if (!document) {
+        has_scene = true;
+        return {};
+    }
+    Value given = given_values(item, scope, problems_);
+    if (!open_.empty())
+        rebase_given(*document, item, way(settings_.places.input_base, open_.back().parent_path()), given);
+    const Scope own = fragment_params(*document, given, settings_, problems_);
+    const Value* stages = document->find("stages");
+    if (!stages || stages->is_null()) {
+        problems_.add(document->mark, "E-MISSING", "what is included needs stages", "stages: [{relax: 3}]");
+        return {};
+    }
+    const std::string name = unique_name(file.stem().string(), position.prefix, {});
+    open_.push_back(file);
+    Steps all = steps(*stages, own, {position.path + ".include", name + "/"}, has_scene);
+    open_.pop_back();
+    return all;
+}
+
+} // namespace facetmill::pipeline

@@ -1,0 +1,109 @@
+#include "support/catch.hpp"
+
+#include "pipeline/params.hpp"
+#include "support/planning.hpp"
+#include "support/temporary.hpp"
+
+using namespace facetmill;
+using pipeline::PlanSettings;
+
+namespace {
+
+/// The names of the steps and what they were given, one after the other.
+std::string outline(const pipeline::Steps& steps) {
+    std::string out;
+    for (const auto& step : steps) out += step.name + " " + pipeline::emit_flow(step.given) + "; ";
+    return out;
+}
+
+std::string problems_of(const test::TemporaryDirectory& folder, const std::string& items) {
+    PlanSettings settings;
+    settings.places.input_base = folder.path();
+    std::string found = planned_stages(items, settings).problems;
+    const std::string place = folder.path().string() + "/";
+    for (auto at = found.find(place); at != found.npos; at = found.find(place)) found.erase(at, place.size());
+    return found;
+}
+
+} // namespace
+
+TEST_CASE("include puts the stages of another file in its place", "[pipeline]") {
+    const test::TemporaryDirectory folder;
+    std::filesystem::create_directories(folder / "parts/deeper");
+    test::put(folder / "parts/finish.yaml", "facetmill: 1\nparams:\n  faces: {type: integer, default: 3}\n"
+                                            "  mask: {type: path, default: mask.ply}\nstages:\n"
+                                            "  - test-cut: {faces: \"${faces}\"}\n  - test-load: other.ply\n"
+                                            "  - test-load: \"${mask}\"\n  - include: deeper/last.yaml\n");
+    test::put(folder / "parts/deeper/last.yaml", "facetmill: 1\nstages: [{test-load: deep.ply}]\n");
+    PlanSettings settings;
+    settings.places.input_base = folder.path();
+    const auto result =
+        planned("facetmill: 1\nparams: {n: {type: integer, default: 7}}\nstages:\n  - test-load: a.ply\n"
+                "  - include: parts/finish.yaml\n    with: {faces: \"${n}\"}\n"
+                "  - include: parts/finish.yaml\n    with: {mask: near.ply}\n",
+                settings);
+    CHECK(result.problems == "");
+    CHECK(outline(result.plan.steps) ==
+          "test-load a.ply; finish/test-cut {faces: 7}; finish/test-load parts/other.ply; "
+          "finish/test-load-2 parts/mask.ply; finish/last/test-load parts/deeper/deep.ply; "
+          "finish-2/test-cut {faces: 3}; finish-2/test-load parts/other.ply; finish-2/test-load-2 near.ply; "
+          "finish-2/last/test-load parts/deeper/deep.ply; ");
+    CHECK(result.plan.steps[1].path == "stages[1].include[0]");
+    std::vector<std::filesystem::path> read;
+    for (const auto& file : result.plan.others) read.push_back(file.path);
+    CHECK(read == std::vector<std::filesystem::path>{folder / "parts/finish.yaml",
+                                                     folder / "parts/deeper/last.yaml"});
+}
+
+TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
+    const test::TemporaryDirectory folder;
+    test::put(folder / "a.yaml", "facetmill: 1\nstages: [{include: b.yaml}]\n");
+    test::put(folder / "b.yaml", "facetmill: 1\nstages: [{include: a.yaml}]\n");
+    test::put(folder / "report.yaml", "facetmill: 1\nstages: [test-cut]\nreport: x.json\n");
+    test::put(folder / "needs.yaml", "facetmill: 1\nparams: {k: {type: ratio}}\nstages: [test-cut]\n");
+    test::put(folder / "list.yaml", "- test-cut\n");
+    test::put(folder / "broken.yaml", "facetmill: 1\nstages: [\n");
+    const auto has = [&](const std::string& items, const std::string& text) {
+        const std::string found = problems_of(folder, "  - test-load: a.ply\n" + items);
+        INFO(found);
+        CHECK(found.find(text) != found.npos);
+    };
+    has("  - include: a.yaml\n", "b.yaml:2:20: error[E-INCLUDE]: 'a.yaml' includes itself");
+    has("  - include: a.yaml\n", "hint: a.yaml -> b.yaml -> a.yaml");
+    has("  - include: report.yaml\n", "error[E-KEY]: a file that is included has no 'report'");
+    has("  - include: needs.yaml\n", "needs.yaml:2:10: error[E-PARAM]: the parameter 'k' has no value");
+    has("  - include: needs.yaml\n", "with: {k: ...}");
+    has("  - include: needs.yaml\n    with: {k: 2}\n", "error[E-TYPE]");
+    has("  - include: needs.yaml\n    with: {k: 10%, kk: 1}\n", "what is included has no parameter 'kk'");
+    has("  - include: list.yaml\n", "list.yaml:1:1: error[E-TYPE]");
+    has("  - include: broken.yaml\n", "broken.yaml:");
+    has("  - include: needs.yaml\n    when: true\n", "'when' is no key of an item");
+    CHECK_THROWS_AS(problems_of(folder, "  - include: gone.yaml\n"), Error);
+}
+
+TEST_CASE("a preset gives params that the command line does not", "[pipeline]") {
+    const test::TemporaryDirectory folder;
+    std::filesystem::create_directories(folder / "web");
+    test::put(folder / "web/preset.yaml", "input: scan.ply\nkeep: 20%\n");
+    PlanSettings settings;
+    settings.working_directory = folder.path();
+    settings.places.input_base = folder.path();
+    settings.defines = {{"keep", "30%"}};
+    Problems problems;
+    pipeline::add_preset(folder / "web/preset.yaml", settings, problems);
+    CHECK(problems.size() == 0);
+    const std::string text =
+        "facetmill: 1\nparams: {input: path, keep: ratio}\nstages:\n  - test-load: \"${input}\"\n"
+        "  - test-warn: \"${keep}\"\n";
+    const auto result = planned(text, settings);
+    CHECK(result.problems == "");
+    CHECK(outline(result.plan.steps) == "test-load web/scan.ply; test-warn 30%; ");
+
+    test::put(folder / "web/wrong.yaml", "keep: 200\nkep: 1\nlist: [1]\n");
+    PlanSettings wrong;
+    pipeline::add_preset(folder / "web/wrong.yaml", wrong, problems);
+    CHECK(render(problems.all().at(0)).find("wrong.yaml:3:7: error[E-TYPE]: a param has one value") !=
+          std::string::npos);
+    const std::string found = planned(text, wrong).problems;
+    CHECK(found.find("wrong.yaml:2:6: error[E-PARAM]: the pipeline has no parameter 'kep'") != found.npos);
+}
