@@ -2,6 +2,7 @@
 
 #include "base/memory.hpp"
 #include "base/once_each.hpp"
+#include "io/gltf/accessor.hpp"
 #include "io/image_files.hpp"
 
 #include <cstring>
