@@ -33,10 +33,11 @@ about: A mesh becomes a checked file for the web.
 
 params:                            # values come from -D keep=10%, or from a file of them: -p phone.yaml
   input: {type: path, help: The mesh to read}
+  unit: {type: choice, default: m, choices: [mm, cm, m], help: The unit of the mesh}
   keep: {type: ratio, default: 25%, help: The share of the triangles to keep}
 
 stages:
-  - load: "${input}"               # paths in this file are relative to it; -D paths to where you are
+  - load: {path: "${input}", unit: "${unit}", up: y}    # paths in this file are relative to it; -D paths to where you are
   - clean                          # welds what coincides, drops degenerate and duplicate faces
   - simplify: "${keep}"
     ensure: {deviation: 2%}        # a promise, checked right after the stage: exit code 1 if it does not hold

@@ -33,8 +33,7 @@ void add_message_options(Arguments& arguments, Console& console) {
 void add_param_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("-D,--define", &options.defines, "A param of the pipeline: -D name=value.");
     arguments.add("-p,--preset", &options.presets,
-                  "A YAML file of params (keep: 10%), its paths relative to it. -D goes before it, a later "
-                  "one before an earlier one.");
+                  "A YAML file of params (keep: 10%), with paths relative to it. -D goes before it.");
     arguments.add("--set", &options.sets, "An option of a stage: --set simplify.ratio=10%.");
 }
 

@@ -10,7 +10,11 @@ namespace facetmill::pipeline {
 namespace fs = std::filesystem;
 
 fs::path way(const fs::path& from, const fs::path& to) {
-    return fs::proximate(fs::weakly_canonical(fs::absolute(to)), fs::weakly_canonical(fs::absolute(from)));
+    const auto whole =
+        [](const fs::path& folder) { // a file named without a folder is in the working directory
+            return fs::weakly_canonical(folder.empty() ? fs::current_path() : fs::absolute(folder));
+        };
+    return fs::proximate(whole(to), whole(from));
 }
 
 void rebase(Value& path, const fs::path& prefix, RunTimePaths run_time) {

@@ -36,11 +36,19 @@ class Schema(Case):
     def test_what_check_accepts_is_accepted(self):
         for stages in ("[simplify: 10%]", "[simplify: {ratio: 0.5, max_error: 1%}]", "[clip: z=0]", "[clip: {plane: {normal: [0, 0, 1]}}]",
                        "[relax]", "[{relax: 3, name: smooth, only: [a], when: {closed: true}, ensure: {closed: true}}]", "[validate]",
-                       "[{ensure: {closed: true}}]", "[{include: a.yaml, with: {keep: 10%}}]", "[{foreach: {lod: [50%, 25%]}, do: [{simplify: '${lod}'}]}]",
+                       "[{ensure: {closed: true}}]", "[{foreach: {lod: [50%, 25%]}, do: [{simplify: '${lod}'}]}]",
                        "[branch: {a: [{write: a.glb}], b: [relax]}]", "[write: {path: a.glb, draco: true}]"):
             self.assertTrue(self.accepts(stages), stages)
             self.write("p.yaml", f"facetmill: 1\nstages: [load: a.ply, {stages[1:]}\n")
             self.mill("check", "p.yaml")
+
+    def test_an_include_is_accepted(self):
+        self.write("a.yaml", "facetmill: 1\nparams: {keep: ratio}\nstages: [{simplify: '${keep}'}]\n")
+        for stages, right in (("[{include: a.yaml, with: {keep: 10%}}]", True), ("[{include: 1}]", False),
+                              ("[{include: a.yaml, with: {keep: 10%}, when: true}]", False)):
+            self.assertEqual(self.accepts(stages), right, stages)
+            self.write("p.yaml", f"facetmill: 1\nstages: [load: a.ply, {stages[1:]}\n")
+            self.mill("check", "p.yaml", expect=0 if right else 3 if "include: 1" in stages else 2)
 
     def test_ready_pipelines_and_examples_follow_it(self):
         for path in (*SOURCE.glob("pipelines/*.yaml"), *SOURCE.glob("examples/**/*.yaml")):

@@ -10,13 +10,13 @@ using pipeline::PlanSettings;
 namespace {
 
 /// The names of the steps and what they were given, one after the other.
-std::string outline(const pipeline::Steps& steps) {
+std::string stages_in(const pipeline::Steps& steps) {
     std::string out;
     for (const auto& step : steps) out += step.name + " " + pipeline::emit_flow(step.given) + "; ";
     return out;
 }
 
-std::string problems_of(const test::TemporaryDirectory& folder, const std::string& items) {
+std::string problems_in(const test::TemporaryDirectory& folder, const std::string& items) {
     PlanSettings settings;
     settings.places.input_base = folder.path();
     std::string found = planned_stages(items, settings).problems;
@@ -43,7 +43,7 @@ TEST_CASE("include puts the stages of another file in its place", "[pipeline]") 
                 "  - include: parts/finish.yaml\n    with: {mask: near.ply}\n",
                 settings);
     CHECK(result.problems == "");
-    CHECK(outline(result.plan.steps) ==
+    CHECK(stages_in(result.plan.steps) ==
           "test-load a.ply; finish/test-cut {faces: 7}; finish/test-load parts/other.ply; "
           "finish/test-load-2 parts/mask.ply; finish/last/test-load parts/deeper/deep.ply; "
           "finish-2/test-cut {faces: 3}; finish-2/test-load parts/other.ply; finish-2/test-load-2 near.ply; "
@@ -55,6 +55,17 @@ TEST_CASE("include puts the stages of another file in its place", "[pipeline]") 
                                                      folder / "parts/deeper/last.yaml"});
 }
 
+TEST_CASE("a file in the working directory includes its neighbour", "[pipeline]") {
+    const test::TemporaryDirectory folder;
+    const auto here = std::filesystem::current_path();
+    std::filesystem::current_path(folder.path());
+    test::put("near.yaml", "facetmill: 1\nstages: [{test-load: b.ply}]\n");
+    const auto result = planned_stages("  - include: near.yaml\n"); // its folder has no name
+    std::filesystem::current_path(here);
+    CHECK(result.problems == "");
+    CHECK(stages_in(result.plan.steps) == "near/test-load b.ply; ");
+}
+
 TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     const test::TemporaryDirectory folder;
     test::put(folder / "a.yaml", "facetmill: 1\nstages: [{include: b.yaml}]\n");
@@ -64,7 +75,7 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     test::put(folder / "list.yaml", "- test-cut\n");
     test::put(folder / "broken.yaml", "facetmill: 1\nstages: [\n");
     const auto has = [&](const std::string& items, const std::string& text) {
-        const std::string found = problems_of(folder, "  - test-load: a.ply\n" + items);
+        const std::string found = problems_in(folder, "  - test-load: a.ply\n" + items);
         INFO(found);
         CHECK(found.find(text) != found.npos);
     };
@@ -78,7 +89,7 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     has("  - include: list.yaml\n", "list.yaml:1:1: error[E-TYPE]");
     has("  - include: broken.yaml\n", "broken.yaml:");
     has("  - include: needs.yaml\n    when: true\n", "'when' is no key of an item");
-    CHECK_THROWS_AS(problems_of(folder, "  - include: gone.yaml\n"), Error);
+    CHECK_THROWS_AS(problems_in(folder, "  - include: gone.yaml\n"), Error);
 }
 
 TEST_CASE("a preset gives params that the command line does not", "[pipeline]") {
@@ -97,7 +108,7 @@ TEST_CASE("a preset gives params that the command line does not", "[pipeline]") 
         "  - test-warn: \"${keep}\"\n";
     const auto result = planned(text, settings);
     CHECK(result.problems == "");
-    CHECK(outline(result.plan.steps) == "test-load web/scan.ply; test-warn 30%; ");
+    CHECK(stages_in(result.plan.steps) == "test-load web/scan.ply; test-warn 30%; ");
 
     test::put(folder / "web/wrong.yaml", "keep: 200\nkep: 1\nlist: [1]\n");
     PlanSettings wrong;
