@@ -35,9 +35,9 @@ void warn_of_fans(const FanCounts& faces, Context& context) {
     if (faces.fans > 0)
         context.warn(
             "W-FANS",
-            fmt::format("{} have no area, or intersect themselves in no plane: they count as fans of "
-                        "triangles, which may overlap",
-                        counted(faces.fans, "face")));
+            fmt::format("faces without area, or that intersect themselves in no plane, count as fans of "
+                        "triangles, which may overlap: {}",
+                        faces.fans));
     if (faces.overlapping > 0)
         context.warn("W-FANS",
                      fmt::format("{} {} around points several times, and the triangles overlap there: faces "

@@ -42,7 +42,7 @@ RUNS = [
     "load cubes.obj ! probe --segments 0.5,0.5,-1,0.5,0.5,2 ! probe --rays 0.5,0.5,-1,0,0,1 ! probe --along NORMAL",
     "load cubes.obj ! probe --segments 0.5,0.5,-1,0.5,0.5,2 --face 0 ! probe --rays 9,9,9,0,0,1 --face 0",
     "load cubes.obj ! render --path p.png ! measure --curvature ! render --path q.png --attribute mean_curvature",
-    "load cubes.obj --unit mm --up z ! write a.glb ! write b.glb --draco true ! write c.stl --unit m",
+    "load cubes.obj --unit mm --up z ! write a.glb ! write b.glb --draco true ! write q.glb --quantize true ! write c.stl --unit m",
     "load cubes.obj ! validate --closed ! validate --closed --baseline known.json --update_baseline",
     "generate sphere ! simplify 50% ! simplify --faces 600 --topology allow ! simplify --max_error 1%",
     "generate sphere ! simplify --ratio 50% --self_intersections count ! simplify 50% --method cluster",

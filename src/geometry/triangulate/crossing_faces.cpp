@@ -60,7 +60,9 @@ Crossing crossing_of(std::span<const Vec3> corners) {
     const polygon::Kind kind = polygon::classify(ring);
     if (!crosses(ring, kind)) return Crossing::none;
     if (is_planar(corners, polygon::plane_deviation(corners))) return Crossing::in_plane;
-    return kind == polygon::Kind::self_intersecting ? Crossing::in_no_plane : Crossing::none;
+    // The two triangles of a skewed quad share a diagonal and nothing else, wherever it is seen from.
+    const bool may_overlap = kind == polygon::Kind::self_intersecting && corners.size() > 4;
+    return may_overlap ? Crossing::in_no_plane : Crossing::none;
 }
 
 Contours flat_outline(const Mesh& mesh, Index f) {

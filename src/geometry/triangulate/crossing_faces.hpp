@@ -25,8 +25,8 @@ struct CrossingFaces {
     AttributeChanges changes;    ///< of mesh
     std::size_t filled = 0;      ///< faces that became triangles
     std::size_t overlapping = 0; ///< among them, those whose triangles lie over each other
-    /// Faces that cross themselves in no plane (seen along the axis nearest to their normal), and those that
-    /// could not be filled: their triangles may overlap.
+    /// Faces of five or more corners that cross themselves in no plane (seen along the axis nearest to their
+    /// normal), and those that could not be filled: their triangles may overlap.
     std::size_t fans = 0;
 };
 

@@ -150,8 +150,12 @@ TEST_CASE("faces that cross themselves in no plane, or not at all, are left alon
     Mesh skew = face_of({{0, 0}, {1, 0}, {0, 1}, {1, 1}});
     skew.positions[2].z = 3;
     CHECK_FALSE(fill_crossing_faces(skew).mesh);
-    Mesh bent = face_of({{0, 0}, {6, 0}, {2, 4}, {4, 4}});
-    bent.positions[2].z = 0.25;
+    Mesh two = face_of({{0, 0}, {6, 0}, {2, 4}, {4, 4}}); // triangles that share a diagonal cannot overlap
+    two.positions[2].z = 0.25;
+    CHECK_FALSE(fill_crossing_faces(two).mesh);
+    CHECK(fill_crossing_faces(two).fans == 0);
+    Mesh bent = face_of({{0, 0}, {3, 0}, {6, 0}, {2, 4}, {4, 4}});
+    bent.positions[3].z = 0.25;
     CHECK_FALSE(fill_crossing_faces(bent).mesh);
     CHECK(fill_crossing_faces(bent).fans == 1);
     CHECK(count_fans(bent) == 1);
