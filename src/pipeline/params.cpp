@@ -339,7 +339,10 @@ void add_preset(const fs::path& file, PlanSettings& settings, Problems& problems
         problems.add(all.mark, "E-TYPE",
                      fmt::format("a preset is a map of params to values, found {}", all.described()),
                      "keep: 10%");
-    for (const auto& [name, mark, value] : all.entries) {
+    for (const auto& entry : all.entries) {
+        const auto& name = entry.key;
+        const Value& value = entry.value;
+        const Mark& mark = entry.key_mark;
         const auto is_it = [&](const auto& define) { return define.first == name; };
         if (std::any_of(settings.defines.begin(), settings.defines.end(), is_it)) continue;
         if (!value.is_scalar())
