@@ -25,4 +25,7 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
     return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
+/// Bytes of the UTF-8 sequence at i; 0 when it is none (cut short, overlong, a surrogate, beyond U+10FFFF).
+std::size_t utf8_length(std::string_view text, std::size_t i);
+
 } // namespace facetmill

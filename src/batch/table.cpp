@@ -90,8 +90,8 @@ class CsvReader {
     int line_ = 1, column_ = 1;
 };
 
-std::vector<Row> csv_rows(std::shared_ptr<const SourceText> source) {
-    CsvReader reader(std::move(source));
+std::vector<Row> csv_rows(const std::shared_ptr<const SourceText>& source) {
+    CsvReader reader(source);
     std::vector<Cell> heading, record;
     if (!reader.next(heading)) refuse_table({source}, "the table is empty", "its first line names params");
     std::set<std::string> names;

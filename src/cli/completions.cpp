@@ -39,9 +39,7 @@ std::string brief_help(std::string help) {
 Words stage_words() {
     Words words;
     for (const auto& stage : stages()) words.push_back({stage.name, brief_help(stage.about)});
-    words.push_back({"branch", "Runs several lists of stages on the same scene"});
-    words.push_back({"foreach", "Runs stages for each of some values"});
-    words.push_back({"include", "Runs the stages of another file"});
+    for (const auto& item : control_items()) words.push_back({item.name, item.about});
     return words;
 }
 

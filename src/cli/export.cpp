@@ -29,19 +29,17 @@ struct ExportOptions : AssetOptions {
 Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline::PlanSettings& of_all) {
     const auto own = settings_for(work.asset, of_all);
     Job job{work.asset.name, {"run", options.pipeline}, {}, {}, work.memory};
-    const auto give = [&](const char* option, const auto& pairs) {
-        for (const auto& [name, value] : pairs) {
-            if (own.defined_in.contains(name)) continue; // the preset has it
-            job.arguments.emplace_back(option);
-            job.arguments.push_back(fmt::format("{}={}", name, value));
-        }
+    const auto give = [&](const char* option, const std::string& name, const std::string& value) {
+        job.arguments.emplace_back(option);
+        job.arguments.push_back(fmt::format("{}={}", name, value));
     };
     for (const auto& preset : options.common.presets) {
         job.arguments.emplace_back("--preset");
         job.arguments.push_back(preset);
     }
-    give("-D", own.defines);
-    give("--set", own.sets);
+    for (const auto& [name, value] : own.defines)
+        if (!own.defined_in.contains(name)) give("-D", name, value); // else the preset has it
+    for (const auto& [name, value] : own.sets) give("--set", name, value);
     for (const auto& id : options.common.strict)
         job.arguments.push_back(id == "*" ? "--strict" : "--strict=" + id);
     for (const auto& id : options.common.allowed) {

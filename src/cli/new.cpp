@@ -53,8 +53,7 @@ struct NewOptions {
 std::string text_of(const NewOptions& options, const CommandLine& line) {
     if (options.from.empty()) return starter;
     if (const auto* ready = docs::ready_pipeline(options.from)) return std::string(ready->text);
-    std::vector<std::string> names;
-    for (const auto& ready : docs::ready_pipelines()) names.emplace_back(ready.name);
+    const auto names = docs::ready_names();
     throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("there is no ready pipeline '{}'", options.from),
                 did_you_mean(options.from, names, fmt::format("{}", fmt::join(names, ", "))),
                 line.value(options.from));

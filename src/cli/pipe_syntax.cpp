@@ -230,7 +230,7 @@ class Parser {
     /// words or files may be called so, and so may a file that is there.
     bool is_forgotten_separator(const Option* primary, bool first) const {
         const std::string& word = all_[at_];
-        if (!stage_named(word) && word != "foreach" && word != "branch" && word != "include") return false;
+        if (!stage_named(word) && !is_control_item(word)) return false;
         std::error_code ignored;
         if (!primary) return true;
         if (std::any_of(primary->choices.begin(), primary->choices.end(),

@@ -130,8 +130,7 @@ pipeline::PlanSettings plan_settings(const PipelineOptions& options, const Comma
 namespace {
 
 [[noreturn]] void refuse_unknown(const std::string& pipeline) {
-    std::vector<std::string> names;
-    for (const auto& ready : docs::ready_pipelines()) names.emplace_back(ready.name);
+    const auto names = docs::ready_names();
     const std::string near = nearest(pipeline, names);
     throw Error(ErrorKind::missing, "E-FILE", fmt::format("there is no pipeline '{}'", pipeline),
                 near.empty()

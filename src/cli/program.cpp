@@ -2,6 +2,7 @@
 #include "base/spelling.hpp"
 #include "cli/command.hpp"
 #include "docs/versions.hpp"
+#include "stage/common_keys.hpp"
 #include "stage/stage.hpp"
 
 #include <algorithm>
@@ -58,7 +59,7 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
         if (c.name == name) return c;
         names.push_back(c.name);
     }
-    if (stage_named(name) || name == "branch" || name == "foreach" || name == "include")
+    if (stage_named(name) || is_control_item(name))
         throw Error(
             ErrorKind::usage, "E-COMMAND", fmt::format("'{}' is a stage, not a command", name),
             stage_named(name)

@@ -1,6 +1,7 @@
 #pragma once
 // The ready pipelines: the files of pipelines/, embedded when facetmill is built (cmake/Embed.cmake).
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,5 +15,6 @@ struct ReadyPipeline {
 /// Sorted by name.
 const std::vector<ReadyPipeline>& ready_pipelines();
 const ReadyPipeline* ready_pipeline(std::string_view name);
+std::vector<std::string> ready_names();
 
 } // namespace facetmill::docs

@@ -25,13 +25,11 @@ std::vector<std::string> keys_beside(const std::string& stage) {
     return keys;
 }
 
-bool is_stage(std::string_view key) {
-    return key == "branch" || key == "foreach" || key == "include" || stage_named(key);
-}
+bool is_stage(std::string_view key) { return is_control_item(key) || stage_named(key); }
 
 std::vector<std::string> all_stage_names() {
     auto names = stage_names();
-    names.insert(names.end(), {"branch", "foreach", "include"});
+    for (const auto& item : control_items()) names.push_back(item.name);
     return names;
 }
 

@@ -1,5 +1,7 @@
 #include "pipeline/yaml_text.hpp"
 
+#include "base/words.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -8,25 +10,6 @@ namespace facetmill::pipeline {
 namespace {
 
 constexpr std::size_t max_text = std::size_t{4} << 20;
-
-/// Bytes of the UTF-8 sequence at i; 0 when it is none (cut short, overlong, a surrogate, beyond U+10FFFF).
-std::size_t sequence_length(std::string_view text, std::size_t i) {
-    const auto byte = [&](std::size_t k) {
-        return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U;
-    };
-    const unsigned first = byte(i);
-    if (first < 0x80) return 1;
-    const std::size_t length = first >= 0xC2 && first < 0xE0   ? 2
-                               : (first & 0xF0) == 0xE0        ? 3
-                               : first >= 0xF0 && first < 0xF5 ? 4
-                                                               : 0;
-    for (std::size_t k = 1; k < length; ++k)
-        if ((byte(i + k) & 0xC0) != 0x80) return 0;
-    const unsigned second = byte(i + 1);
-    const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
-                     (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90);
-    return bad ? 0 : length;
-}
 
 bool is_forbidden_control(char c) {
     const auto u = static_cast<unsigned char>(c);
@@ -63,7 +46,7 @@ bool check_text(const SourceIndex& source, Problems& problems) {
         return false;
     }
     for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = sequence_length(text, i);
+        const std::size_t length = utf8_length(text, i);
         if (length == 0 || is_forbidden_control(text[i])) {
             const auto byte = static_cast<unsigned>(static_cast<unsigned char>(text[i]));
             problems.add(source.mark(i), "E-YAML",

@@ -32,4 +32,19 @@ bool is_common_key(std::string_view name) {
     return std::any_of(keys.begin(), keys.end(), [&](const CommonKey& key) { return key.name == name; });
 }
 
+const std::vector<ControlItem>& control_items() {
+    static const std::vector<ControlItem> items{
+        {"branch", "Runs several lists of stages on the same scene"},
+        {"foreach", "Runs stages for each of some values"},
+        {"include", "Runs the stages of another file"},
+    };
+    return items;
+}
+
+bool is_control_item(std::string_view name) {
+    const auto& items = control_items();
+    return std::any_of(items.begin(), items.end(),
+                       [&](const ControlItem& item) { return item.name == name; });
+}
+
 } // namespace facetmill

@@ -1,6 +1,6 @@
 #pragma once
-// The keys that every step of a pipeline takes beside its stage's options: declared once, for the parser, the
-// one-liner, the help and the schema.
+// The keys that every step of a pipeline takes beside its stage's options, and the steps that are no stages:
+// declared once, for the parser, the one-liner, the help and the schema.
 
 #include "base/json.hpp"
 
@@ -19,5 +19,14 @@ struct CommonKey {
 /// name, when, only, ensure; in the order of the help.
 const std::vector<CommonKey>& common_keys();
 bool is_common_key(std::string_view name);
+
+/// An item of a list of stages that is no stage: it has stages inside.
+struct ControlItem {
+    std::string name, about;
+};
+
+/// branch, foreach, include.
+const std::vector<ControlItem>& control_items();
+bool is_control_item(std::string_view name);
 
 } // namespace facetmill

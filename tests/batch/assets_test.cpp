@@ -1,6 +1,7 @@
 #include "support/catch.hpp"
 
 #include "batch/batch.hpp"
+#include "batch/table.hpp"
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
 
@@ -102,4 +103,17 @@ TEST_CASE("the gravest exit code", "[batch]") {
     CHECK(batch::graver(6, 3) == 6);
     CHECK(batch::graver(4, 5) == 4);
     CHECK(batch::graver(7, 4) == 4);
+}
+
+TEST_CASE("an empty table of params is refused by its name", "[batch]") {
+    test::TemporaryDirectory directory;
+    test::put(directory / "empty.csv", "\n");
+    try {
+        batch::read_params_table(directory / "empty.csv");
+        FAIL("it was read");
+    } catch (const Error& e) {
+        REQUIRE(e.diagnostics().size() == 1);
+        CHECK(e.diagnostics()[0].message == "the table is empty");
+        CHECK(to_string(e.diagnostics()[0].where) == (directory / "empty.csv").string());
+    }
 }

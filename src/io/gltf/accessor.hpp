@@ -74,6 +74,8 @@ AttributeData decode(Source& source, const Accessor& accessor);
 /// The indices of a primitive, each below count. Throws malformed (E-INDEX).
 std::vector<Index> decode_indices(Source& source, const Place& reference, std::size_t count);
 
+/// meshopt's two extensions, which differ in name only as far as both are written.
+inline constexpr const char* meshopt_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 /// The object of EXT_meshopt_compression or KHR_meshopt_compression in a buffer or a view.
 std::optional<Place> meshopt_extension(const Place& owner);
 /// Decompresses what a buffer view's object of either extension says. Throws malformed (E-MESHOPT; also for

@@ -31,8 +31,6 @@ void add_name(Json& document, const char* list, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-constexpr const char* meshopt_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
-
 const char* name_of(const MeshoptSettings& settings) {
     return meshopt_names[settings.extension == MeshoptSettings::Extension::khr ? 1 : 0];
 }

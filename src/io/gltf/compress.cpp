@@ -166,7 +166,7 @@ Bytes encode_meshopt(Span bytes, const Packing& packing) {
 const Json* compression_of(const Json& view) {
     const auto extensions = view.find("extensions");
     if (extensions == view.end()) return nullptr;
-    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+    for (const char* name : meshopt_names)
         if (const auto found = extensions->find(name); found != extensions->end()) return &*found;
     return nullptr;
 }

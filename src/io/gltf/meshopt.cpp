@@ -79,8 +79,9 @@ void decode_colours(Bytes& bytes) {
 std::optional<Place> meshopt_extension(const Place& owner) {
     const auto extensions = owner.find("extensions");
     if (!extensions) return {};
-    const auto ext = extensions->find("EXT_meshopt_compression");
-    return ext ? ext : extensions->find("KHR_meshopt_compression");
+    for (const char* name : meshopt_names)
+        if (const auto found = extensions->find(name)) return found;
+    return {};
 }
 
 Bytes decode_meshopt(Source& source, const Place& extension) {

@@ -54,6 +54,12 @@ class Store {
     Attribute numbers(std::size_t accessor);
     std::vector<Vec3> positions(std::size_t accessor);
     std::size_t replace(std::size_t accessor, std::optional<Stored> stored);
+    /// What was made under that key, by make the first time.
+    template <class Make>
+    std::size_t made_once(const std::string& key, Make&& make) {
+        const auto known = made_.find(key);
+        return known != made_.end() ? known->second : made_.emplace(key, make()).first->second;
+    }
 
     void place_grid(std::size_t node, const PositionGrid& grid);
     void keep(const std::string& attribute, std::string why);
@@ -296,18 +302,15 @@ void Store::store_influences(Json& attributes) {
 
 Json Store::store_target(const Json& target, const std::optional<PositionGrid>& grid) {
     Json stored = target;
-    for (auto& [semantic, reference] : stored.items()) {
-        const auto accessor = reference.get<std::size_t>();
+    for (auto& item : stored.items()) {
+        const std::string& semantic = item.key();
+        const auto accessor = item.value().get<std::size_t>();
         if (!readable(accessor)) continue;
-        const std::string key = fmt::format("target {} {} {}", semantic, accessor, key_of(grid));
-        auto known = made_.find(key);
-        if (known == made_.end()) {
-            std::size_t made = accessor;
-            if (semantic == "POSITION") made = displacement(accessor, grid);
-            if (semantic == "NORMAL" || semantic == "TANGENT") made = vector(accessor, false);
-            known = made_.emplace(key, made).first;
-        }
-        reference = known->second;
+        item.value() = made_once(fmt::format("target {} {} {}", semantic, accessor, key_of(grid)), [&] {
+            if (semantic == "POSITION") return displacement(accessor, grid);
+            if (semantic == "NORMAL" || semantic == "TANGENT") return vector(accessor, false);
+            return accessor;
+        });
     }
     return stored;
 }
@@ -316,19 +319,16 @@ Json Store::store_primitive(Json primitive, const std::optional<PositionGrid>& g
     if (!primitive.contains("attributes") || has_extension(primitive, "KHR_draco_mesh_compression"))
         return primitive;
     builder_.release(primitive);
-    for (auto& [semantic, reference] : primitive["attributes"].items()) {
-        const auto accessor = reference.get<std::size_t>();
-        const std::string key = fmt::format("{} {} {}", semantic, accessor, key_of(grid));
-        auto known = made_.find(key);
-        if (known == made_.end()) {
-            std::size_t made = accessor;
-            if (semantic == "POSITION") made = position(accessor, grid);
-            if (semantic == "NORMAL" || semantic == "TANGENT") made = vector(accessor, true);
+    for (auto& item : primitive["attributes"].items()) {
+        const std::string& semantic = item.key();
+        const auto accessor = item.value().get<std::size_t>();
+        item.value() = made_once(fmt::format("{} {} {}", semantic, accessor, key_of(grid)), [&] {
+            if (semantic == "POSITION") return position(accessor, grid);
+            if (semantic == "NORMAL" || semantic == "TANGENT") return vector(accessor, true);
             if (begins(semantic, "TEXCOORD_") || begins(semantic, "COLOR_"))
-                made = fraction(accessor, semantic);
-            known = made_.emplace(key, made).first;
-        }
-        reference = known->second;
+                return fraction(accessor, semantic);
+            return accessor;
+        });
     }
     if (quantize_.on) store_influences(primitive["attributes"]);
     if (!primitive.contains("targets")) return primitive;
