@@ -82,6 +82,26 @@ bool glob_matches(std::string_view pattern, std::string_view text) {
     return p == pattern.size();
 }
 
+namespace {
+
+using Component = std::vector<fs::path>::const_iterator;
+
+bool components_match(Component pattern, Component pattern_end, Component path, Component path_end) {
+    if (pattern == pattern_end) return path == path_end;
+    if (*pattern == "**")
+        return components_match(pattern + 1, pattern_end, path, path_end) ||
+               (path != path_end && components_match(pattern, pattern_end, path + 1, path_end));
+    return path != path_end && glob_matches(pattern->string(), path->string()) &&
+           components_match(pattern + 1, pattern_end, path + 1, path_end);
+}
+
+} // namespace
+
+bool glob_matches_path(const fs::path& pattern, const fs::path& path) {
+    const std::vector<fs::path> wanted(pattern.begin(), pattern.end()), is(path.begin(), path.end());
+    return components_match(wanted.begin(), wanted.end(), is.begin(), is.end());
+}
+
 std::vector<fs::path> expand_glob(const fs::path& pattern) {
     std::error_code ignored;
     if (!is_glob(pattern.string()) || fs::exists(pattern, ignored)) return {pattern};

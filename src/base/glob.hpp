@@ -14,6 +14,9 @@ bool is_glob(std::string_view text);
 /// Whether the pattern matches the whole text. Time is at most pattern times text, whatever the pattern.
 bool glob_matches(std::string_view pattern, std::string_view text);
 
+/// Whether a path is one that a pattern names: component by component, ** being any number of them.
+bool glob_matches_path(const std::filesystem::path& pattern, const std::filesystem::path& path);
+
 /// The files that a path with patterns in any of its components names, sorted by their bytes; ** stands for
 /// any number of directories. Hidden files only match a pattern that starts with a dot. A path without
 /// patterns is itself, whether it exists or not, and so is the name of a file that is there ("[a].ply").

@@ -6,6 +6,7 @@
 #include "batch/table.hpp"
 #include "io/bytes.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 
@@ -58,7 +59,7 @@ class AssetFinder {
                                   : fs::path(sources_.base);
         auto files = expand_glob(pattern);
         if (!is_file && !is_glob(pattern)) files.clear();
-        if (files.empty())
+        if (files.empty() && !was_there(pattern))
             missing_.push_back({Severity::error, "E-FILE", fmt::format("no file matches '{}'", pattern),
                                 sources_.place(pattern),
                                 is_glob(pattern) ? "** stands for any number of folders; the shell must not "
@@ -67,10 +68,17 @@ class AssetFinder {
         for (const auto& file : files) add_file(file, base);
     }
 
+    /// Whether an earlier batch found something there, so that nothing is left to make but to prune.
+    bool was_there(const std::string& pattern) const {
+        return sources_.former &&
+               std::any_of(sources_.former->begin(), sources_.former->end(),
+                           [&](const std::string& name) { return glob_matches_path(pattern, name); });
+    }
+
     void add_file(const fs::path& file, const fs::path& base) {
         if (!seen_.insert(fs::absolute(file).lexically_normal()).second) return;
         assets_.push_back(
-            {file.string(), file, mirrored(file, base), false, {{input_param, file.string()}}, {}});
+            {file.string(), file, mirrored(file, base), false, {{input_param, file.string()}}, {}, {}});
     }
 
     /// Names on lines of their own, or each ended by a NUL as `find -print0` writes them.
@@ -88,7 +96,7 @@ class AssetFinder {
             any = any || !name.empty();
             text.remove_prefix(std::min(end + 1, text.size()));
         }
-        if (!any)
+        if (!any && !sources_.former)
             missing_.push_back({Severity::error, "E-FILE", fmt::format("'{}' names no file", list),
                                 sources_.place(list), "one name on each line, or each ended by a NUL"});
     }
@@ -106,6 +114,7 @@ class AssetFinder {
                 if (cell.param == input_param) asset.input = cell.text;
                 asset.defines.emplace_back(cell.param, cell.text);
                 asset.defined_at[cell.param] = cell.where;
+                if (cell.list) asset.lists[cell.param] = *cell.list;
             }
             if (!asset.input.empty()) asset.folder = mirrored(asset.input, sources_.base);
             assets_.push_back(std::move(asset));

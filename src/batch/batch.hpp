@@ -16,6 +16,7 @@ struct Asset {
     bool of_table = false;
     std::vector<std::pair<std::string, std::string>> defines; ///< params of this asset
     std::map<std::string, Mark> defined_at;                   ///< ... and where a table has them
+    std::map<std::string, Value> lists;                       ///< ... those that are lists
 };
 
 /// Where assets are named.
@@ -25,6 +26,9 @@ struct Sources {
     std::string table;                 ///< --table: a CSV or YAML file, a row an asset
     std::string base;                  ///< --base: the folder that is mirrored; empty: see find_assets
     std::function<Mark(const std::string&)> place; ///< of a value on the command line
+    /// --prune: the assets of earlier batches. A pattern that names one of them may match nothing any more,
+    /// and a list may be empty. None: that is an error.
+    std::optional<std::vector<std::string>> former;
 };
 
 /// The assets in the order of their sources, globs sorted by bytes, each file once. An asset's folder is that
@@ -32,6 +36,9 @@ struct Sources {
 /// directory for lists and tables; beyond the base it is empty. Throws missing (E-FILE) when a pattern
 /// matches nothing, malformed (E-TABLE) for a table that cannot be read.
 std::vector<Asset> find_assets(const Sources& sources);
+
+/// The assets that earlier batches of this pipeline have noted in an output folder.
+std::vector<std::string> former_assets(const std::filesystem::path& output_dir, const std::string& pipeline);
 
 struct Settings {
     /// Plans the pipeline for an asset; problems are added.
@@ -47,7 +54,8 @@ struct Settings {
     bool prune = false;       ///< outputs go whose source is gone
     bool pictures = false;    ///< outcomes have pictures
     bool check_invariants = false;
-    std::vector<std::string> strict; ///< as RunSettings
+    std::vector<std::string> strict;  ///< as RunSettings
+    std::vector<std::string> allowed; ///< as Plan: here for what the batch itself warns of
 };
 
 /// An asset that was planned.
@@ -60,8 +68,9 @@ struct Work {
 
 struct Prepared {
     std::vector<Work> works;
-    std::vector<Diagnostic> missing; ///< inputs that are not there
-    bool files_collide = false;      ///< then not even the summary may be written
+    std::vector<Diagnostic> missing;  ///< inputs that are not there
+    std::vector<std::string> allowed; ///< ids of warnings, as the plans have them
+    bool files_collide = false;       ///< then not even the summary may be written
 };
 
 /// Plans every asset, so that nothing runs when one of them is wrong. Adds what planning adds;
@@ -88,7 +97,7 @@ struct Summary {
     std::vector<Asset> assets;
     std::vector<Outcome> outcomes; ///< of the assets
     std::vector<std::string> pruned;
-    std::vector<Diagnostic> warnings, errors; ///< of the batch as a whole; with errors nothing was run
+    std::vector<Diagnostic> warnings, errors; ///< of the batch as a whole
     int exit_code = 0;                        ///< the gravest of all
     int jobs = 0;
     double seconds = 0;

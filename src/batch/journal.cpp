@@ -129,6 +129,16 @@ fs::path Journal::path_in(const fs::path& folder, const std::string& name) {
                                 sha256(std::as_bytes(std::span(place))).substr(0, digits), suffix);
 }
 
+std::vector<std::string> Journal::assets_in(const fs::path& folder, const std::string& name) {
+    std::vector<std::string> assets;
+    std::error_code ignored;
+    const fs::path path = path_in(folder, name);
+    if (!fs::exists(path, ignored)) return assets;
+    const auto input = io::Input::open(path);
+    for_each_done(io::as_text(input.bytes()), [&](Done done) { assets.push_back(std::move(done.asset)); });
+    return assets;
+}
+
 Journal::Journal(const fs::path& folder, const std::string& name)
     : folder_(folder), path_(path_in(folder, name)) {
     std::error_code error;
@@ -190,7 +200,7 @@ std::set<std::string> Journal::outputs_of_others() const {
 
 const Done* Journal::unchanged(const std::string& asset, const std::string& digest) {
     const auto found = all_.find(asset);
-    if (found == all_.end() || found->second.digest != digest) return nullptr;
+    if (found == all_.end() || found->second.digest.empty() || found->second.digest != digest) return nullptr;
     Done& done = found->second;
     bool renewed = false;
     std::error_code ignored;

@@ -22,10 +22,10 @@ struct Stamp {
     std::string sha256;
 };
 
-/// A run that went well.
+/// A run that went well; or the reports of one that did not, beside what was there before it.
 struct Done {
     std::string asset;
-    std::string digest; ///< of Work
+    std::string digest; ///< of Work; empty: it failed, and is never unchanged
     std::string source; ///< the asset's input, absolute; empty: a row without one
     bool of_table = false;
     std::vector<Stamp> inputs, outputs;
@@ -54,6 +54,9 @@ class Journal {
     /// The file in this folder: named after the pipeline, and by where that is, so that two of one name have
     /// two.
     static std::filesystem::path path_in(const std::filesystem::path& folder, const std::string& name);
+
+    /// The assets that a journal in this folder has, also while another batch holds it.
+    static std::vector<std::string> assets_in(const std::filesystem::path& folder, const std::string& name);
 
     const std::map<std::string, Done>& all() const { return all_; }
     /// What batches of other pipelines have written in the folder.

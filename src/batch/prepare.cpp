@@ -154,6 +154,7 @@ Prepared prepare(const std::vector<Asset>& assets, const Settings& settings, Pro
         for (const auto& d : of_asset.all()) // warnings come with the run
             if (d.severity == Severity::error) problems.add(d.where, d.id, d.message, d.hint);
         if (of_asset.any_errors()) continue;
+        out.allowed = plan.allowed; // the same for all
         const auto headers = pipeline::read_headers(plan);
         owners.add(asset, pipeline::planned_outputs(plan), headers.more_outputs);
         if (auto missing = pipeline::missing_inputs(plan); !missing.empty()) {

@@ -112,7 +112,7 @@ class BatchRun {
         }).run();
         const std::lock_guard lock(guard_);
         if (settings_.prune) prune();
-        if (auto warning = journal_.compact()) summary_.warnings.push_back(std::move(*warning));
+        warn(journal_.compact());
         close_summary();
         over_ = true;
         return std::move(summary_);
@@ -206,17 +206,40 @@ class BatchRun {
         Outcome out = outcome_of(work.asset, record);
         out.warnings = std::move(warnings);
         for (const auto& error : record.errors) out.errors.push_back(about_asset(work.asset, error));
-        if (record.exit_code == 0) done = done_of(work, before, record, out);
+        if (record.exit_code == 0)
+            done = done_of(work, before, record, out);
+        else if (!record.reports.empty())
+            done = reports_of_failed(work, record);
         return out;
+    }
+
+    /// So that they can be pruned; the outputs of an earlier run are still there.
+    Done reports_of_failed(const Work& work, const report::RunRecord& record) {
+        Done done = named_done(work);
+        for (const auto& report : record.reports)
+            done.outputs.push_back(complete({from_folder(work.asset, report), 0, 0, ""}));
+        const std::lock_guard lock(guard_);
+        const auto earlier = journal_.all().find(work.asset.name);
+        if (earlier == journal_.all().end()) return done;
+        for (const auto& output : earlier->second.outputs) {
+            const auto is_it = [&](const Stamp& stamp) { return stamp.path == output.path; };
+            if (std::none_of(done.outputs.begin(), done.outputs.end(), is_it)) done.outputs.push_back(output);
+        }
+        return done;
+    }
+
+    static Done named_done(const Work& work) {
+        Done done;
+        done.asset = work.asset.name;
+        done.of_table = work.asset.of_table;
+        if (!work.asset.input.empty()) done.source = absolute_name(work.asset.input);
+        return done;
     }
 
     Done done_of(const Work& work, const std::vector<Stamp>& before, const report::RunRecord& record,
                  const Outcome& out) const {
-        Done done;
-        done.asset = work.asset.name;
+        Done done = named_done(work);
         done.digest = work.digest;
-        done.of_table = work.asset.of_table;
-        if (!work.asset.input.empty()) done.source = absolute_name(work.asset.input);
         std::map<std::string, std::string> sums;
         for (const auto& input : record.inputs) sums[absolute_name(input.path)] = input.sha256;
         for (const auto& input : work.inputs) // a baseline is read, and no record tells it
@@ -257,11 +280,20 @@ class BatchRun {
         return stamp;
     }
 
+    /// A warning of the batch itself, under the guard.
+    void warn(std::optional<Diagnostic> warning) {
+        const auto& allowed = settings_.allowed;
+        if (!warning || std::find(allowed.begin(), allowed.end(), warning->id) != allowed.end()) return;
+        if (auto error = pipeline::strict_failure(*warning, settings_.strict)) {
+            summary_.exit_code = graver(summary_.exit_code, static_cast<int>(ErrorKind::check));
+            summary_.errors.push_back(std::move(*error));
+        }
+        summary_.warnings.push_back(std::move(*warning));
+    }
+
     void finish(std::size_t index, Outcome out, Done* done) {
         const std::lock_guard lock(guard_);
-        if (done && out.verdict == Verdict::ok)
-            if (auto warning = journal_.add(std::move(*done)))
-                summary_.warnings.push_back(std::move(*warning));
+        if (done) warn(journal_.add(std::move(*done)));
         summary_.outcomes[index] = std::move(out);
         started_[index] = false;
         summary_.exit_code = graver(summary_.exit_code, summary_.outcomes[index].exit_code);
@@ -314,11 +346,11 @@ class BatchRun {
         const bool all_made = std::all_of(summary_.outcomes.begin(), summary_.outcomes.end(),
                                           [](const Outcome& out) { return out.verdict == Verdict::ok; });
         if (!all_made) { // what the others would write is not known
-            summary_.warnings.push_back({Severity::warning,
-                                         "W-PRUNE",
-                                         "nothing is pruned, because not all assets were made",
-                                         {},
-                                         "run the batch again when they are"});
+            warn(Diagnostic{Severity::warning,
+                            "W-PRUNE",
+                            "nothing is pruned, because not all assets were made",
+                            {},
+                            "run the batch again when they are"});
             return;
         }
         std::set<std::string> current = current_outputs(), names;
@@ -390,6 +422,10 @@ Summary refused(const std::vector<Asset>& assets, const std::string& pipeline, E
 std::uint64_t memory_there() {
     constexpr std::uint64_t of_unknown = std::uint64_t{1} << 32;
     return available_memory().value_or(of_unknown);
+}
+
+std::vector<std::string> former_assets(const fs::path& output_dir, const std::string& pipeline) {
+    return Journal::assets_in(output_dir, pipeline);
 }
 
 Summary run(std::vector<Work> works, const Settings& settings, const Listener& listener) {

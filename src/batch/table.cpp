@@ -131,10 +131,13 @@ std::vector<Row> yaml_rows(std::shared_ptr<const SourceText> source) {
         Row& row = rows.emplace_back();
         for (const auto& entry : item.entries) {
             if (entry.value.is_null()) continue;
-            if (!entry.value.is_scalar())
-                refuse_table(entry.value.mark, fmt::format("'{}' is a single value in a table, found {}",
+            if (entry.value.is_map())
+                refuse_table(entry.value.mark, fmt::format("'{}' is a value or a list of them, found {}",
                                                            entry.key, entry.value.described()));
-            row.push_back({entry.key, entry.value.text, entry.value.mark});
+            if (entry.value.is_list())
+                row.push_back({entry.key, pipeline::emit_flow(entry.value), entry.value.mark, entry.value});
+            else
+                row.push_back({entry.key, entry.value.text, entry.value.mark});
         }
     }
     return rows;

@@ -1,7 +1,7 @@
 #pragma once
 // Tables of parameters: a row an asset, a column a parameter.
 
-#include "base/mark.hpp"
+#include "options/value.hpp"
 
 #include <filesystem>
 #include <string>
@@ -12,6 +12,7 @@ namespace facetmill::batch {
 struct Cell {
     std::string param, text;
     Mark where;
+    std::optional<Value> list{}; ///< of YAML; text is then what -D would take
 };
 /// The cells that are not empty.
 using Row = std::vector<Cell>;

@@ -43,14 +43,17 @@ pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSet
     for (const auto& [name, text] : asset.defines) {
         settings.defined_at.erase(name);
         settings.defined_in.erase(name);
+        settings.defined_lists.erase(name);
     }
+    for (const auto& [name, list] : asset.lists) settings.defined_lists[name] = list;
     for (const auto& [name, mark] : asset.defined_at) settings.defined_at[name] = mark;
     if (!asset.folder.empty()) settings.places.output_base /= asset.folder;
     return settings;
 }
 
-std::vector<batch::Asset> assets_of(const AssetOptions& options, const CommandLine& line) {
+std::vector<batch::Asset> assets_of(const AssetOptions& options, const CommandLine& line, bool prune) {
     auto sources = options.sources;
+    if (prune) sources.former = batch::former_assets(options.common.output_dir, options.pipeline);
     sources.place = [&](const std::string& text) { return line.value(text); };
     return batch::find_assets(sources);
 }

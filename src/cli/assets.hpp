@@ -18,8 +18,9 @@ void add_asset_options(Arguments& arguments, AssetOptions& options);
 /// Adds what is wrong with the sources: none, some that exclude each other, standard input twice.
 void check_sources(const AssetOptions& options, const CommandLine& line, Problems& problems);
 
-/// As batch::find_assets, with messages that point into the command line.
-std::vector<batch::Asset> assets_of(const AssetOptions& options, const CommandLine& line);
+/// As batch::find_assets, with messages that point into the command line. prune: what earlier batches found
+/// may be gone.
+std::vector<batch::Asset> assets_of(const AssetOptions& options, const CommandLine& line, bool prune = false);
 
 /// The settings of all assets with the params of this one, which go before, and its folder.
 pipeline::PlanSettings settings_for(const batch::Asset& asset, pipeline::PlanSettings settings);

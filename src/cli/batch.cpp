@@ -4,10 +4,10 @@
 #include "base/readable_numbers.hpp"
 #include "cli/assets.hpp"
 #include "io/outputs.hpp"
+#include "options/byte_count.hpp"
 #include "report/form.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace facetmill::cli {
@@ -41,7 +41,7 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
              "Assets at a time, and threads for all. Default: jobserver, FACETMILL_JOBS, cores.")
         .between(1, 4096);
     arguments.add("--memory", &options.memory,
-                  "For all assets at a time: 8G, 500M, 50% of what there is. Default: 75%.");
+                  "For all assets at a time: 8G, 500MB, 50% of what there is. Default: 75%.");
     arguments.add("-k,--keep-going", &options.keep_going,
                   "Runs all assets. Default: none begins after one has failed.");
     arguments.add("--prune", &options.prune,
@@ -52,24 +52,21 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     add_warning_options(arguments, options.common);
 }
 
-/// Bytes: "8G", "500M", "50%" of what is there; 0 when it is not given.
+/// Bytes: "8GB", "8G", "50%" of what is there; 0 when it is not given.
 std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
     if (text.empty()) return 0;
-    constexpr double step = 1024;
-    const std::string units = "KMGT";
-    const char last = text.back();
-    const auto unit = units.find(static_cast<char>(std::toupper(static_cast<unsigned char>(last))));
-    const bool has_unit = unit != units.npos || last == '%';
-    const auto number = parse_real(std::string_view(text).substr(0, text.size() - (has_unit ? 1 : 0)));
-    if (!number || *number <= 0 || *number > 1e15)
-        throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--memory takes an amount, found '{}'", text),
-                    "8G, 500M, or 50%", line.value(text));
-    if (last == '%')
-        return static_cast<std::uint64_t>(static_cast<double>(batch::memory_there()) *
-                                          std::min(*number, 100.0) / 100);
-    const double factor = unit == units.npos ? 1 : std::pow(step, static_cast<double>(unit + 1));
-    constexpr double most = 1e18; // bytes
-    return static_cast<std::uint64_t>(std::min(*number * factor, most));
+    const Value value = Value::scalar(text, line.value(text));
+    Problems problems;
+    std::optional<double> bytes;
+    if (!text.ends_with('%'))
+        bytes = read_byte_count(value, problems);
+    else if (const auto share = parse_real(std::string_view(text).substr(0, text.size() - 1)))
+        bytes = static_cast<double>(batch::memory_there()) * std::min(*share, 100.0) / 100;
+    if (bytes && *bytes > 0) return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(*bytes));
+    const std::string hint = problems.all().empty() ? "" : problems.all().front().hint;
+    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--memory takes an amount, found '{}'", text),
+                hint.empty() ? "8GB (1000000000 bytes each), 8GiB or 8G (1073741824), or 50%" : hint,
+                value.mark);
 }
 
 /// A line that is drawn anew when an asset has ended: how far the batch is, and how long it will take.
@@ -133,6 +130,7 @@ void write_summary(const batch::Summary& summary, const PipelineOptions& options
 void tell_summary(const batch::Summary& summary, const PipelineOptions& options, const Places& places,
                   const Console& console) {
     for (const auto& warning : summary.warnings) console.diagnostic(warning);
+    for (const auto& error : summary.errors) console.diagnostic(error);
     console.event({{"level", "info"},
                    {"event", "end"},
                    {"pipeline", summary.pipeline},
@@ -204,7 +202,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings = batch_settings(options, line, of_all.places);
     set_planner(settings, options, of_all);
-    const auto assets = assets_of(options, line);
+    const auto assets = assets_of(options, line, options.prune);
     auto prepared = batch::prepare(assets, settings, problems);
     const auto refuse = [&](ErrorKind kind, const std::vector<Diagnostic>& why) {
         for (const auto& d : why) console.diagnostic(d);
@@ -214,6 +212,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     };
     if (problems.any_errors()) return refuse(ErrorKind::usage, problems.all());
     if (!prepared.missing.empty() && !options.keep_going) return refuse(ErrorKind::missing, prepared.missing);
+    settings.allowed = prepared.allowed.empty() ? options.common.allowed : prepared.allowed;
     const auto bar = std::make_shared<BatchBar>(console);
     const auto summary = batch::run(std::move(prepared.works), settings,
                                     listener_for(options.common, of_all.places, console, bar));

@@ -10,46 +10,50 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* export_examples =
-    R"(One job an asset, with what it reads and writes, as far as it is known before it runs, its threads, and for Snakemake
-an estimate of its memory. Paths are those that lead there from the working directory: run the workflow in it. The
-outputs are those of `facetmill batch` with the same options, byte for byte.
+    R"(One job an asset, or a shard of several, with what it reads and writes, as far as it is known before it runs, its
+threads, and for Snakemake an estimate of its memory. The assets of a shard run one after the other; one that fails lets
+the others go on, and fails the job. Paths are those that lead there from the working directory: run the workflow in it.
+The outputs are those of `facetmill batch` with the same options, byte for byte.
 
 Examples
   facetmill export --to ninja scan-to-web --input 'scans/**/*.ply' -o web > build.ninja && ninja
   facetmill export --to make scan.yaml --table params.csv -o web > assets.mk && make -f assets.mk -j4
   facetmill export --to snakemake scan.yaml --input 'scans/**/*.ply' -o web > Snakefile
   snakemake -j4                        (here; on a cluster by a profile: snakemake --profile slurm)
+  facetmill export --to snakemake scan.yaml --table params.csv -o web --shard 100 > Snakefile
 )";
 
 struct ExportOptions : AssetOptions {
     std::string engine;
+    int shard = 1;
 };
 
 /// The run of an asset, as one would type it.
 Job job_of(const batch::Work& work, const ExportOptions& options, const pipeline::PlanSettings& of_all) {
     const auto own = settings_for(work.asset, of_all);
-    Job job{work.asset.name, {"run", options.pipeline}, {}, {}, work.memory};
+    Job job{work.asset.name, {{"run", options.pipeline}}, {}, {}, work.memory};
+    auto& arguments = job.runs.front();
     const auto give = [&](const char* option, const std::string& name, const std::string& value) {
-        job.arguments.emplace_back(option);
-        job.arguments.push_back(fmt::format("{}={}", name, value));
+        arguments.emplace_back(option);
+        arguments.push_back(fmt::format("{}={}", name, value));
     };
     for (const auto& preset : options.common.presets) {
-        job.arguments.emplace_back("--preset");
-        job.arguments.push_back(preset);
+        arguments.emplace_back("--preset");
+        arguments.push_back(preset);
     }
     for (const auto& [name, value] : own.defines)
         if (!own.defined_in.contains(name)) give("-D", name, value); // else the preset has it
     for (const auto& [name, value] : own.sets) give("--set", name, value);
     for (const auto& id : options.common.strict)
-        job.arguments.push_back(id == "*" ? "--strict" : "--strict=" + id);
+        arguments.push_back(id == "*" ? "--strict" : "--strict=" + id);
     for (const auto& id : options.common.allowed) {
-        job.arguments.emplace_back("--allow");
-        job.arguments.push_back(id);
+        arguments.emplace_back("--allow");
+        arguments.push_back(id);
     }
     const std::string threads = std::to_string(options.common.threads);
     for (const std::string& argument : {std::string("--output-dir"), own.places.output_base.string(),
                                         std::string("--threads"), threads, std::string("--quiet")})
-        job.arguments.push_back(argument);
+        arguments.push_back(argument);
     std::error_code ignored;
     if (std::filesystem::is_regular_file(options.pipeline, ignored)) job.inputs.push_back(options.pipeline);
     for (const auto& input : work.inputs) job.inputs.push_back(input.string());
@@ -73,6 +77,7 @@ int export_work(const ExportOptions& options, const CommandLine& line, const Con
     if (!prepared.missing.empty()) throw Error(ErrorKind::missing, std::move(prepared.missing));
     std::vector<Job> jobs;
     for (const auto& work : prepared.works) jobs.push_back(job_of(work, options, of_all));
+    jobs = in_shards(std::move(jobs), static_cast<std::size_t>(options.shard));
     print(options.engine == "ninja"  ? ninja_workflow(jobs)
           : options.engine == "make" ? make_workflow(jobs)
                                      : snakemake_workflow(jobs, options.common.threads));
@@ -90,6 +95,10 @@ Command export_command() {
                     .one_of({"ninja", "make", "snakemake"})
                     .required();
                 add_asset_options(arguments, *options);
+                arguments
+                    .add("--shard", &options->shard,
+                         "Assets a job, so that what a job costs the engine is shared. Default: 1.")
+                    .between(1, 100000);
                 arguments.add("-j,--threads", &options->common.threads, "Of each job. Default: 1.")
                     .between(1, 4096);
                 add_warning_options(arguments, options->common);

@@ -35,6 +35,7 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
         console.diagnostic(*warning);
     std::string text;
     if (options.inputs) text += lines(pipeline::planned_inputs(plan, headers));
+    if (options.inputs && options.outputs) text += "\n";
     if (options.outputs) text += lines(pipeline::planned_outputs(plan, headers));
     if (options.json) text = pipeline::describe_json(plan, headers).dump(2) + "\n";
     if (!files_only && !options.json) text = pipeline::describe(plan, headers);
@@ -51,7 +52,8 @@ Command plan_command() {
             auto options = std::make_shared<PlanOptions>();
             arguments.add("PIPELINE", &options->pipeline, "A YAML file, - or a ready pipeline.").required();
             arguments.add("--inputs", &options->inputs, "Only the files it reads, one per line.");
-            arguments.add("--outputs", &options->outputs, "Only the files it writes, one per line.");
+            arguments.add("--outputs", &options->outputs,
+                          "Only the files it writes, one per line; with --inputs after an empty line.");
             arguments.add("--json", &options->json, "As JSON.");
             arguments.add("-o,--output-dir", &options->common.output_dir,
                           "The folder that written paths start from. Default: the working directory.");

@@ -1,9 +1,11 @@
 #include "cli/workflow.hpp"
 
 #include "base/json.hpp"
+#include "base/once_each.hpp"
 #include "cli/depfile.hpp"
 #include "docs/versions.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::cli {
@@ -11,7 +13,7 @@ namespace facetmill::cli {
 namespace {
 
 std::string heading() {
-    return fmt::format("# Written by facetmill {} export: a job for each asset. Export again when assets "
+    return fmt::format("# Written by facetmill {} export. Export again when assets "
                        "come or go, or when\n"
                        "# the pipeline reads or writes other files.\n",
                        docs::release());
@@ -27,10 +29,23 @@ std::string for_shell(const std::string& text) {
     return out + "'";
 }
 
-std::string command_line(const Job& job) {
-    std::string text;
-    for (const auto& argument : job.arguments) text += " " + for_shell(argument);
-    return text;
+/// " run scan.yaml -D ...", of each run.
+std::vector<std::string> command_lines(const Job& job) {
+    std::vector<std::string> all;
+    for (const auto& arguments : job.runs) {
+        std::string& text = all.emplace_back();
+        for (const auto& argument : arguments) text += " " + for_shell(argument);
+    }
+    return all;
+}
+
+/// Runs that all take place, whichever fails, as one command of a shell; the status is that of the last that
+/// failed, in s, which `at_end` leaves with. status: how the text spells $?.
+std::string chain(const std::string& program, const std::vector<std::string>& runs, const char* status,
+                  const std::string& at_end) {
+    std::string text = "s=0;";
+    for (const auto& run : runs) text += fmt::format(" {}{} || s={};", program, run, status);
+    return text + " " + at_end;
 }
 
 /// A line of Make or Ninja, whose variables begin with a dollar sign.
@@ -65,6 +80,24 @@ void check_outputs(const std::vector<Job>& jobs) {
                         "give the pipeline a report: \"${input.stem}.json\", or use facetmill batch");
 }
 
+/// Linux takes 131072 bytes in one argument, as which a shell gets its command.
+void check_lengths(const std::vector<Job>& jobs) {
+    constexpr std::size_t most = 120'000;
+    for (const auto& job : jobs) {
+        std::size_t length = 0;
+        for (const auto& line : command_lines(job)) length += line.size() + 40;
+        if (length > most)
+            throw Error(ErrorKind::usage, "E-EXPORT",
+                        fmt::format("the command of {} is longer than a shell takes", job.name),
+                        fmt::format("--shard {}", std::max<std::size_t>(1, job.runs.size() * most / length)));
+    }
+}
+
+void check_jobs(const std::vector<Job>& jobs) {
+    check_outputs(jobs);
+    check_lengths(jobs);
+}
+
 /// Names with these cannot be spelled.
 void check_names(const std::vector<Job>& jobs, const char* engine, std::string_view odd, const char* hint) {
     for (const auto& job : jobs)
@@ -85,6 +118,13 @@ std::string joined(const std::vector<std::string>& paths, std::string (*spelled)
     return text;
 }
 
+/// The command lines for Make and Ninja.
+std::vector<std::string> spelled(const Job& job) {
+    auto lines = command_lines(job);
+    for (auto& line : lines) line = with_dollars_doubled(line);
+    return lines;
+}
+
 std::string make_target(const std::string& path) { return make_spelling(path, true); }
 std::string make_input(const std::string& path) { return make_spelling(path, false); }
 
@@ -101,20 +141,45 @@ std::string as_json(const Json& all) {
 
 } // namespace
 
+std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size) {
+    check_outputs(jobs); // of each run
+    std::vector<Job> shards;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        if (size <= 1 || i % size == 0) {
+            shards.push_back(std::move(jobs[i]));
+            continue;
+        }
+        Job &shard = shards.back(), &job = jobs[i];
+        shard.runs.push_back(std::move(job.runs.front()));
+        OnceEach<std::string> inputs;
+        for (const auto* paths : {&shard.inputs, &job.inputs})
+            for (const auto& path : *paths) inputs.add(path);
+        shard.inputs = inputs.all();
+        shard.outputs.insert(shard.outputs.end(), job.outputs.begin(), job.outputs.end());
+        shard.memory = std::max(shard.memory, job.memory);
+    }
+    for (auto& shard : shards)
+        if (shard.runs.size() > 1) shard.name += fmt::format(" and {} more", shard.runs.size() - 1);
+    return shards;
+}
+
 std::string ninja_workflow(const std::vector<Job>& jobs) {
-    check_outputs(jobs);
+    check_jobs(jobs);
     check_names(jobs, "Ninja", "|\t", "rename the file");
-    std::string text = heading() + "facetmill = facetmill\n\nrule mill\n  command = $facetmill $arguments\n  "
+    std::string text = heading() + "facetmill = facetmill\n\nrule mill\n  command = $work\n  "
                                    "description = MILL $asset\n";
-    for (const auto& job : jobs)
-        text += fmt::format("\nbuild{}: mill{}\n  asset = {}\n  arguments ={}\n",
-                            joined(job.outputs, ninja_path), joined(job.inputs, ninja_path),
-                            with_dollars_doubled(job.name), with_dollars_doubled(command_line(job)));
+    for (const auto& job : jobs) {
+        const auto runs = spelled(job);
+        const std::string work =
+            runs.size() == 1 ? "$facetmill" + runs.front() : chain("$facetmill", runs, "$$?", "exit $$s");
+        text += fmt::format("\nbuild{}: mill{}\n  asset = {}\n  work = {}\n", joined(job.outputs, ninja_path),
+                            joined(job.inputs, ninja_path), with_dollars_doubled(job.name), work);
+    }
     return text;
 }
 
 std::string make_workflow(const std::vector<Job>& jobs) {
-    check_outputs(jobs);
+    check_jobs(jobs);
     check_names(jobs, "Make", "|;=*?[]~\t", "use --to ninja, or rename the file");
     std::string rules, all;
     for (const auto& job : jobs) {
@@ -124,24 +189,25 @@ std::string make_workflow(const std::vector<Job>& jobs) {
         // stays, and is out of date.
         std::string old;
         for (const auto& output : job.outputs) old += " " + for_shell(output);
-        rules += fmt::format("\n{} &:{}\n\t$(FACETMILL){} || {{ s=$$?; touch -c -d @86400{}; exit $$s; }}\n",
-                             outputs.substr(1), joined(job.inputs, make_input),
-                             with_dollars_doubled(command_line(job)), with_dollars_doubled(old));
+        const std::string at_end =
+            fmt::format("[ $$s = 0 ] || {{ touch -c -d @86400{}; exit $$s; }}", with_dollars_doubled(old));
+        rules += fmt::format("\n{} &:{}\n\t{}\n", outputs.substr(1), joined(job.inputs, make_input),
+                             chain("$(FACETMILL)", spelled(job), "$$?", at_end));
     }
     return heading() + "FACETMILL ?= facetmill\n\n.PHONY: all\nall:" + all + "\n" + rules;
 }
 
 std::string snakemake_workflow(const std::vector<Job>& jobs, int threads) {
-    check_outputs(jobs);
+    check_jobs(jobs);
     // It takes braces for a wildcard, and has no way to say that they are none.
     check_names(jobs, "Snakemake", "{}", "rename the file");
     Json all = Json::array();
     constexpr std::uint64_t megabyte = 1000000;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         const Job& job = jobs[i];
-        all.push_back({{"name", fmt::format("asset_{}", i + 1)},
+        all.push_back({{"name", fmt::format("job_{}", i + 1)},
                        {"asset", job.name},
-                       {"arguments", command_line(job)},
+                       {"runs", command_lines(job)},
                        {"inputs", job.inputs},
                        {"outputs", job.outputs},
                        {"megabytes", (job.memory + megabyte - 1) / megabyte}});
@@ -160,7 +226,7 @@ for job in JOBS:
         input: job["inputs"]
         output: job["outputs"]
         message: "Milling " + job["asset"].replace("{{", "{{{{").replace("}}", "}}}}")
-        params: command=FACETMILL + job["arguments"]
+        params: command="s=0;" + "".join(f" {{FACETMILL}}{{run}} || s=$?;" for run in job["runs"]) + " exit $s"
         threads: {}
         resources: mem_mb=job["megabytes"]
         shell: "{{params.command}}"

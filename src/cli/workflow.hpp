@@ -1,5 +1,6 @@
 #pragma once
-// Runs of many assets as a workflow of another engine: a job an asset, with what it reads, writes and needs.
+// Runs of many assets as a workflow of another engine: a job an asset, or several, with what it reads, writes
+// and needs.
 
 #include <cstdint>
 #include <string>
@@ -8,14 +9,18 @@
 namespace facetmill::cli {
 
 struct Job {
-    std::string name;                         ///< for people
-    std::vector<std::string> arguments;       ///< of facetmill
-    std::vector<std::string> inputs, outputs; ///< files; at least one output
-    std::uint64_t memory = 0;                 ///< an estimate, in bytes
+    std::string name;                           ///< for people
+    std::vector<std::vector<std::string>> runs; ///< of facetmill, one after the other: their arguments
+    std::vector<std::string> inputs, outputs;   ///< files; at least one output a run
+    std::uint64_t memory = 0;                   ///< an estimate, in bytes
 };
 
-/// threads: of each job. Throws usage (E-EXPORT) for a job without outputs, output (E-DEPFILE) for a name
-/// with a line break, which these cannot spell.
+/// Jobs of up to `size` of these each, in their order. One that fails lets the others of its shard run.
+/// Throws usage (E-EXPORT) for a job without outputs.
+std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size);
+
+/// threads: of each job. Throws usage (E-EXPORT) for a job without outputs and for a shard whose command is
+/// longer than a shell takes, output (E-DEPFILE) for a name with a line break, which these cannot spell.
 std::string ninja_workflow(const std::vector<Job>& jobs);
 std::string make_workflow(const std::vector<Job>& jobs);
 std::string snakemake_workflow(const std::vector<Job>& jobs, int threads);

@@ -1,6 +1,7 @@
 #include "docs/schema.hpp"
 
 #include "geometry/triangulate/face_kinds_fields.hpp"
+#include "pipeline/params.hpp"
 #include "report/render.hpp"
 #include "stage/common_keys.hpp"
 #include "stage/contract.hpp"
@@ -107,8 +108,10 @@ Json step_forms() {
 }
 
 Json param_schema() {
-    const Json types = {{"enum", Json::array({"path", "text", "integer", "number", "bool", "ratio", "length",
-                                              "angle", "choice"})}};
+    const Json single = pipeline::single_param_types();
+    Json all = single;
+    all.push_back("list");
+    const Json types = {{"enum", all}};
     const Json limit = {{"type", Json::array({"number", "string"})},
                         {"description", "A limit of the value."}};
     const Json whole = {{"title", "param"},
@@ -116,6 +119,7 @@ Json param_schema() {
                         {"required", Json::array({"type"})},
                         {"properties",
                          {{"type", types},
+                          {"of", {{"enum", single}, {"description", "What each value of a list is."}}},
                           {"default", {{"description", "The value when none is given."}}},
                           {"help", {{"type", "string"}, {"description", "What the parameter is for."}}},
                           {"required", {{"type", "boolean"}, {"description", "Whether it must be given."}}},

@@ -1,11 +1,10 @@
 // Bounds and limits, of options/types.hpp: numbers that a value must have or may not pass.
 #include "base/numbers.hpp"
 #include "base/portable_math.hpp"
-#include "base/spelling.hpp"
+#include "options/byte_count.hpp"
 #include "options/types.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -40,60 +39,10 @@ bool read_count(const Value& value, Limit& out, Problems& problems) {
     return true;
 }
 
-struct ByteUnit {
-    std::string_view name;
-    double bytes;
-};
-constexpr std::array<ByteUnit, 9> byte_units{{{"B", 1},
-                                              {"kB", 1e3},
-                                              {"MB", 1e6},
-                                              {"GB", 1e9},
-                                              {"TB", 1e12},
-                                              {"KiB", 1024.0},
-                                              {"MiB", 1048576.0},
-                                              {"GiB", 1073741824.0},
-                                              {"TiB", 1099511627776.0}}};
-constexpr double max_bytes = 9007199254740992.0; // 2^53: all counts up to here are numbers of their own
-
-constexpr const char* bytes_expected = "a count of bytes (1000000, 10MB, 1.5MiB)";
-
-/// For a unit in the wrong case or cut short, "mb" or "M": the two that may be meant.
-std::string byte_unit_hint(double number, std::string_view unit) {
-    const std::string small = lower_case(std::string(unit));
-    const auto at = std::string_view("kmgt").find(small.empty() ? '?' : small[0]);
-    const std::string rest = small.empty() ? "" : small.substr(1);
-    if (at == std::string_view::npos || !(rest.empty() || rest == "b" || rest == "i" || rest == "ib"))
-        return "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB";
-    const ByteUnit &decimal = byte_units[1 + at], &binary = byte_units[5 + at];
-    return fmt::format("{0}{1} ({2:.0f} bytes each) or {0}{3} ({4:.0f})?", to_string(number), decimal.name,
-                       decimal.bytes, binary.name, binary.bytes);
-}
-
 bool read_bytes(const Value& value, Limit& out, Problems& problems) {
     if (value.deferred) return true;
-    double bytes = 0;
-    if (const auto number = value.as_real())
-        bytes = *number;
-    else {
-        const auto parts = value.is_scalar() ? number_and_unit(value.text) : std::nullopt;
-        if (!parts) return wrong_type(value, bytes_expected, problems);
-        const auto unit = std::find_if(byte_units.begin(), byte_units.end(),
-                                       [&](const ByteUnit& u) { return u.name == parts->second; });
-        if (unit == byte_units.end())
-            return wrong_type(value, bytes_expected, problems,
-                              parts->second.empty() ? "" : byte_unit_hint(parts->first, parts->second));
-        bytes = parts->first * unit->bytes;
-    }
-    const double whole = std::round(bytes); // 4.35kB times 1000 may miss 4350 by the last bit
-    if (bytes < 0 || bytes > max_bytes || std::abs(bytes - whole) > 1e-12 * whole) {
-        problems.add(value.mark, "E-RANGE", fmt::format("'{}' is no count of bytes", value.text),
-                     bytes < 0           ? "bytes are counted from 0"
-                     : bytes > max_bytes ? "at most 9007199254740992 (8192TiB)"
-                                         : "bytes come whole");
-        return false;
-    }
-    out = whole;
-    return true;
+    out = read_byte_count(value, problems);
+    return out.has_value();
 }
 
 using Reader = bool (*)(const Value&, Limit&, Problems&);
@@ -182,7 +131,8 @@ std::string OptionType<ByteLimit>::print(const ByteLimit& b) { return print_limi
 Json OptionType<ByteLimit>::schema() {
     return bound_schema(
         {{"anyOf", Json::array({{{"type", "integer"}, {"minimum", 0}},
-                                {{"type", "string"}, {"pattern", "^[0-9.eE+]+ *(B|[kMGT]B|[KMGT]iB)$"}}})}});
+                                {{"type", "string"},
+                                 {"pattern", "^[0-9.eE+]+ *(B|[kMGT]B|[KMGT]iB|[kKmMgGtT])$"}}})}});
 }
 std::optional<double> OptionType<ByteLimit>::magnitude(const ByteLimit&) { return {}; }
 

@@ -25,14 +25,17 @@ bool holds(const std::vector<std::string>& ids, const std::string& id) {
 
 } // namespace
 
+std::optional<Diagnostic> strict_failure(const Diagnostic& warning, const std::vector<std::string>& strict) {
+    if (!holds(strict, "*") && !holds(strict, warning.id)) return {};
+    return Diagnostic{Severity::error, "E-STRICT",
+                      fmt::format("--strict makes {} fail: {}", warning.id, warning.message), warning.where,
+                      warning.hint};
+}
+
 void Failures::warn(const Diagnostic& warning) {
     if (holds(allowed_, warning.id)) return;
     if (settings_.on_warning) settings_.on_warning(warning);
-    const auto& strict = settings_.strict;
-    if (!holds(strict, "*") && !holds(strict, warning.id)) return;
-    add(ErrorKind::check,
-        {{Severity::error, "E-STRICT", fmt::format("--strict makes {} fail: {}", warning.id, warning.message),
-          warning.where, warning.hint}});
+    if (auto error = strict_failure(warning, settings_.strict)) add(ErrorKind::check, {std::move(*error)});
 }
 
 bool Failures::judge_checks(std::size_t first) {

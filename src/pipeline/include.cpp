@@ -35,7 +35,8 @@ void rebase_given(const Value& document, const Value& item, const fs::path& pref
         const Value* param = params->find(entry.key);
         const Value* type = param && param->is_map() ? param->find("type") : param;
         const Value* spelled = item.find("with")->find(entry.key);
-        if (type && type->text == "path" && spelled && !spelled->text.starts_with("${"))
+        const Value* of = type && type->text == "list" ? param->find("of") : type;
+        if (of && of->text == "path" && spelled && !spelled->text.starts_with("${"))
             rebase(entry.value, prefix, RunTimePaths::kept);
     }
 }

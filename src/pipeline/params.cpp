@@ -54,7 +54,7 @@ Json value_json(const Value& value) {
 
 namespace {
 
-enum class Type { path, text, integer, number, boolean, ratio, length, angle, choice };
+enum class Type { path, text, integer, number, boolean, ratio, length, angle, choice, list };
 
 struct ParamOptions {
     Type type = Type::text;
@@ -62,23 +62,28 @@ struct ParamOptions {
     bool required = false;
     std::optional<std::string> min, max;
     std::vector<std::string> choices;
+    Type of = Type::list; ///< of each value of a list; list: of any type, as it is written
+
+    bool is_list() const { return type == Type::list; }
+    /// Of the value, or of each value of a list; list: of any type.
+    Type single() const { return is_list() ? of : type; }
 };
 
+const std::vector<NamedChoice<Type>>& single_types() {
+    static const std::vector<NamedChoice<Type>> types = {
+        {"path", Type::path, ""},     {"text", Type::text, ""},    {"integer", Type::integer, ""},
+        {"number", Type::number, ""}, {"bool", Type::boolean, ""}, {"ratio", Type::ratio, ""},
+        {"length", Type::length, ""}, {"angle", Type::angle, ""},  {"choice", Type::choice, ""}};
+    return types;
+}
+
 Declaration param_declaration() {
+    auto types = single_types();
+    types.push_back({"list", Type::list, ""});
     Declare<ParamOptions> d;
-    d.choice("type", &ParamOptions::type,
-             {{"path", Type::path, ""},
-              {"text", Type::text, ""},
-              {"integer", Type::integer, ""},
-              {"number", Type::number, ""},
-              {"bool", Type::boolean, ""},
-              {"ratio", Type::ratio, ""},
-              {"length", Type::length, ""},
-              {"angle", Type::angle, ""},
-              {"choice", Type::choice, ""}},
-             "What the parameter holds")
-        .required()
-        .primary();
+    d.choice("type", &ParamOptions::type, types, "What the parameter holds").required().primary();
+    d.choice("of", &ParamOptions::of, single_types(),
+             "What each value of a list is; by default as it is written");
     d.option("help", &ParamOptions::help, "What the parameter is for");
     d.option("required", &ParamOptions::required, "Whether it must be given");
     d.option("min", &ParamOptions::min, "The least value");
@@ -113,6 +118,7 @@ std::optional<double> checked(Type type, const Value& value, bool& good, Problem
         return checked<Angle>(value, good, problems);
     case Type::text:
     case Type::choice:
+    case Type::list: // a value of any type
         break;
     }
     return checked<std::string>(value, good, problems);
@@ -134,6 +140,30 @@ std::string from_working_directory(const std::string& text, const fs::path& fold
     const bool same_file =
         !near.empty() && (!fs::exists(here, ignored) || fs::equivalent(base / near, here, ignored));
     return same_file ? near.string() : here.string();
+}
+
+/// What -D or a cell gives for a list: "50%, 10%", or as YAML has it, "[50%, 10%]".
+Value list_of_text(const std::string& text, const Mark& mark, Problems& problems) {
+    Value list = Value::list({}, mark);
+    if (text.starts_with('[')) {
+        Problems found;
+        list = parse_yaml(std::make_shared<const SourceText>(SourceText{"", text}), found);
+        list.mark = mark;
+        for (auto& item : list.items) item.mark = mark_within(mark, item.text);
+        for (const auto& d : found.all())
+            problems.add(mark, d.id, d.message, "a list is [50%, 10%], or 50%,10%");
+        list.deferred = found.any_errors();
+        return list;
+    }
+    for (std::size_t at = 0; !text.empty() && at <= text.size();) {
+        const std::size_t end = std::min(text.size(), text.find(',', at));
+        std::string_view one = std::string_view(text).substr(at, end - at);
+        while (one.starts_with(' ')) one.remove_prefix(1);
+        while (one.ends_with(' ')) one.remove_suffix(1);
+        list.items.push_back(Value::scalar(std::string(one), mark_within(mark, one)));
+        at = end + 1;
+    }
+    return list;
 }
 
 class Params {
@@ -178,20 +208,23 @@ class Params {
             problems_.add(place(key), "E-PARAM", std::move(message), std::move(hint));
             good = false;
         };
-        if (!options.choices.empty() && options.type != Type::choice)
-            refuse("choices", fmt::format("'{}' has choices, but is no choice", entry.key), "type: choice");
-        const bool limited = options.type != Type::text && options.type != Type::path &&
-                             options.type != Type::boolean && options.type != Type::choice;
+        const Type single = options.single();
+        if (!options.is_list() && entry.value.is_map() && entry.value.find("of"))
+            refuse("of", fmt::format("'{}' is one value, so it is not of others", entry.key), "type: list");
+        if (!options.choices.empty() && single != Type::choice)
+            refuse("choices", fmt::format("'{}' has choices, but is no choice", entry.key),
+                   options.is_list() ? "of: choice" : "type: choice");
+        const bool limited = single != Type::text && single != Type::path && single != Type::boolean &&
+                             single != Type::choice && single != Type::list;
         for (const auto& [key, limit] : {std::pair{"min", &options.min}, std::pair{"max", &options.max}})
             if (*limit && !limited)
                 refuse(key, fmt::format("'{}' has no order that {} could limit", entry.key, key),
-                       "leave it out, or say type: number");
+                       options.is_list() ? "leave it out, or say of: number"
+                                         : "leave it out, or say type: number");
         if (!good || !options.min || !options.max) return good;
         bool readable = true;
-        const auto min =
-            checked(options.type, Value::scalar(*options.min, place("min")), readable, problems_);
-        const auto max =
-            checked(options.type, Value::scalar(*options.max, place("max")), readable, problems_);
+        const auto min = checked(single, Value::scalar(*options.min, place("min")), readable, problems_);
+        const auto max = checked(single, Value::scalar(*options.max, place("max")), readable, problems_);
         if (min && max && *min > *max)
             refuse(
                 "min",
@@ -207,14 +240,9 @@ class Params {
             out = *value;
             shown = value_json(out);
         } else if (const auto* define = given_ ? nullptr : defined(entry.key)) {
-            const Mark mark =
-                mark_of_define(settings_, define->first, define->second, define->first.size() + 1);
-            out = Value::scalar(define->second, mark, options.type == Type::text);
+            out = defined_value(*define, options);
             shown = value_json(out);
-            const auto folder = settings_.defined_in.find(entry.key);
-            if (options.type == Type::path)
-                out.text = from_working_directory(
-                    out.text, folder == settings_.defined_in.end() ? fs::path() : folder->second, settings_);
+            if (options.single() == Type::path) rebase_defined(entry.key, out);
         } else if (default_value && !default_value->is_null()) {
             out = resolved(*default_value, scope, problems_);
             shown = value_json(out);
@@ -228,8 +256,34 @@ class Params {
         } else {
             return out;
         }
+        if (options.is_list()) make_list(out, options);
         check(entry, options, out);
         return out;
+    }
+
+    Value defined_value(const std::pair<std::string, std::string>& define, const ParamOptions& options) {
+        const auto& [name, text] = define;
+        if (const auto list = settings_.defined_lists.find(name); list != settings_.defined_lists.end())
+            return list->second;
+        const Mark mark = mark_of_define(settings_, name, text, name.size() + 1);
+        return options.is_list() ? list_of_text(text, mark, problems_)
+                                 : Value::scalar(text, mark, options.type == Type::text);
+    }
+
+    /// Paths that are not of this pipeline.
+    void rebase_defined(const std::string& name, Value& value) const {
+        for (auto& item : value.items) rebase_defined(name, item);
+        if (!value.is_scalar()) return;
+        const auto folder = settings_.defined_in.find(name);
+        value.text = from_working_directory(
+            value.text, folder == settings_.defined_in.end() ? fs::path() : folder->second, settings_);
+    }
+
+    /// A single value is a list of one, as in options that take lists.
+    static void make_list(Value& value, const ParamOptions& options) {
+        if (value.is_scalar() && !value.deferred) value = Value::list({value}, value.mark);
+        if (options.of == Type::text)
+            for (auto& item : value.items) item.quoted = true;
     }
 
     std::string way_to_give(const std::string& name) const {
@@ -238,15 +292,26 @@ class Params {
     }
 
     void check(const Value::Entry& entry, const ParamOptions& options, Value& value) {
+        if (!options.is_list() || value.deferred) return check_single(entry, options, value);
+        if (!value.is_list()) {
+            value.deferred = true;
+            wrong_type(value, "a list ([a, b])", problems_);
+            return;
+        }
+        for (auto& item : value.items) check_single(entry, options, item);
+    }
+
+    void check_single(const Value::Entry& entry, const ParamOptions& options, Value& value) {
+        const Type type = options.single();
         bool good = true;
-        const auto magnitude = checked(options.type, value, good, problems_);
-        if (options.type == Type::choice) good = good && is_choice(entry, options, value, problems_);
+        const auto magnitude = checked(type, value, good, problems_);
+        if (type == Type::choice) good = good && is_choice(entry, options, value, problems_);
         if (!good) value.deferred = true; // reported already
         Range range;
         for (auto [text, limit] : {std::pair{&options.min, &range.min}, std::pair{&options.max, &range.max}})
             if (*text) {
                 bool limit_good = true;
-                *limit = checked(options.type, Value::scalar(**text, entry.key_mark), limit_good, problems_);
+                *limit = checked(type, Value::scalar(**text, entry.key_mark), limit_good, problems_);
             }
         if (!magnitude || range.holds(*magnitude)) return;
         const std::string bounds = options.min && options.max
@@ -260,6 +325,13 @@ class Params {
 
     static std::optional<Comparable> comparable(const Value::Entry& entry, const ParamOptions& options,
                                                 const Value& value, Problems& problems) {
+        if (options.is_list()) {
+            if (value.is_list())
+                problems.add(value.mark, "E-WHEN",
+                             fmt::format("'{}' is a list, which is not compared", entry.key),
+                             "compare a param of one value");
+            return {};
+        }
         if (options.type == Type::choice && !is_choice(entry, options, value, problems)) return {};
         if (options.type == Type::length) {
             Length length;
@@ -345,13 +417,20 @@ void add_preset(const fs::path& file, PlanSettings& settings, Problems& problems
         const Mark& mark = entry.key_mark;
         const auto is_it = [&](const auto& define) { return define.first == name; };
         if (std::any_of(settings.defines.begin(), settings.defines.end(), is_it)) continue;
-        if (!value.is_scalar())
+        if (value.is_map() || value.is_null())
             problems.add(value.mark.known() ? value.mark : mark, "E-TYPE",
-                         fmt::format("a param has one value, found {}", value.described()));
-        settings.defines.emplace_back(name, value.text);
+                         fmt::format("a param is a value or a list of them, found {}", value.described()));
+        settings.defines.emplace_back(name, value.is_list() ? emit_flow(value) : value.text);
+        if (value.is_list()) settings.defined_lists[name] = value;
         settings.defined_at[name] = value.mark.known() ? value.mark : mark;
         settings.defined_in[name] = file.parent_path();
     }
+}
+
+std::vector<std::string> single_param_types() {
+    std::vector<std::string> names;
+    for (const auto& type : single_types()) names.push_back(type.name);
+    return names;
 }
 
 Scope read_params(const Value* params, const PlanSettings& settings, Json& json, Problems& problems) {

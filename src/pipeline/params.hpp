@@ -15,6 +15,9 @@ Scope read_params(const Value* params, const PlanSettings& settings, Json& json,
 Scope fragment_params(const Value& document, const Value& given, const PlanSettings& settings,
                       Problems& problems);
 
+/// The types of a param, besides list: what the values of a list may be.
+std::vector<std::string> single_param_types();
+
 /// A place on the command line: "-D keep=10%" with the caret under it.
 Mark command_line_mark(const std::string& option, const std::string& text, std::size_t from = 0);
 

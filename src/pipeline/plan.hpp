@@ -64,6 +64,8 @@ struct PlanSettings {
     std::vector<std::pair<std::string, std::string>> defines; ///< -D
     /// Where values of defines stand that are not of -D: in a table, in a preset.
     std::map<std::string, Mark> defined_at;
+    /// Values of defines that are lists of a preset or a table; in defines they are as -D would spell them.
+    std::map<std::string, Value> defined_lists;
     /// The folders that their paths start from, where that is not the working directory.
     std::map<std::string, std::filesystem::path> defined_in;
     std::vector<std::pair<std::string, std::string>> sets; ///< --set stage.option=value

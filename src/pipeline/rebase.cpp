@@ -65,7 +65,8 @@ class Rebase {
     void param(Value& declaration) const {
         const Value* type = declaration.is_map() ? declaration.find("type") : nullptr;
         Value* value = declaration.is_map() ? declaration.find("default") : nullptr;
-        if (type && value && type->text == "path") path(*value);
+        const Value* of = type && type->text == "list" ? declaration.find("of") : type;
+        if (of && value && of->text == "path") path(*value);
     }
 
   private:

@@ -21,6 +21,9 @@ struct RunSettings {
     std::function<void(const Diagnostic&)> on_warning;
 };
 
+/// The error (E-STRICT) that --strict makes of a warning; none when it lets it pass.
+std::optional<Diagnostic> strict_failure(const Diagnostic& warning, const std::vector<std::string>& strict);
+
 /// Writes the reports of a pipeline that is not run because of these problems (exit code 2). Not for a plan
 /// whose files collide: a report may be one of them. Returns their paths, from the output folder. Throws
 /// output when one cannot be written.

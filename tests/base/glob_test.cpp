@@ -57,3 +57,16 @@ TEST_CASE("a file whose name looks like a pattern is itself", "[base]") {
     CHECK(expand_glob(folder / "[a].ply") == std::vector{folder / "a.ply"});
     fs::remove_all(folder);
 }
+
+TEST_CASE("a path is one that a pattern names, component by component", "[base]") {
+    for (const char* path : {"in/a.ply", "in/deep/a.ply", "in/deep/er/a.ply"}) {
+        CAPTURE(path);
+        CHECK(glob_matches_path("in/**/*.ply", path));
+        CHECK(glob_matches_path("**/a.ply", path));
+        CHECK_FALSE(glob_matches_path("out/**/*.ply", path));
+        CHECK_FALSE(glob_matches_path("in/**/*.obj", path));
+        CHECK_FALSE(glob_matches_path("in", path));
+    }
+    CHECK(glob_matches_path("in/*/*.ply", "in/deep/a.ply"));
+    CHECK_FALSE(glob_matches_path("in/*/*.ply", "in/a.ply"));
+}

@@ -205,6 +205,49 @@ class Batch(Case):
         self.assertIn("d.ply", self.written())
         self.assertNotIn("d.json", self.written())
 
+    def test_prune_when_nothing_is_left(self):
+        self.batch()
+        for name in ("a.off", "sub/b.off", "sub/deep/c.off"):
+            (self.dir / "in" / name).unlink()
+        self.assertIn("no file matches", self.batch(expect=3).stderr)
+        self.assertIn("no file matches", self.batch("--input", "im/**/*.off", "--prune", expect=3).stderr)
+        self.assertEqual(len(self.written()), 6)
+        self.assertIn("0 assets", self.batch("--prune").stderr)
+        self.assertEqual(self.written(), {})
+        self.write("in/a.off", tetrahedron())
+        self.batch()
+        (self.dir / "in/a.off").unlink()
+        self.write("list", "")
+        self.batch("--inputs-from", "list", "--prune")
+        self.assertEqual(self.written(), {})
+
+    def test_prune_takes_the_reports_of_what_failed(self):
+        self.write("in/junk.off", "no mesh")
+        self.batch("-k", expect=6)
+        self.assertIn("junk.json", self.written())
+        (self.dir / "in/junk.off").unlink()
+        self.write("in/a.off", "no mesh")
+        self.batch("-k", expect=6)
+        self.assertIn("a.ply", self.written(), "an output of before stays")
+        self.write("in/a.off", tetrahedron())
+        self.assertEqual(self.done_anew("--prune"), ["in/a.off"])
+        self.assertEqual(sorted(self.written()), ["a.json", "a.ply", "sub/b.json", "sub/b.ply", "sub/deep/c.json",
+                                                  "sub/deep/c.ply"])
+
+    def test_warnings_of_the_batch_itself(self):
+        self.write("in/junk.off", "no mesh")
+        self.assertIn("W-PRUNE", self.batch("-k", "--prune", expect=6).stderr)
+        self.assertNotIn("W-PRUNE", self.batch("-k", "--prune", "--allow", "W-PRUNE", expect=6).stderr)
+        self.write("p.yaml", PIPELINE.replace("allow: W-UNITS", "allow: [W-UNITS, W-PRUNE]"))
+        self.assertNotIn("W-PRUNE", self.batch("-k", "--prune", expect=6).stderr)
+        self.write("p.yaml", PIPELINE.replace('- relax: "${n}"', "- validate: {faces: 5}"))
+        for strict in ("--strict", "--strict=W-PRUNE"):
+            run = self.batch("-k", "--prune", strict, "--report", "s.json", expect=6)
+            self.assertIn("--strict makes W-PRUNE fail", run.stderr)
+            self.assertIn("E-STRICT", [e["id"] for e in json.loads((self.dir / "out/s.json").read_text())["errors"]])
+        (self.dir / "in/junk.off").unlink()
+        self.assertNotIn("E-STRICT", self.batch("-k", "--prune", "--strict=W-STATE", expect=1).stderr)
+
     def test_prune_leaves_what_it_does_not_know(self):
         self.batch()
         # Another pipeline of the same name, whose outputs are its own.
@@ -261,7 +304,10 @@ class Batch(Case):
             self.batch(*arguments, expect=2)
             self.assertEqual(self.files(), before, arguments)
         self.assertIn("E-ARGUMENT", self.batch("--memory", "0G", expect=2).stderr)
-        self.batch("--memory", "1e15T")
+        self.assertIn("at most", self.batch("--memory", "1e15T", expect=2).stderr)
+        self.assertIn("8GB (1000000000 bytes each) or 8GiB", self.batch("--memory", "8gb", expect=2).stderr)
+        for size in ("8G", "8GB", "8GiB", "8g", "50%", "100000000"):
+            self.batch("--memory", size)
 
     def test_prune_of_outputs_that_have_another_name_now(self):
         self.batch()
@@ -269,6 +315,31 @@ class Batch(Case):
         self.batch("--prune")
         self.assertEqual(sorted(self.written()), ["a.json", "a.stl", "sub/b.json", "sub/b.stl", "sub/deep/c.json",
                                                   "sub/deep/c.stl"])
+
+    def test_lists_in_tables(self):
+        self.write("p.yaml", """facetmill: 1
+allow: W-UNITS
+params:
+  input: path
+  rounds: {type: list, of: integer, default: [1], max: 9}
+stages:
+  - load: "${input}"
+  - foreach: {round: "${rounds}"}
+    do: [{relax: "${round}"}, {write: "${input.stem}.${round}.ply"}]
+""")
+        wanted = ["in/a.1.ply", "in/a.3.ply", "in/sub/b.1.ply"]
+        self.write("t.csv", 'input,rounds\nin/a.off,"1,3"\nin/sub/b.off,\n')
+        self.write("t.yaml", "- {input: in/a.off, rounds: [1, 3]}\n- {input: in/sub/b.off}\n")
+        for table in ("t.csv", "t.yaml"):
+            self.mill("batch", "p.yaml", "--table", table, "-o", table[2:])
+            self.assertEqual(sorted(self.written(table[2:])), wanted)
+        self.assertEqual(self.written("csv"), self.written("yaml"))
+        self.mill("run", "p.yaml", "-D", "input=in/a.off", "-D", "rounds=[1, 3]", "-o", "run/in")
+        self.assertEqual(self.written("run").items() - self.written("csv").items(), set())
+        self.write("t.csv", 'input,rounds\nin/a.off,"1,30"\n')
+        self.write("t.yaml", "- input: in/a.off\n  rounds: [1, 30]\n")
+        self.assertIn("t.csv:2:13: error[E-RANGE]", self.batch("--table", "t.csv", expect=2).stderr)
+        self.assertIn("t.yaml:2:15: error[E-RANGE]", self.batch("--table", "t.yaml", expect=2).stderr)
 
     def test_tables(self):
         self.write("t.csv", 'input,n\r\n"in/a.off",2\r\n\r\nin/sub/b.off,\r\n')

@@ -327,6 +327,19 @@ message(STATUS "outputs: ${models_OUTPUTS}")
     def test_make(self):
         self.check("Unix Makefiles", "-k")
 
+    def test_each_input_is_planned_once(self):
+        executable = self.prefix / "bin/facetmill"
+        executable.rename(self.prefix / "bin/mill")
+        self.write("prefix/bin/facetmill", f'#!/bin/sh\necho "$1" >>"{self.dir}/asked"\nexec "{self.prefix}/bin/mill" "$@"\n')
+        executable.chmod(0o755)
+        for name in ("a/one", "two words"):
+            self.scan(name)
+        self.write("src/CMakeLists.txt", "".join(line for line in self.LISTS.splitlines(True) if "checks" not in line))
+        said = self.configure("Unix Makefiles")
+        self.assertEqual((self.dir / "asked").read_text().split(), ["plan"] * 2)
+        for name in ("web/a/one.glb", "web/a/one.json", "web/two words.glb"):
+            self.assertIn(name, said)
+
     def test_what_is_refused_says_why(self):
         for name in ("x|y", 'x"y', "$(x)"):
             scan = self.scan(name)

@@ -78,6 +78,29 @@ class Export(Case):
         self.export("snakemake", "Snakefile")
         self.check(("snakemake", "-j2"), "Nothing to be done")
 
+    def test_shards(self):
+        for engine, name, command, nothing in (("ninja", "build.ninja", ("ninja",), "no work to do"),
+                                               ("make", "Makefile", ("make", "-j2"), "Nothing to be done"),
+                                               ("snakemake", "Snakefile", ("snakemake", "-j2"), "Nothing to be done")):
+            with self.subTest(engine):
+                self.need(engine, in_ci=engine != "snakemake")
+                written = self.mill("export", "--to", engine, *self.options(engine), "--shard", 3).stdout
+                self.write(name, written)
+                self.build(*command)
+                self.assertEqual(self.files(self.dir / engine), self.wanted)
+                self.assertIn(nothing, self.build(*command))
+                # The first of the first shard fails: the others of it are made all the same, and it is due again.
+                self.write("in/a.off", "no mesh")
+                if engine != "snakemake":  # which removes what a failed job wrote
+                    before = (self.dir / engine / "sub/b.ply").stat().st_ino
+                    self.build(*command, expect=1)
+                    self.assertNotEqual((self.dir / engine / "sub/b.ply").stat().st_ino, before)
+                self.build(*command, expect=1)
+                self.write("in/a.off", TETRAHEDRON)
+                self.build(*command)
+                self.assertEqual(self.files(self.dir / engine), self.wanted)
+                self.assertIn(nothing, self.build(*command))
+
     def test_a_failed_check_is_due_again(self):
         self.write("gate.yaml", "facetmill: 1\nallow: W-UNITS\nparams: {input: {type: path}}\n"
                                 "stages: [load: '${input}', validate: {closed: true}]\nreport: '${input.stem}.json'\n")
@@ -100,6 +123,11 @@ class Export(Case):
         refused("E-FILE", "--to", "ninja", "p q.yaml", "--input", "none/*.off", "-o", "out", expect=3)
         self.write("gate.yaml", "facetmill: 1\nparams: {input: {type: path}}\nstages: [load: '${input}', validate: {closed: true}]\n")
         refused("E-EXPORT", "--to", "make", "gate.yaml", "--input", "in/*.off", "-o", "out")
+        rows = "".join(f"in/a.off,{'1' * 900},{i}\n" for i in range(200))
+        self.write("long.csv", "input,text,n\n" + rows)
+        self.write("long.yaml", PIPELINE.replace("params:", "params:\n  text: text\n  n: integer").replace("input.stem", "n"))
+        refused("a shell takes", "--to", "ninja", "long.yaml", "--table", "long.csv", "-o", "out", "--shard", 200)
+        self.mill("export", "--to", "ninja", "long.yaml", "--table", "long.csv", "-o", "out", "--shard", 100)
         self.write("same.yaml", PIPELINE.replace("${input.stem}", "one"))
         refused("E-DUPLICATE-OUTPUT", "--to", "make", "same.yaml", "--input", "in/**/*.off", "--base", "in", "-o", "out")
         self.write("in/a{b}.off", TETRAHEDRON)

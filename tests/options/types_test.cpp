@@ -140,6 +140,9 @@ TEST_CASE("bytes are counted with decimal and with binary units", "[options]") {
                                                      {"2GB", 2e9},
                                                      {"2 GiB", 2147483648.0},
                                                      {"4.35kB", 4350},
+                                                     {"10M", 10485760},
+                                                     {"8G", 8589934592.0},
+                                                     {"8g", 8589934592.0},
                                                      {"1TB", 1e12},
                                                      {"8192TiB", 9007199254740992.0}}) {
         CAPTURE(text);
@@ -158,11 +161,13 @@ TEST_CASE("bytes are counted with decimal and with binary units", "[options]") {
 TEST_CASE("what is no count of bytes is refused with a hint", "[options]") {
     for (const auto& [text, told] : std::vector<std::pair<const char*, const char*>>{
              {"10 mb", "10MB (1000000 bytes each) or 10MiB (1048576)?"},
-             {"10M", "10MB (1000000 bytes each) or 10MiB (1048576)?"},
+             {"10mib", "10MB (1000000 bytes each) or 10MiB (1048576)?"},
              {"5KB", "5kB (1000 bytes each) or 5KiB (1024)?"},
              {"1gib", "1GB (1000000000 bytes each) or 1GiB (1073741824)?"},
-             {"10 bits", "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB"},
-             {"10mm", "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB"},
+             {"10 bits",
+              "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB, and K, M, G, T for 1024 bytes each step"},
+             {"10mm",
+              "units: B, kB, MB, GB, TB, KiB, MiB, GiB, TiB, and K, M, G, T for 1024 bytes each step"},
              {"-5MB", "bytes are counted from 0"},
              {"-1", "bytes are counted from 0"},
              {"0.5", "bytes come whole"},

@@ -92,6 +92,29 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     CHECK_THROWS_AS(problems_in(folder, "  - include: gone.yaml\n"), Error);
 }
 
+TEST_CASE("lists of a preset keep their places, and their paths its folder", "[pipeline]") {
+    const test::TemporaryDirectory folder;
+    std::filesystem::create_directories(folder / "web");
+    test::put(folder / "web/preset.yaml",
+              "cuts: [5, 12]\nfiles:\n  - a.ply\n  - \"b, c.ply\"\nkeep: [1, 2]\n");
+    PlanSettings settings;
+    settings.working_directory = folder.path();
+    settings.places.input_base = folder.path();
+    Problems problems;
+    pipeline::add_preset(folder / "web/preset.yaml", settings, problems);
+    CHECK(problems.size() == 0);
+    const auto result =
+        planned("facetmill: 1\nparams:\n  cuts: {type: list, of: integer, max: 9}\n"
+                "  files: {type: list, of: path}\n  keep: integer\n"
+                "stages:\n  - foreach: {file: \"${files}\"}\n    do: [{test-load: \"${file}\"}]\n",
+                settings);
+    CHECK(result.problems.find("preset.yaml:1:11: error[E-RANGE]") != std::string::npos);
+    CHECK(result.problems.find("preset.yaml:5:7: error[E-TYPE]: expected an integer, found a list of 2") !=
+          std::string::npos);
+    CHECK(stages_in(*result.plan.steps.at(0).arms.at(1).steps) ==
+          "file=web/b, c.ply/test-load \"web/b, c.ply\"; ");
+}
+
 TEST_CASE("a preset gives params that the command line does not", "[pipeline]") {
     const test::TemporaryDirectory folder;
     std::filesystem::create_directories(folder / "web");
@@ -110,10 +133,11 @@ TEST_CASE("a preset gives params that the command line does not", "[pipeline]") 
     CHECK(result.problems == "");
     CHECK(stages_in(result.plan.steps) == "test-load web/scan.ply; test-warn 30%; ");
 
-    test::put(folder / "web/wrong.yaml", "keep: 200\nkep: 1\nlist: [1]\n");
+    test::put(folder / "web/wrong.yaml", "keep: 200\nkep: 1\nlist: {a: 1}\n");
     PlanSettings wrong;
     pipeline::add_preset(folder / "web/wrong.yaml", wrong, problems);
-    CHECK(render(problems.all().at(0)).find("wrong.yaml:3:7: error[E-TYPE]: a param has one value") !=
+    CHECK(render(problems.all().at(0))
+              .find("wrong.yaml:3:7: error[E-TYPE]: a param is a value or a list of them") !=
           std::string::npos);
     const std::string found = planned(text, wrong).problems;
     CHECK(found.find("wrong.yaml:2:6: error[E-PARAM]: the pipeline has no parameter 'kep'") != found.npos);

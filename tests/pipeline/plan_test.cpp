@@ -463,3 +463,78 @@ TEST_CASE("a diagnostic names the input unless it does already", "[pipeline]") {
     CHECK(told(stages("  - test-load: b.ply\n"), "b.ply: flat") == "b.ply: flat");
     CHECK(told("facetmill: 1\nstages: [{test-load: \"-\"}]\n", "flat") == "standard input: flat");
 }
+
+namespace {
+
+/// The arms of a foreach over the param `lods`, or what is wrong.
+std::string arms_of(const std::string& param, PlanSettings settings = {}) {
+    return outline_of(
+        "facetmill: 1\nparams: {lods: " + param +
+            "}\nstages:\n  - test-load: a.ply\n  - foreach: {lod: \"${lods}\"}\n    do: [test-cut: "
+            "\"${lod}\"]\n",
+        std::move(settings));
+}
+
+PlanSettings defining(std::string text) {
+    PlanSettings settings;
+    settings.defines = {{"lods", std::move(text)}};
+    return settings;
+}
+
+} // namespace
+
+TEST_CASE("a param may be a list, which foreach runs over", "[pipeline]") {
+    const std::string wanted = "test-load a.ply; (lod=5: lod=5/test-cut 5)(lod=3: lod=3/test-cut 3)";
+    CHECK(arms_of("{type: list, of: integer, default: [5, 3]}") == wanted);
+    for (const char* text : {"5,3", "5, 3", "[5, 3]", "[ 5,3 ]"}) {
+        CAPTURE(text);
+        CHECK(arms_of("{type: list, default: [1]}", defining(text)) == wanted);
+    }
+    CHECK(arms_of("{type: list, of: integer, default: 5}") == "test-load a.ply; (lod=5: lod=5/test-cut 5)");
+    CHECK(
+        outline_of("facetmill: 1\nparams: {only: {type: list, default: [\"tree*\", \"!tree_9\"]}}\nstages:\n"
+                   "  - test-load: a.ply\n  - test-cut: 3\n    only: \"${only}\"\n") ==
+        "test-load a.ply; test-cut 3");
+}
+
+TEST_CASE("each value of a list has a type, and its own place in messages", "[pipeline]") {
+    const auto problem = [](const std::string& param, PlanSettings settings = {}) {
+        const std::string all = arms_of(param, std::move(settings));
+        return all.substr(0, all.find("\n  hint"));
+    };
+    CHECK(problem("{type: list, of: integer, max: 9, default: 1}", defining("5,12")) ==
+          "-D:1:8: error[E-RANGE]: the parameter 'lods' must be at most 9, found '12'\n"
+          "  lods=5,12\n"
+          "         ^~");
+    CHECK(problem("{type: list, of: integer, default: [5, x]}") ==
+          "p.yaml:2:55: error[E-TYPE]: expected an integer, found 'x'\n"
+          "  params: {lods: {type: list, of: integer, default: [5, x]}}\n"
+          "                                                        ^");
+    CHECK(problem("{type: list, of: choice, choices: [5, 3], default: [5]}", defining("5,4"))
+              .find("E-CHOICE]: 'lods' is one of 5, 3, found '4'") != std::string::npos);
+    CHECK(problem("{type: integer, of: ratio, default: 5}").find("E-PARAM") != std::string::npos);
+    CHECK(problem("{type: list, of: text, default: 5}").find("expected an integer, found the text \"5\"") !=
+          std::string::npos);
+    CHECK(problem("{type: list, min: 2, default: 5}").find("has no order that min could limit") !=
+          std::string::npos);
+    CHECK(problem("{type: list, of: list, default: 5}").find("E-CHOICE") != std::string::npos);
+    CHECK(problem("{type: list, default: {a: 1}}").find("expected a list ([a, b]), found a map") !=
+          std::string::npos);
+    CHECK(problem("{type: list, default: [[1]]}").find("E-TYPE") != std::string::npos);
+    CHECK(problem("{type: list, default: 5}", defining("[1, ${x}]")).find("error[E-UNQUOTED]") !=
+          std::string::npos);
+    CHECK(problem("{type: list, default: []}").find("E-FOREACH") != std::string::npos);
+}
+
+TEST_CASE("a list is not compared, and stands in no text", "[pipeline]") {
+    const auto with = [](const std::string& items) {
+        return planned(
+                   "facetmill: 1\nparams: {a: {type: list, default: [1]}}\nstages:\n  - test-load: a.ply\n" +
+                   items)
+            .problems;
+    };
+    const std::string compared = with("  - test-cut: 3\n    when: ${a} == 1\n");
+    CHECK(compared.find("E-WHEN]: 'a' is a list, which is not compared") != std::string::npos);
+    CHECK(compared.find("error[", compared.find("error[") + 1) == std::string::npos);
+    CHECK(with("  - test-write: \"${a}.ply\"\n").find("cannot stand inside a text") != std::string::npos);
+}

@@ -119,7 +119,7 @@ void declare_limits(Declare<SceneLimits>& d) {
     d.option("materials", &SceneLimits::materials, "The number of materials.");
     d.option("bytes", &SceneLimits::documents_bytes,
              "The size of the glTF documents as loaded, with buffers and images: 10MB, 500kB (1000 bytes "
-             "each), 1.5MiB, 500KiB (1024 bytes each) or a number of bytes.");
+             "each), 1.5MiB, 500KiB or 500K (1024 bytes each) or a number of bytes.");
     d.option("texture_pixels", &SceneLimits::texture_pixels,
              "The number of pixels of all PNG and JPEG images together (a count).");
     d.option("names", &SceneLimits::names, "Patterns; the name of every part must match one of them.");
