@@ -11,6 +11,7 @@ find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(ZLIB REQUIRED)
 find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 find_package(meshoptimizer REQUIRED)
 find_package(CGAL REQUIRED)
 find_package(draco CONFIG QUIET)
@@ -23,7 +24,7 @@ find_library(DRACO_LIBRARY draco REQUIRED)
 add_library(facetmill_dependencies INTERFACE)
 target_link_libraries(facetmill_dependencies INTERFACE
   Threads::Threads fmt::fmt TBB::tbb nlohmann_json::nlohmann_json yaml-cpp CLI11::CLI11 Eigen3::Eigen OpenSSL::Crypto
-  ZLIB::ZLIB PNG::PNG JPEG::JPEG meshoptimizer::meshoptimizer ${TINYGLTF_LIBRARY} ${DRACO_LIBRARY} ${GMP_LIBRARY})
+  ZLIB::ZLIB PNG::PNG JPEG::JPEG PkgConfig::WEBP meshoptimizer::meshoptimizer ${TINYGLTF_LIBRARY} ${DRACO_LIBRARY} ${GMP_LIBRARY})
 target_include_directories(facetmill_dependencies SYSTEM INTERFACE ${TINYGLTF_INCLUDE_DIR} ${DRACO_INCLUDE_DIR})
 
 add_library(facetmill_cgal_dependencies INTERFACE)

@@ -38,12 +38,13 @@ PUBLIC = {
     "geometry/normals/give_normals.hpp": "normals for a file",
     "geometry/normals/normal_seams.hpp": "where normals part, for simplify",
     "geometry/relax/neighbours.hpp": "the neighbours of a vertex, for crumple",
-    "geometry/render/picture.hpp": "the picture that io writes",
+    "geometry/render/texture.hpp": "textures that io decodes",
     "geometry/section/stack.hpp": "the planes of a stack of sections",
     "geometry/simplify/joint.hpp": "several parts simplified together",
     "geometry/simplify/work.hpp": "the state that OpenMesh's decimater works on",
     "geometry/triangulate/crossing_faces.hpp": "the triangles that files and pictures show",
     "geometry/triangulate/pair_triangles.hpp": "the other way round",
+    "io/gltf/looks.hpp": "materials as pictures draw them",
     "stages/measure/report.hpp": "measures in a report, for probe",
 }
 
@@ -58,6 +59,7 @@ LIBRARIES = {
     "boost": ["src/geometry/cgal/"],
     "png.h": ["src/io/pixels.cpp"],
     "jpeglib.h": ["src/io/pixels.cpp"],
+    "webp": ["src/io/pixels.cpp"],
 }
 
 # The version of a library is no use of it: these headers hold only macros.

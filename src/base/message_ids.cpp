@@ -655,6 +655,12 @@ const std::vector<MessageId>& message_ids() {
          "Validate what entered the stage: folded, flat or doubled surfaces cancel. "
          "`--strict=W-SURFACE-LOST` "
          "makes it an error."},
+        {"W-TEXTURE",
+         {},
+         "A picture does without a texture: its image is missing, broken, of more than 2^26 pixels, of a "
+         "kind that "
+         "is not read, or beyond 512 MiB of images in all.",
+         "Use PNG, JPEG or WebP of at most 8192 x 8192 pixels. The plain colour is drawn in its place."},
         {"W-TEXTURES",
          {},
          "Textures are not written, because the format cannot hold them or facetmill does not write them "

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <jpeglib.h>
 #include <png.h>
+#include <webp/decode.h>
 
 namespace facetmill::io {
 
@@ -80,6 +81,18 @@ std::optional<Pixels> decoded_jpeg(Span bytes) {
     return pixels;
 }
 
+std::optional<Pixels> decoded_webp(Span bytes) {
+    const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    int width = 0, height = 0;
+    if (!::WebPGetInfo(data, bytes.size(), &width, &height) || width < 1 || height < 1) return {};
+    Pixels pixels{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}};
+    if (too_large(pixels.width, pixels.height)) return {};
+    pixels.rgba.resize(4 * pixels.width * pixels.height);
+    if (!::WebPDecodeRGBAInto(data, bytes.size(), pixels.rgba.data(), pixels.rgba.size(), 4 * width))
+        return {};
+    return pixels;
+}
+
 std::uint8_t brightness_of(const std::uint8_t* p) {
     return static_cast<std::uint8_t>((299 * p[0] + 587 * p[1] + 114 * p[2] + 500) / 1000);
 }
@@ -98,6 +111,7 @@ std::optional<Pixels> decoded_image(Span bytes) {
     const std::string type = media_type(bytes);
     if (type == "image/png") return decoded_png(bytes);
     if (type == "image/jpeg") return decoded_jpeg(bytes);
+    if (type == "image/webp") return decoded_webp(bytes);
     return {};
 }
 

@@ -20,7 +20,7 @@ struct Pixels {
     }
 };
 
-/// A PNG or JPEG of at most 2^26 pixels; none for others and for what is broken. Grey becomes three equal
+/// A PNG, JPEG or WebP of at most 2^26 pixels; none for others and for what is broken. Grey becomes three equal
 /// channels, what has no alpha is opaque.
 std::optional<Pixels> decoded_image(Span bytes);
 

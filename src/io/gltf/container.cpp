@@ -223,6 +223,27 @@ bool is_fallback(const Place& buffer) {
 
 bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
 
+Bytes data_uri_bytes(std::string_view uri) {
+    Bytes bytes;
+    std::uint32_t bits = 0;
+    int count = 0;
+    for (const char c : uri.substr(std::min(uri.size(), uri.find(',') + 1))) {
+        const int six = c >= 'A' && c <= 'Z'   ? c - 'A'
+                        : c >= 'a' && c <= 'z' ? c - 'a' + 26
+                        : c >= '0' && c <= '9' ? c - '0' + 52
+                        : c == '+'             ? 62
+                        : c == '/'             ? 63
+                                               : -1;
+        if (six < 0) continue;
+        bits = bits << 6 | static_cast<std::uint32_t>(six);
+        count += 6;
+        if (count < 8) continue;
+        count -= 8;
+        bytes.push_back(static_cast<std::byte>(bits >> count & 0xff));
+    }
+    return bytes;
+}
+
 std::optional<fs::path> decoded_path(std::string_view uri) {
     for (const char c : uri) { // a scheme ends at a colon before any slash
         if (c == ':') return std::nullopt;

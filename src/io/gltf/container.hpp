@@ -27,6 +27,8 @@ Bytes join_glb(std::string_view json, Span binary);
 
 /// True for "data:..." URIs.
 bool is_data_uri(std::string_view uri);
+/// The bytes of a data URI in base64; characters of other kinds are passed over.
+Bytes data_uri_bytes(std::string_view uri);
 /// The path that a relative URI names, percent-decoded and normalised; none when it is absolute or remote.
 std::optional<std::filesystem::path> decoded_path(std::string_view uri);
 /// The same; none also when it leaves the directory.

@@ -13,28 +13,6 @@ namespace {
 
 using namespace gltf;
 
-/// The bytes of a data URI in base64; characters of other kinds are passed over.
-Bytes decoded(std::string_view uri) {
-    Bytes bytes;
-    std::uint32_t bits = 0;
-    int count = 0;
-    for (const char c : uri.substr(std::min(uri.size(), uri.find(',') + 1))) {
-        const int six = c >= 'A' && c <= 'Z'   ? c - 'A'
-                        : c >= 'a' && c <= 'z' ? c - 'a' + 26
-                        : c >= '0' && c <= '9' ? c - '0' + 52
-                        : c == '+'             ? 62
-                        : c == '/'             ? 63
-                                               : -1;
-        if (six < 0) continue;
-        bits = bits << 6 | static_cast<std::uint32_t>(six);
-        count += 6;
-        if (count < 8) continue;
-        count -= 8;
-        bytes.push_back(static_cast<std::byte>(bits >> count & 0xff));
-    }
-    return bytes;
-}
-
 class Speller {
   public:
     Speller(const Json& json, const Document& document)
@@ -84,7 +62,7 @@ class Speller {
     Json image(const Place& reference) {
         const Place place = item(json_, "images", reference.index(count_of(json_, "images"), "image"));
         if (const auto uri = place.find("uri")) {
-            if (is_data_uri(uri->text())) return sha256(decoded(uri->text()));
+            if (is_data_uri(uri->text())) return sha256(data_uri_bytes(uri->text()));
             const auto file = document_.files.find(uri->text());
             return file == document_.files.end() ? "missing: " + uri->text() : sha256(file->second);
         }

@@ -1,0 +1,14 @@
+#pragma once
+// The curve of sRGB (IEC 61966-2-1, 1999), by tables: bytes to linear light and back.
+
+#include <cstdint>
+
+namespace facetmill {
+
+/// Linear light, 0 to 1, of a byte in sRGB.
+float linear_of(std::uint8_t encoded);
+/// The byte of sRGB that is nearest to linear light; what is below 0 or above 1 is cut off, not a number is
+/// 0.
+std::uint8_t srgb_of(float linear);
+
+} // namespace facetmill

@@ -1,0 +1,73 @@
+#pragma once
+// Textures and materials as a picture needs them: images with their mip levels, samplers, and what a material
+// does with them, after the specification of glTF 2.0 (Khronos, 2021) and KHR_texture_transform. Who reads
+// files makes them (io/gltf/looks.hpp).
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace facetmill {
+
+/// An image with its mip levels, each half as large as the one before, down to one pixel.
+struct TextureImage {
+    struct Level {
+        int width = 0, height = 0;
+        std::vector<std::uint8_t> rgba; ///< row by row from the top, stored as the file has them
+    };
+    std::vector<Level> levels; ///< at least one
+    bool srgb = false;         ///< red, green and blue are in sRGB; else the numbers themselves
+
+    std::size_t bytes() const;
+};
+
+/// The image and its levels: each pixel is the mean over the area that it covers, in linear light, its
+/// colours weighted by alpha. Levels larger than max_side are not kept. rgba: 4 * width * height bytes, both
+/// at least 1.
+std::shared_ptr<const TextureImage> texture_image(int width, int height, std::vector<std::uint8_t> rgba,
+                                                  bool srgb, int max_side);
+
+enum class TextureWrap { repeat, clamp, mirror };
+
+/// Red, green, blue and alpha; colours linear.
+using Texel = std::array<float, 4>;
+
+/// How far the coordinates move from one pixel of the picture to the next, right and down.
+struct TextureFootprint {
+    double du_dx = 0, dv_dx = 0, du_dy = 0, dv_dy = 0;
+};
+
+/// An image and how it is laid on.
+struct Texture {
+    std::shared_ptr<const TextureImage> image; ///< none: there is no texture
+    int set = 0;                               ///< n of TEXCOORD_n
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+    bool nearest = false; ///< magnified without mixing neighbours
+    /// u' = m[0] u + m[1] v + m[2], v' = m[3] u + m[4] v + m[5] (KHR_texture_transform)
+    std::array<double, 6> transform{1, 0, 0, 0, 1, 0};
+
+    explicit operator bool() const { return image != nullptr; }
+    /// The mean over the footprint at (u, v), before the transform: from the two mip levels that fit the
+    /// footprint's shorter side, bilinear in each, at up to eight places along its longer side (after P.
+    /// Heckbert, "Survey of Texture Mapping", 1986). What is not finite counts as 0.
+    Texel sampled(double u, double v, const TextureFootprint& footprint) const;
+};
+
+/// What a material says of its colour. Metalness and roughness are not looked at: there is nothing around the
+/// scene that could be mirrored.
+struct MaterialLook {
+    enum class Alpha { opaque, mask, blend };
+
+    std::array<float, 4> base{1, 1, 1, 1};
+    std::array<float, 3> emissive{0, 0, 0};
+    Texture base_texture, normal_texture, emissive_texture, occlusion_texture;
+    float normal_scale = 1, occlusion_strength = 1, cutoff = 0.5f;
+    Alpha alpha = Alpha::opaque;
+    bool unlit = false; ///< KHR_materials_unlit
+};
+
+/// By the index of the scene's materials.
+using MaterialLooks = std::vector<MaterialLook>;
+
+} // namespace facetmill
