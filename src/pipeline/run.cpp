@@ -4,6 +4,7 @@
 #include "base/point_json.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/gltf/looks.hpp"
 #include "io/png.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
@@ -216,7 +217,7 @@ class Runner {
         constexpr std::size_t max_bytes = 4 << 20;
         if (picture_bytes_ > max_bytes) return;
         failures_.guarded({}, "a picture", [&] {
-            std::string picture = io::base64(io::png(picture_of(scene)));
+            std::string picture = picture_for_page(scene, {});
             if (picture == last_picture_) return;
             picture_bytes_ += picture.size();
             last_picture_ = stage.picture = std::move(picture);
@@ -228,8 +229,14 @@ class Runner {
         PictureSettings small;
         small.width = 160;
         small.height = 120;
-        failures_.guarded({}, "a picture",
-                          [&] { stage.picture = io::base64(io::png(picture_of(scene, small))); });
+        failures_.guarded({}, "a picture", [&] { stage.picture = picture_for_page(scene, small); });
+    }
+
+    /// A texture that cannot be drawn is no fault of the run: the stage render warns of it.
+    std::string picture_for_page(const Scene& scene, PictureSettings settings) {
+        std::vector<Diagnostic> ignored;
+        settings.looks = looks_.looks(scene, ignored);
+        return io::base64(io::png(picture_of(scene, settings)));
     }
 
     static void warn_of_empty_selection(const Step& step, const Scene& scene, Context& context) {
@@ -422,6 +429,7 @@ class Runner {
     std::set<fs::path> unwritable_; ///< folders
     bool keeps_loaded_ = false, takes_pictures_ = false;
     std::string last_picture_;
+    io::LookReader looks_; ///< textures of the pictures, decoded once
     std::size_t picture_bytes_ = 0;
     int number_ = 0, stages_ = 0;
 };

@@ -56,6 +56,46 @@ TEST_CASE("both shadings make a picture of twice the width", "[stages]") {
     CHECK(run.record.result["height"] == 80);
 }
 
+TEST_CASE("several views make one picture", "[stages]") {
+    const test::TemporaryDirectory folder;
+    const auto views = [&](const std::string& names) {
+        return "{path: " + (folder.path() / "v.png").string() + ", width: 80, height: 60, views: " + names +
+               "}";
+    };
+    const auto size = [&](const std::string& names) {
+        const auto run = run_stage("render", views(names), scene_of(shapes::cube()));
+        return std::pair(run.record.result["width"].get<int>(), run.record.result["height"].get<int>());
+    };
+    CHECK(size("turntable") == std::pair(320, 120));
+    CHECK(size("[front, left, top]") == std::pair(240, 60));
+    CHECK(size("[front, left, top, turntable]") == std::pair(320, 180));
+    CHECK(problems_of("render", options({{"path", "a.png"}, {"views", "turntabel"}})) ==
+          "E-CHOICE render: there is no view 'turntabel' | did you mean 'turntable'?");
+    CHECK(problems_of(
+              "render",
+              options({{"path", "a.png"}, {"views", "turntable"}, {"width", "8000"}, {"height", "8000"}}))
+              .starts_with("E-RANGE render: 8 views of 8000 x 8000 pixels"));
+}
+
+TEST_CASE("the range of colours is said in the result", "[stages]") {
+    const test::TemporaryDirectory folder;
+    Scene scene = scene_of(shapes::cube());
+    std::vector<float> values(8, 1.0f);
+    values[0] = 3;
+    scene.parts[0].mesh.attributes.push_back({"heat", Domain::vertex, Role::generic, 1, false, values});
+    const auto result = [&](const std::string& range) {
+        const std::string path = (folder.path() / "r.png").string();
+        return run_stage("render", "{path: " + path + ", attribute: heat, range: " + range + "}", scene)
+            .record.result;
+    };
+    CHECK(result("auto")["range"] == Json::array({1.0, 3.0}));
+    CHECK(result("[0, 2]")["range"] == Json::array({0.0, 2.0}));
+    CHECK(result("[0, 2]")["all_values"] == Json::array({1.0, 3.0}));
+    CHECK(result("all")["percentiles"] == false);
+    for (const char* wrong : {"few", "[1]", "[2, 1]", "[1, x]"})
+        CHECK(problems_of("render", options({{"path", "a.png"}, {"range", wrong}})).starts_with("E-TYPE"));
+}
+
 TEST_CASE("render says what it was not given", "[stages]") {
     const test::TemporaryDirectory folder;
     const auto run =

@@ -8,36 +8,65 @@ namespace facetmill {
 /// The grey of surfaces without a colour of their own.
 inline constexpr Colour plain_grey{0.72f, 0.74f, 0.78f};
 
-/// The smallest and the largest finite value of the attribute's first component over the shown parts whose
-/// attribute holds numbers, not identifiers; none when there is none. Sets found when any part has it.
-std::optional<std::array<double, 2>> range_of(const Scene& scene, const PictureSettings& settings,
-                                              bool& found);
+/// A place on a face: its corners' wedges and their weights, which sum to one. For a vertex on its own, of
+/// which the wedge is known or none, the face is none.
+struct FacePlace {
+    Index face = none;
+    std::array<Index, 3> wedges{none, none, none};
+    Vec3 weights{1, 0, 0};
+};
+
+/// The attribute's element at corner k of the place; none when it has none there.
+inline Index element_at(const Attribute& a, const Mesh& mesh, const FacePlace& place, std::size_t k) {
+    if (a.domain == Domain::face) return place.face;
+    if (a.domain == Domain::wedge || place.wedges[k] == none) return place.wedges[k];
+    return mesh.vertex_of_wedge(place.wedges[k]);
+}
+
+/// The first N components of an attribute, mixed by a place's weights.
+template <std::size_t N>
+std::array<float, N> mixed(const Attribute& a, const Mesh& mesh, const FacePlace& place) {
+    std::array<float, N> sum{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Index i = place.weights[k] == 0 ? none : element_at(a, mesh, place, k);
+        if (i == none) continue;
+        for (std::size_t c = 0; c < N && c < static_cast<std::size_t>(a.components); ++c)
+            sum[c] += static_cast<float>(place.weights[k] * a.value(i, static_cast<int>(c)));
+    }
+    return sum;
+}
 
 /// The colours of one part.
 class Painter {
   public:
     /// mesh is the part's, or its triangles; number counts the shown parts.
     Painter(const Mesh& mesh, const Scene& scene, const PictureSettings& settings, std::size_t number,
-            const std::array<double, 2>& range);
+            const ValueRange& range);
 
-    /// Of a wedge as a corner of the face; face none: of a vertex on its own.
-    Colour of(Index face, Index wedge) const;
-    bool double_sided(Index face) const { return look(face).double_sided; }
+    /// Without textures; alpha too.
+    Texel of(const FacePlace& place) const;
+    /// The textures and the rest of the face's material; null when it is not painted by its material.
+    const MaterialLook* look(Index face) const { return primitive(face).look; }
+    bool double_sided(Index face) const { return primitive(face).double_sided; }
     bool by_normal() const { return by_normal_; }
 
   private:
-    struct Look {
-        Colour colour{};
+    struct PrimitivePaint {
+        Texel colour{};
         bool double_sided = false;
+        bool coloured = false; ///< by colours_, too
+        const MaterialLook* look = nullptr;
     };
-    const Look& look(Index face) const;
+    const PrimitivePaint& primitive(Index face) const;
+    Texel of_value(const FacePlace& place) const;
 
     const Mesh& mesh_;
-    const Attribute* colours_ = nullptr; ///< those of the mesh, when they count
-    const Attribute* values_ = nullptr;  ///< the attribute to show instead
-    std::array<double, 2> range_;
+    const std::vector<std::uint32_t>* primitive_of_face_ = nullptr; ///< null: all are of the first
+    const Attribute* colours_ = nullptr;                            ///< those of the mesh, when they count
+    const Attribute* values_ = nullptr;                             ///< the attribute to show instead
+    ValueRange range_;
     bool by_normal_ = false;
-    std::vector<Look> looks_; ///< by primitive
+    std::vector<PrimitivePaint> primitives_;
 };
 
 } // namespace facetmill

@@ -1,10 +1,11 @@
 #include "geometry/render/render.hpp"
-#include "geometry/triangulate/crossing_faces.hpp"
 
+#include "base/memory.hpp"
 #include "base/parallel.hpp"
-#include "geometry/render/painter.hpp"
-
-#include <algorithm>
+#include "geometry/render/layers.hpp"
+#include "geometry/render/legend.hpp"
+#include "geometry/render/occlusion.hpp"
+#include "geometry/render/srgb.hpp"
 
 namespace facetmill {
 
@@ -12,261 +13,240 @@ namespace {
 
 constexpr int band_rows = 32; ///< of samples, drawn by one thread
 
-/// World to samples: x right, y down, z towards the viewer, 0 in the middle of what is seen.
-struct View {
-    Vec3 right, up, towards;
-    double scale = 0, x = 0, y = 0, z = 0; ///< the scene's middle goes to the canvas' middle
-
-    Vec3 of(const Vec3& p) const {
-        return {dot(p, right) * scale + x, -dot(p, up) * scale + y, dot(p, towards) * scale + z};
-    }
-};
-
-Vec3 direction(Viewpoint viewpoint, const Vec3& up, const Vec3& front) {
-    const Vec3 right = cross(up, front);
-    switch (viewpoint) {
-    case Viewpoint::front:
-        return front;
-    case Viewpoint::back:
-        return -front;
-    case Viewpoint::left:
-        return -right;
-    case Viewpoint::right:
-        return right;
-    case Viewpoint::top:
-        return up;
-    case Viewpoint::bottom:
-        return -up;
-    case Viewpoint::corner:
-        break;
-    }
-    return front + right * 0.55 + up * 0.45;
-}
-
-View axes_of(const Scene& scene, const PictureSettings& settings) {
-    const Vec3 extent = scene.bounds().extent();
-    const bool z_up = scene.up == UpAxis::z || (scene.up == UpAxis::unknown && extent.z >= extent.y);
-    const Vec3 up = z_up ? Vec3{0, 0, 1} : Vec3{0, 1, 0}, front = z_up ? Vec3{0, -1, 0} : Vec3{0, 0, 1};
-    View view;
-    view.towards = normalised(settings.from.value_or(direction(settings.viewpoint, up, front)));
-    Vec3 right = cross(up, view.towards);
-    // From straight above or below, the front is at the bottom or the top of the picture.
-    if (length(right) < 1e-9) right = cross(dot(up, view.towards) > 0 ? -front : front, view.towards);
-    view.right = normalised(right);
-    view.up = cross(view.towards, view.right);
-    return view;
-}
-
-bool shown(const Part& part, const PictureSettings& settings) {
-    return !settings.shows || settings.shows(part);
-}
-
-/// The box of what is seen along the view's axes, in units of the scene.
-Box seen_box(const Scene& scene, const PictureSettings& settings, View view) {
-    view.scale = 1;
-    Box seen;
-    for (const Part& part : scene.parts) {
-        if (!shown(part, settings)) continue;
-        const Transform to_world = part.transform;
-        seen.add(parallel_reduce(
-            part.mesh.vertex_count(), Box{},
-            [&](std::size_t begin, std::size_t end) {
-                Box box;
-                for (std::size_t v = begin; v < end; ++v)
-                    if (const Vec3 p = view.of(to_world.point(part.mesh.positions[v])); is_finite(p))
-                        box.add(p);
-                return box;
-            },
-            [](Box a, const Box& b) {
-                a.add(b);
-                return a;
-            }));
-    }
-    return seen;
-}
-
-View view_of(const Scene& scene, const PictureSettings& settings, const Canvas& canvas) {
-    View view = axes_of(scene, settings);
-    const Box seen = seen_box(scene, settings, view);
-    if (seen.empty()) return view;
-    const Vec3 size = seen.extent(), middle = seen.centre();
-    const double tallest = std::max(size.x / canvas.width, size.y / canvas.height);
-    view.scale = tallest > 0 ? 0.92 / tallest : 1;
-    view.x = canvas.width / 2.0 - middle.x * view.scale;
-    view.y = canvas.height / 2.0 - middle.y * view.scale;
-    view.z = -middle.z * view.scale;
-    return view;
-}
-
-/// The triangles of a part that touch each band of rows, in order.
-std::vector<std::vector<Index>> in_bands(const Mesh& mesh, const std::vector<Vec3>& points, int height) {
-    std::vector<std::vector<Index>> bands(static_cast<std::size_t>((height + band_rows - 1) / band_rows));
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        double top = HUGE_VAL, bottom = -HUGE_VAL;
-        for (Index c = 3 * f; c < 3 * f + 3; ++c) {
-            const double y = points[mesh.vertex(c)].y;
-            top = std::min(top, y);
-            bottom = std::max(bottom, y);
+/// The numbers of the triangles that touch each band of rows, in order.
+std::vector<std::vector<std::uint32_t>> in_bands(const SceneDrawing& drawing, int height) {
+    std::vector<std::vector<std::uint32_t>> bands(
+        static_cast<std::size_t>((height + band_rows - 1) / band_rows));
+    for (const PartDrawing& part : drawing.parts())
+        for (Index f = 0; part.has_faces() && f < part.count(); ++f) {
+            const double a = part.corner(f, 0).y, b = part.corner(f, 1).y, c = part.corner(f, 2).y;
+            const double top = std::min({a, b, c}), bottom = std::max({a, b, c});
+            if (!(top < height && bottom >= 0)) continue; // NaN too
+            const auto last = static_cast<std::size_t>(std::min<double>(bottom, height - 1) / band_rows);
+            for (auto i = static_cast<std::size_t>(std::max(top, 0.0) / band_rows); i <= last; ++i)
+                bands[i].push_back(part.first() + f);
         }
-        if (!(top < height && bottom >= 0)) continue; // NaN too
-        const auto last = static_cast<std::size_t>(std::min<double>(bottom, height - 1) / band_rows);
-        for (auto b = static_cast<std::size_t>(std::max(top, 0.0) / band_rows); b <= last; ++b)
-            bands[b].push_back(f);
-    }
     return bands;
 }
 
-/// The edges of polygons, so that those that triangles have inside are not drawn.
-class RealEdges {
+/// One picture on its way.
+class PictureDrawing {
   public:
-    explicit RealEdges(const Mesh& mesh) {
-        if (mesh.all_triangles()) return;
-        edges_.reserve(mesh.corner_count());
-        for (Index f = 0; f < mesh.face_count(); ++f)
-            for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
-                edges_.push_back(
-                    key(mesh.vertex(c), mesh.vertex(c + 1 < mesh.face_end(f) ? c + 1 : mesh.face_begin(f))));
-        std::sort(edges_.begin(), edges_.end());
-    }
-    bool has(Index a, Index b) const {
-        return edges_.empty() || std::binary_search(edges_.begin(), edges_.end(), key(a, b));
+    PictureDrawing(const Scene& scene, const PictureSettings& settings, const ValueRange& range)
+        : settings_(settings), canvas_(settings.width, settings.height),
+          view_(view_of(scene, settings, canvas_.width, canvas_.height)),
+          drawing_(scene, settings, view_, range), shader_(drawing_, view_, settings),
+          bands_(in_bands(drawing_, canvas_.height)) {}
+
+    Picture picture() {
+        draw_faces();
+        draw_points();
+        if (settings_.occlusion && settings_.paint != Paint::normal) open_ = occluded();
+        Picture picture;
+        picture.width = settings_.width;
+        picture.height = settings_.height;
+        picture.rgba.resize(canvas_.seen.size() / (Canvas::samples * Canvas::samples) * 4);
+        parallel_for(
+            bands_.size(), [&](std::size_t band) { develop(band, picture); }, 1);
+        picture.scale = view_.scale / Canvas::samples;
+        picture.faces = drawing_.faces();
+        return picture;
     }
 
   private:
-    static std::uint64_t key(Index a, Index b) {
-        return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b);
-    }
-    std::vector<std::uint64_t> edges_; ///< empty: all are real
-};
+    int first_row(std::size_t band) const { return static_cast<int>(band) * band_rows; }
+    int last_row(std::size_t band) const { return std::min(first_row(band) + band_rows, canvas_.height); }
 
-/// How much of its colour a face shows.
-float lit(const CanvasTriangle& t, Shading shading, bool double_sided) {
-    const Vec3 light = normalised(Vec3{-0.35, -0.55, 0.75}); // from the upper left of the viewer
-    const Vec3 n = t.towards_viewer();
-    double amount = dot(n, light);
-    if (shading == Shading::one_sided && t.area < 0 && !double_sided) amount = -amount;
-    if (shading == Shading::absolute) amount = std::abs(amount);
-    return static_cast<float>(0.16 + 0.84 * std::max(0.0, amount));
-}
-
-/// One part, its points already on the canvas.
-class PartDrawing {
-  public:
-    PartDrawing(const Part& part, const Mesh& triangles, const Painter& painter, const View& view,
-                const PictureSettings& settings)
-        : mesh_(triangles), painter_(painter), view_(view), settings_(settings),
-          points_(triangles.vertex_count()) {
-        const Transform to_world = part.transform;
-        parallel_for(points_.size(),
-                     [&](std::size_t v) { points_[v] = view.of(to_world.point(mesh_.positions[v])); });
-    }
-
-    void draw_faces(const RealEdges* lines, Canvas& canvas) const {
-        const auto bands = in_bands(mesh_, points_, canvas.height);
+    void draw_faces() {
         parallel_for(
-            bands.size(),
+            bands_.size(),
             [&](std::size_t band) {
-                const int first = static_cast<int>(band) * band_rows;
-                for (const Index f : bands[band]) {
-                    CanvasTriangle t({point(f, 0), point(f, 1), point(f, 2)});
-                    if (!t.drawn()) continue;
-                    paint(t, f, lines);
-                    draw(t, first, std::min(first + band_rows, canvas.height), canvas);
-                }
+                for (const std::uint32_t number : bands_[band]) draw_face(number, band);
             },
             1);
     }
 
-    void draw_points(Canvas& canvas) const {
-        for (Index v = 0; v < points_.size(); ++v)
-            if (is_finite(points_[v]))
-                draw_dot(points_[v], settings_.point, painter_.of(none, mesh_.has_seams() ? none : v),
-                         canvas);
+    void draw_face(std::uint32_t number, std::size_t band) {
+        const PartDrawing& part = drawing_.part_of(number);
+        const Index face = number - part.first();
+        const CanvasTriangle t = part.triangle(face);
+        if (!t.drawn() || shader_.blends(part, face)) return;
+        const bool holes = shader_.has_holes(part, face);
+        for_each_sample(t, part.front(t), first_row(band), last_row(band), canvas_.width,
+                        [&](int x, int y, double z) {
+                            if (!holes || shader_.is_solid(part, t, face, x + 0.5, y + 0.5))
+                                canvas_.put(x, y, z, number);
+                        });
     }
 
-  private:
-    const Vec3& point(Index f, Index k) const { return points_[mesh_.vertex(3 * f + k)]; }
+    void draw_points() {
+        for (const PartDrawing& part : drawing_.parts())
+            for (Index v = 0; !part.has_faces() && v < part.count(); ++v)
+                if (is_finite(part.point(v)))
+                    draw_dot(part.point(v), settings_.point, part.first() + v, canvas_);
+    }
 
-    void paint(CanvasTriangle& t, Index f, const RealEdges* lines) const {
-        constexpr Colour inside{0.75f, 0.3f, 0.12f};
-        const bool double_sided = painter_.double_sided(f);
-        const bool turned = settings_.shading == Shading::sides && t.area < 0 && !double_sided;
-        const float amount = lit(t, settings_.shading, double_sided);
-        for (Index k = 0; k < 3; ++k) {
-            Colour base = turned ? inside : painter_.of(f, mesh_.corners[3 * f + k]);
-            if (painter_.by_normal()) base = of_normal(t);
-            for (std::size_t c = 0; c < 3; ++c)
-                t.colours[k][c] = base[c] * (painter_.by_normal() ? 1 : amount);
-            const Index a = mesh_.vertex(3 * f + (k + 1) % 3), b = mesh_.vertex(3 * f + (k + 2) % 3);
-            t.lines[k] = lines && lines->has(a, b);
+    std::vector<float> occluded() const {
+        // An eighth of the scene, as it is magnified.
+        const double radius = std::min(canvas_.width, canvas_.height) / 8.0 * settings_.zoom;
+        const double most = std::min(canvas_.width, canvas_.height) / 4.0;
+        return open_sky(canvas_, drawing_, shader_, view_, std::min(radius, most));
+    }
+
+    /// The rows of pixels of a band.
+    void develop(std::size_t band, Picture& picture) const {
+        const Layers layers(bands_[band], first_row(band), last_row(band), canvas_, drawing_, shader_);
+        for (int y = first_row(band) / Canvas::samples; y < last_row(band) / Canvas::samples; ++y)
+            for (int x = 0; x < settings_.width; ++x) {
+                const std::size_t pixel =
+                    static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                    static_cast<std::size_t>(x);
+                const Texel sum = pixel_sum(x, y, layers, open_.empty() ? 1 : open_[pixel]);
+                store(sum, &picture.rgba[4 * pixel]);
+            }
+    }
+
+    /// The sum over the samples of a pixel, colours times alpha.
+    Texel pixel_sum(int x, int y, const Layers& layers, float open) const {
+        constexpr int n = Canvas::samples;
+        std::array<Texel, n* n> shades = solid_samples(x, y, open);
+        layers.lay_over(x, y, shades);
+        Texel sum{};
+        for (const Texel& shade : shades) {
+            for (std::size_t c = 0; c < 4; ++c) sum[c] += shade[c];
+            if (!settings_.ground) continue;
+            for (std::size_t c = 0; c < 3; ++c) sum[c] += (1 - shade[3]) * (*settings_.ground)[c];
+            sum[3] += 1 - shade[3];
         }
+        return sum;
     }
 
-    /// x y z of the face's own normal in the world, from 0 to 1.
-    Colour of_normal(const CanvasTriangle& t) const {
-        Vec3 n = t.towards_viewer();
-        if (t.area < 0) n = -n;
-        const Vec3 world = view_.right * n.x - view_.up * n.y + view_.towards * n.z;
-        Colour colour{};
-        for (std::size_t c = 0; c < 3; ++c) {
-            const auto x = static_cast<float>(0.5 + 0.5 * world[c]);
-            colour[c] = x * x; // developed() takes the root
+    /// What covers each sample of a pixel; one shade for each face among them.
+    std::array<Texel, Canvas::samples * Canvas::samples> solid_samples(int x, int y, float open) const {
+        constexpr int n = Canvas::samples;
+        std::array<std::uint32_t, n * n> seen{};
+        for (int i = 0; i < n * n; ++i)
+            seen[static_cast<std::size_t>(i)] = canvas_.seen[canvas_.at(n * x + i % n, n * y + i / n)];
+        std::array<Texel, n * n> shades{};
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            if (seen[i] == none) continue;
+            const auto before =
+                static_cast<std::size_t>(std::find(seen.begin(), seen.end(), seen[i]) - seen.begin());
+            shades[i] = before < i ? shades[before] : shade_of(x, y, seen, seen[i], open);
         }
-        return colour;
+        for (std::size_t i = 0; i < seen.size(); ++i)
+            if (seen[i] != none)
+                darken_lines(n * x + static_cast<int>(i) % n, n * y + static_cast<int>(i) / n, seen[i],
+                             shades[i]);
+        return shades;
     }
 
-    const Mesh& mesh_;
-    const Painter& painter_;
-    const View& view_;
+    Texel shade_of(int x, int y, const std::array<std::uint32_t, Canvas::samples * Canvas::samples>& seen,
+                   std::uint32_t number, float open) const {
+        constexpr int n = Canvas::samples;
+        double sum_x = 0, sum_y = 0, count = 0;
+        for (int i = 0; i < n * n; ++i) {
+            if (seen[static_cast<std::size_t>(i)] != number) continue;
+            sum_x += n * x + i % n + 0.5;
+            sum_y += n * y + i / n + 0.5;
+            ++count;
+        }
+        Texel shade = shader_.colour(number, sum_x / count, sum_y / count, open);
+        for (float& c : shade) c = std::min(c, 1.0f);
+        shade[3] = 1;
+        return shade;
+    }
+
+    void darken_lines(int x, int y, std::uint32_t number, Texel& shade) const {
+        float dim = 1;
+        const PartDrawing& part = drawing_.part_of(number);
+        if (part.has_lines()) {
+            const Index face = number - part.first();
+            if (part.triangle(face).nearest_edge(x + 0.5, y + 0.5, part.lines(face)) < 0.75) dim = 0.45f;
+        }
+        if (settings_.silhouettes && on_silhouette(x, y)) dim = 0.1f;
+        for (std::size_t c = 0; c < 3; ++c) shade[c] *= dim;
+    }
+
+    /// Whether the depth jumps at two samples from here, more than the slope explains.
+    bool on_silhouette(int x, int y) const {
+        constexpr int step = Canvas::samples;
+        const double jump = 0.015 * std::max(canvas_.width, canvas_.height);
+        const auto depth = [&](int qx, int qy) -> double {
+            if (qx < 0 || qy < 0 || qx >= canvas_.width || qy >= canvas_.height) return -HUGE_VAL;
+            return static_cast<double>(canvas_.depth[canvas_.at(qx, qy)]);
+        };
+        const double here = depth(x, y);
+        for (const auto& [dx, dy] : {std::pair{step, 0}, std::pair{0, step}}) {
+            const double a = depth(x - dx, y - dy), b = depth(x + dx, y + dy);
+            if (a == -HUGE_VAL || b == -HUGE_VAL) return true;
+            if (2 * here - a - b > jump && here - std::min(a, b) > jump) return true;
+        }
+        return false;
+    }
+
+    /// The mean of the samples that are covered, and how much is.
+    static void store(const Texel& sum, std::uint8_t* to) {
+        if (!(sum[3] > 0)) return;
+        for (std::size_t c = 0; c < 3; ++c) to[c] = srgb_of(sum[c] / sum[3]);
+        constexpr float count = Canvas::samples * Canvas::samples;
+        to[3] = static_cast<std::uint8_t>(std::floor(255 * std::min(sum[3] / count, 1.0f)));
+    }
+
     const PictureSettings& settings_;
-    std::vector<Vec3> points_;
+    Canvas canvas_;
+    View view_;
+    SceneDrawing drawing_;
+    Shader shader_;
+    std::vector<std::vector<std::uint32_t>> bands_;
+    std::vector<float> open_; ///< by pixel; empty: 1 everywhere
 };
+
+bool any_part_has(const Scene& scene, const PictureSettings& settings) {
+    return std::any_of(scene.parts.begin(), scene.parts.end(), [&](const Part& part) {
+        return (!settings.shows || settings.shows(part)) && attribute_to_show(part.mesh, settings.attribute);
+    });
+}
 
 } // namespace
 
 Picture picture_of(const Scene& scene, const PictureSettings& settings) {
-    Canvas canvas(settings.width, settings.height);
-    const View view = view_of(scene, settings, canvas);
-    bool found = false;
-    const auto range = range_of(scene, settings, found).value_or(std::array<double, 2>{0, 0});
-    const bool lines = settings.edges == EdgeLines::all ||
-                       (settings.edges == EdgeLines::few && scene.face_count() <= settings.few);
-    std::size_t number = 0, faces = 0;
-    for (const Part& part : scene.parts) {
-        if (!shown(part, settings)) continue;
-        faces += part.mesh.face_count();
-        const Mesh cut = part.mesh.all_triangles() ? Mesh{} : triangles_of(part.mesh);
-        const Mesh& triangles = part.mesh.all_triangles() ? part.mesh : cut;
-        const Painter painter(triangles, scene, settings, number++, range);
-        const PartDrawing drawing(part, triangles, painter, view, settings);
-        if (part.mesh.face_count() == 0)
-            drawing.draw_points(canvas);
-        else if (lines) {
-            const RealEdges real(part.mesh);
-            drawing.draw_faces(&real, canvas);
-        } else
-            drawing.draw_faces(nullptr, canvas);
-    }
-    Picture picture = developed(canvas, settings.ground);
-    picture.scale = view.scale / Canvas::samples;
-    picture.faces = faces;
+    require_memory(64.0 * settings.width * settings.height, "the picture", "render fewer pixels");
+    ValueRange range;
+    if (!settings.attribute.empty())
+        range = value_range(scene, settings.attribute, settings.range, settings.shows);
+    const bool legend = settings.legend && range.known;
+    PictureSettings own = settings;
+    if (legend) own.width = std::max(1, settings.width - legend_width(settings));
+    Picture picture = PictureDrawing(scene, own, range).picture();
     picture.range = range;
-    picture.has_attribute = found;
-    return picture;
+    picture.has_attribute = !settings.attribute.empty() && any_part_has(scene, settings);
+    return legend ? with_legend(picture, settings, range) : picture;
 }
 
-Picture beside(const Picture& left, const Picture& right) {
-    Picture both = left;
-    both.width = left.width + right.width;
-    both.rgba.clear();
-    both.rgba.reserve(left.rgba.size() + right.rgba.size());
-    for (std::size_t y = 0; y < static_cast<std::size_t>(left.height); ++y)
-        for (const Picture* p : {&left, &right}) {
-            const std::size_t row = 4 * static_cast<std::size_t>(p->width);
-            const auto begin = p->rgba.begin() + static_cast<std::ptrdiff_t>(y * row);
-            both.rgba.insert(both.rgba.end(), begin, begin + static_cast<std::ptrdiff_t>(row));
+double fitting_scale(const Scene& scene, const PictureSettings& settings) {
+    PictureSettings plain = settings;
+    plain.zoom = 1;
+    return view_of(scene, plain, Canvas::samples * settings.width, Canvas::samples * settings.height).scale /
+           Canvas::samples;
+}
+
+Picture sheet_of(const std::vector<Picture>& pictures, std::size_t columns) {
+    Picture sheet;
+    if (pictures.empty()) return sheet;
+    sheet = pictures.front();
+    const std::size_t rows = (pictures.size() + columns - 1) / columns;
+    const std::size_t row = 4 * static_cast<std::size_t>(sheet.width),
+                      height = static_cast<std::size_t>(sheet.height);
+    sheet.width *= static_cast<int>(columns);
+    sheet.height *= static_cast<int>(rows);
+    sheet.rgba.assign(row * columns * height * rows, 0);
+    for (std::size_t i = 0; i < pictures.size(); ++i)
+        for (std::size_t y = 0; y < height; ++y) {
+            const std::size_t to = ((i / columns * height + y) * columns + i % columns) * row;
+            std::copy_n(&pictures[i].rgba[y * row], row, &sheet.rgba[to]);
         }
-    return both;
+    return sheet;
 }
 
 } // namespace facetmill

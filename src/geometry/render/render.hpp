@@ -1,7 +1,10 @@
 #pragma once
-// A picture of a scene, for people who would rather look: orthographic, each face shaded by the angle between
-// its normal and the light, after P. Bourke, "Facets, planes, normals, rendering" (1992).
+// A picture of a scene, for people who would rather look: each face shaded by the angle between its normal
+// and the light, after P. Bourke, "Facets, planes, normals, rendering" (1992), with the textures of its
+// material.
 
+#include "geometry/render/colour_range.hpp"
+#include "geometry/render/texture.hpp"
 #include "mesh/scene.hpp"
 
 #include <array>
@@ -10,8 +13,10 @@
 
 namespace facetmill {
 
-/// Where a picture is taken from. Up is the scene's, or else the longer one of y and z; the front is towards
-/// +z where y points up (glTF), and towards -y where z does.
+/// Where a picture is taken from. Up is the scene's. In a scene that does not say it, up is the one of y and
+/// z on whose end the scene stands flat, or else the longer one. The front is towards +z where y points up
+/// (glTF), and towards -y where z does; an open surface of a scene that does not say it is seen from the side
+/// that its faces look to.
 enum class Viewpoint {
     corner, ///< from the front, somewhat from above and from the right
     front,
@@ -29,10 +34,15 @@ enum class Shading {
     absolute,  ///< |n . l|: the back is shaded as the front is
 };
 
+enum class ShadingNormals {
+    automatic, ///< the mesh's own where it has some, else the faces'
+    flat,      ///< one for each face
+    smooth,    ///< the mesh's own, else new ones that change at feature edges of 40 degrees only
+};
+
 /// What faces are painted with.
 enum class Paint {
-    material, ///< the base colour of the material times the colours of the mesh, as in glTF; textures are
-              ///< not looked at
+    material, ///< the base colour of the material times its texture and the colours of the mesh, as in glTF
     part,     ///< a colour for each part
     normal,   ///< the direction of the face, x y z as red green blue
     plain,    ///< grey
@@ -44,34 +54,52 @@ struct PictureSettings {
     int width = 480, height = 360; ///< pixels, 1 to 8192
     Viewpoint viewpoint = Viewpoint::corner;
     std::optional<Vec3> from; ///< the direction towards the viewer, in world space, instead of viewpoint
+    double turn = 0;          ///< radians that the viewer goes around the up axis, anticlockwise from above
+    double perspective = 0;   ///< the angle of view over the scene, radians, below pi; 0: parallel
+    double zoom = 1;          ///< at least 1; the middle of the picture is magnified
+    double max_scale = HUGE_VAL; ///< pixels per unit before zoom, for pictures of one scale
+    std::optional<Vec3> at;      ///< the place in the middle, in world space, when zoom is not 1
     Shading shading = Shading::sides;
+    ShadingNormals normals = ShadingNormals::automatic;
+    bool occlusion = true;    ///< corners and folds are darker
+    bool silhouettes = false; ///< lines where the depth jumps
     Paint paint = Paint::material;
     std::string attribute; ///< instead of paint, where a mesh has it: its first component, identifiers
-                           ///< (Role::index) in colours of their own, numbers from blue to yellow
+                           ///< (Role::index) in colours of their own, numbers on a scale
+    ColourRange range{};   ///< of that scale
+    bool legend = false;   ///< the scale with its numbers is drawn beside the scene
+    std::string unit{};    ///< after the name of the attribute in the legend
     EdgeLines edges = EdgeLines::few;
     std::size_t few = 6000;
     double point = 1;                             ///< pixels, a side of the square of a vertex without faces
     std::optional<std::array<float, 3>> ground{}; ///< linear background; none: transparent
     std::function<bool(const Part&)> shows{};     ///< which parts; empty: all
+    std::shared_ptr<const MaterialLooks> looks{}; ///< with textures; none: Material::base_colour alone
 };
 
 /// Rows from the top, four bytes a pixel: red, green, blue (sRGB), alpha (0 where nothing is).
 struct Picture {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgba;
-    double scale = 0;                  ///< pixels per unit of the scene; 0 when it has no extent
-    std::size_t faces = 0;             ///< drawn, that is of parts that it shows
-    std::array<double, 2> range{0, 0}; ///< of the numbers that the attribute has, blue and yellow
-    bool has_attribute = false;        ///< some part has it
+    double scale = 0;           ///< pixels per unit of the scene, in the middle; 0 when it has no extent
+    std::size_t faces = 0;      ///< drawn, that is of parts that it shows
+    ValueRange range{};         ///< of the numbers that the attribute has
+    bool has_attribute = false; ///< some part has it
 };
 
 /// The scene in world space, as large as fits into 92 % of the picture. Parts without faces show their
 /// vertices. Points that are not finite are left out, and an empty scene gives an empty picture. Polygons are
-/// drawn as triangulated() cuts them, their own edges only. Each pixel has four samples. The same bytes for
-/// any number of threads. Memory: 64 bytes a pixel, and 24 a vertex of one part.
+/// drawn as triangulated() cuts them, their own edges only. Each pixel has four samples of what is seen, and
+/// one shade for each face among them. Materials that blend lie over each other by depth, the sixteen
+/// nearest of them. Occlusion is seen in the depths around each pixel (M. McGuire, M. Mara, D. Luebke,
+/// "Scalable Ambient Obscurance", 2012). The same bytes for any number of threads and any processor. Memory:
+/// 64 bytes a pixel, and 24 a vertex. Throws limit (E-MEMORY) when it is not there.
 Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
 
-/// Both beside each other, of one height.
-Picture beside(const Picture& left, const Picture& right);
+/// Picture::scale without the picture, before zoom.
+double fitting_scale(const Scene& scene, const PictureSettings& settings);
+
+/// Pictures of one size in rows of so many columns; what is left of the last row is transparent.
+Picture sheet_of(const std::vector<Picture>& pictures, std::size_t columns);
 
 } // namespace facetmill

@@ -1,5 +1,8 @@
 #include "stages/render/options.hpp"
 
+#include "base/numbers.hpp"
+#include "base/portable_math.hpp"
+#include "base/spelling.hpp"
 #include "options/mark_at.hpp"
 
 #include <fmt/format.h>
@@ -11,24 +14,119 @@ namespace {
 using Look = RenderOptions::Look;
 using Ground = RenderOptions::Ground;
 
+const std::vector<NamedChoice<Viewpoint>>& viewpoints() {
+    static const std::vector<NamedChoice<Viewpoint>> all{
+        {"corner", Viewpoint::corner, "from the front, slightly from above and from the right"},
+        {"front", Viewpoint::front, "along -z where y points up, along +y where z does"},
+        {"back", Viewpoint::back, "from behind"},
+        {"left", Viewpoint::left, "from the left of the front"},
+        {"right", Viewpoint::right, "from the right of the front"},
+        {"top", Viewpoint::top, "from above, the front at the bottom"},
+        {"bottom", Viewpoint::bottom, "from below, the front at the top"}};
+    return all;
+}
+
+constexpr const char* turntable = "turntable";
+constexpr std::size_t turns = 8;
+
+const NamedChoice<Viewpoint>* viewpoint_named(const std::string& name) {
+    for (const auto& v : viewpoints())
+        if (v.name == name) return &v;
+    return nullptr;
+}
+
+/// How many pictures the options ask for, and how many of them stand in a row.
+std::pair<std::size_t, std::size_t> count_and_columns(const RenderOptions& o) {
+    std::size_t count = 0;
+    for (const auto& view : o.views) count += view == turntable ? turns : 1;
+    count = std::max<std::size_t>(count, 1);
+    if (o.shading == Look::beside) return {2 * count, 2};
+    return {count, std::min<std::size_t>(count, 4)};
+}
+
+/// In linear light.
+std::optional<std::array<float, 3>> ground_of(Ground ground) {
+    const auto grey = [](float linear) { return std::array<float, 3>{linear, linear, linear}; };
+    switch (ground) {
+    case Ground::white:
+        return grey(1);
+    case Ground::light:
+        return grey(0.9f);
+    case Ground::grey:
+        return grey(0.7f);
+    case Ground::dark:
+        return grey(0.013f);
+    case Ground::black:
+        return grey(0);
+    case Ground::none:
+        break;
+    }
+    return {};
+}
+
 } // namespace
+
+bool OptionType<ColourRange>::parse(const Value& value, ColourRange& out, Problems& problems) {
+    using Kind = ColourRange::Kind;
+    if (value.deferred) return true;
+    const std::string expected = "auto, percentile, all, or two numbers ([0, 2.5])";
+    std::vector<std::optional<double>> numbers;
+    if (value.is_list()) {
+        for (const auto& item : value.items) numbers.push_back(item.as_real());
+    } else if (value.is_scalar()) {
+        for (const auto& [name, kind] :
+             {std::pair{"auto", Kind::automatic}, {"percentile", Kind::percentile}, {"all", Kind::all}})
+            if (value.text == name) {
+                out.kind = kind;
+                return true;
+            }
+        // "0,2.5", as the one-liner writes it
+        const auto comma = value.text.find(',');
+        if (comma != value.text.npos)
+            numbers = {parse_real(value.text.substr(0, comma)), parse_real(value.text.substr(comma + 1))};
+    }
+    if (numbers.size() != 2 || !numbers[0] || !numbers[1] || !(*numbers[0] < *numbers[1]))
+        return wrong_type(value, expected, problems, "the first number is less than the second");
+    out = {Kind::given, *numbers[0], *numbers[1]};
+    return true;
+}
+
+std::string OptionType<ColourRange>::print(const ColourRange& range) {
+    switch (range.kind) {
+    case ColourRange::Kind::automatic:
+        return "auto";
+    case ColourRange::Kind::percentile:
+        return "percentile";
+    case ColourRange::Kind::all:
+        return "all";
+    case ColourRange::Kind::given:
+        break;
+    }
+    return fmt::format("[{}, {}]", range.min, range.max);
+}
+
+Json OptionType<ColourRange>::schema() {
+    const Json numbers = {
+        {"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}, {"maxItems", 2}};
+    return {{"anyOf", Json::array({{{"enum", Json::array({"auto", "percentile", "all"})}}, numbers})}};
+}
 
 void declare_render(Declare<RenderOptions>& d) {
     d.option("path", &RenderOptions::path, "The PNG file to write; - is standard output.")
         .required()
         .primary();
-    d.choice<Viewpoint>(
-        "view", &RenderOptions::view,
-        {{"corner", Viewpoint::corner, "from the front, slightly from above and from the right"},
-         {"front", Viewpoint::front, "along -z where y points up, along +y where z does"},
-         {"back", Viewpoint::back, "from behind"},
-         {"left", Viewpoint::left, "from the left of the front"},
-         {"right", Viewpoint::right, "from the right of the front"},
-         {"top", Viewpoint::top, "from above, the front at the bottom"},
-         {"bottom", Viewpoint::bottom, "from below, the front at the top"}},
-        "The direction of view; the projection is parallel.");
+    d.choice<Viewpoint>("view", &RenderOptions::view, viewpoints(), "Where the scene is seen from.");
+    d.option("views", &RenderOptions::views,
+             "Several views in one image, four in a row, at one scale; turntable is eight around the scene. "
+             "Width and height are those of one view.");
     d.option("from", &RenderOptions::from,
              "The direction towards the viewer in world space, instead of view.");
+    d.option("perspective", &RenderOptions::perspective,
+             "The angle of view over the scene. Default: parallel projection.")
+        .between(1, 120);
+    d.option("at", &RenderOptions::at, "The place in world space that is in the middle, magnified.");
+    d.option("zoom", &RenderOptions::zoom, "How many times the middle is magnified. Default with at: 4.")
+        .between(1, 10000);
     d.option("width", &RenderOptions::width, "Pixels (a count).").between(1, 8192);
     d.option("height", &RenderOptions::height, "Pixels (a count).").between(1, 8192);
     d.choice<Look>("shading", &RenderOptions::shading,
@@ -38,16 +136,35 @@ void declare_render(Declare<RenderOptions>& d) {
                     {"absolute", Look::absolute, "by absolute value: the back is shaded like the front"},
                     {"beside", Look::beside, "two images: one-sided, and absolute to the right of it"}},
                    "How the angle between a face's normal and the light is used.");
-    d.choice<Paint>("colours", &RenderOptions::colours,
-                    {{"material", Paint::material,
-                      "the base colour multiplied by the colours of vertices and faces; no textures"},
-                     {"part", Paint::part, "one colour for each part"},
-                     {"normal", Paint::normal, "the normal of the face, with x, y, z as red, green, blue"},
-                     {"plain", Paint::plain, "grey"}},
-                    "How faces are coloured.");
+    d.choice<ShadingNormals>(
+        "normals", &RenderOptions::normals,
+        {{"auto", ShadingNormals::automatic, "those of the mesh where it has some, else flat"},
+         {"flat", ShadingNormals::flat, "one for each face"},
+         {"smooth", ShadingNormals::smooth,
+          "those of the mesh, else new ones, with edges where faces meet at more than 40 degrees"}},
+        "Which normals are used.");
+    d.option("occlusion", &RenderOptions::occlusion,
+             "Whether folds and corners, which see less of the sky, are darker.");
+    d.option("silhouettes", &RenderOptions::silhouettes, "Whether outlines are drawn.");
+    d.choice<Paint>(
+        "colours", &RenderOptions::colours,
+        {{"material", Paint::material,
+          "the base colour multiplied by its texture and the colours of vertices and faces, with the "
+          "material's normal, emissive and occlusion textures and its alpha"},
+         {"part", Paint::part, "one colour for each part"},
+         {"normal", Paint::normal, "the normal of the face, with x, y, z as red, green, blue"},
+         {"plain", Paint::plain, "grey"}},
+        "How faces are coloured.");
     d.option("attribute", &RenderOptions::attribute,
              "Colours by this attribute where a part has it: identifiers (group, failed, cut_id) get "
-             "distinct colours, other numbers a scale from blue to yellow.");
+             "distinct colours, other numbers a scale from dark blue over green to yellow (viridis).");
+    d.option(
+        "range", &RenderOptions::range,
+        "Which numbers are at the ends of the scale: auto (the smallest and largest, or, if few outliers "
+        "take up more than three quarters of that, the 1st and 99th percentile), percentile, all (the "
+        "smallest and largest), or two numbers.");
+    d.option("legend", &RenderOptions::legend, "Whether the scale is drawn beside the scene, with numbers.");
+    d.option("unit", &RenderOptions::unit, "The unit of the attribute, for the legend.");
     d.choice<EdgeLines>("edges", &RenderOptions::edges,
                         {{"few", EdgeLines::few, "if the scene has at most 6000 faces"},
                          {"all", EdgeLines::all, "always"},
@@ -56,14 +173,16 @@ void declare_render(Declare<RenderOptions>& d) {
     d.choice<Ground>("background", &RenderOptions::ground,
                      {{"none", Ground::none, "transparent"},
                       {"white", Ground::white, "white"},
+                      {"light", Ground::light, "very light grey"},
                       {"grey", Ground::grey, "light grey"},
+                      {"dark", Ground::dark, "nearly black"},
                       {"black", Ground::black, "black"}},
                      "The background of the image.");
     d.option("point", &RenderOptions::point,
              "The side of the squares drawn for the vertices of parts without faces, in pixels.")
         .between(0.5, 100)
         .measures(Dimension::none);
-    d.at_most_one({"view", "from"});
+    d.at_most_one({"view", "views", "from"});
     d.at_most_one({"colours", "attribute"});
 }
 
@@ -75,22 +194,85 @@ void verify_render(const RenderOptions& o, const Value& given, Problems& problem
     if (o.from && !(length(*o.from) > 0))
         problems.add(mark_at(given, "from"), "E-DIRECTION", "render: 'from' needs a direction, found 0 0 0",
                      "for example from: [1, -2, 1]");
+    for (const auto& view : o.views)
+        if (view != turntable && !viewpoint_named(view)) {
+            std::vector<std::string> names{turntable};
+            for (const auto& v : viewpoints()) names.push_back(v.name);
+            const std::string near = nearest(view, names);
+            problems.add(mark_at(given, "views"), "E-CHOICE",
+                         fmt::format("render: there is no view '{}'", view),
+                         near.empty() ? fmt::format("one of {}", fmt::join(names, ", "))
+                                      : fmt::format("did you mean '{}'?", near));
+        }
+    const auto [count, columns] = count_and_columns(o);
+    const double rows = std::ceil(static_cast<double>(count) / static_cast<double>(columns));
+    constexpr double most = 8192.0 * 8192;
+    if (static_cast<double>(columns) * static_cast<double>(o.width) * rows * static_cast<double>(o.height) >
+        most)
+        problems.add(mark_at(given, "views"), "E-RANGE",
+                     fmt::format("render: {} views of {} x {} pixels are more than 8192 x 8192", count,
+                                 o.width, o.height),
+                     "make width and height smaller: they are those of one view");
 }
 
-PictureSettings picture_settings(const RenderOptions& o, const Scene& scene, const Context& context) {
+namespace {
+
+PictureSettings common_settings(const RenderOptions& o, const Scene& scene, const Context& context) {
     PictureSettings s;
     s.width = static_cast<int>(o.width);
     s.height = static_cast<int>(o.height);
     s.viewpoint = o.view;
     s.from = o.from;
+    if (o.perspective) s.perspective = o.perspective->radians;
+    s.at = o.at;
+    s.zoom = o.zoom.value_or(o.at ? 4 : 1);
+    s.shading = o.shading == Look::sides      ? Shading::sides
+                : o.shading == Look::absolute ? Shading::absolute
+                                              : Shading::one_sided;
+    s.normals = o.normals;
+    s.occlusion = o.occlusion;
+    s.silhouettes = o.silhouettes;
     s.paint = o.colours;
     s.attribute = o.attribute;
+    s.range = o.range;
+    s.legend = o.legend;
+    s.unit = o.unit;
     s.edges = o.edges;
     s.point = o.point;
-    const float grey = o.ground == Ground::white ? 1.0f : o.ground == Ground::grey ? 0.7f : 0.0f;
-    if (o.ground != Ground::none) s.ground = {grey, grey, grey};
+    s.ground = ground_of(o.ground);
     s.shows = [&](const Part& part) { return context.selects(part, scene); };
     return s;
+}
+
+} // namespace
+
+Shots shots_of(const RenderOptions& o, const Scene& scene, const Context& context,
+               const std::shared_ptr<const MaterialLooks>& looks) {
+    Shots shots;
+    shots.columns = count_and_columns(o).second;
+    PictureSettings common = common_settings(o, scene, context);
+    common.looks = looks;
+    const auto add = [&](const PictureSettings& s) {
+        shots.settings.push_back(s);
+        if (o.shading != Look::beside) return;
+        shots.settings.push_back(s);
+        shots.settings.back().shading = Shading::absolute;
+    };
+    if (o.views.empty()) add(common);
+    for (const auto& view : o.views) {
+        PictureSettings s = common;
+        if (const auto* named = viewpoint_named(view)) s.viewpoint = named->value;
+        for (std::size_t i = 0; i < (view == turntable ? turns : 1); ++i) {
+            s.turn = 2 * pi * static_cast<double>(i) / turns;
+            add(s);
+        }
+    }
+    if (o.views.size() + shots.settings.size() > 2) {
+        for (const auto& s : shots.settings)
+            common.max_scale = std::min(common.max_scale, fitting_scale(scene, s));
+        for (auto& s : shots.settings) s.max_scale = common.max_scale;
+    }
+    return shots;
 }
 
 } // namespace facetmill

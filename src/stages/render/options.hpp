@@ -8,25 +8,50 @@ namespace facetmill {
 
 struct RenderOptions {
     enum class Look { sides, one_sided, absolute, beside };
-    enum class Ground { none, white, grey, black };
+    enum class Ground { none, white, light, grey, dark, black };
 
     PathText path;
     std::int64_t width = 1200, height = 900;
     Viewpoint view = Viewpoint::corner;
+    std::vector<std::string> views;
     std::optional<Vec3> from;
+    std::optional<Angle> perspective;
+    std::optional<Vec3> at;
+    std::optional<double> zoom;
     Look shading = Look::sides;
+    ShadingNormals normals = ShadingNormals::automatic;
+    bool occlusion = true, silhouettes = false, legend = true;
     Paint colours = Paint::material;
-    std::string attribute;
+    std::string attribute, unit;
+    ColourRange range;
     EdgeLines edges = EdgeLines::few;
     Ground ground = Ground::none;
     double point = 3;
 };
 
 void declare_render(Declare<RenderOptions>& d);
-/// What the declaration cannot say: other formats than PNG, and directions that are none.
+/// What the declaration cannot say: other formats than PNG, directions that are none, names of views, sizes
+/// of sheets.
 void verify_render(const RenderOptions& o, const Value& given, Problems& problems);
 
-/// Of the parts that the context selects; the shading of `beside` is the caller's to choose.
-PictureSettings picture_settings(const RenderOptions& o, const Scene& scene, const Context& context);
+/// Of the parts that the context selects: one for each picture, row by row, with how many stand in a row.
+/// They have one scale.
+struct Shots {
+    std::vector<PictureSettings> settings;
+    std::size_t columns = 1;
+};
+Shots shots_of(const RenderOptions& o, const Scene& scene, const Context& context,
+               const std::shared_ptr<const MaterialLooks>& looks);
+
+/// "auto", "percentile", "all", or two numbers.
+template <>
+struct OptionType<ColourRange> {
+    static constexpr const char* name = "range";
+    static constexpr Dimension dimension = Dimension::none;
+    static bool parse(const Value& value, ColourRange& out, Problems& problems);
+    static std::string print(const ColourRange& range);
+    static Json schema();
+    static std::optional<double> magnitude(const ColourRange&) { return {}; }
+};
 
 } // namespace facetmill

@@ -1,3 +1,4 @@
+#include "io/gltf/looks.hpp"
 #include "io/png.hpp"
 #include "stages/render/help.hpp"
 #include "stages/render/options.hpp"
@@ -8,31 +9,36 @@ namespace facetmill {
 
 namespace {
 
-using Look = RenderOptions::Look;
-
-Picture taken(const RenderOptions& o, const Scene& scene, PictureSettings s) {
-    if (o.shading != Look::beside) {
-        s.shading = o.shading == Look::sides      ? Shading::sides
-                    : o.shading == Look::absolute ? Shading::absolute
-                                                  : Shading::one_sided;
-        return picture_of(scene, s);
-    }
-    s.shading = Shading::one_sided;
-    const Picture left = picture_of(scene, s);
-    s.shading = Shading::absolute;
-    return beside(left, picture_of(scene, s));
+Picture taken(const RenderOptions& o, const Scene& scene, Context& context) {
+    io::LookReader reader;
+    std::vector<Diagnostic> warnings;
+    std::shared_ptr<const MaterialLooks> looks;
+    if (o.colours == Paint::material && o.attribute.empty()) looks = reader.looks(scene, warnings);
+    for (const auto& w : warnings) context.warn(w.id, "render: " + w.message, w.hint);
+    const Shots shots = shots_of(o, scene, context, looks);
+    std::vector<Picture> pictures;
+    for (const auto& settings : shots.settings) pictures.push_back(picture_of(scene, settings));
+    if (pictures.size() == 1) return std::move(pictures.front());
+    return sheet_of(pictures, shots.columns);
 }
 
 struct RenderReport {
     std::string path, attribute;
+    bool percentiles = false;
     int width = 0, height = 0;
     std::size_t faces = 0;
     double scale = 0;
-    std::array<double, 2> range{};
+    ValueRange values{};
 
-    std::optional<std::array<double, 2>> painted() const {
-        return range[0] < range[1] ? std::optional(range) : std::nullopt;
+    std::optional<std::array<double, 2>> painted() const { return pair(values.low, values.high); }
+    std::optional<std::array<double, 2>> all() const { return pair(values.least, values.most); }
+
+  private:
+    std::optional<std::array<double, 2>> pair(double a, double b) const {
+        return values.known && values.least < values.most ? std::optional(std::array{a, b}) : std::nullopt;
     }
+
+  public:
 };
 
 void declare_report(DeclareFields<RenderReport>& d) {
@@ -42,14 +48,21 @@ void declare_report(DeclareFields<RenderReport>& d) {
     d.field("faces", &RenderReport::faces, "Faces of the parts that were drawn.");
     d.field("pixels_per_unit", &RenderReport::scale, "Pixels per scene unit.");
     d.field("range", &RenderReport::painted,
-            "The smallest (blue) and largest (yellow) value of the attribute.")
+            "The values of the attribute at the ends of the scale, blue and yellow.")
         .only_when("an attribute with different values was drawn");
+    d.field("all_values", &RenderReport::all, "The smallest and the largest value of the attribute.")
+        .only_when("an attribute with different values was drawn");
+    d.field("percentiles", &RenderReport::percentiles,
+            "Whether range is from the 1st to the 99th percentile.");
     d.tell([](const RenderReport& r) {
         std::string line =
             fmt::format("{}: {} x {} pixels, {:.6g} a unit", r.path, r.width, r.height, r.scale);
         if (const auto range = r.painted())
             line += fmt::format(", {} from {:.6g} (blue) to {:.6g} (yellow)", r.attribute, (*range)[0],
                                 (*range)[1]);
+        if (r.percentiles)
+            line += fmt::format(", the 1st and 99th percentile of {:.6g} to {:.6g}", r.values.least,
+                                r.values.most);
         return std::vector<std::string>{line};
     });
 }
@@ -61,16 +74,17 @@ void warn(const RenderOptions& o, const Picture& picture, Context& context) {
 }
 
 Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& report) {
-    const Picture picture = taken(o, scene, picture_settings(o, scene, context));
+    const Picture picture = taken(o, scene, context);
     const io::Bytes bytes = io::png(picture);
     context.output(o.path.text, bytes);
-    report = {o.path.text,
-              o.attribute,
-              picture.width,
-              picture.height,
-              picture.faces,
-              picture.scale,
-              {picture.range[0], picture.range[1]}};
+    report.path = o.path.text;
+    report.attribute = o.attribute;
+    report.percentiles = picture.range.percentiles;
+    report.width = picture.width;
+    report.height = picture.height;
+    report.faces = picture.faces;
+    report.scale = picture.scale;
+    report.values = picture.range;
     warn(o, picture, context);
     return scene;
 }
@@ -81,7 +95,9 @@ const RegisterStage registered{make_stage<RenderOptions>(
      .details = help::render::details,
      .examples = {"render: view.png", "render: {path: sides.png, shading: beside, background: white}",
                   "render: {path: top.png, view: top, width: 2000, height: 2000, edges: all}",
-                  "render: {path: failed.png, attribute: failed}"},
+                  "render: {path: around.png, views: turntable, width: 400, height: 400, background: light}",
+                  "render: {path: failed.png, attribute: failed}",
+                  "render: {path: curvature.png, attribute: mean_curvature, unit: 1/mm, range: [-1, 1]}"},
      .crossing_faces = CrossingFacePolicy::name},
     declare_render, declare_report, run,
     StageHooks<RenderOptions>{.files =

@@ -82,7 +82,8 @@ PictureSettings seen_from(const Vec3& from, Shading shading = Shading::sides) {
 
 /// The shade of grey that a cosine gives, by the stated formula.
 int shade(double cosine) {
-    return static_cast<int>(255 * std::sqrt(0.72 * (0.16 + 0.84 * std::max(0.0, cosine))) + 0.5);
+    const double linear = 0.72 * (0.16 + 0.84 * std::max(0.0, cosine));
+    return static_cast<int>(255 * (1.055 * std::pow(linear, 1 / 2.4) - 0.055) + 0.5);
 }
 
 /// Width and height of what is covered.
@@ -185,9 +186,11 @@ TEST_CASE("pictures are painted by attributes", "[geometry]") {
     s.attribute = "heat";
     const Picture heat = picture_of(scene, s);
     CHECK(heat.has_attribute);
-    CHECK(heat.range == std::array<double, 2>{0, 10});
+    CHECK(heat.range.low == 0);
+    CHECK(heat.range.high == 10);
+    CHECK_FALSE(heat.range.percentiles);
     const Pixel cold = at(heat, 6, 50), hot = at(heat, 93, 50);
-    CHECK(cold.b > cold.r + 20);
+    CHECK(cold.b > cold.g + 40);
     CHECK(hot.r > hot.b + 100);
     s.attribute = "group";
     const Pixel red = at(picture_of(scene, s), 50, 50);
@@ -210,15 +213,159 @@ TEST_CASE("pictures are painted by attributes", "[geometry]") {
     CHECK(covered(picture_of(scene, s)) == 0);
 }
 
-TEST_CASE("pictures stand beside each other", "[geometry]") {
+TEST_CASE("pictures stand in rows", "[geometry]") {
     PictureSettings s = seen_from({0, 0, 1});
     s.ground = {1, 1, 1};
-    const Picture left = picture_of(square(), s), right = picture_of({}, s), both = beside(left, right);
-    CHECK(both.width == 200);
-    CHECK(both.rgba.size() == 2 * left.rgba.size());
-    CHECK(at(both, 50, 50).r == at(left, 50, 50).r);
-    CHECK(at(both, 150, 50).r == 255);
-    CHECK(at(both, 150, 50).a == 255);
+    const Picture left = picture_of(square(), s), right = picture_of({}, s);
+    const Picture sheet = sheet_of({left, right, right}, 2);
+    CHECK(sheet.width == 200);
+    CHECK(sheet.height == 200);
+    CHECK(sheet.rgba.size() == 4 * left.rgba.size());
+    CHECK(at(sheet, 50, 50).r == at(left, 50, 50).r);
+    CHECK(at(sheet, 150, 50).r == 255);
+    CHECK(at(sheet, 150, 50).a == 255);
+    CHECK(at(sheet, 50, 150).a == 255);
+    CHECK(at(sheet, 150, 150).a == 0);
+}
+
+TEST_CASE("the same bytes for any number of threads", "[geometry]") {
+    Scene scene = scene_of(shapes::icosphere(4));
+    scene.parts.push_back(square().parts[0]);
+    PictureSettings s;
+    s.silhouettes = true;
+    s.normals = ShadingNormals::smooth;
+    s.perspective = 0.6;
+    s.edges = EdgeLines::all;
+    const int before = threads();
+    set_threads(1);
+    const Picture one = picture_of(scene, s);
+    for (const int count : {2, 3}) {
+        set_threads(count);
+        CHECK(picture_of(scene, s).rgba == one.rgba);
+    }
+    set_threads(before);
+}
+
+TEST_CASE("a scene that does not say where up is stands on its base", "[geometry]") {
+    Mesh box = shapes::cube();
+    for (Vec3& p : box.positions) p = {p.x, p.y, 1.5 * p.z};
+    Scene scene = scene_of(box);
+    PictureSettings front = seen_from({});
+    front.from.reset();
+    front.viewpoint = Viewpoint::front;
+    CHECK(size_of(picture_of(scene, front)).first < 70); // both ends are flat: the longer one, z, is up
+    Mesh& mesh = scene.parts[0].mesh;
+    const double lowest = mesh.bounds().min.z;
+    for (Index f = 0; f < mesh.face_count();) { // without the side at the lower end of z
+        const Index c = 3 * f;
+        if (mesh.point(c).z == lowest && mesh.point(c + 1).z == lowest && mesh.point(c + 2).z == lowest)
+            mesh.corners.erase(mesh.corners.begin() + c, mesh.corners.begin() + c + 3);
+        else
+            ++f;
+    }
+    CHECK(mesh.face_count() == 10);
+    CHECK(size_of(picture_of(scene, front)) == std::pair(92, 92)); // y is up
+}
+
+TEST_CASE("an open surface is seen from the side that its faces look to", "[geometry]") {
+    Scene scene = square(true); // looks towards -z, which is the back
+    PictureSettings s = seen_from({});
+    s.from.reset();
+    s.viewpoint = Viewpoint::front;
+    CHECK_FALSE(inner(at(picture_of(scene, s), 50, 50)));
+    scene.up = UpAxis::y; // the front is +z by convention
+    CHECK(inner(at(picture_of(scene, s), 50, 50)));
+}
+
+TEST_CASE("perspective makes what is near larger, and zoom what is in the middle", "[geometry]") {
+    Scene two = square(); // and a second square of the same size far behind it, to the right
+    append(two.parts[0].mesh, square().parts[0].mesh);
+    for (std::size_t v = 4; v < 8; ++v) two.parts[0].mesh.positions[v] += Vec3{1.5, 0, -4};
+    PictureSettings s = seen_from({0, 0, 1});
+    const auto height_at = [&](int x, const Picture& picture) {
+        int count = 0;
+        for (int y = 0; y < picture.height; ++y) count += at(picture, x, y).a > 127;
+        return count;
+    };
+    const Picture parallel = picture_of(two, s);
+    CHECK(height_at(20, parallel) == height_at(80, parallel));
+    s.perspective = 1;
+    const Picture perspective = picture_of(two, s);
+    CHECK(height_at(20, perspective) > height_at(90, perspective) + 10);
+    PictureSettings near = seen_from({0, 0, 1});
+    near.zoom = 8;
+    near.at = Vec3{0, 0, 0}; // the corner of the square: the picture's middle
+    const Picture corner = picture_of(square(), near);
+    CHECK(at(corner, 75, 25).a == 255);
+    CHECK(at(corner, 25, 25).a == 0);
+    CHECK(at(corner, 75, 75).a == 0);
+    CHECK(corner.scale == Approx(8 * 92.0));
+}
+
+TEST_CASE("folds are darker than planes", "[geometry]") {
+    Mesh corner; // floor and back wall, seen from above at 45 degrees
+    corner.positions = {{0, 0, 0}, {4, 0, 0}, {4, 0, 2}, {0, 0, 2}, {0, 2, 0}, {4, 2, 0}};
+    corner.corners = {3, 2, 1, 0, 0, 1, 5, 4};
+    corner.face_offsets = {0, 4, 8};
+    PictureSettings s = seen_from({0, 1, 1});
+    s.width = 200;
+    const auto red_at = [&](bool occlusion, int y) {
+        s.occlusion = occlusion;
+        return at(picture_of(scene_of(corner), s), 100, y).r;
+    };
+    for (const int y : {47, 53}) CHECK(red_at(true, y) < red_at(false, y) - 5);  // at the fold
+    for (const int y : {25, 75}) CHECK(red_at(true, y) >= red_at(false, y) - 1); // far from it
+    // A plane hides nothing of itself, however it stands.
+    PictureSettings steep = seen_from({0.2, 3, 1});
+    const Picture with = picture_of(square(), steep);
+    steep.occlusion = false;
+    CHECK(with.rgba == picture_of(square(), steep).rgba);
+}
+
+TEST_CASE("outliers do not eat the range of colours", "[geometry]") {
+    Scene scene = square();
+    Mesh& mesh = scene.parts[0].mesh;
+    std::vector<float> values;
+    for (int i = 0; i < 1000; ++i) values.push_back(static_cast<float>(i));
+    values[999] = 1e6f;
+    mesh.attributes.push_back({"heat", Domain::vertex, Role::generic, 1, false, values});
+    const auto range = [&](ColourRange::Kind kind) { return value_range(scene, "heat", {kind, 3, 4}, {}); };
+    const ValueRange robust = range(ColourRange::Kind::automatic);
+    CHECK(robust.percentiles);
+    CHECK(robust.low == 9);
+    CHECK(robust.high == 989);
+    CHECK(robust.most == 1e6);
+    CHECK(robust.beyond());
+    CHECK(range(ColourRange::Kind::all).high == 1e6);
+    CHECK(range(ColourRange::Kind::given).low == 3);
+    auto& stored = std::get<std::vector<float>>(mesh.attributes.back().data);
+    stored[999] = 999;
+    CHECK_FALSE(range(ColourRange::Kind::automatic).percentiles);
+    CHECK(range(ColourRange::Kind::percentile).percentiles);
+    stored[0] = NAN;
+    CHECK(range(ColourRange::Kind::automatic).low == 1);
+}
+
+TEST_CASE("a legend stands beside the scene", "[geometry]") {
+    Scene scene = square();
+    scene.parts[0].mesh.attributes.push_back(
+        {"heat", Domain::wedge, Role::generic, 1, false, std::vector<float>{0, 10, 10, 0}});
+    PictureSettings s = seen_from({0, 0, 1});
+    s.width = 300;
+    s.attribute = "heat";
+    s.legend = true;
+    s.ground = {1, 1, 1};
+    const Picture picture = picture_of(scene, s);
+    CHECK(picture.width == 300);
+    const int bar = 300 - 17 * 6 + 4;
+    CHECK(at(picture, bar, 76).b > at(picture, bar, 76).g + 60);  // dark blue below
+    CHECK(at(picture, bar, 34).r > at(picture, bar, 34).b + 100); // yellow above
+    std::size_t ink = 0;
+    for (int y = 25; y < 85; ++y)
+        for (int x = bar + 16; x < 300; ++x) ink += at(picture, x, y).r < 100;
+    CHECK(ink > 20); // the numbers
+    s.legend = false;
+    CHECK(at(picture_of(scene, s), 290, 50).r > 200);
 }
 
 TEST_CASE("pictures of what can hardly be seen", "[geometry]") {

@@ -1,0 +1,39 @@
+#pragma once
+// The range of numbers that the colours of a picture span.
+
+#include "mesh/scene.hpp"
+
+#include <functional>
+
+namespace facetmill {
+
+/// Which numbers get the first and the last colour; those beyond get the same as these.
+struct ColourRange {
+    enum class Kind {
+        automatic,  ///< all, or the percentiles where less than a quarter of the span holds what lies between
+                    ///< these
+        percentile, ///< from the 1st to the 99th percentile
+        all,        ///< the smallest and the largest
+        given,
+    };
+    Kind kind = Kind::automatic;
+    double min = 0, max = 0; ///< of Kind::given
+};
+
+struct ValueRange {
+    bool known = false;         ///< there are numbers at all
+    double low = 0, high = 0;   ///< the first and the last colour
+    double least = 0, most = 0; ///< of all numbers
+    bool percentiles = false;   ///< low and high are the 1st and 99th percentile
+    bool beyond() const { return least < low || most > high; } ///< some numbers lie outside
+};
+
+/// The attribute of that name that has numbers at all: of faces, else of wedges, else of vertices; or null.
+const Attribute* attribute_to_show(const Mesh& mesh, const std::string& name);
+
+/// The range of the finite values of the attribute's first component over the parts that `shows` takes
+/// (empty: all), where it holds numbers, not identifiers. Each element counts once. O(n).
+ValueRange value_range(const Scene& scene, const std::string& attribute, const ColourRange& wanted,
+                       const std::function<bool(const Part&)>& shows);
+
+} // namespace facetmill

@@ -1,0 +1,47 @@
+#include "geometry/render/colour_scale.hpp"
+
+#include "geometry/render/srgb.hpp"
+
+namespace facetmill {
+
+Colour told_apart(std::uint64_t number) {
+    static constexpr std::array<Colour, 10> colours{{{0.15f, 0.33f, 0.72f},
+                                                     {0.85f, 0.30f, 0.05f},
+                                                     {0.14f, 0.52f, 0.16f},
+                                                     {0.70f, 0.08f, 0.10f},
+                                                     {0.36f, 0.18f, 0.62f},
+                                                     {0.80f, 0.60f, 0.06f},
+                                                     {0.05f, 0.55f, 0.60f},
+                                                     {0.80f, 0.25f, 0.52f},
+                                                     {0.26f, 0.14f, 0.08f},
+                                                     {0.45f, 0.62f, 0.20f}}};
+    return colours[number % colours.size()];
+}
+
+Colour on_a_scale(double t) {
+    if (std::isnan(t)) return {0.5f, 0.5f, 0.5f};
+    // By power of t, each for red, green and blue in sRGB.
+    static constexpr double c[7][3] = {{0.2777273272234177, 0.005407344544966578, 0.3340998053353061},
+                                       {0.1050930431085774, 1.404613529898575, 1.384590162594685},
+                                       {-0.3308618287255563, 0.214847559468213, 0.09509516302823659},
+                                       {-4.634230498983486, -5.799100973351585, -19.33244095627987},
+                                       {6.228269936347081, 14.17993336680509, 56.69055260068105},
+                                       {4.776384997670288, -13.74514537774601, -65.35303263337234},
+                                       {-5.435455855934631, 4.645852612178535, 26.3124352495832}};
+    const double x = std::clamp(t, 0.0, 1.0);
+    Colour colour{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        double sum = 0;
+        for (std::size_t k = 7; k-- > 0;) sum = sum * x + c[k][i];
+        colour[i] = linear_of(static_cast<std::uint8_t>(std::floor(255 * std::clamp(sum, 0.0, 1.0) + 0.5)));
+    }
+    return colour;
+}
+
+double in_range(double x, const ValueRange& range) {
+    if (!(range.low < range.high)) return std::isnan(x) ? x : 0.5;
+    // Halves, because the span of all doubles is none.
+    return (x / 2 - range.low / 2) / (range.high / 2 - range.low / 2);
+}
+
+} // namespace facetmill

@@ -1,0 +1,89 @@
+#pragma once
+// The parts of a scene on their way to a canvas: their triangles, where these are seen, and what is known at
+// a place of one.
+
+#include "geometry/render/painter.hpp"
+#include "geometry/render/view.hpp"
+
+#include <memory>
+
+namespace facetmill {
+
+/// The edges of polygons, so that those that triangles have inside are not drawn.
+class RealEdges {
+  public:
+    explicit RealEdges(const Mesh& mesh);
+    bool has(Index a, Index b) const;
+
+  private:
+    std::vector<std::uint64_t> edges_; ///< sorted; empty: all are real
+};
+
+/// One part, its points already on the canvas.
+class PartDrawing {
+  public:
+    /// first: the number of its first triangle, or vertex when it has no faces. lines: its edges are drawn.
+    PartDrawing(const Part& part, const Scene& scene, const PictureSettings& settings, const View& view,
+                std::size_t number, const ValueRange& range, std::uint32_t first, bool lines);
+
+    std::uint32_t first() const { return first_; }
+    /// How many triangles it has, or vertices when it has no faces.
+    std::size_t count() const { return has_faces_ ? mesh_->face_count() : points_.size(); }
+    bool has_faces() const { return has_faces_; }
+    const Mesh& mesh() const { return *mesh_; }
+    const Painter& painter() const { return *painter_; }
+
+    const Vec3& point(Index vertex) const { return points_[vertex]; }
+    CanvasTriangle triangle(Index face) const {
+        return CanvasTriangle({corner(face, 0), corner(face, 1), corner(face, 2)});
+    }
+    const Vec3& corner(Index face, Index k) const { return points_[mesh_->vertex(3 * face + k)]; }
+    /// Whether the outer side of the triangle is seen.
+    bool front(const CanvasTriangle& t) const { return (t.area > 0) != mirrored_; }
+    /// Where on the face the place of the canvas is, in perspective too.
+    FacePlace place(const View& view, const CanvasTriangle& t, Index face, double x, double y) const;
+    FacePlace vertex_place(Index vertex) const;
+
+    /// The mesh's own normal along the canvas' axes, unit, or none.
+    std::optional<Vec3> normal(const View& view, const FacePlace& place) const;
+    /// Texture coordinates of that set, or null.
+    const Attribute* coordinates(Index face, int set) const;
+    /// The mesh's own tangent along the canvas' axes and its sign, or none.
+    std::optional<std::pair<Vec3, double>> tangent(const View& view, const FacePlace& place) const;
+    /// Which edges are drawn: that opposite to each corner.
+    std::array<bool, 3> lines(Index face) const;
+    bool has_lines() const { return lines_ != nullptr; }
+
+  private:
+    bool has(Index face, const Attribute& a) const;
+
+    std::shared_ptr<const Mesh> own_; ///< what mesh_ points to when it is not the part's
+    const Mesh* mesh_;
+    bool has_faces_, mirrored_;
+    std::uint32_t first_;
+    Transform to_world_;
+    std::vector<Vec3> points_;
+    std::unique_ptr<Painter> painter_;
+    std::unique_ptr<RealEdges> lines_;
+    const Attribute *normals_ = nullptr, *tangents_ = nullptr;
+    std::vector<const Attribute*> coordinates_; ///< by set
+    const std::vector<std::uint32_t>* primitive_of_face_ = nullptr;
+};
+
+/// All that is drawn, its triangles and single vertices numbered through.
+class SceneDrawing {
+  public:
+    SceneDrawing(const Scene& scene, const PictureSettings& settings, const View& view,
+                 const ValueRange& range);
+
+    const std::vector<PartDrawing>& parts() const { return parts_; }
+    /// The part that a number belongs to.
+    const PartDrawing& part_of(std::uint32_t number) const;
+    std::size_t faces() const { return faces_; } ///< of the parts, polygons counted once
+
+  private:
+    std::vector<PartDrawing> parts_;
+    std::size_t faces_ = 0;
+};
+
+} // namespace facetmill

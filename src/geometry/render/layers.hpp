@@ -1,0 +1,34 @@
+#pragma once
+// Materials that blend, over what is solid.
+
+#include "geometry/render/shader.hpp"
+
+namespace facetmill {
+
+/// The triangles of a band of rows that blend, shaded where they are seen.
+class Layers {
+  public:
+    static constexpr std::size_t most = 16; ///< over one sample: the nearest ones
+
+    /// numbers: of all triangles in the band, those that do not blend too.
+    Layers(const std::vector<std::uint32_t>& numbers, int first_row, int last_row, const Canvas& canvas,
+           const SceneDrawing& drawing, const Shader& shader);
+
+    /// Lays them over the samples of the pixel, whose colours are multiplied by alpha, from the back.
+    void lay_over(int x, int y, std::array<Texel, Canvas::samples * Canvas::samples>& shades) const;
+
+  private:
+    struct Layer {
+        std::uint32_t pixel = 0, number = 0; ///< the pixel counted from the band's first
+        float depth = 0;
+        std::uint8_t samples = 0; ///< which of the pixel's, bit by bit
+        Texel shade{};
+    };
+    void add(std::uint32_t number, const PartDrawing& part, const Canvas& canvas, const Shader& shader);
+    void sort_and_cut();
+
+    std::vector<Layer> layers_; ///< by pixel, from the front
+    int first_, last_, width_;  ///< rows of samples, pixels of a row
+};
+
+} // namespace facetmill

@@ -1,0 +1,121 @@
+#include "geometry/render/legend.hpp"
+
+#include "geometry/render/font.hpp"
+#include "geometry/render/srgb.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using Ink = std::array<std::uint8_t, 3>;
+
+constexpr int letters_wide = 17; ///< of the legend
+
+int letter_scale(const PictureSettings& s) {
+    return std::clamp(std::min(s.width / 500, s.height / 300), 1, 8);
+}
+
+/// Dark on what is light or transparent.
+Ink ink_for(const PictureSettings& s) {
+    if (!s.ground) return {64, 64, 64};
+    const auto& g = *s.ground;
+    const float light = 0.2126f * g[0] + 0.7152f * g[1] + 0.0722f * g[2]; // ITU-R BT.709
+    return light < 0.18f ? Ink{235, 235, 235} : Ink{32, 32, 32};
+}
+
+void fill(Picture& p, int x0, int y0, int x1, int y1, const std::array<std::uint8_t, 4>& rgba) {
+    for (int y = std::max(0, y0); y < std::min(p.height, y1); ++y)
+        for (int x = std::max(0, x0); x < std::min(p.width, x1); ++x)
+            std::copy(rgba.begin(), rgba.end(),
+                      &p.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) +
+                                   static_cast<std::size_t>(x))]);
+}
+
+std::string shortened(std::string text) {
+    if (text.size() > letters_wide) {
+        text.resize(letters_wide - 2);
+        text += "..";
+    }
+    return text;
+}
+
+std::string number_text(double x) { return fmt::format("{:.4g}", x == 0 ? 0.0 : x); }
+
+/// The lines below the scale.
+std::vector<std::string> footnotes(const ValueRange& range) {
+    std::vector<std::string> lines;
+    if (range.percentiles) lines.push_back("1st to 99th pct");
+    if (range.beyond()) {
+        lines.push_back("all: " + number_text(range.least));
+        lines.push_back("  to " + number_text(range.most));
+    }
+    return lines;
+}
+
+/// The picture on the left of a wider one.
+Picture widened(const Picture& picture, const PictureSettings& settings) {
+    Picture out = picture;
+    out.width = settings.width;
+    const std::size_t from = 4 * static_cast<std::size_t>(picture.width),
+                      to = 4 * static_cast<std::size_t>(out.width);
+    out.rgba.assign(to * static_cast<std::size_t>(out.height), 0);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(out.height); ++y)
+        std::copy_n(&picture.rgba[y * from], from, &out.rgba[y * to]);
+    if (!settings.ground) return out;
+    const auto& g = *settings.ground;
+    fill(out, picture.width, 0, out.width, out.height, {srgb_of(g[0]), srgb_of(g[1]), srgb_of(g[2]), 255});
+    return out;
+}
+
+} // namespace
+
+int legend_width(const PictureSettings& settings) {
+    return std::min(settings.width - 1, letters_wide * letter_width * letter_scale(settings));
+}
+
+std::vector<double> round_numbers(double low, double high, std::size_t most) {
+    const double span = high - low;
+    if (!(span > 0) || !std::isfinite(span)) return {low, high};
+    double step = 1;
+    while (step * static_cast<double>(most) < span) step *= 10;
+    while (step / 10 * static_cast<double>(most) >= span) step /= 10;
+    for (const double part : {5.0, 2.0}) // the smallest of 1/5, 1/2 and 1 that is wide enough
+        if (step / part * static_cast<double>(most - 1) >= span) {
+            step /= part;
+            break;
+        }
+    std::vector<double> numbers;
+    for (double k = std::ceil(low / step); k * step <= high && numbers.size() < most; ++k)
+        numbers.push_back(k * step);
+    return numbers.size() < 2 ? std::vector<double>{low, high} : numbers;
+}
+
+Picture with_legend(const Picture& picture, const PictureSettings& settings, const ValueRange& range) {
+    Picture out = widened(picture, settings);
+    const int scale = letter_scale(settings), line = (letter_height + 3) * scale;
+    const Ink ink = ink_for(settings);
+    const int left = picture.width, bar = left + letter_width * scale * 2;
+    const std::vector<std::string> notes = footnotes(range);
+    const int top = 3 * line + (settings.unit.empty() ? 0 : line);
+    const int bottom = out.height - 2 * line - static_cast<int>(notes.size()) * line;
+    write_text(out, left, line, scale, shortened(settings.attribute), ink);
+    if (!settings.unit.empty()) write_text(out, left, 2 * line, scale, shortened("in " + settings.unit), ink);
+    for (int y = top; y < bottom; ++y) {
+        const Colour c = on_a_scale((bottom - y - 0.5) / (bottom - top));
+        fill(out, left, y, bar, y + 1, {srgb_of(c[0]), srgb_of(c[1]), srgb_of(c[2]), 255});
+    }
+    const auto most = static_cast<std::size_t>(std::clamp((bottom - top) / (3 * line), 2, 9));
+    for (const double x : round_numbers(range.low, range.high, most)) {
+        const double at = bottom - in_range(x, range) * (bottom - top);
+        const int y = static_cast<int>(std::floor(std::clamp<double>(at, top, bottom) + 0.5));
+        fill(out, bar, y - scale / 2, bar + 3 * scale, y - scale / 2 + scale, {ink[0], ink[1], ink[2], 255});
+        write_text(out, bar + 5 * scale, y - letter_height * scale / 2, scale, number_text(x), ink);
+    }
+    for (std::size_t i = 0; i < notes.size(); ++i)
+        write_text(out, left, bottom + line + static_cast<int>(i) * line, scale, shortened(notes[i]), ink);
+    return out;
+}
+
+} // namespace facetmill

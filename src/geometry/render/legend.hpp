@@ -1,0 +1,20 @@
+#pragma once
+// The scale of colours beside a picture, with its numbers.
+
+#include "geometry/render/colour_scale.hpp"
+
+namespace facetmill {
+
+/// How many of the settings' pixels the legend takes at the right.
+int legend_width(const PictureSettings& settings);
+
+/// The picture with the legend to its right, as wide as the settings say: the attribute's name and unit, the
+/// colours, round numbers beside them, and where the range is not all of the numbers, how it was chosen and
+/// how far they go.
+Picture with_legend(const Picture& picture, const PictureSettings& settings, const ValueRange& range);
+
+/// Round numbers in [low, high], at most `most` of them, at least two apart by 1, 2 or 5 times a power of
+/// ten; low and high themselves when there are none such.
+std::vector<double> round_numbers(double low, double high, std::size_t most);
+
+} // namespace facetmill

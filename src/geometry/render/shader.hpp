@@ -1,0 +1,43 @@
+#pragma once
+// What colour a place of the canvas has.
+
+#include "geometry/render/drawing.hpp"
+
+namespace facetmill {
+
+/// Shades places of triangles and vertices that stand on a canvas.
+class Shader {
+  public:
+    Shader(const SceneDrawing& drawing, const View& view, const PictureSettings& settings)
+        : drawing_(drawing), view_(view), settings_(settings) {}
+
+    /// The colour, linear, and alpha (1 unless the material blends) of what has that number, at (x, y) of the
+    /// canvas. open: how much of the sky is seen from there, 0 to 1.
+    Texel colour(std::uint32_t number, double x, double y, float open) const;
+
+    /// Whether the triangle's material has holes or blends, so that it does not simply cover what is behind.
+    bool has_holes(const PartDrawing& part, Index face) const;
+    bool blends(const PartDrawing& part, Index face) const;
+    /// Whether a material with holes has none at (x, y).
+    bool is_solid(const PartDrawing& part, const CanvasTriangle& t, Index face, double x, double y) const;
+
+    /// The unit normal of the triangle towards the viewer, along the canvas' axes.
+    Vec3 facing_normal(const CanvasTriangle& t) const;
+
+  private:
+    struct Spot; // a place and what is needed of it again and again
+
+    Texel base_colour(const Spot& spot, bool inside) const;
+    Texel textured(const Spot& spot, const Texture& texture) const;
+    Vec3 normal_at(const Spot& spot) const;
+    Vec3 bumped(const Spot& spot, const Vec3& normal) const;
+    std::optional<std::pair<Vec3, Vec3>> tangents(const Spot& spot, const Vec3& normal) const;
+    double lit(const Spot& spot, const Vec3& normal) const;
+    Colour of_direction(const Spot& spot) const;
+
+    const SceneDrawing& drawing_;
+    const View& view_;
+    const PictureSettings& settings_;
+};
+
+} // namespace facetmill

@@ -1,0 +1,34 @@
+#pragma once
+// How a picture looks at the world.
+
+#include "geometry/render/render.hpp"
+
+namespace facetmill {
+
+/// World to samples: x right, y down, z towards the viewer, 0 in the middle of what is seen. In perspective z
+/// is chosen so that planes stay planes: it grows with the inverse of the distance.
+struct View {
+    Vec3 right, up, towards;
+    double scale = 0, x = 0, y = 0, z = 0; ///< the scene's middle goes to the canvas' middle
+    /// In perspective: the viewer's place along the axes in the world's units, how far it is from the scene's
+    /// middle in samples, and where the ray straight ahead meets the canvas.
+    std::optional<Vec3> eye;
+    double distance = 0, ahead_x = 0, ahead_y = 0;
+
+    Vec3 of(const Vec3& p) const;
+    /// Where a point of the canvas lies before perspective: x right, y down, z towards the viewer, in samples
+    /// at the depth of the scene's middle. In parallel projection the point itself.
+    Vec3 place(const Vec3& seen) const;
+    /// The inverse of the distance from the viewer, up to a factor: what weights are multiplied with between
+    /// points of the canvas.
+    double nearness(double depth) const { return eye ? depth + distance : 1; }
+    /// A direction in the world along the canvas' axes.
+    Vec3 direction(const Vec3& d) const { return {dot(d, right), -dot(d, up), dot(d, towards)}; }
+    /// From a place to the viewer, unit.
+    Vec3 to_viewer(const Vec3& place) const;
+};
+
+/// Of a canvas of so many samples.
+View view_of(const Scene& scene, const PictureSettings& settings, int width, int height);
+
+} // namespace facetmill
