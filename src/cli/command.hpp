@@ -37,9 +37,11 @@ struct Invocation {
 struct Command {
     std::string name, about;
     std::string examples;        ///< worked examples and whatever else --help says at its end
-    bool takes_the_rest = false; ///< pipe: options are read only up to the first stage
+    bool takes_the_rest = false; ///< options are read only up to the first other word
     /// Declares the arguments; what it returns is called after they are read, for the exit code.
     std::function<std::function<int(const Invocation&)>(Arguments&, Console&)> declare;
+    bool rest_is_stages = false; ///< pipe: what it takes are stages
+    const char* stage = nullptr; ///< whose options it takes, which --help then tells; or null
 };
 
 /// In the order of --help.
@@ -53,6 +55,7 @@ Command pipe_command();
 Command new_command();
 Command check_command();
 Command info_command();
+Command render_command();
 Command diff_command();
 Command stages_command();
 Command schema_command();

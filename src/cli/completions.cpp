@@ -83,7 +83,7 @@ void add_command(const Command& command, Tables& tables) {
             at = end + 1;
         }
     }
-    if (command.takes_the_rest) tables.emplace_back("values " + owner + " ", stage_words());
+    if (command.rest_is_stages) tables.emplace_back("values " + owner + " ", stage_words());
     tables.emplace_back("options " + owner, std::move(options));
 }
 

@@ -5,6 +5,9 @@
 #include "cli/command.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "io/codec.hpp"
+#include "io/gltf/looks.hpp"
+#include "io/outputs.hpp"
+#include "io/png.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>
@@ -22,6 +25,7 @@ Examples
   facetmill info scan.ply
   facetmill info --json part.stl | jq .closed
   facetmill info --self-intersections part.stl
+  facetmill info --picture part.png part.stl
   zcat scan.ply.gz | facetmill info -
 )";
 
@@ -29,7 +33,7 @@ constexpr std::size_t max_components = 100, max_components_in_text = 10;
 
 struct InfoOptions {
     std::vector<std::string> meshes;
-    std::string format;
+    std::string format, picture;
     bool json = false, self_intersections = false;
     int threads = 0;
 };
@@ -108,11 +112,31 @@ std::string as_text(const std::string& name, const Json& info) {
     return text;
 }
 
-Json info_of(const std::string& mesh, const InfoOptions& options, const Console& console) {
+/// The picture that reports show, larger; of several files beside each other.
+void write_picture(const std::vector<Picture>& pictures, const std::string& path) {
+    constexpr std::size_t most_in_a_row = 4;
+    const Picture sheet = sheet_of(pictures, std::min(pictures.size(), most_in_a_row));
+    io::write_now(path, io::png(sheet));
+}
+
+Picture info_picture(const Scene& scene, const Console& console) {
+    PictureSettings settings;
+    settings.width = 800;
+    settings.height = 600;
+    std::vector<Diagnostic> warnings;
+    io::LookReader reader;
+    settings.looks = reader.looks(scene, warnings);
+    for (const auto& warning : warnings) console.diagnostic(warning);
+    return picture_of(scene, settings);
+}
+
+Json info_of(const std::string& mesh, const InfoOptions& options, const Console& console,
+             std::vector<Picture>& pictures) {
     const auto* codec = options.format.empty() ? nullptr : io::codec_named(options.format);
     io::ReadLog log;
     const Scene scene = io::read_scene(io::Input::open(mesh), {}, log, codec);
     for (const auto& warning : log.warnings) console.diagnostic(warning);
+    if (!options.picture.empty()) pictures.push_back(info_picture(scene, console));
     const Properties properties = inspect(scene, {options.self_intersections});
     Json info = report::scene_json(scene, properties);
     Json& components = info["components_detail"] = report::components_json(scene, properties, max_components);
@@ -123,16 +147,22 @@ Json info_of(const std::string& mesh, const InfoOptions& options, const Console&
     return info;
 }
 
-int info(const InfoOptions& options, const Console& console) {
+int info(const InfoOptions& options, const Console& console, const CommandLine& line) {
+    if (!options.picture.empty() && !options.picture.ends_with(".png"))
+        throw Error(ErrorKind::usage, "E-PICTURE",
+                    fmt::format("images are PNG, and '{}' does not end in .png", options.picture),
+                    "for example --picture part.png", line.value(options.picture));
     set_threads(options.threads);
     Json all = Json::array();
     std::string text;
+    std::vector<Picture> pictures;
     for (const auto& mesh : options.meshes) {
-        all.push_back(info_of(mesh, options, console));
+        all.push_back(info_of(mesh, options, console, pictures));
         if (!options.json) text += as_text(mesh, all.back());
     }
     if (options.json)
         text = (all.size() == 1 ? all[0] : all).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (!options.picture.empty()) write_picture(pictures, options.picture);
     print(text);
     return 0;
 }
@@ -147,6 +177,8 @@ Command info_command() {
                 arguments.add("--json", &options->json, "As JSON (facetmill schema info).");
                 arguments.add("--self-intersections", &options->self_intersections,
                               "Also counts self-intersections, which takes time.");
+                arguments.add("--picture", &options->picture,
+                              "Also writes a PNG image; of several files beside each other.");
                 arguments
                     .add("--format", &options->format,
                          "Reads the files as this format, whatever their content.")
@@ -154,7 +186,9 @@ Command info_command() {
                 arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
                     .between(1, 4096);
                 add_message_options(arguments, console);
-                return [=, &console](const Invocation&) { return info(*options, console); };
+                return [=, &console](const Invocation& invocation) {
+                    return info(*options, console, invocation.line);
+                };
             }};
 }
 

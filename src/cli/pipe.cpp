@@ -88,7 +88,10 @@ int pipe(const PipelineOptions& options, const std::string& save_to, const Argum
 } // namespace
 
 Command pipe_command() {
-    return {"pipe", "Runs a pipeline written on the command line.", pipe_examples, true,
+    return {"pipe",
+            "Runs a pipeline written on the command line.",
+            pipe_examples,
+            true,
             [](Arguments& arguments, Console& console) {
                 auto options = std::make_shared<PipelineOptions>();
                 auto save_to = std::make_shared<std::string>();
@@ -98,7 +101,8 @@ Command pipe_command() {
                 return [=, &arguments, &console](const Invocation& invocation) {
                     return pipe(*options, *save_to, arguments, invocation, console);
                 };
-            }};
+            },
+            true};
 }
 
 } // namespace facetmill::cli

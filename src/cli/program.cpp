@@ -1,6 +1,7 @@
 #include "base/json.hpp"
 #include "base/spelling.hpp"
 #include "cli/command.hpp"
+#include "docs/stages.hpp"
 #include "docs/versions.hpp"
 #include "stage/common_keys.hpp"
 #include "stage/stage.hpp"
@@ -13,9 +14,9 @@ namespace facetmill::cli {
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{
-        run_command(),    batch_command(),   export_command(),  plan_command(),       pipe_command(),
-        new_command(),    check_command(),   info_command(),    diff_command(),       stages_command(),
-        schema_command(), formats_command(), explain_command(), completions_command()};
+        run_command(),    batch_command(),  export_command(),  plan_command(),    pipe_command(),
+        new_command(),    check_command(),  info_command(),    render_command(),  diff_command(),
+        stages_command(), schema_command(), formats_command(), explain_command(), completions_command()};
     return all;
 }
 
@@ -154,7 +155,8 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
                     fmt::format("see facetmill {} --help", command.name), line.mark(0));
     }
     if (parsed.help_wanted) {
-        print(parsed.help + "\n" + command.examples);
+        print(parsed.help + "\n" + command.examples +
+              (command.stage ? "\n" + docs::stage_page(*stage_named(command.stage)) : ""));
         return 0;
     }
     refuse_extras(command, arguments, parsed.extras, line);

@@ -1,0 +1,115 @@
+// facetmill render: a picture of a mesh file, by the stage of that name.
+
+#include "cli/pipe_syntax.hpp"
+#include "cli/pipeline_options.hpp"
+#include "docs/stages.hpp"
+#include "stage/stage.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace {
+
+constexpr const char* render_examples =
+    R"(All options of the stage render follow, as in facetmill pipe: --view front, --no-occlusion, --range 0,1.
+
+Examples
+  facetmill render duck.glb -o duck.png
+  facetmill render part.stl -o part.png --view front --edges all --background white
+  facetmill render scan.ply -o around.png --views turntable --width 400 --height 400
+
+)";
+
+struct RenderCommandOptions {
+    std::string output;
+    PipelineOptions run;
+};
+
+/// "-j2", "--log=x" -> "-j", "--log".
+std::string name_of(const std::string& word) {
+    return word.starts_with("--") ? word.substr(0, word.find('=')) : word.substr(0, 2);
+}
+
+/// Takes the command's own options out of the words that follow the mesh: what is left is the stage's.
+std::vector<std::string> take_own(const Arguments& arguments, std::vector<std::string>& words) {
+    std::vector<std::string> own, rest;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const Argument* argument =
+            word.size() > 1 && word.starts_with("-") ? arguments.find(name_of(word)) : nullptr;
+        if (!argument) {
+            rest.push_back(word);
+            continue;
+        }
+        own.push_back(word);
+        const bool attached = word.size() > name_of(word).size();
+        if (!argument->is_flag() && !attached && i + 1 < words.size()) own.push_back(words[++i]);
+    }
+    words = std::move(rest);
+    return own;
+}
+
+void parse_own(const Arguments& arguments, std::vector<std::string> words) {
+    try {
+        arguments.parse("render", "", std::move(words));
+    } catch (const std::invalid_argument& e) {
+        throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("render: {}", e.what()),
+                    "see facetmill render --help");
+    }
+}
+
+int render(RenderCommandOptions& options, const Arguments& arguments, const Invocation& invocation,
+           const Console& console) {
+    const auto& all = invocation.line.arguments();
+    std::vector<std::string> words(all.begin() + static_cast<std::ptrdiff_t>(invocation.rest), all.end());
+    if (std::find(words.begin(), words.end(), "--help") != words.end()) {
+        print(docs::stage_page(*stage_named("render")));
+        return 0;
+    }
+    const auto own = take_own(arguments, words);
+    if (!own.empty()) parse_own(arguments, own);
+    if (words.empty() || words.front().starts_with("--") || options.output.empty())
+        throw Error(ErrorKind::usage, "E-ARGUMENT",
+                    words.empty() || words.front().starts_with("--")
+                        ? "render needs a mesh file before its options"
+                        : "render needs -o FILE.png",
+                    "for example facetmill render part.stl -o part.png", invocation.line.mark(0));
+    // The one-liner that it stands for, which messages then show.
+    std::vector<std::string> spelled{"pipe", "load", words.front(), "!", "render", "--path", options.output};
+    spelled.insert(spelled.end(), words.begin() + 1, words.end());
+    const CommandLine line(std::move(spelled));
+    Problems problems;
+    auto settings = plan_settings(options.run, line, problems);
+    settings.name = "render";
+    const Value document = parse_pipe(line, 1, problems);
+    problems.throw_if_any(ErrorKind::usage);
+    const auto plan = pipeline::make_plan(document, settings, problems);
+    if (refused({plan}, problems, console)) return static_cast<int>(ErrorKind::usage);
+    return run_with_messages(plan, options.run, console, "");
+}
+
+} // namespace
+
+Command render_command() {
+    return {
+        "render",
+        "Renders a PNG image of a mesh file.",
+        render_examples,
+        true,
+        [](Arguments& arguments, Console& console) {
+            auto options = std::make_shared<RenderCommandOptions>();
+            arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.");
+            arguments.add("-j,--threads", &options->run.threads, "The number of threads. Default: all cores.")
+                .between(1, 4096);
+            add_message_options(arguments, console);
+            return [=, &arguments, &console](const Invocation& invocation) {
+                return render(*options, arguments, invocation, console);
+            };
+        },
+        false,
+        "render"};
+}
+
+} // namespace facetmill::cli
