@@ -20,8 +20,8 @@ struct Pixels {
     }
 };
 
-/// A PNG, JPEG or WebP of at most 2^26 pixels; none for others and for what is broken. Grey becomes three equal
-/// channels, what has no alpha is opaque.
+/// A PNG, JPEG or WebP of at most 2^26 pixels; none for others and for what is broken. Grey becomes three
+/// equal channels, what has no alpha is opaque.
 std::optional<Pixels> decoded_image(Span bytes);
 
 /// Whether all pixels are grey.
