@@ -136,6 +136,8 @@ std::string to_terminal(const Summary& summary, bool colour, bool all);
 /// A report by its suffix: .json, .html, .xml (JUnit) or .txt. It has neither times nor what was kept, so
 /// that the same assets give the same text. Throws usage (E-REPORT) for another suffix.
 std::string render_for(const std::string& path, const Summary& summary);
+/// The JSON Schema of the report in JSON.
+Json summary_schema();
 /// Times, threads, and what was kept, as JSON.
 std::string timings_text(const Summary& summary);
 

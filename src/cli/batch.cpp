@@ -149,8 +149,10 @@ batch::Listener listener_for(const PipelineOptions& options, const Places& place
         tell_asset(asset, out, console);
         bar->draw(so_far);
     };
-    if (console.verbose)
+    if (console.verbose || console.json)
         listener.on_stage = [&console](const batch::Asset& asset, const report::StageRecord& stage) {
+            tell_stage(stage, asset.name, console);
+            if (!console.verbose) return;
             console.say(fmt::format("{}: {} in {}", asset.name, stage.name, timed(stage.seconds)));
             tell_resolved(stage, console);
         };

@@ -68,7 +68,8 @@ class Lines : public Progress {
         const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
         if (json_)
             line({{"level", "info"},
-                  {"stage", name},
+                  {"event", "begin"},
+                  {"name", name},
                   {"number", number},
                   {"of", number_of},
                   {"seconds", since.count()}});

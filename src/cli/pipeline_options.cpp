@@ -186,6 +186,22 @@ void tell_resolved(const report::StageRecord& stage, const Console& console) {
                                 length["given"].get<std::string>(), length["is"].dump()));
 }
 
+void tell_stage(const report::StageRecord& stage, const std::string& asset, const Console& console) {
+    const auto faces = [](const Json& brief) {
+        return brief.is_object() ? brief.value("faces", Json()) : Json();
+    };
+    Json event = {{"level", "info"},
+                  {"event", "stage"},
+                  {"name", stage.name},
+                  {"stage", stage.stage},
+                  {"seconds", stage.seconds},
+                  {"faces_before", faces(stage.before)},
+                  {"done", !stage.after.is_null()},
+                  {"faces_after", faces(stage.after)}};
+    if (!asset.empty()) event["asset"] = asset;
+    console.event(event);
+}
+
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
                       const std::string& pipeline_file) {
     set_threads(options.threads);
@@ -197,8 +213,10 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     const Lazy<std::vector<std::filesystem::path>> inputs([&] { return pipeline::planned_inputs(plan); });
     const auto tell = [&](const Diagnostic& d) { console.diagnostic(pipeline::about_input(*inputs, d)); };
     settings.on_warning = tell;
-    if (console.verbose)
-        settings.on_stage = [&](const report::StageRecord& stage) { tell_resolved(stage, console); };
+    settings.on_stage = [&](const report::StageRecord& stage) {
+        tell_stage(stage, "", console);
+        if (console.verbose) tell_resolved(stage, console);
+    };
     const auto record = located(pipeline::run_plan(plan, settings), plan.places);
     if (progress) progress->done();
     for (const auto& error : record.errors) tell(error);

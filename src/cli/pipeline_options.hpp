@@ -40,6 +40,9 @@ pipeline::Plan plan_of(const std::string& pipeline, pipeline::PlanSettings setti
 /// known, and names them; the exit code is that of usage.
 bool refused(const std::vector<pipeline::Plan>& plans, const Problems& problems, const Console& console);
 
+/// One event a stage that has ended, with --log json. asset: of a batch, or empty.
+void tell_stage(const report::StageRecord& stage, const std::string& asset, const Console& console);
+
 /// Says what lengths of a stage were resolved to.
 void tell_resolved(const report::StageRecord& stage, const Console& console);
 

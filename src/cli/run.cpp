@@ -1,7 +1,10 @@
 // facetmill run: the pipelines in order, all planned before the first one starts.
 
+#include "base/words.hpp"
 #include "cli/pipeline_options.hpp"
+#include "cli/watch.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 
@@ -18,6 +21,7 @@ Examples
   facetmill run scan-to-web -D input=scan.ply -D keep=10% --output-dir web
   facetmill run scan.yaml --set simplify.ratio=5% --report scan.html --strict
   facetmill run scan.yaml --depfile scan.d          (for Make and Ninja)
+  facetmill run scan.yaml -D input=scan.ply --watch (again whenever scan.yaml or scan.ply changes)
 )";
 
 /// Two pipelines of one run must not write the same file: the second would replace what the first one made.
@@ -34,8 +38,15 @@ void refuse_common_outputs(std::vector<pipeline::Plan>& plans, Problems& problem
     }
 }
 
+/// Files that a plan reads; with errors only what needs no look into them.
+std::vector<std::filesystem::path> inputs_of(const pipeline::Plan& plan, bool with_errors) {
+    return with_errors ? pipeline::planned_inputs(plan)
+                       : pipeline::planned_inputs(plan, pipeline::read_headers(plan));
+}
+
+/// watch: gets what the pipelines read before it is read; or null.
 int run(const std::vector<std::string>& pipelines, const PipelineOptions& options, const CommandLine& line,
-        const Console& console) {
+        const Console& console, Watch* watch) {
     Problems problems;
     const auto settings = plan_settings(options, line, problems);
     const std::pair<const char*, bool> of_one[] = {{"--depfile", !options.depfile.empty()},
@@ -49,6 +60,9 @@ int run(const std::vector<std::string>& pipelines, const PipelineOptions& option
     std::vector<pipeline::Plan> plans;
     plans.reserve(pipelines.size());
     for (const auto& pipeline : pipelines) plans.push_back(plan_of(pipeline, settings, problems));
+    if (watch)
+        for (const auto& plan : plans)
+            for (const auto& input : inputs_of(plan, problems.any_errors())) watch->add(input);
     if (!problems.any_errors() && plans.size() > 1) refuse_common_outputs(plans, problems);
     if (refused(plans, problems, console)) return static_cast<int>(ErrorKind::usage);
     int worst = 0;
@@ -60,6 +74,33 @@ int run(const std::vector<std::string>& pipelines, const PipelineOptions& option
     return worst;
 }
 
+/// Runs, and again whenever something that is read changes. A signal ends it, as it ends any run.
+[[noreturn]] void run_and_watch(const std::vector<std::string>& pipelines, const PipelineOptions& options,
+                                const CommandLine& line, const Console& console) {
+    if (std::find(pipelines.begin(), pipelines.end(), "-") != pipelines.end())
+        throw Error(ErrorKind::usage, "E-ARGUMENT",
+                    "--watch cannot read a pipeline from standard input again", "give it as a file",
+                    line.find("--watch"));
+    for (std::size_t number = 1;; ++number) {
+        Watch watch;
+        for (const auto& pipeline : pipelines) watch.add(pipeline);
+        for (const auto& preset : options.presets) watch.add(preset);
+        int code = 0;
+        try {
+            code = run(pipelines, options, line, console, &watch);
+        } catch (const Error& e) { // a pipeline that is gone; it may come back
+            console.diagnostics(e);
+            code = static_cast<int>(e.kind());
+        }
+        console.event({{"level", "info"}, {"event", "watch"}, {"number", number}, {"exit_code", code}});
+        if (!console.json)
+            console.say(
+                fmt::format("exit code {}; watching {}, Ctrl-C ends", code, counted(watch.size(), "file")));
+        const auto changed = watch.wait();
+        console.say(fmt::format("{} has changed", changed.string()));
+    }
+}
+
 } // namespace
 
 Command run_command() {
@@ -67,11 +108,15 @@ Command run_command() {
                 auto options = std::make_shared<PipelineOptions>();
                 auto pipelines = std::make_shared<std::vector<std::string>>();
                 arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines.").required();
+                auto watch = std::make_shared<bool>(false);
+                arguments.add("--watch", watch.get(),
+                              "Run again whenever a pipeline or a file that it reads changes; Ctrl-C ends.");
                 add_value_options(arguments, *options);
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
-                    return run(*pipelines, *options, invocation.line, console);
+                    if (*watch) run_and_watch(*pipelines, *options, invocation.line, console);
+                    return run(*pipelines, *options, invocation.line, console, nullptr);
                 };
             }};
 }

@@ -1,6 +1,7 @@
 // facetmill schema: the published JSON Schemas.
 
 #include "docs/schema.hpp"
+#include "batch/batch.hpp"
 #include "cli/command.hpp"
 #include "diff/comparison.hpp"
 #include "report/render.hpp"
@@ -18,13 +19,14 @@ constexpr const char* schema_examples = R"(Examples
 } // namespace
 
 Command schema_command() {
-    return {"schema", "Prints the JSON Schema of pipelines, reports, timings, info or diff.", schema_examples,
-            false, [](Arguments& arguments, Console&) {
+    return {"schema", "Prints the JSON Schema of pipelines, reports, batches, timings, info or diff.",
+            schema_examples, false, [](Arguments& arguments, Console&) {
                 auto what = std::make_shared<std::string>("pipeline");
-                arguments.add("WHAT", what.get(), "pipeline (default), report, timings, info or diff.")
-                    .one_of({"pipeline", "report", "timings", "info", "diff"});
+                arguments.add("WHAT", what.get(), "pipeline (default), report, batch, timings, info or diff.")
+                    .one_of({"pipeline", "report", "batch", "timings", "info", "diff"});
                 return [=](const Invocation&) {
                     const Json schema = *what == "report"    ? docs::report_schema()
+                                        : *what == "batch"   ? batch::summary_schema()
                                         : *what == "timings" ? report::timings_schema()
                                         : *what == "info"    ? docs::info_schema()
                                         : *what == "diff"    ? report::comparison_schema()

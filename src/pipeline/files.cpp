@@ -194,7 +194,10 @@ Diagnostic about_input(const std::vector<fs::path>& inputs, Diagnostic diagnosti
 }
 
 std::vector<fs::path> planned_inputs(const Plan& plan, const Headers& headers) {
-    return paths_of(plan, false, headers.more_inputs).all();
+    auto paths = paths_of(plan, false, headers.more_inputs);
+    for (const auto& file : plan.others)
+        if (file.shapes) paths.add(file.path);
+    return paths.all();
 }
 
 std::vector<fs::path> planned_outputs(const Plan& plan, const Headers& headers) {

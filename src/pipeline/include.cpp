@@ -45,7 +45,7 @@ void rebase_given(const Value& document, const Value& item, const fs::path& pref
 
 const Value* Planner::fragment(const fs::path& file, const Mark& where) {
     if (const auto known = fragments_.find(file); known != fragments_.end()) return &known->second;
-    included_.push_back({file, where, false});
+    included_.push_back({file, where, false, {}, true});
     std::shared_ptr<const SourceText> source;
     try {
         const auto input = io::Input::open(file);

@@ -406,7 +406,7 @@ void add_preset(const fs::path& file, PlanSettings& settings, Problems& problems
     const Value all = parse_yaml(std::make_shared<const SourceText>(
                                      SourceText{file.string(), std::string(io::as_text(input.bytes()))}),
                                  problems);
-    settings.others.push_back({file, {}, false});
+    settings.others.push_back({file, {}, false, {}, true});
     if (!all.is_map() && !all.is_null())
         problems.add(all.mark, "E-TYPE",
                      fmt::format("a preset is a map of params to values, found {}", all.described()),

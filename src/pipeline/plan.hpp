@@ -56,7 +56,8 @@ struct PlannedFile {
     Mark where;
     bool written = false;
     std::vector<std::pair<std::string, Value>>
-        variables{}; ///< of each foreach that it stands in, the outer first
+        variables{};     ///< of each foreach that it stands in, the outer first
+    bool shapes = false; ///< a file that the pipeline takes stages or params from: an include, a preset
 };
 
 struct PlanSettings {
@@ -144,7 +145,7 @@ struct Headers {
 Headers read_headers(const Plan& plan);
 
 /// Files that the plan reads and writes, as far as they are known before it runs (globs expanded, and what
-/// the headers tell); reports among the outputs.
+/// the headers tell); includes and presets among the inputs, at their end, and reports among the outputs.
 std::vector<std::filesystem::path> planned_inputs(const Plan& plan, const Headers& headers = {});
 std::vector<std::filesystem::path> planned_outputs(const Plan& plan, const Headers& headers = {});
 /// W-NOTHING, at the last stage, when nothing would be left of a run: no file, no check that can fail, no

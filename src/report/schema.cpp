@@ -1,43 +1,11 @@
 #include "report/render.hpp"
+#include "report/schema_forms.hpp"
 
 #include <fmt/format.h>
 
 namespace facetmill::report {
 
 namespace {
-
-Json typed(const char* type, const char* about = nullptr) {
-    Json schema = {{"type", type}};
-    if (about) schema["description"] = about;
-    return schema;
-}
-
-Json nullable(const char* type, const char* about = nullptr) {
-    Json schema = {{"type", Json::array({type, "null"})}};
-    if (about) schema["description"] = about;
-    return schema;
-}
-
-Json choice(std::initializer_list<const char*> names) {
-    Json all = Json::array();
-    for (const char* name : names) all.push_back(name);
-    return {{"enum", all}};
-}
-
-/// An object that has exactly these keys.
-Json closed_object(Json properties) {
-    Json required = Json::array();
-    for (const auto& [name, schema] : properties.items()) required.push_back(name);
-    return {{"type", "object"},
-            {"properties", std::move(properties)},
-            {"required", std::move(required)},
-            {"additionalProperties", false}};
-}
-
-Json list_of(Json items, const char* about) {
-    return {{"type", "array"}, {"items", std::move(items)}, {"description", about}};
-}
-Json reference(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; }
 
 Json point() { return {{"type", "array"}, {"items", typed("number")}, {"minItems", 3}, {"maxItems", 3}}; }
 
@@ -123,10 +91,7 @@ Json definitions() {
                                 {"faces", typed("integer")},
                                 {"bounds", bounds()}});
     brief["type"] = Json::array({"object", "null"});
-    return {{"diagnostic", closed_object({{"id", typed("string")},
-                                          {"message", typed("string")},
-                                          {"where", nullable("string")},
-                                          {"hint", nullable("string")}})},
+    return {{"diagnostic", diagnostic_schema()},
             {"brief", std::move(brief)},
             {"stage", stage_schema()},
             {"check",
@@ -156,8 +121,6 @@ Json components_detail() {
                    "The components with most faces, the largest first");
 }
 
-constexpr const char* dialect = "https://json-schema.org/draft/2020-12/schema";
-
 } // namespace
 
 Json schema() {
@@ -178,14 +141,14 @@ Json schema() {
          {"properties",
           {{"anyOf", Json::array({reference("scene"), typed("null")})},
            {"description", "Of the scene at the end; null when the run failed before it"}}}});
-    Json out = {{"$schema", dialect}, {"title", "facetmill report"}};
+    Json out = {{"$schema", schema_dialect}, {"title", "facetmill report"}};
     out.update(properties);
     out["$defs"] = definitions();
     return out;
 }
 
 Json info_schema() {
-    Json out = {{"$schema", dialect}, {"title", "facetmill info"}};
+    Json out = {{"$schema", schema_dialect}, {"title", "facetmill info"}};
     Json scene = scene_schema();
     scene["properties"]["components_detail"] = components_detail();
     scene["properties"]["components_omitted"] =
@@ -203,7 +166,7 @@ Json timings_schema() {
          {"threads", typed("integer")},
          {"stages", list_of(closed_object({{"name", typed("string")}, {"seconds", typed("number")}}),
                             "In the order of the report's stages")}});
-    schema["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+    schema["$schema"] = schema_dialect;
     schema["title"] = "facetmill timings, format 1";
     schema["description"] = "What differs from run to run, and is in no report for that reason.";
     return schema;

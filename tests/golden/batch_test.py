@@ -128,6 +128,20 @@ class Batch(Case):
         self.assertIn('errors="1"', (self.dir / "out/s.xml").read_text())
         self.assertIn("4 ok, 1 failed", (self.dir / "out/s.txt").read_text())
 
+    def test_the_report_follows_its_schema(self):
+        try:
+            import jsonschema
+        except ImportError:
+            self.skipTest("python3-jsonschema is missing")
+        schema = json.loads(self.mill("schema", "batch").stdout)
+        jsonschema.Draft202012Validator.check_schema(schema)
+        self.write("in/0.off", "bad")
+        for arguments, code in ((("-k",), 6), (("-j1",), 6), (("--input", "none/*.off"), 3), (("-D", "n=x"), 2)):
+            self.batch(*arguments, "--report", "s.json", expect=code)
+            if (self.dir / "out/s.json").exists():
+                jsonschema.validate(json.loads((self.dir / "out/s.json").read_text()), schema)
+        self.assertTrue((self.dir / "out/s.json").exists())
+
     def test_the_gravest_exit_code(self):
         self.write("p.yaml", PIPELINE.replace('- write', '- validate: {faces: 4}\n  - write'))
         self.write("in/check.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
@@ -315,6 +329,25 @@ class Batch(Case):
         self.batch("--prune")
         self.assertEqual(sorted(self.written()), ["a.json", "a.stl", "sub/b.json", "sub/b.stl", "sub/deep/c.json",
                                                   "sub/deep/c.stl"])
+
+    def test_an_include_and_a_preset_are_inputs(self):
+        self.write("more/a.yaml", "facetmill: 1\nparams: {n: integer}\nstages: [{relax: '${n}'}]\n")
+        self.write("set.yaml", "n: 2\n")
+        self.write("p.yaml", PIPELINE.replace('- relax: "${n}"', "- {include: more/a.yaml, with: {n: '${n}'}}"))
+        one = ("--input", "in/a.off", "-p", "set.yaml")
+        self.assertEqual(self.done_anew(*one), ["in/a.off"])
+        self.assertEqual(self.done_anew(*one), [])
+        self.write("more/a.yaml", "facetmill: 1\nparams: {n: integer}\nstages: [{relax: '${n}'}, {split: midpoint}]\n")
+        self.assertEqual(self.done_anew(*one), ["in/a.off"])
+        self.write("set.yaml", "n: 3\n")
+        self.assertEqual(self.done_anew(*one), ["in/a.off"])
+        arguments = ("p.yaml", "-D", "input=in/a.off", "-p", "set.yaml")
+        self.assertEqual(self.mill("plan", *arguments, "--inputs").stdout.split(), ["in/a.off", "set.yaml", "more/a.yaml"])
+        self.mill("run", *arguments, "-o", "run", "--depfile", "run.d")
+        for name in ("p.yaml", "in/a.off", "set.yaml", "more/a.yaml"):
+            self.assertIn(f"\n{name}:", (self.dir / "run.d").read_text())
+        for engine in ("ninja", "make", "snakemake"):
+            self.assertIn("more/a.yaml", self.mill("export", "--to", engine, "p.yaml", *one, "-o", "out").stdout)
 
     def test_lists_in_tables(self):
         self.write("p.yaml", """facetmill: 1

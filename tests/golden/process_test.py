@@ -7,6 +7,7 @@ import pathlib
 import signal
 import struct
 import subprocess
+import threading
 import time
 
 from support import FACETMILL, SCAN, Case, main
@@ -52,6 +53,86 @@ class Process(Case):
             self.assertEqual((out / "early.ply").read_text(), "older")
             (out / "early.ply").unlink()
             out.rmdir()
+
+    def watch(self, *arguments):
+        """A watched run of p.yaml in the folder, and a function that waits for the next time it has ended."""
+        run = subprocess.Popen([str(FACETMILL), "run", "p.yaml", "--watch", "--log", "json", *arguments], cwd=self.dir,
+                               stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.stderr.close)
+        self.addCleanup(run.kill)
+
+        def next_end():
+            lines = []
+            hung = threading.Timer(60, run.kill)
+            hung.start()
+            self.addCleanup(hung.cancel)
+            for line in run.stderr:
+                lines.append(json.loads(line))
+                if lines[-1].get("event") == "watch":
+                    hung.cancel()
+                    return lines[-1]["exit_code"], lines
+            self.fail(f"it ended: {lines}")
+        return run, next_end
+
+    def test_a_watched_run_is_run_again(self):
+        self.write("in.off", TRIANGLE)
+        self.write("a.yaml", "facetmill: 1\nstages: [split: midpoint]\n")
+        self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [load: in.off, include: a.yaml, write: o.off]\n")
+        run, next_end = self.watch()
+        self.assertEqual(next_end()[0], 0)
+        out = self.dir / "o.off"
+        made = [out.read_text()]
+        for name, text in (("in.off", TRIANGLE.replace("1 0 0", "2 0 0")),
+                           ("a.yaml", "facetmill: 1\nstages: [{split: midpoint}, {split: midpoint}]\n"),
+                           ("p.yaml", (self.dir / "p.yaml").read_text().replace("include: a.yaml", "relax: 1"))):
+            time.sleep(0.05)  # file systems count time in steps
+            self.write(name, text)
+            code, lines = next_end()
+            self.assertEqual(code, 0, lines)
+            self.assertIn(f"{name} has changed", [line.get("message") for line in lines])
+            made.append(out.read_text())
+        self.assertEqual(len(set(made)), 4)
+        # What fails is watched on, and so is what is gone.
+        for name, code in (("in.off", 6), ("p.yaml", 2)):
+            good = (self.dir / name).read_text()
+            self.write(name, "no mesh, no pipeline")
+            self.assertEqual(next_end()[0], code)
+            (self.dir / name).unlink()
+            self.assertEqual(next_end()[0], 3)
+            self.write(name, good)
+            self.assertEqual(next_end()[0], 0)
+        self.assertEqual(out.read_text(), made[-1])
+        self.assertIsNone(run.poll())
+        run.send_signal(signal.SIGINT)
+        self.assertEqual(run.wait(60), -signal.SIGINT)
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["a.yaml", "in.off", "o.off", "p.yaml"])
+        said = self.mill("run", "-", "--watch", stdin="", expect=2).stderr
+        self.assertIn("--watch cannot read", said)
+
+    def test_events(self):
+        self.write("in.off", TRIANGLE)
+        self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nparams: {input: path}\n"
+                             "stages: [load: '${input}', split: midpoint, validate: {closed: true}, write: o.off]\n")
+        for arguments, asset in ((("run", "p.yaml", "-D", "input=in.off"), None),
+                                 (("batch", "p.yaml", "--input", "in.off", "-o", "."), "in.off")):
+            said = self.mill(*arguments, "--log", "json", expect=1).stderr
+            stages = [e for e in map(json.loads, said.splitlines()) if e.get("event") == "stage"]
+            self.assertEqual([(e["name"], e["faces_before"], e["faces_after"], e.get("asset")) for e in stages],
+                             [("load", 0, 1, asset), ("split", 1, 4, asset), ("validate", 4, 4, asset)])
+            self.assertTrue(all(e["seconds"] >= 0 and e["done"] for e in stages))
+
+    def test_migrate(self):
+        self.write("good.yaml", "facetmill: 1\nparams: {input: path}\nstages: [load: '${input}']\n")
+        self.write("later.yaml", "facetmill: 2\nstages: [load: a.ply]\n")
+        self.write("old.yaml", "facetmill: 1\nstages: [load: a.ply, {simplify: {rato: 10%}}]\n")
+        self.assertIn("good.yaml: format 1, nothing to change", self.mill("migrate", "--check", "good.yaml").stderr)
+        before = self.files()
+        said = self.mill("migrate", "--check", "good.yaml", "later.yaml", "old.yaml", expect=2).stderr
+        for place in ("good.yaml: format 1", "later.yaml:1:12: error[E-FORMAT-VERSION]", "old.yaml:2:35: error[E-KEY]"):
+            self.assertIn(place, said)
+        self.mill("migrate", "good.yaml", "later.yaml", expect=2)
+        self.assertEqual(self.files(), before)
+        self.mill("migrate", "--check", "none.yaml", expect=3)
 
     def test_a_shell_sees_130(self):
         self.write("long.yaml", LONG.format(scan=SCAN))

@@ -78,7 +78,7 @@ class Schema(Case):
                 for one in schema.get(key, []):
                     walk(one, names)
 
-        for what in ("pipeline", "report", "timings", "info", "diff"):
+        for what in ("pipeline", "report", "batch", "timings", "info", "diff"):
             schema = json.loads(self.mill("schema", what).stdout)
             jsonschema.Draft202012Validator.check_schema(schema)
             walk(schema, set())

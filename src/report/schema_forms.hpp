@@ -1,0 +1,54 @@
+#pragma once
+// Forms that the JSON Schemas of reports are made of.
+
+#include "base/json.hpp"
+
+#include <initializer_list>
+#include <string>
+
+namespace facetmill::report {
+
+inline Json typed(const char* type, const char* about = nullptr) {
+    Json schema = {{"type", type}};
+    if (about) schema["description"] = about;
+    return schema;
+}
+
+inline Json nullable(const char* type, const char* about = nullptr) {
+    Json schema = {{"type", Json::array({type, "null"})}};
+    if (about) schema["description"] = about;
+    return schema;
+}
+
+inline Json choice(std::initializer_list<const char*> names) {
+    Json all = Json::array();
+    for (const char* name : names) all.push_back(name);
+    return {{"enum", all}};
+}
+
+/// An object that has exactly these keys.
+inline Json closed_object(Json properties) {
+    Json required = Json::array();
+    for (const auto& [name, schema] : properties.items()) required.push_back(name);
+    return {{"type", "object"},
+            {"properties", std::move(properties)},
+            {"required", std::move(required)},
+            {"additionalProperties", false}};
+}
+
+inline Json list_of(Json items, const char* about) {
+    return {{"type", "array"}, {"items", std::move(items)}, {"description", about}};
+}
+inline Json reference(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; }
+
+/// An error or a warning, as diagnostics_json has it.
+inline Json diagnostic_schema() {
+    return closed_object({{"id", typed("string")},
+                          {"message", typed("string")},
+                          {"where", nullable("string")},
+                          {"hint", nullable("string")}});
+}
+
+inline constexpr const char* schema_dialect = "https://json-schema.org/draft/2020-12/schema";
+
+} // namespace facetmill::report
