@@ -29,6 +29,28 @@ std::vector<std::vector<std::uint32_t>> in_bands(const SceneDrawing& drawing, in
     return bands;
 }
 
+/// A red ring with a white rim around a place of the picture, in pixels.
+void draw_ring(Picture& picture, double x, double y) {
+    const double radius = std::max(6.0, picture.width / 60.0);
+    constexpr double line = 1.5, rim = 2.5;
+    const auto bound = [&](double at, int count) {
+        return static_cast<int>(std::clamp<double>(std::floor(at), 0, count));
+    };
+    const double reach = radius + rim + 1;
+    for (int py = bound(y - reach, picture.height); py < bound(y + reach, picture.height); ++py)
+        for (int px = bound(x - reach, picture.width); px < bound(x + reach, picture.width); ++px) {
+            const double dx = px + 0.5 - x, dy = py + 0.5 - y;
+            const double off = std::abs(std::sqrt(dx * dx + dy * dy) - radius);
+            if (off > rim) continue;
+            const std::array<std::uint8_t, 4> colour = off > line
+                                                           ? std::array<std::uint8_t, 4>{255, 255, 255, 255}
+                                                           : std::array<std::uint8_t, 4>{200, 20, 20, 255};
+            const std::size_t at = static_cast<std::size_t>(py) * static_cast<std::size_t>(picture.width) +
+                                   static_cast<std::size_t>(px);
+            std::copy(colour.begin(), colour.end(), &picture.rgba[4 * at]);
+        }
+}
+
 /// One picture on its way.
 class PictureDrawing {
   public:
@@ -48,6 +70,9 @@ class PictureDrawing {
         picture.rgba.resize(canvas_.seen.size() / (Canvas::samples * Canvas::samples) * 4);
         parallel_for(
             bands_.size(), [&](std::size_t band) { develop(band, picture); }, 1);
+        for (const Vec3& mark : settings_.marks)
+            if (const Vec3 seen = view_.of(mark); is_finite(seen))
+                draw_ring(picture, seen.x / Canvas::samples, seen.y / Canvas::samples);
         picture.scale = view_.scale / Canvas::samples;
         picture.faces = drawing_.faces();
         return picture;

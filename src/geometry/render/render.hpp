@@ -74,6 +74,7 @@ struct PictureSettings {
     double point = 1;                             ///< pixels, a side of the square of a vertex without faces
     std::optional<std::array<float, 3>> ground{}; ///< linear background; none: transparent
     std::function<bool(const Part&)> shows{};     ///< which parts; empty: all
+    std::vector<Vec3> marks{}; ///< places in world space with rings around them, over all else
     std::shared_ptr<const MaterialLooks> looks{}; ///< with textures; none: Material::base_colour alone
 };
 

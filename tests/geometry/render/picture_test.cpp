@@ -302,6 +302,16 @@ TEST_CASE("perspective makes what is near larger, and zoom what is in the middle
     CHECK(corner.scale == Approx(8 * 92.0));
 }
 
+TEST_CASE("rings mark places, over all else", "[geometry]") {
+    PictureSettings s = seen_from({0, 0, 1});
+    s.marks = {{0.5, 0.5, -100}, {NAN, 0, 0}};
+    const Picture picture = picture_of(square(), s);
+    const Pixel ring = at(picture, 50 + 6, 50), middle = at(picture, 50, 50);
+    CHECK(ring.r == 200);
+    CHECK(ring.g == 20);
+    CHECK(middle.g > 150); // inside it the scene is seen
+}
+
 TEST_CASE("folds are darker than planes", "[geometry]") {
     Mesh corner; // floor and back wall, seen from above at 45 degrees
     corner.positions = {{0, 0, 0}, {4, 0, 0}, {4, 0, 2}, {0, 0, 2}, {0, 2, 0}, {4, 2, 0}};
