@@ -10,6 +10,7 @@
 #include "mesh/power_scale.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
+#include "report/check_text.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>
@@ -217,11 +218,36 @@ class Runner {
         constexpr std::size_t max_bytes = 4 << 20;
         if (picture_bytes_ > max_bytes) return;
         failures_.guarded({}, "a picture", [&] {
-            std::string picture = picture_for_page(scene, {});
+            const std::vector<Vec3> places = failing_places_of(stage);
+            std::string picture =
+                places.empty() ? picture_for_page(scene, {}) : picture_of_failures(scene, places);
             if (picture == last_picture_) return;
             picture_bytes_ += picture.size();
             last_picture_ = stage.picture = std::move(picture);
         });
+    }
+
+    /// What the stage's checks have just found.
+    std::vector<Vec3> failing_places_of(const report::StageRecord& stage) {
+        std::vector<Vec3> places;
+        for (const auto& check : record().checks) {
+            if (check.stage != stage.name) continue;
+            const std::vector<Vec3> more = report::failing_places(check);
+            places.insert(places.end(), more.begin(), more.end());
+        }
+        return places;
+    }
+
+    /// The whole scene with a ring around each place, and the first of them magnified, with its faces' edges.
+    std::string picture_of_failures(const Scene& scene, const std::vector<Vec3>& places) {
+        PictureSettings whole, close;
+        whole.paint = close.paint = Paint::plain;
+        whole.marks = places;
+        close.marks = {places.front()};
+        close.at = places.front();
+        close.zoom = 10;
+        close.edges = EdgeLines::all;
+        return io::base64(io::png(sheet_of({picture_of(scene, whole), picture_of(scene, close)}, 2)));
     }
 
     /// One of many in an index.

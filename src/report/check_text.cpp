@@ -92,4 +92,15 @@ std::string locations_text(const Check& check) {
     return text + location_text(first);
 }
 
+std::vector<Vec3> failing_places(const Check& check) {
+    std::vector<Vec3> places;
+    if (check.passed || !check.evidence.is_array()) return places;
+    for (const Json& entry : check.evidence) {
+        if (!entry.contains("at")) continue;
+        const Json& at = entry["at"];
+        places.push_back({at[0].get<double>(), at[1].get<double>(), at[2].get<double>()});
+    }
+    return places;
+}
+
 } // namespace facetmill::report

@@ -1,6 +1,7 @@
 #pragma once
 // Checks in words, as the renderers share them.
 
+#include "base/vec.hpp"
 #include "report/record.hpp"
 
 namespace facetmill::report {
@@ -12,5 +13,7 @@ std::string found_text(const Check& check);
 /// "12 locations, 2 new, the first face 7 of 'part' at 1 2 3", "part 'wheel' 1200, part 'body' 800"; empty
 /// when there is no evidence.
 std::string locations_text(const Check& check);
+/// The places in the world that speak against a check that did not hold; empty when it held or is about none.
+std::vector<Vec3> failing_places(const Check& check);
 
 } // namespace facetmill::report

@@ -41,14 +41,28 @@ std::string stage_rows(const RunRecord& record) {
     return rows;
 }
 
+/// "'closed', 'manifold'": the checks of the stage whose places its picture shows; empty when there are none.
+std::string shown_failures(const RunRecord& record, const StageRecord& stage) {
+    std::string names;
+    for (const auto& c : record.checks)
+        if (c.stage == stage.name && !failing_places(c).empty())
+            names += fmt::format("{}'{}'", names.empty() ? "" : ", ", c.name);
+    return names;
+}
+
 std::string pictures(const RunRecord& record) {
     std::string figures;
     for (const auto& s : record.stages) {
         if (s.picture.empty()) continue;
-        const std::string caption = fmt::format("{}: {} faces", s.name, count(s.after, "faces"));
-        figures += fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
+        const std::string failures = shown_failures(record, s);
+        const std::string caption =
+            failures.empty()
+                ? fmt::format("{}: {} faces", s.name, count(s.after, "faces"))
+                : fmt::format("{}: where {} did not hold; on the right the first place, magnified", s.name,
+                              failures);
+        figures += fmt::format("<figure{2}><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
                                "<figcaption>{0}</figcaption></figure>\n",
-                               escaped(caption), s.picture);
+                               escaped(caption), s.picture, failures.empty() ? "" : " class=\"wide\"");
     }
     if (figures.empty()) return {};
     return fmt::format("<h2>Pictures</h2>\n<div class=\"pictures\">\n{}</div>\n<p class=\"soft\">After each "

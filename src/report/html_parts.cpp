@@ -12,15 +12,17 @@ constexpr const char* style = R"(
 :root { color-scheme: light dark; --line: #8884; --good: #2a7d3f; --bad: #c0362c; --warn: #a86400; --soft: #8882; }
 @media (prefers-color-scheme: dark) { :root { --good: #6fca86; --bad: #ff8a80; --warn: #f0b45a; } }
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 68rem; margin: 2rem auto; padding: 0 1rem; }
-h1 { font-size: 1.5rem; margin-bottom: .2rem; } h2 { font-size: 1.1rem; margin: 2rem 0 .5rem; }
+h1 { font-size: 1.5rem; margin-bottom: .2rem; overflow-wrap: break-word; } h2 { font-size: 1.1rem; margin: 2rem 0 .5rem; }
 .scroll { overflow-x: auto; } table { border-collapse: collapse; width: 100%; }
 th, td { text-align: left; padding: .3rem .8rem .3rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
-code { font-family: ui-monospace, monospace; font-size: .9em; overflow-wrap: anywhere; }
+code { font-family: ui-monospace, monospace; font-size: .9em; overflow-wrap: break-word; }
 .good { color: var(--good); } .bad { color: var(--bad); } .warn { color: var(--warn); } .soft { opacity: .7; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(15rem, 1fr)); gap: .8rem; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(15rem, 100%), 1fr)); gap: .8rem; }
+.wide { grid-column: 1 / -1; }
 figure { margin: 0; background: var(--soft); border-radius: .4rem; } img { display: block; width: 100%; height: auto; }
 figcaption { padding: .3rem .7rem .5rem; font-size: .9em; }
+td:first-child span { white-space: nowrap; }
 .verdict { font-weight: 600; padding: .6rem 1rem; background: var(--soft); border-radius: .4rem; }
 )";
 

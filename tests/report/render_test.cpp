@@ -3,6 +3,7 @@
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
 #include "mesh/shapes.hpp"
+#include "report/check_text.hpp"
 #include "report/render.hpp"
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
@@ -228,6 +229,23 @@ TEST_CASE("HTML is one page that escapes what others wrote", "[report]") {
     CHECK(shown.find("src=\"data:image/png;base64,iVBORw0KGgo=\"") == shown.find("src="));
     CHECK(html.find("href=") == std::string::npos);
     CHECK(html.find("prefers-color-scheme: dark") != std::string::npos);
+}
+
+TEST_CASE("the picture of a stage whose checks failed says what it shows", "[report]") {
+    RunRecord record;
+    auto& stage = record.stages.emplace_back();
+    stage.name = stage.stage = "validate";
+    stage.picture = "iVBORw0KGgo=";
+    auto& check = record.checks.emplace_back();
+    check.name = "closed";
+    check.stage = "validate";
+    check.evidence = Json::parse(R"([{"part": "a", "at": [1, 2.5, -3]}, {"part": "b", "amount": 2}])");
+    CHECK(failing_places(check).empty());
+    CHECK(to_html(record).find("did not hold") == std::string::npos);
+    check.passed = false;
+    CHECK(failing_places(check) == std::vector<Vec3>{{1, 2.5, -3}});
+    CHECK(to_html(record).find("validate: where &#39;closed&#39; did not hold; on the right") !=
+          std::string::npos);
 }
 
 TEST_CASE("a report's suffix chooses its form", "[report]") {
