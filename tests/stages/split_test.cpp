@@ -73,6 +73,7 @@ TEST_CASE("split: narrow faces that are left, and faces that a method leaves, ar
     const auto r = run_stage("split", options({{"min_angle", "20"}, {"passes", "10"}}), scene_of(needle));
     REQUIRE(r.warnings() == std::vector<std::string>{"W-SPLIT-STOPPED"});
     CHECK(r.record.result["parts"][0]["stopped_by"] == "narrow");
+    CHECK(r.record.warnings.at(0).message.find("degrees left, which had 1: ") != std::string::npos);
     CHECK(r.mesh().face_count() < 5);
     for (const char* method : {"fan", "halve", "diagonal"}) {
         const auto still = run_stage("split", options({{"method", method}}), scene_of(needle));

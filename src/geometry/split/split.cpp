@@ -107,6 +107,7 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
     using Stop = SplitResult::Stop;
     SplitResult result;
     const Mesh* from = &mesh;
+    if (settings.min_angle > 0) result.narrow_before = narrow_faces(triangulated(mesh), settings);
     while (true) {
         if (is_reached(*from, settings)) {
             result.stop = Stop::target;

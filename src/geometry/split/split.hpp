@@ -64,6 +64,7 @@ struct SplitResult {
     Stop stop = Stop::passes;
     std::size_t folded = 0; ///< faces whose pieces lie over each other (folding_faces), summed over passes
     std::size_t narrow = 0; ///< with min_angle: triangles left that have a smaller angle
+    std::size_t narrow_before = 0; ///< such triangles that there were
     std::size_t shared = 0; ///< spots where two faces share two edges, so that new edges of theirs coincide
                             ///< and have more than two faces; summed over passes
 };

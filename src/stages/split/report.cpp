@@ -79,10 +79,11 @@ const char* only_splits(SplitMethod method) {
 void warn_of_narrow_faces(const Part& part, const SplitResult& r, const SplitSettings& s, Context& context) {
     const char* why = r.stop == SplitResult::Stop::narrow ? "another pass would make more of them"
                                                           : "passes ended the split";
-    context.warn("W-SPLIT-STOPPED",
-                 fmt::format("part '{}' has {} faces with an angle below {:.4g} degrees left: {}", part.name,
-                             r.narrow, s.min_angle * (180 / pi), why),
-                 "a split never makes an angle larger: relax evens faces out, simplify removes narrow ones");
+    context.warn(
+        "W-SPLIT-STOPPED",
+        fmt::format("part '{}' has {} faces with an angle below {:.4g} degrees left, which had {}: {}",
+                    part.name, r.narrow, s.min_angle * (180 / pi), r.narrow_before, why),
+        "a split never makes an angle larger: relax evens faces out, simplify removes narrow ones");
 }
 
 } // namespace
