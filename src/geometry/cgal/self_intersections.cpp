@@ -14,6 +14,7 @@
 #include <array>
 #include <atomic>
 #include <iterator>
+#include <memory>
 
 namespace facetmill {
 
@@ -24,11 +25,6 @@ using Point = Kernel::Point_3;
 using Segment = Kernel::Segment_3;
 using Triangle = Kernel::Triangle_3;
 using Corners = std::array<Vec3, 3>;
-
-struct Facet {
-    std::array<Index, 3> vertices;
-    Index face;
-};
 
 /// Brings the vertices of two triangles into step: the shared ones first, in the same order. Returns how
 /// many.
@@ -59,54 +55,75 @@ bool meet(const Corners& a, const Corners& b, int shared) {
     return CGAL::do_intersect(ta, tb);
 }
 
-using Pairs = std::vector<std::pair<Index, Index>>;
-
-/// The first pairs of many, and how many there are.
-struct First {
-    std::size_t count = 0;
-    Pairs pairs;
-
-    void add(std::pair<Index, Index> pair, std::size_t limit) {
-        ++count;
-        if (limit == 0) return;
-        pairs.push_back(pair);
-        trim(limit);
-    }
-    void add(const First& others, std::size_t limit) {
-        count += others.count;
-        pairs.insert(pairs.end(), others.pairs.begin(), others.pairs.end());
-        trim(limit);
-    }
-    /// keep(limit) once there are twice as many, so that it costs little for each.
-    void trim(std::size_t limit) {
-        if (pairs.size() / 2 >= limit && pairs.size() >= 4096) keep(limit);
-    }
-    /// Drops all but the first `limit`, in no order.
-    void keep(std::size_t limit) {
-        if (pairs.size() <= limit) return;
-        const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(limit);
-        std::nth_element(pairs.begin(), end, pairs.end());
-        pairs.erase(end, pairs.end());
-    }
-};
-
-/// Pairs that run into each other, and pairs that only touch.
-struct Kinds {
-    First real, touching;
-    std::size_t box_pairs = 0;
-};
+} // namespace
 
 /// The triangles to test, those of a polygon one by one.
-class Search {
+class SelfIntersectionSearch::Search {
+    struct Facet {
+        std::array<Index, 3> vertices;
+        Index face;
+    };
+
+    using Pairs = std::vector<std::pair<Index, Index>>;
+
+    /// The first pairs of many, and how many there are.
+    struct First {
+        std::size_t count = 0;
+        Pairs pairs;
+
+        void add(std::pair<Index, Index> pair, std::size_t limit) {
+            ++count;
+            if (limit == 0) return;
+            pairs.push_back(pair);
+            trim(limit);
+        }
+        void add(const First& others, std::size_t limit) {
+            count += others.count;
+            pairs.insert(pairs.end(), others.pairs.begin(), others.pairs.end());
+            trim(limit);
+        }
+        /// keep(limit) once there are twice as many, so that it costs little for each.
+        void trim(std::size_t limit) {
+            if (pairs.size() / 2 >= limit && pairs.size() >= 4096) keep(limit);
+        }
+        /// Drops all but the first `limit`, in no order.
+        void keep(std::size_t limit) {
+            if (pairs.size() <= limit) return;
+            const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(limit);
+            std::nth_element(pairs.begin(), end, pairs.end());
+            pairs.erase(end, pairs.end());
+        }
+    };
+
+    /// Pairs that run into each other, and pairs that only touch.
+    struct Kinds {
+        First real, touching;
+        std::size_t box_pairs = 0;
+    };
+
   public:
-    Search(const Mesh& mesh, const std::vector<std::uint8_t>& among)
-        : surface_(surface_of(mesh)), pairs_(boxes(), of_triangles(among)) {
-        facets_.resize(pairs_.items().size());
-        parallel_for(facets_.size(), [&](std::size_t i) {
-            const Index t = pairs_.items()[i];
-            const Index* const c = &surface_.corners[std::size_t{3} * t];
-            facets_[i] = {{c[0], c[1], c[2]}, surface_.face(t)};
-        });
+    explicit Search(const Mesh& mesh)
+        : face_count_(mesh.face_count()), surface_(surface_of(mesh)), boxes_(surface_.size()),
+          pairs_(with_boxes({})) {
+        number_facets();
+    }
+
+    void choose(const std::vector<std::uint8_t>& among) { pairs_.choose(of_triangles(among)); }
+
+    /// Whether that can be: not where polygons are cut into another number of triangles now.
+    bool move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved) {
+        if (surface_.faces.empty()) {
+            surface_.positions = mesh.positions;
+            pairs_.move_to(with_boxes(moved), moved);
+            return true;
+        }
+        Surface now = surface_of(mesh);
+        if (now.faces != surface_.faces) return false;
+        surface_ = std::move(now);
+        const std::vector<std::uint8_t> triangles = of_triangles(moved);
+        pairs_.move_to(with_boxes(triangles), triangles);
+        number_facets();
+        return true;
     }
 
     SelfIntersections run(std::size_t limit, bool apart) const {
@@ -146,43 +163,48 @@ class Search {
                 all.box_pairs};
     }
 
-    MeetingFaces faces(std::size_t count, std::span<const std::pair<Index, Index>> exempt,
-                       std::size_t max_box_pairs) const {
+    MeetingFaces faces(std::span<const std::pair<Index, Index>> exempt, std::size_t max_box_pairs) const {
         MeetingFaces known;
-        if (max_box_pairs < std::size_t(-1)) known.box_pairs = pairs_.count(max_box_pairs);
-        known.too_many = known.box_pairs > max_box_pairs;
-        if (known.too_many) return known;
-        known.faces.resize(count);
+        known.faces.resize(face_count_);
         const auto flag = [&](Index f) { return std::atomic_ref(known.faces[f]); };
         constexpr auto relaxed = std::memory_order_relaxed;
-        known.box_pairs = pairs_.reduce(
-            std::size_t{0},
-            [&](std::size_t& looked_at, std::size_t i, std::size_t j) {
-                ++looked_at;
-                const auto [f, g] = std::minmax(facets_[i].face, facets_[j].face);
-                if (flag(f).load(relaxed) && flag(g).load(relaxed)) return;
-                const auto is_exempt = [&] {
-                    return std::binary_search(exempt.begin(), exempt.end(), std::pair{f, g});
-                };
-                if (facets_meet(facets_[i], facets_[j], is_exempt) < 0) return;
-                flag(f).store(1, relaxed);
-                flag(g).store(1, relaxed);
-            },
-            [](std::size_t a, std::size_t b) { return a + b; });
+        known.box_pairs = pairs_.for_each(max_box_pairs, [&](std::size_t i, std::size_t j) {
+            const auto [f, g] = std::minmax(facets_[i].face, facets_[j].face);
+            if (flag(f).load(relaxed) && flag(g).load(relaxed)) return;
+            const auto is_exempt = [&] {
+                return std::binary_search(exempt.begin(), exempt.end(), std::pair{f, g});
+            };
+            if (facets_meet(facets_[i], facets_[j], is_exempt) < 0) return;
+            flag(f).store(1, relaxed);
+            flag(g).store(1, relaxed);
+        });
+        known.too_many = known.box_pairs > max_box_pairs;
+        if (known.too_many) known.faces.clear(); // which of them were found depends on the threads
         return known;
     }
 
   private:
-    std::vector<Box> boxes() const {
-        std::vector<Box> boxes(surface_.size());
-        parallel_for(boxes.size(), [&](std::size_t t) {
+    /// The boxes, after those of the triangles that are flagged, or of all where none are given, are renewed.
+    std::span<const Box> with_boxes(const std::vector<std::uint8_t>& moved) {
+        parallel_for(boxes_.size(), [&](std::size_t t) {
+            if (!moved.empty() && !moved[t]) return;
+            boxes_[t] = {};
             const Vec3 &a = surface_.point(t, 0), &b = surface_.point(t, 1), &c = surface_.point(t, 2);
             if (!is_finite(a) || !is_finite(b) || !is_finite(c) || is_degenerate(a, b, c)) return;
-            boxes[t].add(a);
-            boxes[t].add(b);
-            boxes[t].add(c);
+            boxes_[t].add(a);
+            boxes_[t].add(b);
+            boxes_[t].add(c);
         });
-        return boxes;
+        return boxes_;
+    }
+
+    void number_facets() {
+        facets_.resize(pairs_.items().size());
+        parallel_for(facets_.size(), [&](std::size_t i) {
+            const Index t = pairs_.items()[i];
+            const Index* const c = &surface_.corners[std::size_t{3} * t];
+            facets_[i] = {{c[0], c[1], c[2]}, surface_.face(t)};
+        });
     }
 
     /// Of triangles, from that of faces.
@@ -219,21 +241,36 @@ class Search {
         return !surely_apart(a, b, shared) && !passes() && meet(a, b, shared) ? shared : -1;
     }
 
+    std::size_t face_count_;
     Surface surface_;
+    std::vector<Box> boxes_; ///< [triangles]
     BoxPairs pairs_;
     std::vector<Facet> facets_; ///< along the curve
 };
 
-} // namespace
+SelfIntersectionSearch::SelfIntersectionSearch(const Mesh& mesh) : search_(std::make_unique<Search>(mesh)) {}
+SelfIntersectionSearch::SelfIntersectionSearch(SelfIntersectionSearch&&) noexcept = default;
+SelfIntersectionSearch& SelfIntersectionSearch::operator=(SelfIntersectionSearch&&) noexcept = default;
+SelfIntersectionSearch::~SelfIntersectionSearch() = default;
 
-SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings) {
-    return Search(mesh, settings.among).run(settings.limit, settings.apart);
+void SelfIntersectionSearch::move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved) {
+    if (!search_->move_to(mesh, moved)) search_ = std::make_unique<Search>(mesh);
 }
 
-MeetingFaces self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
-                                     std::span<const std::pair<Index, Index>> exempt,
-                                     std::size_t max_box_pairs) {
-    return Search(mesh, among).faces(mesh.face_count(), exempt, max_box_pairs);
+SelfIntersections SelfIntersectionSearch::pairs(const SelfIntersectionSettings& settings) {
+    search_->choose(settings.among);
+    return search_->run(settings.limit, settings.apart);
+}
+
+MeetingFaces SelfIntersectionSearch::faces(const std::vector<std::uint8_t>& among,
+                                           std::span<const std::pair<Index, Index>> exempt,
+                                           std::size_t max_box_pairs) {
+    search_->choose(among);
+    return search_->faces(exempt, max_box_pairs);
+}
+
+SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings) {
+    return SelfIntersectionSearch(mesh).pairs(settings);
 }
 
 } // namespace facetmill

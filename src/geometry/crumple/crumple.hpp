@@ -123,17 +123,18 @@ struct AvoidResult {
 /// folded neighbours included) and all faces that have lost their area are found, and every place of them
 /// takes the next lower share, all at once, until there are none. Before the first round, places take lower
 /// shares until no two corners of a face are drawn apart by more than eight times its longest edge: it would
-/// meet a great many others. After eight rounds the places around those are lowered too, after sixteen twice
-/// as far around in each round, so that the rounds are at most some forty. Once 48 pairs of triangles with
-/// boxes that meet were looked at for each face, shares fall to an eighth at once, and after three such
-/// rounds to 0, those around too (hurried). Shares only fall and places without a move are where they were,
-/// so it ends. Pairs that met before the move are exempt. Sharing is by place: unwelded copies of a vertex
-/// are one.
+/// meet a great many others. Where a sample of the faces tells that more than an eighth of them would be
+/// found, half as much counts as too far, and so on (hurried). After eight rounds the places around those are
+/// lowered too, after sixteen twice as far around in each round, so that the rounds are at most some forty.
+/// Once 32 pairs of triangles with boxes that meet were looked at for each face, or three times as many as
+/// met before the move, shares fall to an eighth at once, and after three such rounds to 0, those around too
+/// (hurried). Shares only fall and places without a move are where they were, so it ends. Pairs that met
+/// before the move are exempt. Sharing is by place: unwelded copies of a vertex are one.
 ///
 /// Positions are rounded to float32 in part space, before and after: what is decided, exactly, is what files
 /// hold. Polygons stand for their triangles as triangulated() cuts them. With only_look nothing is lowered.
 /// The same for any number of threads. A round takes about as long as finding the self-intersections of the
-/// faces that it lowered.
+/// faces that it lowered; the tree of boxes is sorted once.
 ///
 /// Only faces of one sheet are kept apart. Throws limit (E-LIMIT) when more than max_pairs pairs of a sheet
 /// meet before: they could not all be exempt.

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -38,17 +39,38 @@ struct SelfIntersections {
 SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings = {});
 
 struct MeetingFaces {
-    bool too_many = false;           ///< box pairs: faces were not looked for
+    bool too_many = false;           ///< box pairs: what faces were found is left out
     std::vector<std::uint8_t> faces; ///< [faces] 1 for those that meet another
     std::size_t box_pairs = 0;       ///< as above
 };
 
-/// The faces of the pairs that find_self_intersections would find, the exempt ones (lower face first,
-/// ascending) left out. Where a face is in many pairs this is much faster: a pair of faces that are known
-/// both is not looked at. Which pair tells of a face depends on the threads, whether one does, does not.
-/// Where more than max_box_pairs would have to be looked at, they are only counted, up to there.
-MeetingFaces self_intersecting_faces(const Mesh& mesh, const std::vector<std::uint8_t>& among,
-                                     std::span<const std::pair<Index, Index>> exempt,
-                                     std::size_t max_box_pairs = std::size_t(-1));
+/// Looks for pairs of faces of a mesh again and again, while its vertices move. The tree is sorted once; what
+/// a look takes after that is for the faces that have moved and for those around them.
+class SelfIntersectionSearch {
+  public:
+    explicit SelfIntersectionSearch(const Mesh& mesh);
+    SelfIntersectionSearch(SelfIntersectionSearch&&) noexcept;
+    SelfIntersectionSearch& operator=(SelfIntersectionSearch&&) noexcept;
+    ~SelfIntersectionSearch();
+
+    /// The vertices of the mesh, which is the same else, have moved: those of the faces that are flagged, or
+    /// where none are given, of any.
+    void move_to(const Mesh& mesh, const std::vector<std::uint8_t>& moved);
+
+    /// As find_self_intersections.
+    SelfIntersections pairs(const SelfIntersectionSettings& settings);
+
+    /// The faces of those pairs, the exempt pairs (lower face first, ascending)
+    /// left out. Where a face is in many pairs this is much faster: a pair of faces that are known both is
+    /// not looked at. Which pair tells of a face depends on the threads, whether one does, does not. Ends
+    /// when more than max_box_pairs were looked at.
+    MeetingFaces faces(const std::vector<std::uint8_t>& among,
+                       std::span<const std::pair<Index, Index>> exempt,
+                       std::size_t max_box_pairs = std::size_t(-1));
+
+  private:
+    class Search;
+    std::unique_ptr<Search> search_;
+};
 
 } // namespace facetmill

@@ -6,6 +6,7 @@
 #include "base/parallel.hpp"
 #include "base/vec.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -54,6 +55,18 @@ struct BoxLevels {
     std::vector<std::size_t> level_begin; ///< into nodes; the last level is the root alone
     std::vector<Node> nodes;
 
+    /// Sets the items that changed(i) anew, as above, and the boxes over them. The frame stays.
+    template <class Changed, class Set>
+    void update(std::size_t items, Changed&& changed, Set&& set) {
+        std::vector<std::uint8_t> moved = update_level(0, items, changed, set);
+        for (std::size_t level = 1; level < level_begin.size(); ++level)
+            moved = update_level(
+                level, count(level - 1), [&](std::size_t child) { return moved[child] != 0; },
+                [&](Node& node, std::size_t slot, std::size_t child) {
+                    node.set(slot, nodes[level_begin[level - 1] + child]);
+                });
+    }
+
   private:
     void number_nodes(std::size_t items);
     /// How many nodes a level has.
@@ -73,6 +86,21 @@ struct BoxLevels {
                         first[n].clear(slot);
             },
             2048);
+    }
+    /// [nodes of the level] 1 for those of which something changed.
+    template <class Changed, class Set>
+    std::vector<std::uint8_t> update_level(std::size_t level, std::size_t children, Changed&& changed,
+                                           Set&& set) {
+        Node* const first = nodes.data() + level_begin[level];
+        std::vector<std::uint8_t> moved(count(level));
+        parallel_for(moved.size(), [&](std::size_t n) {
+            for (std::size_t i = 4 * n; i < std::min(4 * n + 4, children); ++i) {
+                if (!changed(i)) continue;
+                set(first[n], i - 4 * n, i);
+                moved[n] = 1;
+            }
+        });
+        return moved;
     }
 };
 

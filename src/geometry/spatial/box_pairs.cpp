@@ -4,9 +4,10 @@
 
 namespace facetmill {
 
-BoxPairs::BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among) {
-    if (boxes.empty()) return;
-    const Box all = parallel_reduce(
+namespace {
+
+Box box_of_all(std::span<const Box> boxes) {
+    return parallel_reduce(
         boxes.size(), Box{},
         [&](std::size_t begin, std::size_t end) {
             Box b;
@@ -17,21 +18,48 @@ BoxPairs::BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> amo
             a.add(b);
             return a;
         });
-    if (all.empty()) return;
-    levels_.set_frame(all);
-    items_ = order_along_curve(boxes.size(), all, [&](std::size_t i) {
-        return boxes[i].empty() ? all.min : boxes[i].min * 0.5 + boxes[i].max * 0.5;
+}
+
+} // namespace
+
+BoxPairs::BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among) {
+    all_ = box_of_all(boxes);
+    items_ = order_along_curve(boxes.size(), all_, [&](std::size_t i) {
+        return boxes[i].empty() ? all_.min : boxes[i].min * 0.5 + boxes[i].max * 0.5;
     });
-    levels_.build(items_.size(), [&](Node& node, std::size_t slot, std::size_t i) {
-        const Box& box = boxes[items_[i]];
-        if (box.empty())
-            node.clear(slot);
-        else
-            node.set(slot, levels_.local(box.min), levels_.local(box.max));
-    });
-    if (among.empty()) return;
+    build(boxes);
+    choose(among);
+}
+
+void BoxPairs::set(Node& node, std::size_t slot, const Box& box) const {
+    if (box.empty())
+        node.clear(slot);
+    else
+        node.set(slot, levels_.local(box.min), levels_.local(box.max));
+}
+
+void BoxPairs::build(std::span<const Box> boxes) {
+    if (all_.empty()) return;
+    levels_.set_frame(all_);
+    levels_.build(items_.size(),
+                  [&](Node& node, std::size_t slot, std::size_t i) { set(node, slot, boxes[items_[i]]); });
+}
+
+void BoxPairs::move_to(std::span<const Box> boxes, std::span<const std::uint8_t> moved) {
+    if (moved.empty() || levels_.height() == 0) {
+        all_.add(box_of_all(boxes));
+        return build(boxes);
+    }
+    levels_.update(
+        items_.size(), [&](std::size_t i) { return moved[items_[i]] != 0; },
+        [&](Node& node, std::size_t slot, std::size_t i) { set(node, slot, boxes[items_[i]]); });
+}
+
+void BoxPairs::choose(std::span<const std::uint8_t> among) {
+    flags_.clear();
+    if (among.empty() || levels_.height() == 0) return;
     flags_.emplace_back(items_.size());
-    for (std::size_t i = 0; i < items_.size(); ++i) flags_[0][i] = among[items_[i]];
+    parallel_for(items_.size(), [&](std::size_t i) { flags_[0][i] = among[items_[i]]; });
     while (flags_.size() < static_cast<std::size_t>(levels_.height())) {
         const auto& below = flags_.back();
         std::vector<std::uint8_t> flags((below.size() + 3) / 4, 0);

@@ -13,12 +13,20 @@
 
 namespace facetmill {
 
-/// Built once, in parallel, the same for any number of threads; then only read. Items with an empty box are
-/// in no pair. Boxes are of float32 and a little larger than given: some pairs only nearly meet.
+/// Built in parallel, the same for any number of threads. Items with an empty box are in no pair. Boxes are
+/// of float32 and a little larger than given: some pairs only nearly meet.
 class BoxPairs {
   public:
-    /// `among`: only pairs with an item whose number is flagged there; empty: all pairs.
+    /// `among` as in choose.
     explicit BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among = {});
+
+    /// From now on only pairs with an item whose number is flagged; empty: all pairs.
+    void choose(std::span<const std::uint8_t> among);
+
+    /// The items that are flagged, or all when none are given, have these boxes now (those of others are not
+    /// read). Their order stays as it was built, so it takes no sorting; the nearer they stay, the better
+    /// the tree.
+    void move_to(std::span<const Box> boxes, std::span<const std::uint8_t> moved);
 
     /// The items along the curve; neighbours there are neighbours in space.
     const std::vector<Index>& items() const { return items_; }
@@ -43,8 +51,10 @@ class BoxPairs {
             join, 4);
     }
 
-    /// How many pairs there are, or most + 1 when there are more: then the rest is not walked through.
-    std::size_t count(std::size_t most) const {
+    /// found(i, j) for every pair, on several threads at once and in no order. How many there are, or most +
+    /// 1 when there are more: then it was called for some of them only.
+    template <class Found>
+    std::size_t for_each(std::size_t most, Found&& found) const {
         constexpr std::size_t batch = 1024;
         const std::vector<Couple> tasks = couples_above();
         std::atomic<std::size_t> all = 0;
@@ -52,13 +62,15 @@ class BoxPairs {
             tasks.size(),
             [&](std::size_t i) {
                 std::size_t mine = 0;
-                walk(tasks[i], [&](std::size_t, std::size_t) {
+                if (all.load(std::memory_order_relaxed) > most) return;
+                walk(tasks[i], [&](std::size_t a, std::size_t b) {
+                    found(a, b);
                     return ++mine % batch != 0 || all.fetch_add(batch) + batch <= most;
                 });
                 all += mine % batch;
             },
             4);
-        return std::min(all.load(), most + 1);
+        return all <= most ? all.load() : most + 1;
     }
 
   private:
@@ -118,7 +130,11 @@ class BoxPairs {
     /// The couples of an upper level, enough of them to share out.
     std::vector<Couple> couples_above() const;
 
+    void set(Node& node, std::size_t slot, const Box& box) const;
+    void build(std::span<const Box> boxes);
+
     BoxLevels levels_;
+    Box all_; ///< of all boxes that there have been
     std::vector<Index> items_;
     /// For each level whether a child of a node has something flagged; child i of all on level 0 is item i.
     std::vector<std::vector<std::uint8_t>> flags_;

@@ -21,15 +21,16 @@ and frequency is relative to the scene, so files are crumpled alike only when th
 equal.
 
 With self_intersections: avoid, each position has a share of its move: 1, 1/2 ... 1/256, or 0. First
-the shares are lowered until no face is drawn out by more than eight times its longest edge. Then, in every
-round, all pairs of faces that newly intersect, fold over or lose their area are found exactly, and
-their vertices take the next lower share, all at once, until there are no such pairs; after eight
-rounds the vertices around them do so as well, and after sixteen twice as far around in each round.
-The work is bounded: once 48 pairs of nearby triangles were looked at for each face, shares fall to an
-eighth at once, and after three such rounds to 0, also around (W-CRUMPLE-HURRIED).
-Pairs that intersected before are exempt. The report says how many faces were concerned and how many
-vertices got which share. Only faces
-of the same part are kept apart (W-CRUMPLE-PARTS warns when other parts are near). If the search
+the shares are lowered until no face is drawn out by more than eight times its longest edge, or, where
+a sample of the faces tells that more than an eighth of them would intersect others, by more than half
+of that, and so on (W-CRUMPLE-HURRIED). Then, in every round, all pairs of faces that newly intersect,
+fold over or lose their area are found exactly, and their vertices take the next lower share, all at
+once, until there are no such pairs; after eight rounds the vertices around them do so as well, and
+after sixteen twice as far around in each round. The work is bounded: once 32 pairs of nearby triangles
+were looked at for each face, or three times as many as there were before, shares fall to an eighth at
+once, and after three such rounds to 0, also around (W-CRUMPLE-HURRIED). Pairs that intersected before
+are exempt. The report says how many faces were concerned and how many vertices got which share. Only
+faces of the same part are kept apart (W-CRUMPLE-PARTS warns when other parts are near). If the search
 needs more memory than there is, it is refused before it starts.
 
 The split interpolates vertex and wedge attributes and copies face attributes; then normals are

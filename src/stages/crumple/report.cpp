@@ -36,9 +36,10 @@ void declare_avoided(DeclareFields<AvoidResult>& d) {
     d.field(
         "kept_apart", [](const AvoidResult&) { return "faces of the same part"; }, "What was kept apart.");
     d.field("before", &AvoidResult::exempt, "Pairs of faces that intersected before.");
-    d.field("found", &AvoidResult::found,
-            "Faces that the full displacements would make intersect others, lose their area, or draw out by "
-            "more than eight times its longest edge.");
+    d.field(
+        "found", &AvoidResult::found,
+        "Faces that the displacements would make intersect others, lose their area, or draw out by more than "
+        "eight times their longest edge, or less where most would intersect others.");
     d.field("rounds", &AvoidResult::rounds, "The number of rounds in which shares were lowered.");
     d.field("hurried", &AvoidResult::hurried,
             "Positions whose shares were lowered in large steps, to bound the work (W-CRUMPLE-HURRIED).");

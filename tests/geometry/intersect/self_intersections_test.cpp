@@ -92,9 +92,44 @@ TEST_CASE("the faces of all pairs but the exempt ones are flagged", "[geometry]"
             wanted[f] = wanted[g] = 1;
             if (among[f] || among[g]) wanted_among[f] = wanted_among[g] = 1;
         }
+        SelfIntersectionSearch search(mesh);
         for (int i = 0; i < 5; ++i) {
-            CHECK(self_intersecting_faces(mesh, {}, exempt).faces == wanted);
-            CHECK(self_intersecting_faces(mesh, among, exempt).faces == wanted_among);
+            CHECK(search.faces({}, exempt).faces == wanted);
+            CHECK(search.faces(among, exempt).faces == wanted_among);
+        }
+    }
+}
+
+TEST_CASE("a search that goes along with a mesh finds what a new one finds", "[geometry]") {
+    const Mesh quads = shapes::grid(12, 12);
+    for (const Mesh& start : {noisy_torus(24, 16, 0.05, 3), quads}) {
+        Mesh mesh = start;
+        SelfIntersectionSearch search(mesh);
+        for (std::uint64_t step = 1; step <= 6; ++step) {
+            const Mesh noisy = with_noise(start, 0.1 * static_cast<double>(step), step);
+            std::vector<std::uint8_t> moved(mesh.face_count(), step == 3), placed(mesh.vertex_count());
+            for (std::size_t v = step == 3 ? 0 : step; v < placed.size(); v += step == 3 ? 1 : 7) {
+                mesh.positions[v] = noisy.positions[v] * (step == 3 ? 100.0 : 1.0);
+                placed[v] = 1;
+            }
+            for (Index f = 0; f < mesh.face_count(); ++f)
+                for (const Index v : mesh.face_wedges(f)) moved[f] |= placed[v];
+            search.move_to(mesh, step == 3 ? std::vector<std::uint8_t>{} : moved);
+            SelfIntersectionSettings settings = everything;
+            CHECK(search.pairs(settings).pairs == find_self_intersections(mesh, settings).pairs);
+            settings.among = moved;
+            const auto among = find_self_intersections(mesh, settings);
+            CHECK(search.pairs(settings).pairs == among.pairs);
+            std::vector<std::uint8_t> faces(mesh.face_count());
+            for (const auto& [f, g] : among.pairs) faces[f] = faces[g] = 1;
+            const MeetingFaces found = search.faces(moved, {});
+            CHECK(found.faces == faces);
+            REQUIRE(found.box_pairs > 10);
+            const MeetingFaces stopped = search.faces(moved, {}, found.box_pairs - 1);
+            CHECK(stopped.too_many);
+            CHECK(stopped.faces.empty());
+            CHECK(stopped.box_pairs == found.box_pairs);
+            CHECK_FALSE(search.faces(moved, {}, found.box_pairs).too_many);
         }
     }
 }
