@@ -1,6 +1,10 @@
 #include "cli/command.hpp"
 
 #include "support/catch.hpp"
+#include "support/temporary.hpp"
+
+#include <filesystem>
+#include <fstream>
 
 using namespace facetmill;
 using namespace facetmill::cli;
@@ -86,4 +90,27 @@ TEST_CASE("a stage is no command", "[cli]") {
         "  facetmill relax a.ply\n"
         "            ^~~~~\n"
         "  hint: facetmill pipe load IN ! relax ... ! write OUT; facetmill stages relax tells its options\n");
+}
+
+TEST_CASE("render takes the options of the stage, and says what it needs", "[cli]") {
+    const test::TemporaryDirectory folder;
+    const std::string mesh = (folder.path() / "a.obj").string(), image = (folder.path() / "a.png").string();
+    std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    CHECK(message({"render"}).find("error[E-ARGUMENT]: render needs a mesh file before its options") !=
+          std::string::npos);
+    CHECK(message({"render", mesh}).find("error[E-ARGUMENT]: render needs -o FILE.png") != std::string::npos);
+    CHECK(message({"render", mesh, "-o", image, "--wiew", "front"}).starts_with("exit 2"));
+    CHECK_FALSE(std::filesystem::exists(image));
+    CHECK(message({"render", "-j", "1", mesh, "--view", "front", "--output=" + image, "--width", "40"}) ==
+          "exit 0");
+    CHECK(std::filesystem::file_size(image) > 100);
+}
+
+TEST_CASE("info writes a picture, too", "[cli]") {
+    const test::TemporaryDirectory folder;
+    const std::string mesh = (folder.path() / "a.obj").string(), image = (folder.path() / "a.png").string();
+    std::ofstream(mesh) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    CHECK(message({"info", mesh, "--picture", "a.jpg"}).find("E-PICTURE") != std::string::npos);
+    CHECK(message({"info", mesh, mesh, "--picture", image}) == "exit 0");
+    CHECK(std::filesystem::file_size(image) > 100);
 }
