@@ -1,8 +1,10 @@
 """What the comparisons share: running a program, timing a call, and finding out who is there to compare with."""
+import os
 import pathlib
 import subprocess
 import sys
 
+os.environ.pop("FACETMILL_CACHE", None)  # what is timed is done
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # Before the code of a Python peer: measured(call) gives its result, wall and CPU seconds; report prints them as JSON.

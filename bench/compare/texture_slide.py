@@ -56,7 +56,8 @@ def main():
             for ratio in args.ratios.split(","):
                 for weight in args.weights.split(","):
                     out, report = f"{folder}/out.obj", f"{folder}/report.json"
-                    subprocess.run([args.build / "facetmill", "pipe", "--quiet", "--report", report, "load", path, "!",
+                    subprocess.run([args.build / "facetmill", "pipe", "--no-cache", "--quiet", "--report", report,
+                                    "load", path, "!",
                                     "simplify", ratio, "--weights.uv", weight, "--weights.normal", "0",
                                     "--weights.colour", "0", "--weights.skin", "0", "!", "write", out], check=True)
                     done = json.load(open(report))["stages"][1]["result"]["parts"][0]["deviation"]["percent"]

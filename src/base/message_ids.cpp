@@ -37,6 +37,10 @@ const std::vector<MessageId>& message_ids() {
          {Kind::output},
          "Another batch of this pipeline is at work in the output folder.",
          "Wait for its end, or write elsewhere with `--output-dir`."},
+        {"E-CHANGED",
+         {Kind::malformed},
+         "A file was read twice in one run, and was another the second time.",
+         "Run it again, when nothing writes to the inputs."},
         {"E-CHECK",
          {Kind::check},
          "A check of validate or ensure does not hold.",
@@ -420,6 +424,12 @@ const std::vector<MessageId>& message_ids() {
          {},
          "None of the failures in a baseline occurs in the mesh, but others do.",
          "The baseline may belong to another mesh; write it again with `--update-baseline`."},
+        {"W-CACHE",
+         {},
+         "The cache cannot be written, or an entry of it is not as it was written. The run goes on, with the "
+         "same "
+         "result; `--strict` does not count it.",
+         "Free some space there, name another folder by FACETMILL_CACHE, or use `--no-cache`."},
         {"W-CAP-OPEN",
          {},
          "clip cannot cap an open contour; it is reported, and the others are capped.",

@@ -56,6 +56,7 @@ struct Settings {
     bool check_invariants = false;
     std::vector<std::string> strict;  ///< as RunSettings
     std::vector<std::string> allowed; ///< as Plan: here for what the batch itself warns of
+    cache::Store* store = nullptr;    ///< as RunSettings
 };
 
 /// An asset that was planned.

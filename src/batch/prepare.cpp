@@ -1,9 +1,9 @@
 // Everything about a batch that is known before it runs: plans, files, memory.
 
+#include "base/build_id.hpp"
 #include "base/hash.hpp"
 #include "base/spelling.hpp"
 #include "batch/batch.hpp"
-#include "batch/build_id.hpp"
 #include "batch/journal.hpp"
 #include "io/output_files.hpp"
 #include "pipeline/document.hpp"

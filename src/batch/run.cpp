@@ -195,6 +195,7 @@ class BatchRun {
         run.strict = settings_.strict;
         run.check_invariants = settings_.check_invariants;
         run.last_picture = settings_.pictures;
+        run.store = settings_.store;
         run.on_output = [&](const io::Outputs::File& file) { claim(work.asset, file); };
         run.on_warning = [&](const Diagnostic& d) { warnings.push_back(about_asset(work.asset, d)); };
         if (listener_.on_stage)

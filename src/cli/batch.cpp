@@ -49,6 +49,7 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     arguments.add("--report", &options.common.reports,
                   "Also write the summary: F.json, F.html, F.xml (JUnit) or F.txt.");
     arguments.add("--timings", &options.common.timings, "Write times, and what was left alone, to F.json.");
+    add_cache_options(arguments, options.common.cache);
     add_warning_options(arguments, options.common);
 }
 
@@ -204,6 +205,8 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings = batch_settings(options, line, of_all.places);
     set_planner(settings, options, of_all);
+    const auto store = store_for(options.common.cache, console);
+    settings.store = store.get();
     const auto assets = assets_of(options, line, options.prune);
     auto prepared = batch::prepare(assets, settings, problems);
     const auto refuse = [&](ErrorKind kind, const std::vector<Diagnostic>& why) {

@@ -61,6 +61,7 @@ Command diff_command();
 Command stages_command();
 Command schema_command();
 Command formats_command();
+Command cache_command();
 Command explain_command();
 Command completions_command();
 

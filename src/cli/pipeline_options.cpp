@@ -66,6 +66,11 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");
     arguments.add("--depfile-target", &options.depfile_target,
                   "The target of that rule. Default: the first file that is written.");
+    arguments.add("--restat", &options.restat,
+                  "Outputs and reports that stay the same keep their times, for Ninja's restat.");
+    add_cache_options(arguments, options.cache);
+    arguments.add("--explain", &options.explain,
+                  "Tells of each stage why it ran again, or that its result is from the cache.");
     add_warning_options(arguments, options);
 }
 
@@ -217,6 +222,18 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
         tell_stage(stage, "", console);
         if (console.verbose) tell_resolved(stage, console);
     };
+    const auto store = store_for(options.cache, console);
+    settings.store = store.get();
+    settings.keep_unchanged = options.restat;
+    if (options.explain && !store)
+        console.say("--explain has nothing to compare with: no cache is used (--cache, or FACETMILL_CACHE)");
+    if (store)
+        settings.on_trace = [&](const pipeline::Trace& trace) {
+            if (options.explain)
+                for (const auto& line : pipeline::explained(trace, plan, pipeline_file, *store))
+                    console.say(line);
+            pipeline::remember(trace, plan, pipeline_file, *store);
+        };
     const auto record = located(pipeline::run_plan(plan, settings), plan.places);
     if (progress) progress->done();
     for (const auto& error : record.errors) tell(error);

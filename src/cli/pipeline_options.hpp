@@ -1,7 +1,7 @@
 #pragma once
 // The options that run, plan, pipe and check share, and how a PIPELINE argument becomes a plan.
 
-#include "cli/command.hpp"
+#include "cli/cache_options.hpp"
 #include "pipeline/run.hpp"
 
 namespace facetmill::cli {
@@ -13,6 +13,8 @@ struct PipelineOptions {
     std::string output_dir, depfile, depfile_target, timings;
     int threads = 0;
     bool check_invariants = false, update_baseline = false;
+    bool restat = false, explain = false;
+    CacheOptions cache;
 };
 
 /// -D, --preset and --set.
@@ -21,7 +23,9 @@ void add_param_options(Arguments& arguments, PipelineOptions& options);
 void add_value_options(Arguments& arguments, PipelineOptions& options);
 /// --strict, --allow, --check-invariants.
 void add_warning_options(Arguments& arguments, PipelineOptions& options);
-/// -j, --output-dir, --report, --depfile, --depfile-target, --strict, --allow.
+/// -j, --output-dir, --report, --depfile, --depfile-target, --strict, --allow, --cache, --no-cache,
+/// --explain,
+/// --restat.
 void add_run_options(Arguments& arguments, PipelineOptions& options);
 
 /// Settings for a plan: values split at "=", with problems that point into the command line.

@@ -195,6 +195,28 @@ void put_back(const AllRenamed& all) {
 
 } // namespace
 
+/// Files that have their bytes already count as inputs that do.
+void Outputs::leave_unchanged() {
+    if (!keep_unchanged_) return;
+    for (const auto& file : files_) {
+        std::error_code error;
+        const auto& there = file->resolved;
+        if (file->temporary.empty() || !fs::is_regular_file(there, error) ||
+            fs::file_size(there, error) != file->bytes)
+            continue;
+        try {
+            if (sha256(Input::open(there).stored()) != file->sha256) continue;
+        } catch (const Error&) {
+            continue; // it cannot be read, so it is replaced
+        }
+        ::unlink(file->temporary.c_str());
+        keep(file->clean_up);
+        file->clean_up = nullptr;
+        file->temporary.clear();
+        file->is_input = true;
+    }
+}
+
 std::vector<Outputs::Renamed> Outputs::rename_all(bool streams_follow) {
     std::vector<Renamed> all;
     try {
@@ -241,6 +263,7 @@ void Outputs::commit() {
     std::vector<Renamed> all;
     {
         const HoldSignals hold;
+        leave_unchanged();
         all = rename_all(streams);
         if (!streams) return settle(all);
     }
@@ -273,8 +296,9 @@ void Outputs::forget(bool remove) {
 
 void Outputs::discard() { forget(true); }
 
-void write_now(const fs::path& target, Span bytes) {
+void write_now(const fs::path& target, Span bytes, bool keep_unchanged) {
     Outputs outputs;
+    outputs.keep_unchanged(keep_unchanged);
     outputs.add(target, bytes);
     outputs.commit();
 }

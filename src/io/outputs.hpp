@@ -40,6 +40,8 @@ class Outputs {
     /// E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that was staged
     /// already with other bytes). "-" is standard output.
     const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
+    /// Whether commit() leaves a file alone, with its time, that has the bytes already.
+    void keep_unchanged(bool keep) { keep_unchanged_ = keep; }
     /// Bytes of a staged file, for reading back.
     Input staged(const File& file) const;
     /// Renames all, then streams the streams. On error everything not yet renamed is removed, what was
@@ -64,18 +66,21 @@ class Outputs {
         CleanUp* clean_up = nullptr; ///< as long as streams may fail
     };
     void stage(File& file, Span bytes);
+    void leave_unchanged();
     std::vector<Renamed> rename_all(bool streams_follow);
     void settle(const std::vector<Renamed>& all); ///< there is no way back from here
     void forget(bool remove);
 
+    bool keep_unchanged_ = false;
     std::vector<std::unique_ptr<File>> files_;
     std::vector<Directory> made_directories_;
     std::set<std::filesystem::path> swept_;
     std::map<std::filesystem::path, std::string> inputs_; ///< by identity: the sum
 };
 
-/// Writes one file at once, atomically (reports, --save, depfiles). "-" is standard output.
-void write_now(const std::filesystem::path& target, Span bytes);
+/// Writes one file at once, atomically (reports, --save, depfiles). "-" is standard output. keep_unchanged:
+/// as Outputs::keep_unchanged.
+void write_now(const std::filesystem::path& target, Span bytes, bool keep_unchanged = false);
 
 /// Installs handlers that remove staged temporaries and end the process by the signal: SIGINT, SIGTERM,
 /// SIGHUP and SIGBUS (a mapped input shrank). Signals that were ignored stay ignored (nohup). SIGPIPE and

@@ -93,7 +93,8 @@ bool is_excluded(const Declaration& declaration, const std::string& name, const 
     return false;
 }
 
-/// The options of a stage as they will be: given, else the default.
+} // namespace
+
 Json options_json(const Step& step) {
     Json out = Json::object();
     const bool is_map = step.given.is_map();
@@ -111,6 +112,8 @@ Json options_json(const Step& step) {
             if (!out.contains(entry.key)) out[entry.key] = value_json(entry.value);
     return out;
 }
+
+namespace {
 
 Json steps_json(const Steps& steps, const Headers& headers) {
     Json all = Json::array();

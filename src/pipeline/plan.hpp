@@ -157,6 +157,8 @@ Diagnostic about_input(const std::vector<std::filesystem::path>& inputs, Diagnos
 /// What would run, everything resolved, with what the headers of inputs say: for `facetmill plan`, as text
 /// and as JSON.
 std::string describe(const Plan& plan, const Headers& headers = {});
+/// The options of a stage as they will be: given, else the default.
+Json options_json(const Step& step);
 Json describe_json(const Plan& plan, const Headers& headers = {});
 
 } // namespace facetmill::pipeline

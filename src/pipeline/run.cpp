@@ -10,6 +10,7 @@
 #include "mesh/power_scale.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
+#include "pipeline/reuse.hpp"
 #include "report/check_text.hpp"
 #include "report/render.hpp"
 
@@ -72,9 +73,18 @@ bool compares_with_load(const Steps& steps) {
     });
 }
 
-void write_report(const Plan& plan, const std::string& path, const report::RunRecord& record) {
+bool loads(const Steps& steps) {
+    return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
+        if (step.kind == Step::Kind::stage) return step.stage->loads;
+        return std::any_of(step.arms.begin(), step.arms.end(),
+                           [](const Arm& arm) { return loads(*arm.steps); });
+    });
+}
+
+void write_report(const Plan& plan, const std::string& path, const report::RunRecord& record,
+                  bool keep_unchanged = false) {
     const std::string text = report::render_for(path, record);
-    io::write_now(plan.places.output(path), std::as_bytes(std::span(text)));
+    io::write_now(plan.places.output(path), std::as_bytes(std::span(text)), keep_unchanged);
 }
 
 class Runner {
@@ -82,6 +92,7 @@ class Runner {
     Runner(const Plan& plan, const RunSettings& settings) : plan_(plan), settings_(settings) {
         state_.places = plan.places;
         state_.read_back = settings.read_back;
+        state_.outputs.keep_unchanged(settings.keep_unchanged);
         record().pipeline = plan.name;
         record().about = plan.about;
         record().params = plan.params;
@@ -91,6 +102,7 @@ class Runner {
         const auto start = Clock::now();
         stages_ = count_stages(plan_.steps);
         keeps_loaded_ = compares_with_load(plan_.steps);
+        if (keeps_loaded_) reuse_.keep_loads();
         takes_pictures_ = std::any_of(plan_.reports.begin(), plan_.reports.end(),
                                       [](const std::string& path) { return path.ends_with(".html"); });
         for (const auto& warning : plan_.warnings) {
@@ -105,34 +117,50 @@ class Runner {
         const Headers headers = read_headers(plan_);
         for (const auto& error : headers.errors) failures_.add(error);
         try_outputs(headers);
-        Scene scene;
-        if (!failures_.any() && run_steps(plan_.steps, scene, true) && !plan_.reports.empty())
-            failures_.guarded({}, "the inspection at the end",
-                              [&] { record().final_properties = report::scene_json(scene, inspect(scene)); });
-        if (settings_.last_picture && !takes_pictures_ && !failures_.any() && !record().stages.empty())
-            add_small_picture(scene, record().stages.back());
+        Flow flow;
+        if (!failures_.any() && run_steps(plan_.steps, flow, true) && !plan_.reports.empty() &&
+            fetch({}, "the inspection at the end", flow))
+            failures_.guarded({}, "the inspection at the end", [&] {
+                record().final_properties = report::scene_json(flow.scene, inspect(flow.scene));
+            });
+        if (settings_.last_picture && !takes_pictures_ && !failures_.any() && !record().stages.empty() &&
+            fetch({}, "a picture", flow))
+            add_small_picture(flow.scene, record().stages.back());
         finish_outputs();
         if (settings_.progress) settings_.progress->done();
         record().seconds = seconds_since(start);
         record().peak_memory = peak_memory();
         record().threads = threads();
         write_reports();
+        if (settings_.on_trace) settings_.on_trace(trace_);
         return std::move(record());
     }
 
   private:
     report::RunRecord& record() { return state_.record; }
 
+    /// Makes the scene of the flow be there. False after a failure.
+    bool fetch(const Mark& where, const std::string& what, Flow& flow) {
+        return flow.is_here() || failures_.guarded(where, what, [&] { reuse_.fetch(flow); });
+    }
+
+    /// Whether the step looks at the scene before its stage runs.
+    static bool looks_ahead(const Step& step) {
+        return (step.when && !step.when->known) || (step.ensure && step.ensure->deviation) ||
+               (step.kind != Step::Kind::stage && (step.join || step.arms_of_parts));
+    }
+
     /// Runs the steps on the scene. False when the chain ended early; the scene is then worth nothing.
     /// needed: whether the scene is looked at afterwards.
-    bool run_steps(const Steps& steps, Scene& scene, bool needed) {
+    bool run_steps(const Steps& steps, Flow& flow, bool needed) {
         bool holds = true; // no check has failed so far
         for (const auto& step : steps) {
             const bool judges = step.kind == Step::Kind::stage && step.stage->checks;
             if (!holds && !judges) return false;
             const bool last = &step == &steps.back();
             bool skip = false;
-            if (!failures_.guarded(step.where, "the condition", [&] { skip = is_skipped(step, scene); }))
+            if (looks_ahead(step) && !fetch(step.where, step.name, flow)) return false;
+            if (!failures_.guarded(step.where, "the condition", [&] { skip = is_skipped(step, flow.scene); }))
                 return false;
             if (skip) {
                 if (step.kind == Step::Kind::stage) record_skipped(step);
@@ -140,16 +168,17 @@ class Runner {
             }
             std::size_t checked = record().checks.size();
             std::shared_ptr<const Surface> reference;
-            if (!failures_.guarded(step.where, step.name, [&] { reference = reference_of(step, scene); }))
+            if (!failures_.guarded(step.where, step.name,
+                                   [&] { reference = reference_of(step, flow.scene); }))
                 return false;
-            const Box entered = step.ensure ? scene.bounds() : Box{};
-            const bool done = step.kind == Step::Kind::stage ? run_stage(step, scene)
-                                                             : run_arms(step, scene, needed || !last);
-            if (!done) return false;
+            const Box entered = step.ensure ? flow.bounds() : Box{};
+            const bool done = step.kind == Step::Kind::stage ? run_stage(step, flow)
+                                                             : run_arms(step, flow, needed || !last);
+            if (!done || (step.ensure && !fetch(step.where, step.name, flow))) return false;
             if (step.kind != Step::Kind::stage)
                 checked = record().checks.size(); // those of the arms are judged
             if (step.ensure && !failures_.guarded(step.where, step.name, [&] {
-                    check_contract(step, scene, entered, reference.get());
+                    check_contract(step, flow.scene, entered, reference.get());
                 }))
                 return false;
             holds = failures_.judge_checks(checked) && holds;
@@ -186,12 +215,29 @@ class Runner {
     void record_skipped(const Step& step) {
         auto stage = new_record(step);
         stage.skipped = true;
+        trace_.push_back({step.name, step.stage->name, options_json(step), {}, {}, TracedStep::Way::skipped});
         record().stages.push_back(std::move(stage));
     }
 
-    bool run_stage(const Step& step, Scene& scene) {
+    bool run_stage(const Step& step, Flow& flow) {
         auto stage = new_record(step);
+        const auto start = Clock::now();
+        const bool recalled = reuse_.recall(step, flow, state_, stage);
+        const bool done = recalled || perform_stage(step, flow, stage);
+        if (recalled) stage.seconds = seconds_since(start);
+        if (done && takes_pictures_ && fetch(step.where, "a picture", flow)) add_picture(flow.scene, stage);
+        if (settings_.on_stage) settings_.on_stage(stage);
+        for (const auto& warning : stage.warnings) failures_.warn(warning);
+        record().stages.push_back(std::move(stage));
+        return done;
+    }
+
+    /// Runs the stage on the scene, and remembers what it did.
+    bool perform_stage(const Step& step, Flow& flow, report::StageRecord& stage) {
+        if (!fetch(step.where, fmt::format("'{}'", step.name), flow)) return false;
+        Scene& scene = flow.scene;
         stage.before = brief(scene);
+        const auto before = reuse_.before(step, flow, state_);
         const auto start = Clock::now();
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, scene.bounds(), step.where);
@@ -202,15 +248,13 @@ class Runner {
             if (settings_.check_invariants) check_invariants(step, scene);
         });
         stage.seconds = seconds_since(start);
-        if (done) stage.after = brief(scene);
-        if (done && step.stage->loads) state_.load_diagonal = diagonal(scene.bounds());
-        if (done && step.stage->loads && keeps_loaded_)
+        if (!done) return false;
+        stage.after = brief(scene);
+        if (step.stage->loads) state_.load_diagonal = diagonal(scene.bounds());
+        if (step.stage->loads && keeps_loaded_)
             state_.loaded = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));
-        if (done && takes_pictures_) add_picture(scene, stage);
-        if (settings_.on_stage) settings_.on_stage(stage);
-        for (const auto& warning : stage.warnings) failures_.warn(warning);
-        record().stages.push_back(std::move(stage));
-        return done;
+        reuse_.keep(step, flow, state_, stage, before);
+        return true;
     }
 
     /// A page shows what a stage changed, as long as it stays small.
@@ -319,29 +363,39 @@ class Runner {
 
     // --- branches
 
-    bool run_arms(const Step& step, Scene& scene, bool needed) {
-        if (step.arms_of_parts) return run_part_arms(step, scene);
+    bool run_arms(const Step& step, Flow& flow, bool needed) {
+        if (step.arms_of_parts) return run_part_arms(step, flow);
         std::vector<NamedScene> results;
         bool all_done = true;
         for (const auto& arm : step.arms) {
             const bool last = &arm == &step.arms.back();
-            Scene inside;
+            Flow inside;
             if (!failures_.guarded(step.where, step.name, [&] {
                     if (last && (step.join || !needed))
-                        inside = std::move(scene);
+                        inside = std::move(flow);
                     else
-                        inside = scene;
+                        inside = flow.branched_off();
                 }))
                 return false;
-            all_done = run_steps(*arm.steps, inside, step.join) && all_done;
-            if (step.join) results.push_back({arm.name, std::move(inside)});
+            all_done = run_arm(step, arm, inside) && all_done;
+            if (step.join) results.push_back({arm.name, std::move(inside.scene)});
         }
         if (!step.join) return true; // the scene that entered goes on, whatever became of the branches
-        if (all_done) scene = joined(std::move(results));
-        return all_done;
+        if (!all_done) return false;
+        flow.scene = joined(std::move(results));
+        flow.replaced();
+        return true;
     }
 
-    bool run_part_arms(const Step& step, Scene& scene) {
+    /// What joins is one where its documents are the same objects, which those of the cache need not be.
+    bool run_arm(const Step& step, const Arm& arm, Flow& inside) {
+        inside.without_cache |= step.join && (!inside.scene.documents.empty() || loads(*arm.steps));
+        return run_steps(*arm.steps, inside, step.join) &&
+               (!step.join || fetch(step.where, step.name, inside));
+    }
+
+    bool run_part_arms(const Step& step, Flow& flow) {
+        Scene& scene = flow.scene;
         std::vector<std::string> names;
         std::vector<std::size_t> parts;
         for (std::size_t p = 0; p < scene.parts.size(); ++p)
@@ -361,19 +415,23 @@ class Runner {
         bool all_done = true;
         for (const auto& arm : arms) {
             const std::size_t p = parts[arm.part.value_or(0)];
-            Scene inside;
-            inside.materials = scene.materials;
-            inside.documents = scene.documents;
-            inside.unit = scene.unit;
-            inside.up = scene.up;
-            if (!failures_.guarded(step.where, step.name, [&] { inside.parts.push_back(scene.parts[p]); }))
+            Flow inside;
+            inside.without_cache = flow.without_cache;
+            inside.scene.materials = scene.materials;
+            inside.scene.documents = scene.documents;
+            inside.scene.unit = scene.unit;
+            inside.scene.up = scene.up;
+            if (!failures_.guarded(step.where, step.name,
+                                   [&] { inside.scene.parts.push_back(scene.parts[p]); }))
                 return false;
-            all_done = run_steps(*arm.steps, inside, step.join) && all_done;
-            if (step.join) results[p].push_back({arm.name, std::move(inside)});
+            all_done = run_arm(step, arm, inside) && all_done;
+            if (step.join) results[p].push_back({arm.name, std::move(inside.scene)});
         }
         if (!step.join) return true;
-        if (all_done) scene = with_parts_replaced(std::move(scene), std::move(results));
-        return all_done;
+        if (!all_done) return false;
+        scene = with_parts_replaced(std::move(scene), std::move(results));
+        flow.replaced();
+        return true;
     }
 
     void warn_of_no_parts(const Step& step, const Scene& scene) {
@@ -433,7 +491,8 @@ class Runner {
     void write_reports() {
         for (const auto& path : plan_.reports)
             if (!unwritable_.contains(plan_.places.output(path).parent_path()) &&
-                failures_.guarded({}, "the report", [&] { write_report(plan_, path, record()); }))
+                failures_.guarded({}, "the report",
+                                  [&] { write_report(plan_, path, record(), settings_.keep_unchanged); }))
                 record().reports.push_back(path);
     }
 
@@ -452,6 +511,8 @@ class Runner {
     const RunSettings& settings_;
     RunState state_;
     Failures failures_{state_.record, settings_, plan_.allowed};
+    Trace trace_;
+    Reuse reuse_{settings_.check_invariants ? nullptr : settings_.store, plan_.places, trace_};
     std::set<fs::path> unwritable_; ///< folders
     bool keeps_loaded_ = false, takes_pictures_ = false;
     std::string last_picture_;

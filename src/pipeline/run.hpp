@@ -3,6 +3,7 @@
 
 #include "base/progress.hpp"
 #include "pipeline/plan.hpp"
+#include "pipeline/trace.hpp"
 
 namespace facetmill::pipeline {
 
@@ -12,6 +13,10 @@ struct RunSettings {
     bool read_back = true;
     bool check_invariants = false; ///< mesh/invariants.hpp after every stage (tests)
     bool last_picture = false; ///< the record of the last stage gets a small picture, whatever the reports
+    cache::Store* store = nullptr; ///< results of stages are taken from it, and put there; none: no cache
+    bool keep_unchanged = false; ///< outputs and reports that are there with the same bytes keep their times
+    /// Called at the end, with what became of each step.
+    std::function<void(const Trace&)> on_trace = {};
     /// Called after each stage, with what its options were resolved to.
     std::function<void(const report::StageRecord&)> on_stage = {};
     /// Called for each output when all are ready, before the first gets its name; an Error that it throws

@@ -24,7 +24,7 @@ class Text(Case):
 
     def test_help_everywhere(self):
         self.assertIn("Examples", self.mill("--help").stdout)
-        for command in ("run", "batch", "export", "plan", "pipe", "new", "check", "info", "diff", "stages", "schema", "formats", "explain",
+        for command in ("run", "batch", "export", "plan", "pipe", "new", "check", "info", "diff", "stages", "schema", "formats", "cache", "explain",
                         "completions"):
             text = self.mill(command, "--help").stdout
             self.assertIn("Examples", text, command)

@@ -1,0 +1,95 @@
+#include "cache/archive.hpp"
+
+#include "base/numbers.hpp"
+
+#include <algorithm>
+
+namespace facetmill::cache {
+
+namespace {
+
+bool same_bits(double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+bool are_floats(const double* from, std::size_t n) {
+    for (std::size_t i = 0; i < n; ++i) {
+        // Beyond the range of floats the conversion is not defined; a NaN may lose what it carries.
+        if (!(from[i] >= -3.4e38 && from[i] <= 3.4e38)) return false;
+        if (!same_bits(as_float32(from[i]), from[i])) return false;
+    }
+    return true;
+}
+
+constexpr unsigned bits_of_byte = 8;
+
+template <unsigned Width>
+void pack(const std::vector<std::uint32_t>& all, std::byte* to) {
+    for (const std::uint32_t index : all)
+        for (unsigned b = 0; b < Width; ++b) *to++ = static_cast<std::byte>(index >> (bits_of_byte * b));
+}
+
+template <unsigned Width>
+void unpack(const std::byte* from, std::vector<std::uint32_t>& all) {
+    for (std::uint32_t& index : all) {
+        index = 0;
+        for (unsigned b = 0; b < Width; ++b)
+            index |= static_cast<std::uint32_t>(*from++) << (bits_of_byte * b);
+    }
+}
+
+} // namespace
+
+void ByteWriter::doubles(const double* from, std::size_t n) {
+    const bool small = are_floats(from, n);
+    put(small);
+    if (!small) return raw(from, n * sizeof(double));
+    const std::size_t begin = bytes.size();
+    bytes.resize(begin + n * sizeof(float));
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto value = static_cast<float>(from[i]);
+        std::memcpy(bytes.data() + begin + i * sizeof value, &value, sizeof value);
+    }
+}
+
+void ByteReader::doubles(double* to, std::size_t n) {
+    bool small = false;
+    get(small);
+    if (!small) return raw(to, n * sizeof(double));
+    const io::Span from = take(n * sizeof(float));
+    for (std::size_t i = 0; i < n; ++i) {
+        float value = 0;
+        std::memcpy(&value, from.data() + i * sizeof value, sizeof value);
+        to[i] = static_cast<double>(value);
+    }
+}
+
+void ByteWriter::indices(const std::vector<std::uint32_t>& all) {
+    std::uint32_t largest = 0;
+    for (const std::uint32_t index : all) largest = std::max(largest, index);
+    const auto bits = static_cast<unsigned>(std::bit_width(std::max(largest, 1u)));
+    const auto width = static_cast<std::uint8_t>((bits + bits_of_byte - 1) / bits_of_byte);
+    put(width);
+    const std::size_t begin = bytes.size();
+    bytes.resize(begin + all.size() * width);
+    std::byte* to = bytes.data() + begin;
+    if (width == 1) return pack<1>(all, to);
+    if (width == 2) return pack<2>(all, to);
+    if (width == 3) return pack<3>(all, to);
+    pack<4>(all, to);
+}
+
+void ByteReader::indices(std::vector<std::uint32_t>& all) {
+    const std::size_t n = count(1);
+    std::uint8_t width = 0;
+    get(width);
+    if (width < 1 || width > 4 || n > left_.size() / width) throw Corrupt();
+    const std::byte* from = take(n * width).data();
+    all.resize(n);
+    if (width == 1) return unpack<1>(from, all);
+    if (width == 2) return unpack<2>(from, all);
+    if (width == 3) return unpack<3>(from, all);
+    unpack<4>(from, all);
+}
+
+} // namespace facetmill::cache

@@ -1,0 +1,262 @@
+#pragma once
+// Records as bytes and back. What a record has is said once, by its Members (cache/fields.hpp), for both
+// ways. Counts that are read are compared with the bytes that are left before anything is made of them.
+
+#include "base/json.hpp"
+#include "base/vec.hpp"
+#include "io/bytes.hpp"
+#include "mesh/attribute.hpp"
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+namespace facetmill::cache {
+
+/// Specialised for each record: static void each(auto& record, auto&& take) calls take(field, field, ...).
+template <class T>
+struct Members;
+
+template <class T>
+concept Record = requires(T& record) {
+    Members<T>::each(record, [](auto&...) {});
+};
+
+/// The largest value of each enumeration that is stored.
+template <class E>
+struct Last;
+
+template <class T>
+concept Number = std::is_arithmetic_v<T>;
+
+/// Bytes that end too early, or that no writer wrote.
+struct Corrupt : std::exception {
+    const char* what() const noexcept override { return "the bytes are not as they were written"; }
+};
+
+/// Points as numbers, three each; null for null.
+inline const double* coordinates(const Vec3* points) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    return reinterpret_cast<const double*>(points);
+}
+inline double* coordinates(Vec3* points) { return reinterpret_cast<double*>(points); }
+
+/// Numbers in the order of the machine: what is written never leaves it.
+class ByteWriter {
+  public:
+    io::Bytes bytes;
+
+    template <class... T>
+    void operator()(const T&... values) {
+        (put(values), ...);
+    }
+
+  private:
+    void raw(const void* from, std::size_t size) {
+        const auto* begin = static_cast<const std::byte*>(from);
+        bytes.insert(bytes.end(), begin, begin + size);
+    }
+    void count(std::size_t n) { put(static_cast<std::uint64_t>(n)); }
+
+    template <Number T>
+    void put(T value) {
+        raw(&value, sizeof value);
+    }
+    template <class E>
+    requires std::is_enum_v<E>
+    void put(E value) { put(static_cast<std::uint8_t>(value)); }
+    void put(const std::string& text) {
+        count(text.size());
+        raw(text.data(), text.size());
+    }
+    void put(const Json& json) {
+        const auto cbor = Json::to_cbor(json);
+        count(cbor.size());
+        raw(cbor.data(), cbor.size());
+    }
+    template <Record R>
+    void put(const R& record) {
+        Members<R>::each(record, [this](const auto&... fields) { (put(fields), ...); });
+    }
+    template <class T>
+    void put(const std::vector<T>& all) {
+        count(all.size());
+        if constexpr (std::is_same_v<T, double>)
+            doubles(all.data(), all.size());
+        else if constexpr (std::is_same_v<T, Vec3>)
+            doubles(coordinates(all.data()), 3 * all.size());
+        else if constexpr (std::is_same_v<T, std::uint32_t>)
+            indices(all);
+        else if constexpr (Number<T> || std::is_same_v<T, std::byte>)
+            raw(all.data(), all.size() * sizeof(T));
+        else
+            for (const auto& one : all) put(one);
+    }
+    template <class T, std::size_t N>
+    void put(const T (&all)[N]) {
+        for (const auto& one : all) put(one);
+    }
+    template <class K, class V>
+    void put(const std::map<K, V>& all) {
+        count(all.size());
+        for (const auto& [key, value] : all) (*this)(key, value);
+    }
+    template <class T>
+    void put(const std::optional<T>& value) {
+        put(value.has_value());
+        if (value) put(*value);
+    }
+    template <class T>
+    void put(const std::shared_ptr<const T>& value) {
+        put(value != nullptr);
+        if (value) put(*value);
+    }
+    void put(const AttributeData& data) {
+        put(static_cast<std::uint8_t>(data.index()));
+        std::visit([this](const auto& all) { put(all); }, data);
+    }
+
+    /// As floats, where that loses no bit of any.
+    void doubles(const double* from, std::size_t n);
+    /// In as few bytes each as the largest needs.
+    void indices(const std::vector<std::uint32_t>& all);
+};
+
+/// Throws Corrupt for whatever a ByteWriter would not have written.
+class ByteReader {
+  public:
+    explicit ByteReader(io::Span bytes) : left_(bytes) {}
+
+    template <class... T>
+    void operator()(T&... values) {
+        (get(values), ...);
+    }
+    /// Nothing may follow.
+    void end() const {
+        if (!left_.empty()) throw Corrupt();
+    }
+
+  private:
+    io::Span take(std::size_t size) {
+        if (size > left_.size()) throw Corrupt();
+        const io::Span taken = left_.first(size);
+        left_ = left_.subspan(size);
+        return taken;
+    }
+    void raw(void* to, std::size_t size) {
+        const io::Span from = take(size);
+        if (size > 0) std::memcpy(to, from.data(), size);
+    }
+    /// A count of things of which each takes that many bytes or more.
+    std::size_t count(std::size_t each) {
+        std::uint64_t n = 0;
+        get(n);
+        if (n > left_.size() / each) throw Corrupt();
+        return n;
+    }
+
+    template <Number T>
+    void get(T& value) {
+        if constexpr (std::is_same_v<T, bool>) {
+            std::uint8_t byte = 0;
+            raw(&byte, 1);
+            if (byte > 1) throw Corrupt();
+            value = byte == 1;
+        } else
+            raw(&value, sizeof value);
+    }
+    template <class E>
+    requires std::is_enum_v<E>
+    void get(E& value) {
+        std::uint8_t byte = 0;
+        get(byte);
+        if (byte > static_cast<std::uint8_t>(Last<E>::value)) throw Corrupt();
+        value = static_cast<E>(byte);
+    }
+    void get(std::string& text) {
+        text.resize(count(1));
+        raw(text.data(), text.size());
+    }
+    void get(Json& json) {
+        const io::Span cbor = take(count(1));
+        const auto* begin = reinterpret_cast<const std::uint8_t*>(cbor.data());
+        json = Json::from_cbor(begin, begin + cbor.size(), true, false);
+        if (json.is_discarded()) throw Corrupt();
+    }
+    template <Record R>
+    void get(R& record) {
+        Members<R>::each(record, [this](auto&... fields) { (get(fields), ...); });
+    }
+    template <class T>
+    void get(std::vector<T>& all) {
+        if constexpr (std::is_same_v<T, double>) {
+            all.resize(count(sizeof(float)));
+            doubles(all.data(), all.size());
+        } else if constexpr (std::is_same_v<T, Vec3>) {
+            all.resize(count(3 * sizeof(float)));
+            doubles(coordinates(all.data()), 3 * all.size());
+        } else if constexpr (std::is_same_v<T, std::uint32_t>)
+            indices(all);
+        else if constexpr (Number<T> || std::is_same_v<T, std::byte>) {
+            all.resize(count(sizeof(T)));
+            raw(all.data(), all.size() * sizeof(T));
+        } else {
+            all.clear(); // one by one, so that a count that is too large ends at the end of the bytes
+            for (std::size_t n = count(1); n > 0; --n) get(all.emplace_back());
+        }
+    }
+    template <class T, std::size_t N>
+    void get(T (&all)[N]) {
+        for (auto& one : all) get(one);
+    }
+    template <class K, class V>
+    void get(std::map<K, V>& all) {
+        for (std::size_t n = count(1); n > 0; --n) {
+            K key;
+            get(key);
+            get(all[std::move(key)]);
+        }
+    }
+    template <class T>
+    void get(std::optional<T>& value) {
+        bool has = false;
+        get(has);
+        if (has) get(value.emplace());
+    }
+    template <class T>
+    void get(std::shared_ptr<const T>& value) {
+        bool has = false;
+        get(has);
+        if (!has) return;
+        auto made = std::make_shared<T>();
+        get(*made);
+        value = std::move(made);
+    }
+    void get(AttributeData& data) {
+        std::uint8_t index = 0;
+        get(index);
+        alternative<0>(data, index);
+    }
+    template <std::size_t I>
+    void alternative(AttributeData& data, std::size_t index) {
+        if constexpr (I == std::variant_size_v<AttributeData>)
+            throw Corrupt();
+        else if (index == I)
+            get(data.emplace<I>());
+        else
+            alternative<I + 1>(data, index);
+    }
+
+    void doubles(double* to, std::size_t n);
+    void indices(std::vector<std::uint32_t>& all);
+
+    io::Span left_;
+};
+
+} // namespace facetmill::cache

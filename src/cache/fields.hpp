@@ -1,0 +1,92 @@
+#pragma once
+// What each record that is stored consists of. The bindings name every member: a new one does not compile
+// until it is named here, too.
+
+#include "cache/archive.hpp"
+#include "mesh/cut_memory.hpp"
+#include "mesh/scene.hpp"
+#include "report/record.hpp"
+
+namespace facetmill::cache {
+
+#define FACETMILL_STORED(Type, ...)                                                                          \
+    template <>                                                                                              \
+    struct Members<Type> {                                                                                   \
+        static void each(auto& record, auto&& take) {                                                        \
+            auto& [__VA_ARGS__] = record;                                                                    \
+            take(__VA_ARGS__);                                                                               \
+        }                                                                                                    \
+    };
+
+FACETMILL_STORED(Vec3, x, y, z)
+FACETMILL_STORED(Box, min, max)
+FACETMILL_STORED(Transform, m)
+FACETMILL_STORED(Plane, normal, through, offset)
+FACETMILL_STORED(CutMemory, entries)
+FACETMILL_STORED(CutMemory::Entry, plane, reach, points)
+FACETMILL_STORED(Attribute, name, domain, role, components, normalised, data)
+FACETMILL_STORED(Primitive, material, attributes, json)
+FACETMILL_STORED(Mesh, positions, wedge_vertex, corners, face_offsets, attributes, primitives)
+FACETMILL_STORED(Material, name, base_colour, double_sided, document, index)
+FACETMILL_STORED(Document, json, buffers, files, name)
+FACETMILL_STORED(Part, name, mesh, transform, document, node, source_mesh, skinned, changed, cuts)
+FACETMILL_STORED(Scene, parts, materials, unit, up, documents)
+
+FACETMILL_STORED(AttributeChange, attribute, domain, kind, why)
+FACETMILL_STORED(report::PartChange, part, change)
+FACETMILL_STORED(report::FileRecord, path, bytes, sha256, read_back)
+
+/// Without its place, which is that of the step that gives it.
+template <>
+struct Members<Diagnostic> {
+    static void each(auto& record, auto&& take) {
+        auto& [severity, id, message, where, hint] = record;
+        static_cast<void>(where);
+        take(severity, id, message, hint);
+    }
+};
+
+/// Without what the run says of every stage: its name and place, times, pictures.
+template <>
+struct Members<report::StageRecord> {
+    static void each(auto& record, auto&& take) {
+        auto& [name, stage, path, before, after, attribute_changes, warnings, result, resolved, said, skipped,
+               seconds, picture] = record;
+        static_cast<void>(name);
+        static_cast<void>(stage);
+        static_cast<void>(path);
+        static_cast<void>(skipped);
+        static_cast<void>(seconds);
+        static_cast<void>(picture);
+        take(before, after, attribute_changes, warnings, result, resolved, said);
+    }
+};
+
+#undef FACETMILL_STORED
+
+template <>
+struct Last<Unit> {
+    static constexpr Unit value = Unit::foot;
+};
+template <>
+struct Last<UpAxis> {
+    static constexpr UpAxis value = UpAxis::z;
+};
+template <>
+struct Last<Domain> {
+    static constexpr Domain value = Domain::face;
+};
+template <>
+struct Last<Role> {
+    static constexpr Role value = Role::index;
+};
+template <>
+struct Last<Severity> {
+    static constexpr Severity value = Severity::note;
+};
+template <>
+struct Last<AttributeChange::Kind> {
+    static constexpr AttributeChange::Kind value = AttributeChange::Kind::dropped;
+};
+
+} // namespace facetmill::cache

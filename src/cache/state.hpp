@@ -1,0 +1,31 @@
+#pragma once
+// What is stored of a stage: the scene that left it, and, apart from that, all that the run tells of it.
+
+#include "io/bytes.hpp"
+#include "mesh/scene.hpp"
+#include "report/record.hpp"
+
+namespace facetmill::cache {
+
+/// The whole scene: equal bytes for equal scenes, whatever their addresses.
+io::Bytes encoded(const Scene& scene);
+/// None for bytes that are no scene.
+std::optional<Scene> decoded_scene(io::Span bytes);
+/// About as many bytes as encoded() gives, without making them.
+std::size_t size_of(const Scene& scene);
+
+/// What a run tells of a stage that it need not run.
+struct Memory {
+    report::StageRecord record;             ///< without its name, place and times
+    std::vector<report::FileRecord> inputs; ///< files that it read
+    std::vector<std::string> absent;        ///< files that it looked for and that were not there
+    std::string scene;                      ///< the key of the scene that left it
+    Box bounds;                             ///< of that scene
+};
+io::Bytes encoded(const Memory& memory);
+std::optional<Memory> decoded_memory(io::Span bytes);
+
+/// A key of whatever depends on these texts and nothing else.
+std::string key_of(const std::vector<std::string>& texts);
+
+} // namespace facetmill::cache

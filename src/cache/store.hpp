@@ -1,0 +1,82 @@
+#pragma once
+// A folder of entries that are found by their keys: written whole or not at all, never changed, and removed
+// when there are too many, those first that have not been used for longest. Any number of processes may share
+// it.
+
+#include "base/error.hpp"
+#include "io/bytes.hpp"
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <set>
+
+namespace facetmill::cache {
+
+/// What an entry holds, which is the suffix of its file.
+enum class Kind { memory, scene, last_run };
+
+struct StoreSettings {
+    std::filesystem::path folder;
+    std::uint64_t max_bytes = 0;
+    bool everything = false; ///< what is cheap to compute is stored, too (tests)
+    /// Is told what hinders the store: W-CACHE, once, when it cannot be written; notes of corrupt entries.
+    /// May be empty.
+    std::function<void(const Diagnostic&)> tell = {};
+};
+
+/// How much is there.
+struct Contents {
+    std::uint64_t entries = 0, bytes = 0, scenes = 0;
+};
+
+/// Safe for several threads. What goes wrong is told, not thrown: a run does without its cache.
+class Store {
+  public:
+    explicit Store(StoreSettings settings);
+
+    /// The bytes that were put, or nothing. An entry whose bytes are not what was written is removed, with a
+    /// note. What was asked for counts as used, and stays as long as this object lives.
+    std::optional<io::Bytes> get(const std::string& key, Kind kind);
+    /// Whether there is an entry, which then counts as used.
+    bool has(const std::string& key, Kind kind);
+    /// Whether it is there afterwards: not when it cannot be written, or there is no room beside what stays.
+    bool put(const std::string& key, Kind kind, io::Span bytes);
+    /// get() of bytes that turned out to mean nothing: removed, with the note.
+    void reject(const std::string& key, Kind kind);
+
+    /// Whether a put has not failed yet.
+    bool is_usable() const;
+    /// How long a put of that many bytes takes, made ready before, as far as this object has seen.
+    double seconds_for(std::size_t bytes) const;
+    void took(std::size_t bytes, double seconds);
+
+    Contents contents() const;
+    /// Removes what a process left that ended early, and entries until all are within the limit. How much
+    /// went.
+    Contents collect();
+    /// Removes all entries. How much went.
+    Contents clear();
+    const StoreSettings& settings() const { return settings_; }
+
+  private:
+    std::filesystem::path path_of(const std::string& key, Kind kind) const;
+    void use(const std::filesystem::path& path);
+    void write(const std::filesystem::path& path, io::Span head, io::Span bytes);
+    bool make_room(std::uint64_t bytes);
+    Contents shrink(std::uint64_t limit);
+    void remove_leftovers() const;
+    void cannot_write(const std::string& why);
+    void drop(const std::filesystem::path& path, const char* why);
+
+    const StoreSettings settings_;
+    mutable std::mutex guard_; ///< of all that follows
+    std::set<std::filesystem::path> used_;
+    std::optional<std::uint64_t> total_; ///< bytes there, as far as known
+    std::uint64_t since_counted_ = 0;    ///< bytes put since then: other processes put some, too
+    bool broken_ = false;                ///< it cannot be written: not tried again
+    double bytes_per_second_;
+};
+
+} // namespace facetmill::cache

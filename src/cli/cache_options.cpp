@@ -1,0 +1,29 @@
+#include "cli/cache_options.hpp"
+
+#include "cache/place.hpp"
+
+namespace facetmill::cli {
+
+void add_cache_options(Arguments& arguments, CacheOptions& options) {
+    arguments.add("--cache", &options.on,
+                  "Takes results of stages from the cache and stores them: only what changed runs again.");
+    arguments.add("--no-cache", &options.off, "Use no cache, also where FACETMILL_CACHE names one.");
+    arguments.add("--cache-everything", &options.everything, "Stores what is cheap to compute, too.")
+        .hidden();
+}
+
+std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const Console& console) {
+    if (options.on && options.off)
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache and --no-cache exclude each other");
+    if (options.off) return nullptr;
+    const auto folder = cache::folder(options.on);
+    if (!folder && options.on)
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache finds no folder for it",
+                    "FACETMILL_CACHE names one (and is not off), or HOME");
+    if (!folder) return nullptr;
+    return std::make_unique<cache::Store>(
+        cache::StoreSettings{*folder, cache::size_limit(), options.everything,
+                             [&console](const Diagnostic& d) { console.diagnostic(d); }});
+}
+
+} // namespace facetmill::cli

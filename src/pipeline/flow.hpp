@@ -1,0 +1,54 @@
+#pragma once
+// A scene on its way through the steps: itself, or what is known of one that the cache has.
+
+#include "cache/state.hpp"
+#include "pipeline/plan.hpp"
+
+namespace facetmill::pipeline {
+
+/// A step that was not run, because the cache knows what it would tell.
+struct Recalled {
+    const Step* step = nullptr;
+    std::size_t trace = 0;    ///< its place in the trace of the run
+    double load_diagonal = 0; ///< before it
+    cache::Memory memory;
+};
+
+struct Flow {
+    Scene scene; ///< as it was before the steps that were recalled
+    std::vector<Recalled> recalled;
+    /// Of the scene after them: scenes with one key are equal. Empty: not known yet.
+    std::string key;
+    /// Seconds that stages took since the last scene of this way that the cache has.
+    double unsaved = 0;
+    /// What the cache gets of these stages as soon as it gets a scene after them: by key.
+    std::vector<std::pair<std::string, io::Bytes>> memories;
+    bool without_cache = false;
+    Flow* origin = nullptr;    ///< the flow that it branched off, which outlives it
+    std::size_t inherited = 0; ///< how many of the recalled steps are the origin's
+
+    /// Whether `scene` is the scene now.
+    bool is_here() const { return recalled.empty(); }
+    Box bounds() const { return is_here() ? scene.bounds() : recalled.back().memory.bounds; }
+    /// The same scene, for an arm: what must be made to get it is made once, for all arms.
+    Flow branched_off() {
+        if (is_here()) return *this;
+        Flow arm;
+        arm.recalled = recalled;
+        arm.key = key;
+        arm.unsaved = unsaved;
+        arm.memories = memories;
+        arm.without_cache = without_cache;
+        arm.origin = this;
+        arm.inherited = recalled.size();
+        return arm;
+    }
+    /// The scene has become another, which no key is known of.
+    void replaced() {
+        key.clear();
+        unsaved = 0;
+        memories.clear();
+    }
+};
+
+} // namespace facetmill::pipeline

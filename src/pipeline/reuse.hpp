@@ -1,0 +1,67 @@
+#pragma once
+// Which stages need not be run, because the cache knows what they did with the same scene and options; and
+// what it is told of those that were run.
+//
+// A stage is recalled when it reads nothing but the scene, its options, its name and `only`, and does nothing
+// but give a scene and fill its own record; or when it loads, and the files that it read are the same. Those
+// that judge or write always run. What a stage did besides is looked at after it ran, too, and then not
+// stored.
+//
+// The key of a scene that a stage made is of the scene before it, the stage, its options, this program and
+// its libraries; that of any other scene (loaded, joined ...) is of its contents, so that it does not matter
+// how it came about. A scene is stored when that takes at most a tenth of the time of the stages since the
+// last one that is stored; what the report says of these stages is stored with it, and only then.
+
+#include "cache/store.hpp"
+#include "pipeline/flow.hpp"
+#include "pipeline/trace.hpp"
+#include "stage/context.hpp"
+
+namespace facetmill::pipeline {
+
+class Reuse {
+  public:
+    /// store: none, and nothing is recalled or stored.
+    Reuse(cache::Store* store, const Places& places, Trace& trace)
+        : store_(store), places_(places), trace_(trace) {}
+
+    /// Steps that load always run from now on.
+    void keep_loads() { loads_run_ = true; }
+
+    /// Whether the step need not be run: then its record is filled, and the run has its inputs.
+    bool recall(const Step& step, Flow& flow, RunState& run, report::StageRecord& stage);
+
+    /// What is to be known of a run before a stage for judging it afterwards.
+    struct Before {
+        std::string key; ///< of the stage with this scene; empty: it is not stored
+        std::size_t inputs = 0, absent = 0, outputs = 0, staged = 0, checks = 0, warnings = 0;
+        double load_diagonal = 0;
+    };
+    Before before(const Step& step, const Flow& flow, const RunState& run) const;
+    /// After a stage that ran and did what it should: its scene is the flow's.
+    void keep(const Step& step, Flow& flow, const RunState& run, const report::StageRecord& stage,
+              const Before& before);
+
+    /// Makes the scene of a flow be there: from the cache, or by running the steps that were recalled. Throws
+    /// as they do, and malformed (E-CHANGED) when an input is another by now.
+    void fetch(Flow& flow);
+
+  private:
+    bool may_recall(const Step& step) const;
+    bool recall_known(const Step& step, Flow& flow, RunState& run, report::StageRecord& stage);
+    void keep_known(const Step& step, Flow& flow, const RunState& run, const report::StageRecord& stage,
+                    const Before& before);
+    std::string key_of(const Step& step, Flow& flow, double load_diagonal) const;
+    void run_again(Flow& flow, std::size_t first);
+    void know_documents(const Scene& scene);
+    void share_documents(Scene& scene);
+    void store_scene(Flow& flow, const std::string& key);
+
+    cache::Store* store_;
+    const Places& places_;
+    Trace& trace_;
+    bool loads_run_ = false;
+    std::vector<std::shared_ptr<const Document>> documents_; ///< of all scenes of the run
+};
+
+} // namespace facetmill::pipeline

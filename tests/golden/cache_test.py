@@ -1,0 +1,335 @@
+"""facetmill run, pipe and batch with the cache: what a hit gives is what a miss gives, byte for byte, whatever happens to
+the cache."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+from support import FACETMILL, SCAN, SLOW, SOURCE, Case, main
+
+ALL = ("--cache-everything",)  # cheap stages, too, so that small meshes test what large ones do
+PIPELINE = """facetmill: 1
+params:
+  input: {type: path}
+  keep: {type: ratio, default: 50%}
+stages:
+  - load: "${input}"
+  - relax: 1
+  - simplify: "${keep}"
+  - validate: {closed: false, severity: warn}
+  - write: out.ply
+report: out.json
+"""
+# Several paths of one scene, a condition and a contract on it, and stages that read and write besides.
+WINDING = """facetmill: 1
+params:
+  input: {type: path}
+stages:
+  - load: "${input}"
+  - clean
+  - measure: {path: measures.json}
+  - branch:
+      near: [{relax: 2}, {write: near.ply}]
+      far: [{simplify: 30%, ensure: {deviation: {max: 90%}}}, {write: far.glb}]
+  - foreach: {k: [1, 2]}
+    join: true
+    do: [{relax: "${k}"}, {transform: {translate: [0, 0, "${k}"]}}]
+  - orient
+    when: {faces: {min: 1}}
+  - foreach: {part: "*"}
+    do: [{split: midpoint}, {write: "part-${part}.stl"}]
+  - render: picture.png
+report: [all.json, all.xml]
+""".replace("  - orient\n    when", "  - orient:\n    when")
+
+
+class Cache(Case):
+    def setUp(self):
+        super().setUp()
+        self.cache = self.dir / "cache"
+        self.env = {"FACETMILL_CACHE": str(self.cache)}
+        self.write("p.yaml", PIPELINE)
+
+    def told(self, *arguments, out="out", expect=0, env=None):
+        """What a run says on standard error, without what varies; and all that it writes."""
+        shutil.rmtree(self.dir / out, ignore_errors=True)
+        run = self.mill(*arguments, "-q", "--output-dir", out, expect=expect, env=env or self.env)
+        return run.returncode, run.stderr.replace(f"/{out}/", "/OUT/"), self.files(self.dir / out)
+
+    def run_it(self, *more, out="out", expect=0, env=None, pipeline="p.yaml"):
+        return self.told("run", pipeline, "-D", f"input={SCAN}", *ALL, *more, out=out, expect=expect, env=env)
+
+    def explained(self, *more, pipeline="p.yaml", scan=SCAN):
+        run = self.mill("run", pipeline, "-D", f"input={scan}", *ALL, "--explain", "-o", "out", *more, env=self.env)
+        names = ("load", "relax", "simplify", "validate", "write")
+        return [line for line in run.stderr.splitlines() if line.startswith(names) and (":" in line)]
+
+    def entries(self, suffix):
+        return sorted(self.cache.rglob(f"*{suffix}"))
+
+    def same_thrice(self, *arguments, expect=None, misses=True):
+        """Without a cache, with an empty one, and with all in it."""
+        without = self.told(*arguments, "--no-cache", out="a", expect=expect)
+        cold = self.told(*arguments, *ALL, out="a", expect=expect)
+        warm = self.told(*arguments, *ALL, out="a", expect=expect)
+        self.assertEqual(cold, without)
+        self.assertEqual(warm, without)
+        return without
+
+
+class HitEqualsMiss(Cache):
+    def check(self, pipeline, *more, scan=True):
+        scan = ["-D", f"input={SCAN}"] if scan and "\n  input:" in pipeline.read_text() else []
+        code, _, files = self.same_thrice("run", pipeline, *scan, *more, expect=0)
+        self.assertTrue(files)
+        self.assertTrue(self.entries(".memory"))
+
+    def test_winding(self):
+        self.check(self.write("w.yaml", WINDING))
+
+    def test_textured(self):
+        """Documents of glTF, alone and joined."""
+        for name in ("box-textured.glb", "box-draco.glb", "morph-cube/AnimatedMorphCube.gltf"):
+            mesh = SOURCE / "tests/data" / name
+            pipeline = self.write("t.yaml", WINDING.replace("- clean\n", "- triangulate\n").replace("all.xml", "all.html"))
+            self.check(pipeline, "-D", f"input={mesh}", scan=False)
+
+    def test_pipe(self):
+        for out, options in (("none", ("--no-cache",)), ("cold", ALL), ("warm", ALL)):
+            self.mill("pipe", *options, "-o", out, "load", SCAN, "!", "relax", "2", "!", "write", "b.ply", env=self.env)
+            self.assertEqual(self.files(self.dir / out), self.files(self.dir / "none"))
+        self.assertTrue(self.entries(".scene"))
+
+    def test_strict_and_allow(self):
+        for more in (("--strict",), ("--strict=W-UNITS",), ("--strict", "--allow", "W-UNITS", "--allow", "W-CHECK"),
+                     ("--allow", "W-CHECK")):
+            self.write("q.yaml", PIPELINE.replace("out.ply", "out.glb"))
+            self.same_thrice("run", "q.yaml", "-D", f"input={SCAN}", *more)
+
+    def test_failing(self):
+        self.write("q.yaml", PIPELINE.replace("{closed: false, severity: warn}", "{faces: 7}"))
+        code, _, files = self.same_thrice("run", "q.yaml", "-D", f"input={SCAN}")
+        self.assertEqual(code, 1)
+        self.assertEqual(list(files), ["out.json"])
+        self.write("q.yaml", PIPELINE.replace("relax: 1", "crop: {footprint: missing.svg}"))
+        self.same_thrice("run", "q.yaml", "-D", f"input={SCAN}")
+
+    def test_batch(self):
+        for k in range(6):
+            self.write(f"in/{k % 3}/m{k}.off", f"OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 {1 + k // 2}\n"
+                                              "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n")
+        self.write("q.yaml", PIPELINE.replace("out.", "${input.stem}."))
+        common = ("batch", "q.yaml", "--input", "in/**/*.off", "-j", "3", "--report", "all.json", "--report", "all.html")
+        results = []
+        for options in (("--no-cache",), ALL, ALL, (*ALL, "--strict")):
+            shutil.rmtree(self.dir / "out", ignore_errors=True)  # the journal, too
+            run = self.mill(*common, *options, "-q", "-o", "out", env=self.env,
+                            expect=None)
+            files = {k: v for k, v in self.files(self.dir / "out").items() if not k.startswith(".facetmill-batch")}
+            results.append((run.returncode, sorted(run.stderr.splitlines()), files))
+        self.assertEqual(results[1], results[0])
+        self.assertEqual(results[2], results[0])
+        self.assertEqual(results[0][0], 0)
+        self.assertEqual(results[3][0], 1)
+
+
+for path in sorted((SOURCE / "pipelines").glob("*.yaml")) + ([] if SLOW else
+                                                              sorted((SOURCE / "pipelines/figures").glob("*.yaml"))):
+    def test(self, path=path):
+        self.check(path)
+    setattr(HitEqualsMiss, "test_" + path.stem.replace("-", "_"), test)
+
+
+class Corpus(Cache):
+    @unittest.skipUnless(os.environ.get("FACETMILL_CORPUS"), "FACETMILL_CORPUS does not name a folder of meshes")
+    def test_hit_equals_miss(self):
+        """Every file of the corpus: the same outputs, reports, messages and exit code."""
+        self.write("w.yaml", WINDING.replace("clean\n", "triangulate\n"))
+        done = 0
+        for mesh in sorted(pathlib.Path(os.environ["FACETMILL_CORPUS"]).resolve().rglob("*")):
+            if mesh.suffix.lower() not in (".ply", ".obj", ".off", ".stl", ".glb", ".gltf", ".drc", ".gz"):
+                continue
+            if mesh.stat().st_size > int(os.environ.get("FACETMILL_CORPUS_BYTES", 4 << 20)):
+                continue
+            with self.subTest(mesh=mesh.name):
+                self.same_thrice("run", "w.yaml", "-D", f"input={mesh}")
+                done += 1
+            shutil.rmtree(self.cache, ignore_errors=True)
+        print(f"{done} files")
+        self.assertGreater(done, 0)
+
+
+class Keys(Cache):
+    CACHED = ["load: from the cache", "relax: from the cache", "simplify: from the cache"]
+
+    def test_what_does_not_matter(self):
+        self.run_it("-j", "1")
+        before = self.entries(".scene")
+        self.write("p.yaml", "# a comment\n" + PIPELINE.replace("  - relax: 1", "\n  -   relax:   1   # once"))
+        self.assertEqual(self.explained("-j", "3")[:3], self.CACHED)
+        self.write("p.yaml", PIPELINE.replace("relax: 1", "relax: {iterations: 1}"))
+        self.assertEqual(self.explained()[:3], self.CACHED)
+        self.write("other.yaml", PIPELINE.replace("out.ply", "another.ply"))
+        self.assertEqual(self.explained(pipeline="other.yaml")[:3], self.CACHED)
+        self.assertEqual(self.entries(".scene"), before)
+
+    def test_another_folder(self):
+        """The file is read, since reports name it; what comes of it is known."""
+        self.run_it()
+        (self.dir / "moved").mkdir()
+        shutil.copy(SCAN, self.dir / "moved" / SCAN.name)
+        lines = self.explained(scan=self.dir / "moved" / SCAN.name)
+        self.assertIn("is read now", lines[0])
+        self.assertEqual(lines[1:3], self.CACHED[1:])
+
+    def test_what_matters(self):
+        scan = self.dir / "scan.ply"
+        shutil.copy(SCAN, scan)
+        lines = self.explained(scan=scan)
+        self.assertEqual(lines[0], "load runs: no earlier run with these outputs is known")
+        self.assertEqual(lines[3:], ["validate: runs every time", "write: runs every time"])
+        self.assertEqual(self.explained("-D", "keep=40%", scan=scan)[:3],
+                         [*self.CACHED[:2], "simplify reruns: ratio 50% -> 40%"])
+        self.write("p.yaml", PIPELINE.replace("relax: 1", "relax: {iterations: 2, lambda: 0.5}"))
+        lines = self.explained("-D", "keep=40%", scan=scan)
+        self.assertIn("relax reruns: iterations 1 -> 2", lines[1])
+        self.assertIn("lambda", lines[1])
+        self.assertEqual(lines[2], "simplify reruns: the scene before it changed")
+        data = bytearray(scan.read_bytes())
+        data[data.index(b"end_header\n") + 11] ^= 1  # the last bit of a coordinate
+        scan.write_bytes(data)
+        lines = self.explained("-D", "keep=40%", scan=scan)
+        self.assertTrue(lines[0].startswith("load reruns: ") and lines[0].endswith("scan.ply changed"), lines[0])
+
+    def test_off(self):
+        self.run_it(env={"FACETMILL_CACHE": ""})
+        self.run_it(env={"FACETMILL_CACHE": "off"})
+        self.run_it("--no-cache")
+        self.assertFalse(self.cache.exists())
+        home = {"FACETMILL_CACHE": "", "XDG_CACHE_HOME": str(self.dir / "xdg"), "HOME": str(self.dir / "home")}
+        self.run_it("--cache", env=home)
+        self.assertTrue(list((self.dir / "xdg/facetmill").rglob("*.scene")))
+        self.run_it("--cache", env={**home, "XDG_CACHE_HOME": ""})
+        self.assertTrue(list((self.dir / "home/.cache/facetmill").rglob("*.scene")))
+        run = self.mill("run", "p.yaml", "-D", f"input={SCAN}", "--cache", "--no-cache", expect=2)
+        self.assertIn("exclude each other", run.stderr)
+
+
+class Trouble(Cache):
+    def test_corrupt_entries(self):
+        expected = self.run_it()
+        for suffix in (".scene", ".memory", ".last"):
+            for change in ("flip", "cut", "empty", "longer", "other"):
+                for number, entry in enumerate(self.entries(suffix)):
+                    data = bytearray(entry.read_bytes())
+                    at = (number * 7919 + len(change) * 104729) % len(data)
+                    if change == "flip":
+                        data[at] ^= 1 << (number % 8)
+                    elif change == "cut":
+                        del data[at:]
+                    elif change == "empty":
+                        data = b""
+                    elif change == "longer":
+                        data += b"x"
+                    else:
+                        data = self.entries(suffix)[number - 1].read_bytes()
+                    entry.write_bytes(data)
+                code, said, files = self.run_it("--cache-everything")
+                self.assertEqual((code, files), (expected[0], expected[2]), f"{suffix} {change}")
+                notes = self.mill("run", "p.yaml", "-D", f"input={SCAN}", *ALL, "-o", "out", env=self.env).stderr
+                self.assertNotIn("W-CACHE", notes, "the entries are whole again")
+
+    def test_a_corrupt_entry_is_told(self):
+        self.run_it()
+        for entry in self.entries(".memory"):
+            entry.write_bytes(b"nonsense")
+        run = self.mill("run", "p.yaml", "-D", f"input={SCAN}", *ALL, "-o", "out", "--strict", "--allow", "W-CHECK",
+                        env=self.env)
+        self.assertIn("note[W-CACHE]", run.stderr)
+
+    def test_unwritable(self):
+        expected = self.run_it()
+        self.write("file", "")
+        for options in ((), ("--strict", "--allow", "W-CHECK")):
+            code, said, files = self.run_it(*options, env={"FACETMILL_CACHE": str(self.dir / "file/cache")})
+            self.assertEqual((code, files), (0, expected[2]))
+            self.assertEqual(said.count("warning[W-CACHE]"), 1, said)
+
+    def test_only_the_limit_is_kept(self):
+        expected = self.run_it()
+        size = max(entry.stat().st_size for entry in self.entries(".scene"))
+        shutil.rmtree(self.cache)
+        limit = 2 * size
+        for keep in ("50%", "40%", "30%", "20%", "50%"):
+            got = self.run_it("-D", f"keep={keep}", env={**self.env, "FACETMILL_CACHE_SIZE": str(limit)})
+            there = sum(p.stat().st_size for p in self.cache.rglob("*") if p.is_file())
+            self.assertLessEqual(there, limit)
+        self.assertEqual(got[2], expected[2])
+        self.run_it(env={**self.env, "FACETMILL_CACHE_SIZE": "1"})
+        self.mill("run", "p.yaml", "-D", f"input={SCAN}", expect=2, env={**self.env, "FACETMILL_CACHE_SIZE": "much"})
+
+    def test_processes_share_it(self):
+        expected = self.run_it("--no-cache")[2]
+        for _ in range(2):
+            runs = [subprocess.Popen([str(FACETMILL), "run", "p.yaml", "-D", f"input={SCAN}", *ALL, "-q", "-j", "1", "-o",
+                                      f"out{k}"], cwd=self.dir, env={**os.environ, **self.env},
+                                     stderr=subprocess.PIPE, text=True) for k in range(4)]
+            for k, run in enumerate(runs):
+                said = run.communicate(timeout=600)[1]
+                self.assertEqual((run.returncode, "W-CACHE" in said), (0, False), said)
+                self.assertEqual(self.files(self.dir / f"out{k}"), expected)
+        self.assertEqual([p for p in self.cache.rglob("*.part")], [])
+
+    def test_clear_while_it_runs(self):
+        expected = self.run_it("--no-cache")[2]
+        runs = [subprocess.Popen([str(FACETMILL), "run", "p.yaml", "-D", f"input={SCAN}", *ALL, "-q", "-j", "1", "-o",
+                                  f"out{k}"], cwd=self.dir, env={**os.environ, **self.env}, stderr=subprocess.DEVNULL) for k in range(2)]
+        while any(run.poll() is None for run in runs):
+            self.mill("cache", "clear", env=self.env)
+        for k, run in enumerate(runs):
+            self.assertEqual((run.returncode, self.files(self.dir / f"out{k}")), (0, expected))
+
+
+class Command(Cache):
+    def test_stats_gc_clear(self):
+        self.run_it()
+        stats = self.mill("cache", "stats", env=self.env).stdout
+        self.assertIn(str(self.cache), stats)
+        self.assertIn("3 of them scenes", stats)
+        stranger = self.cache / "ab" / "mine.txt"
+        stranger.parent.mkdir(exist_ok=True)
+        stranger.write_text("not of the cache")
+        left = stranger.with_name(".1-0.part")
+        left.write_text("of a process that was killed")
+        os.utime(left, (1, 1))
+        self.mill("cache", "gc", env=self.env)
+        self.assertFalse(left.exists())
+        self.assertEqual(len(self.entries(".scene")), 3)
+        self.mill("cache", "gc", env={**self.env, "FACETMILL_CACHE_SIZE": "1K"})
+        self.assertEqual(self.entries(".scene"), [])
+        self.run_it()
+        self.assertIn("removed", self.mill("cache", "clear", env=self.env).stdout)
+        self.assertEqual([p for p in self.cache.rglob("*") if p.is_file()], [stranger])
+        self.mill("cache", "empty", expect=2)
+
+    def test_restat(self):
+        self.run_it()
+        outputs = [self.dir / "out/out.ply", self.dir / "out/out.json"]
+        run = ("run", "p.yaml", "-D", f"input={SCAN}", *ALL, "-q", "-o", "out")
+        for path in outputs:
+            os.utime(path, (1000, 1000))
+        self.mill(*run, "--restat", env=self.env)
+        self.assertEqual([path.stat().st_mtime for path in outputs], [1000, 1000])
+        self.mill(*run, "--restat", "-D", "keep=40%", env=self.env)
+        self.assertTrue(all(path.stat().st_mtime > 1000 for path in outputs))
+        for path in outputs:
+            os.utime(path, (1000, 1000))
+        self.mill(*run, "-D", "keep=40%", env=self.env)
+        self.assertTrue(all(path.stat().st_mtime > 1000 for path in outputs))
+        self.assertEqual([p.name for p in (self.dir / "out").iterdir() if p.name not in ("out.ply", "out.json")], [])
+
+
+if __name__ == "__main__":
+    main()
