@@ -1,11 +1,17 @@
 #include "cli/console.hpp"
 
+#include "base/readable_numbers.hpp"
+
 #include <chrono>
+#include <cmath>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
+#include <mutex>
+#include <thread>
 #include <unistd.h>
 
 namespace facetmill::cli {
@@ -39,25 +45,61 @@ void line(const Json& object) {
     std::fputs(text.c_str(), stderr);
 }
 
-/// One line, redrawn: "[3/8] simplify".
+/// One line, redrawn a few times a second: "[####....] 3/8 simplify 42 %, about 12 s left".
 class Bar : public Progress {
   public:
     ~Bar() override { done(); }
     void stage(int number, int number_of, const std::string& name) override {
-        constexpr int width = 24;
-        const int filled = number_of > 0 ? width * (number - 1) / number_of : 0;
-        tell("\r\033[K[{}{}] {}/{} {}", std::string(filled, '#'), std::string(width - filled, '.'), number,
-             number_of, name);
-        std::fflush(stderr);
-        drawn_ = true;
+        begin(number_of > 0 ? static_cast<double>(number - 1) / number_of : 0,
+              fmt::format("{}/{} {}", number, number_of, name));
     }
+    void after_stages(const std::string& what) override { begin(1, what); }
     void done() override {
+        {
+            const std::lock_guard lock(guard_);
+            over_ = true;
+        }
+        wake_.notify_all();
+        if (drawer_.joinable()) drawer_.join();
         if (drawn_) std::fputs("\r\033[K", stderr);
         drawn_ = false;
     }
 
   private:
-    bool drawn_ = false;
+    using Clock = std::chrono::steady_clock;
+
+    void begin(double filled, std::string what) {
+        const std::lock_guard lock(guard_);
+        filled_ = filled;
+        what_ = std::move(what);
+        start_ = Clock::now();
+        share = -1;
+        draw();
+        if (!drawer_.joinable()) drawer_ = std::thread([this] { draw_until_done(); });
+    }
+
+    void draw_until_done() {
+        std::unique_lock lock(guard_);
+        while (!wake_.wait_for(lock, std::chrono::milliseconds(250), [this] { return over_; })) draw();
+    }
+
+    void draw() {
+        constexpr int width = 24;
+        const int filled = static_cast<int>(width * filled_);
+        const double since = std::chrono::duration<double>(Clock::now() - start_).count();
+        tell("\r\033[K[{}{}] {}{}", std::string(static_cast<std::size_t>(filled), '#'),
+             std::string(static_cast<std::size_t>(width - filled), '.'), what_, how_far(since, share));
+        std::fflush(stderr);
+        drawn_ = true;
+    }
+
+    double filled_ = 0;
+    std::string what_;
+    Clock::time_point start_;
+    bool drawn_ = false, over_ = false;
+    std::mutex guard_; ///< of what stands above
+    std::condition_variable wake_;
+    std::thread drawer_;
 };
 
 /// A line per stage, with the time since the start.
@@ -76,6 +118,10 @@ class Lines : public Progress {
         else
             tell("{:7.2f}s  {}/{} {}\n", since.count(), number, number_of, name);
     }
+    void after_stages(const std::string& what) override {
+        const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
+        if (!json_) tell("{:7.2f}s  {}\n", since.count(), what);
+    }
     void done() override {}
 
   private:
@@ -84,6 +130,14 @@ class Lines : public Progress {
 };
 
 } // namespace
+
+std::string how_far(double seconds, double share) {
+    constexpr double long_enough = 1; // what is over sooner needs no number
+    if (seconds < long_enough) return {};
+    if (share <= 0 || share > 1) return ", " + timed(seconds);
+    return fmt::format(" {:.0f} %, about {} left", std::floor(100 * share),
+                       timed(seconds / share * (1 - share)));
+}
 
 bool Console::colour() const {
     const char* no_colour = std::getenv("NO_COLOR");

@@ -15,6 +15,10 @@ namespace facetmill::cli {
 /// success.
 void print(std::string_view text);
 
+/// Behind the name of a stage that has run for some seconds, the share of it being done (negative: unknown):
+/// " 42 %, about 12 s left", ", 12 s"; nothing in its first second.
+std::string how_far(double seconds, double share);
+
 /// What goes to standard error.
 class Console {
   public:

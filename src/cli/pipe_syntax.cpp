@@ -158,6 +158,10 @@ bool is_separator(const std::string& a) { return a == "!" || a == "+"; }
 bool is_bracket(const std::string& a) { return a == "[" || a == "]"; }
 bool is_option(const std::string& a) { return a.size() > 2 && a.starts_with("--"); }
 
+/// What other languages take for true and false, so that it stands alone behind a switch.
+bool is_foreign_truth(const std::string& a) {
+    return a == "yes" || a == "no" || a == "on" || a == "off" || a == "y" || a == "n";
+}
 bool is_common(std::string_view key) { return is_common_key(key) || key == "join"; }
 
 /// Reads the arguments from left to right; every function leaves at_ behind what it read.
@@ -271,7 +275,9 @@ class Parser {
             if (primary && !primary->repeatable && primary->type != "vector")
                 problems_.add(bare[1].mark, "E-PIPE",
                               fmt::format("'{}' takes one value, found {}", stage->name, bare.size()),
-                              "stages are separated by ! or +");
+                              is_foreign_truth(bare[1].text)
+                                  ? "an option is switched by true and false: --draco, --draco=false"
+                                  : "stages are separated by ! or +");
             Value list = Value::list({}, bare[0].mark);
             for (auto& b : bare)
                 if (b.is_list())

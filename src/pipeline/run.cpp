@@ -127,11 +127,11 @@ class Runner {
             fetch({}, "a picture", flow))
             add_small_picture(flow.scene, record().stages.back());
         finish_outputs();
-        if (settings_.progress) settings_.progress->done();
         record().seconds = seconds_since(start);
         record().peak_memory = peak_memory();
         record().threads = threads();
         write_reports();
+        if (settings_.progress) settings_.progress->done();
         if (settings_.on_trace) settings_.on_trace(trace_);
         return std::move(record());
     }
@@ -239,6 +239,7 @@ class Runner {
         stage.before = brief(scene);
         const auto before = reuse_.before(step, flow, state_);
         const auto start = Clock::now();
+        const Share share(settings_.progress ? &settings_.progress->share : nullptr);
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, scene.bounds(), step.where);
             if (!step.only.patterns.empty() && !step.stage->loads)
@@ -489,11 +490,13 @@ class Runner {
 
     /// All that can be written are, whatever became of the others.
     void write_reports() {
-        for (const auto& path : plan_.reports)
+        for (const auto& path : plan_.reports) {
+            if (settings_.progress) settings_.progress->after_stages(path);
             if (!unwritable_.contains(plan_.places.output(path).parent_path()) &&
                 failures_.guarded({}, "the report",
                                   [&] { write_report(plan_, path, record(), settings_.keep_unchanged); }))
                 record().reports.push_back(path);
+        }
     }
 
     void finish_outputs() {

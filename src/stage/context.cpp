@@ -2,6 +2,7 @@
 
 #include "base/glob.hpp"
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "mesh/power_scale.hpp"
 
 #include <fmt/format.h>
@@ -70,9 +71,15 @@ Context::Context(RunState& run, report::StageRecord& record, const PartFilter& o
     : run_(run), record_(record), only_(only), entering_(entering), where_(where) {}
 
 void Context::for_each_part(Scene& scene, const std::function<void(Part&)>& body) {
+    double all = 0, done = 0; // in faces
+    for (const auto& part : scene.parts)
+        if (only_.selects(part, scene)) all += static_cast<double>(1 + part.mesh.face_count());
     for (auto& part : scene.parts) {
         if (!only_.selects(part, scene)) continue;
+        const double faces = static_cast<double>(1 + part.mesh.face_count());
+        const Share share(done / all, (done + faces) / all);
         body(part);
+        done += faces;
         part.changed = true;
     }
 }

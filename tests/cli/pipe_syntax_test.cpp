@@ -217,3 +217,13 @@ TEST_CASE("what a file can say in braces and brackets, a one-liner can", "[cli]"
     CHECK(yaml({"clip", "--plane", "{normal: [0, 0}"}).find("error[E-YAML]: in '{normal: [0, 0}'") !=
           std::string::npos);
 }
+
+TEST_CASE("a word of another language behind a switch gets a hint", "[cli]") {
+    CHECK(same("write b.glb --draco true", "[{write: {draco: true, path: b.glb}}]"));
+    for (const char* word : {"yes", "no", "on", "off"}) {
+        CAPTURE(word);
+        CHECK(yaml(std::string("write b.glb --draco ") + word)
+                  .find("hint: an option is switched by true and false: --draco, --draco=false") !=
+              std::string::npos);
+    }
+}

@@ -4,6 +4,9 @@ import gzip
 import json
 import os
 import pathlib
+import pty
+import re
+import select
 import signal
 import struct
 import subprocess
@@ -108,6 +111,33 @@ class Process(Case):
         self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["a.yaml", "in.off", "o.off", "p.yaml"])
         said = self.mill("run", "-", "--watch", stdin="", expect=2).stderr
         self.assertIn("--watch cannot read", said)
+
+    def test_a_terminal_sees_how_far_a_stage_is(self):
+        self.write("p.yaml", f"facetmill: 1\nallow: W-UNITS\nstages:\n  - load: {SCAN}\n  - relax: 100000\n  - write: o.ply\n")
+        terminal, other = pty.openpty()
+        self.addCleanup(os.close, terminal)
+        run = subprocess.Popen([str(FACETMILL), "run", "p.yaml"], cwd=self.dir, stderr=other,
+                               env={**os.environ, "TERM": "xterm"})
+        os.close(other)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        said, deadline = "", time.monotonic() + 120
+        while not re.search(r"\] 2/3 relax \d+ %, about [^\r]* left", said):
+            self.assertLess(time.monotonic(), deadline, said)
+            self.assertTrue(select.select([terminal], [], [], 60)[0], said)
+            said += os.read(terminal, 4096).decode()
+
+    def test_a_terminal_sees_which_report_is_rendered(self):
+        self.write("in.off", TRIANGLE)
+        self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [load: in.off, split: midpoint, write: o.off]\nreport: r.html\n")
+        terminal, other = pty.openpty()
+        self.addCleanup(os.close, terminal)
+        run = subprocess.Popen([str(FACETMILL), "run", "p.yaml"], cwd=self.dir, stderr=other,
+                               env={**os.environ, "TERM": "xterm"})
+        os.close(other)
+        self.assertEqual(run.wait(60), 0)
+        said = os.read(terminal, 65536).decode()
+        self.assertLess(said.index("3/3 write"), said.index("[########################] r.html"))
 
     def test_events(self):
         self.write("in.off", TRIANGLE)

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/numbers.hpp"
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/relax/steps.hpp"
 #include "mesh/face.hpp"
@@ -71,6 +72,7 @@ Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
         const std::vector<Vec3>& from = run.iterations > 0 ? last : start;
         step(from, run.places);
         ++run.iterations;
+        Share::tell(static_cast<double>(run.iterations) / static_cast<double>(iterations));
         if (until <= 0) continue;
         run.last_move = move_size(from, run.places, settings.to_world).largest;
         const double area = twice_area(mesh, run.places, settings.to_world);
@@ -78,6 +80,7 @@ Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
         run.shrank = area < first_area * least_area_left;
         run.settled = run.last_move <= until && !run.shrank;
     }
+    Share::unknown();
     if (run.shrank) { // the one before the last
         run.places.swap(last);
         --run.iterations;

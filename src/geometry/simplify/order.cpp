@@ -10,6 +10,7 @@
 #include "geometry/simplify/methods.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "geometry/simplify/stretches.hpp"
 
 #include <memory>
@@ -54,7 +55,9 @@ class Passes {
 
     void run() {
         bool stuck = false;
-        for (count(); !stuck && !goal_.met(faces_, vertices_); count()) {
+        count();
+        const auto all = static_cast<double>(std::max<std::size_t>(1, remaining()));
+        for (; !stuck && !goal_.met(faces_, vertices_); count()) {
             lay_blocks();
             price();
             const std::uint32_t limit = threshold();
@@ -62,7 +65,9 @@ class Passes {
                 stuck = !try_again();
             else
                 commit(limit);
+            Share::tell(1 - static_cast<double>(remaining()) / all);
         }
+        Share::unknown();
         for (Member& m : members_) m.done.stuck = stuck;
     }
 
