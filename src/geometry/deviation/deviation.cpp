@@ -64,7 +64,7 @@ Farthest farthest_of(const FaceTree& tree, const std::vector<Vec3>& points, doub
         [](const Farthest& a, const Farthest& b) { return b.distance > a.distance ? b : a; }, 1024);
 }
 
-struct Sums {
+struct DistanceSums {
     double distances = 0, squares = 0;
 };
 
@@ -79,18 +79,18 @@ void measure_points(DirectedDeviation& d, const std::vector<Vec3>& points, const
             d.to = found[i].point;
             d.face = face_of(i);
         }
-    const Sums sums = parallel_reduce(
-        found.size(), Sums{},
+    const DistanceSums sums = parallel_reduce(
+        found.size(), DistanceSums{},
         [&](std::size_t begin, std::size_t end) {
-            Sums s;
+            DistanceSums s;
             for (std::size_t i = begin; i < end; ++i) {
                 s.distances += found[i].distance;
                 s.squares += found[i].distance * found[i].distance;
             }
             return s;
         },
-        [](const Sums& a, const Sums& b) {
-            return Sums{a.distances + b.distances, a.squares + b.squares};
+        [](const DistanceSums& a, const DistanceSums& b) {
+            return DistanceSums{a.distances + b.distances, a.squares + b.squares};
         });
     if (found.empty()) return;
     d.mean = sums.distances / static_cast<double>(found.size());

@@ -11,8 +11,6 @@ namespace facetmill {
 
 namespace {
 
-using Settings = MaskSettings;
-
 [[noreturn]] void refuse(const Part& part, const std::string& message) {
     std::vector<std::string> names;
     for (const auto& a : part.mesh.attributes) names.push_back(a.name);
@@ -21,7 +19,7 @@ using Settings = MaskSettings;
                               : "it has " + fmt::format("{}", fmt::join(names, ", ")));
 }
 
-std::vector<std::uint8_t> chosen_faces(const Part& part, const Scene& scene, const Settings& s) {
+std::vector<std::uint8_t> chosen_faces(const Part& part, const Scene& scene, const MaskSettings& s) {
     const Mesh& mesh = part.mesh;
     std::vector<std::uint8_t> chosen(mesh.face_count(), 1);
     if (s.group) {
@@ -68,7 +66,7 @@ void multiply(const Part& part, const std::string& name, std::vector<double>& sh
 
 } // namespace
 
-std::vector<double> vertex_mask(const Part& part, const Scene& scene, const Settings& s) {
+std::vector<double> vertex_mask(const Part& part, const Scene& scene, const MaskSettings& s) {
     if (!s.any()) return {};
     std::vector<double> shares(part.mesh.vertex_count(), 1);
     const auto chosen = chosen_faces(part, scene, s);

@@ -8,14 +8,14 @@ namespace facetmill {
 
 namespace {
 
-struct Sums {
+struct SizeSums {
     double area = 0, volume = 0;
     std::uint64_t boundary = 0; ///< each directed edge once, its reverse as the negative
 };
 
 /// place(corner): where it is, seen from a point near the surface.
 template <class Place>
-void add_face(Sums& sums, const Mesh& mesh, Index f, std::vector<Vec3>& corners, Place&& place) {
+void add_face(SizeSums& sums, const Mesh& mesh, Index f, std::vector<Vec3>& corners, Place&& place) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
     const Vec3 first = place(begin);
     Vec3 twice;
@@ -33,7 +33,7 @@ void add_face(Sums& sums, const Mesh& mesh, Index f, std::vector<Vec3>& corners,
     sums.area += covered_area(corners);
 }
 
-void add_boundary(Sums& sums, const Mesh& mesh, Index f) {
+void add_boundary(SizeSums& sums, const Mesh& mesh, Index f) {
     const Index begin = mesh.face_begin(f), end = mesh.face_end(f);
     for (Index c = begin, last = end - 1; c < end; last = c++) {
         const std::uint64_t from = mesh.vertex(last), to = mesh.vertex(c);
@@ -43,11 +43,11 @@ void add_boundary(Sums& sums, const Mesh& mesh, Index f) {
 }
 
 template <class Place>
-Sums sums_of(const Mesh& mesh, bool with_boundary, Place&& place) {
+SizeSums sums_of(const Mesh& mesh, bool with_boundary, Place&& place) {
     return parallel_reduce(
-        mesh.face_count(), Sums{},
+        mesh.face_count(), SizeSums{},
         [&](std::size_t begin, std::size_t end) {
-            Sums s;
+            SizeSums s;
             std::vector<Vec3> corners;
             for (auto f = static_cast<Index>(begin); f < end; ++f) {
                 add_face(s, mesh, f, corners, place);
@@ -55,13 +55,13 @@ Sums sums_of(const Mesh& mesh, bool with_boundary, Place&& place) {
             }
             return s;
         },
-        [](Sums a, const Sums& b) {
-            return Sums{a.area + b.area, a.volume + b.volume, a.boundary + b.boundary};
+        [](SizeSums a, const SizeSums& b) {
+            return SizeSums{a.area + b.area, a.volume + b.volume, a.boundary + b.boundary};
         });
 }
 
-Sums far_sums_of(const Mesh& mesh, bool with_boundary, const Transform& to_world, const PowerScale& scale,
-                 const Vec3& origin) {
+SizeSums far_sums_of(const Mesh& mesh, bool with_boundary, const Transform& to_world, const PowerScale& scale,
+                     const Vec3& origin) {
     const Vec3 from = scale(origin);
     return sums_of(mesh, with_boundary, [&](Index c) { return scale(to_world.point(mesh.point(c))) - from; });
 }
@@ -82,8 +82,8 @@ SurfaceSize surface_size(const Mesh& mesh, const Transform& to_world, std::optio
     const Box box = box_of(mesh.positions), world = box_after(box, to_world);
     const PowerScale even = even_scale(world), axes = axis_scale(world);
     const Vec3 centre = to_world.point(box.centre()), origin = is_finite(centre) ? centre : Vec3{};
-    Sums sums = even.none()
-                    ? sums_of(mesh, !closed, [&](Index c) { return to_world.point(mesh.point(c)) - origin; })
+    SizeSums sums =
+        even.none() ? sums_of(mesh, !closed, [&](Index c) { return to_world.point(mesh.point(c)) - origin; })
                     : far_sums_of(mesh, !closed, to_world, even, origin);
     if (!even.none()) sums.area = unscaled(sums.area, 2 * even.powers[0]);
     if (!axes.none())

@@ -120,8 +120,6 @@ Mesh lattice_sponge(int level) {
     return quads.mesh();
 }
 
-using Settings = GenerateSettings;
-
 void need(bool holds, std::string_view what, const std::string& found, std::string hint = {}) {
     if (!holds)
         throw Error(ErrorKind::usage, "E-RANGE", fmt::format("generate: {}, not {}", what, found),
@@ -137,7 +135,7 @@ void need_count(std::int64_t n, std::int64_t least, std::string_view name) {
     need(n >= least, fmt::format("{} is at least {}", name, least), std::to_string(n));
 }
 
-void refuse_giants(const Settings& s) {
+void refuse_giants(const GenerateSettings& s) {
     const double faces = generate_face_estimate(s);
     if (3 * faces > 2147483648.0)
         throw Error(
@@ -194,7 +192,7 @@ void add_fan(Mesh& mesh, const Rows& rows, Index row, Index apex, bool up) {
            : add_triangle(mesh, rows.at(row, i + 1), rows.at(row, i), apex);
 }
 
-Mesh sphere(const Settings& s) {
+Mesh sphere(const GenerateSettings& s) {
     Mesh mesh;
     const auto directions = circle(s.segments);
     const Index bands = static_cast<Index>(s.rings), inner = bands - 1;
@@ -212,7 +210,7 @@ Mesh sphere(const Settings& s) {
     return mesh;
 }
 
-Mesh torus(const Settings& s) {
+Mesh torus(const GenerateSettings& s) {
     Mesh mesh;
     const auto directions = circle(s.segments);
     for (const auto& tube : circle(s.rings))
@@ -223,7 +221,7 @@ Mesh torus(const Settings& s) {
     return mesh;
 }
 
-Mesh cylinder(const Settings& s) {
+Mesh cylinder(const GenerateSettings& s) {
     Mesh mesh;
     const auto directions = circle(s.segments);
     const auto across = static_cast<Index>(s.rings);
@@ -240,7 +238,7 @@ Mesh cylinder(const Settings& s) {
     return mesh;
 }
 
-Mesh cone(const Settings& s) {
+Mesh cone(const GenerateSettings& s) {
     Mesh mesh;
     const auto directions = circle(s.segments);
     const auto across = static_cast<Index>(s.rings);
@@ -261,7 +259,7 @@ Mesh cone(const Settings& s) {
 
 /// A square of cells x cells quads around the origin, at the height that height(x, y) says.
 template <class Height>
-Mesh field(const Settings& s, Height&& height) {
+Mesh field(const GenerateSettings& s, Height&& height) {
     Mesh mesh;
     const auto n = static_cast<Index>(s.cells);
     const auto place = [&](Index i) { return s.size * ((2.0 * i - n) / (2.0 * n)); };
@@ -281,7 +279,7 @@ Mesh scaled(Mesh mesh, double size) {
     return mesh;
 }
 
-Mesh shaped(const Settings& s) {
+Mesh shaped(const GenerateSettings& s) {
     switch (s.shape) {
     case Shape::sphere:
         return sphere(s);
@@ -309,7 +307,7 @@ Mesh shaped(const Settings& s) {
 
 } // namespace
 
-double generate_face_estimate(const Settings& s) {
+double generate_face_estimate(const GenerateSettings& s) {
     const double around = static_cast<double>(s.segments), across = static_cast<double>(s.rings),
                  cells = static_cast<double>(s.cells);
     const auto power = [&](double base) {
@@ -339,7 +337,7 @@ double generate_face_estimate(const Settings& s) {
     return 0;
 }
 
-void check_generate_settings(const Settings& s) {
+void check_generate_settings(const GenerateSettings& s) {
     const bool square = s.shape == Shape::cube || s.shape == Shape::grid || s.shape == Shape::gaussian;
     const bool tall = s.shape == Shape::cylinder || s.shape == Shape::cone;
     need(s.noise >= 0 && s.noise <= 1e37, "noise is at least 0 and at most 1e+37", to_string(s.noise));
@@ -399,7 +397,7 @@ Mesh with_noise(Mesh mesh, double deviation, std::uint64_t seed) {
     return std::move(crumple(std::move(mesh), noise).mesh);
 }
 
-Mesh generate(const Settings& settings) {
+Mesh generate(const GenerateSettings& settings) {
     check_generate_settings(settings);
     refuse_giants(settings);
     Mesh mesh = shaped(settings);

@@ -23,8 +23,8 @@ constexpr std::size_t max_compared = 64;
 
 Vec3 normal_of(const Attribute& a, Index w) { return {a.value(w, 0), a.value(w, 1), a.value(w, 2)}; }
 
-/// Of every face.
-std::vector<Vec3> area_vectors(const Mesh& mesh) {
+/// Twice the area of every face along its normal.
+std::vector<Vec3> double_area_vectors(const Mesh& mesh) {
     std::vector<Vec3> areas(mesh.face_count());
     parallel_for(areas.size(), [&](std::size_t f) { areas[f] = area_vector(mesh, static_cast<Index>(f)); });
     return areas;
@@ -258,7 +258,7 @@ NormalSeams merge_normal_seams(Mesh& mesh, double feature_angle) {
     NormalSeams result;
     const Attribute* normals = mesh.find("NORMAL", Domain::wedge);
     if (!mesh.has_seams() || !normals || normals->components != 3 || !(feature_angle > 0)) return result;
-    const auto areas = area_vectors(mesh);
+    const auto areas = double_area_vectors(mesh);
     const auto face_of = corner_faces(mesh);
     const bool faceted = flat_shaded(mesh, *normals, areas, face_of);
     result.merged = merge_wedges(mesh, areas, face_of, faceted, cosine(feature_angle));
@@ -272,7 +272,7 @@ std::size_t forget_normals(Mesh& mesh) {
     if (!normals) return 0;
     std::size_t merged = 0;
     if (mesh.has_seams() && normals->components == 3)
-        merged = merge_wedges(mesh, area_vectors(mesh), corner_faces(mesh), true, 1);
+        merged = merge_wedges(mesh, double_area_vectors(mesh), corner_faces(mesh), true, 1);
     mesh.drop("NORMAL", Domain::wedge);
     return merged;
 }
@@ -288,7 +288,7 @@ struct Facet {
 } // namespace
 
 void set_facet_normals(Mesh& mesh) {
-    const auto areas = area_vectors(mesh);
+    const auto areas = double_area_vectors(mesh);
     const auto face_of = corner_faces(mesh);
     const auto corners_at = corners_at_vertices(mesh);
     std::vector<Facet> facets;

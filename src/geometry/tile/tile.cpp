@@ -13,7 +13,7 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-struct Range {
+struct CellRange {
     double low = -HUGE_VAL, high = HUGE_VAL; ///< cells
 };
 
@@ -27,11 +27,11 @@ class Tiler {
 
     /// within: the cells along this axis that the cuts so far leave. A point that rounding puts beyond a
     /// plane it was cut at stays on its side of it, so every cut leaves fewer cells and the recursion ends.
-    TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, Cell cell, Range within = {}) {
+    TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, Cell cell, CellRange within = {}) {
         if (mesh.face_count() == 0) return {};
         if (axis == settings_.axes.size()) return finished(std::move(mesh), std::move(memory), cell);
         const TileAxis& a = settings_.axes[axis];
-        Range cells = cells_of(mesh, a);
+        CellRange cells = cells_of(mesh, a);
         cells.low = std::clamp(cells.low, within.low, within.high);
         cells.high = std::clamp(cells.high, within.low, within.high);
         if (cells.low >= cells.high) {
@@ -62,7 +62,7 @@ class Tiler {
   private:
     /// The number between the cells that halves evenly most often, 0 before all: so an edge on a border that
     /// both neighbours are cut along is cut in the same order in both, and its points are rounded alike.
-    static double first_plane(const Range& cells) {
+    static double first_plane(const CellRange& cells) {
         double best = cells.low + 1;
         for (double step = 2; best != 0; step *= 2) {
             const double next = std::ceil((cells.low + 1) / step) * step;
@@ -78,7 +78,7 @@ class Tiler {
         return plane;
     }
 
-    Range cells_of(const Mesh& mesh, const TileAxis& a) const {
+    CellRange cells_of(const Mesh& mesh, const TileAxis& a) const {
         double least = HUGE_VAL, most = -HUGE_VAL;
         const auto add = [&](const Vec3& p) {
             least = std::min(least, p[a.axis]);
@@ -89,7 +89,7 @@ class Tiler {
             add(mesh.bounds().max);
         } else
             for (const Vec3& p : mesh.positions) add(settings_.to_world.point(p));
-        Range r{std::floor((least - a.origin) / a.size), std::ceil((most - a.origin) / a.size) - 1};
+        CellRange r{std::floor((least - a.origin) / a.size), std::ceil((most - a.origin) / a.size) - 1};
         if (!(std::fabs(r.low) < 1e9 && std::fabs(r.high) < 1e9) && r.high - r.low < 1e9)
             throw Error(ErrorKind::limit, "E-TILE",
                         fmt::format("a part lies {:.3g} tiles from the grid's origin along one axis, and at "
@@ -109,11 +109,11 @@ class Tiler {
         return r;
     }
 
-    TileResult one_side(ClipResult halves, std::size_t axis, Cell cell, double middle, Range within) {
+    TileResult one_side(ClipResult halves, std::size_t axis, Cell cell, double middle, CellRange within) {
         const bool front = halves.back.face_count() == 0;
         Mesh& mesh = front ? halves.front : halves.back;
         const TileAxis& a = settings_.axes[axis];
-        const Range cells = cells_of(mesh, a);
+        const CellRange cells = cells_of(mesh, a);
         TileResult whole;
         if (front ? cells.low < middle : cells.high >= middle) { // by rounding, or with isolated vertices
             cell[a.axis] = static_cast<std::int64_t>(front ? middle : middle - 1);

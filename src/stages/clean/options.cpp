@@ -2,7 +2,7 @@
 
 #include "mesh/transform.hpp"
 
-namespace facetmill {
+namespace facetmill::clean_stage {
 
 namespace {
 
@@ -147,4 +147,4 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
                      "components: {min_faces: 100}, {min_size: 1%}, {min_area: 1%} or {keep: 1}");
 }
 
-} // namespace facetmill
+} // namespace facetmill::clean_stage

@@ -4,7 +4,7 @@
 #include "geometry/clean/clean.hpp"
 #include "stage/stage.hpp"
 
-namespace facetmill {
+namespace facetmill::clean_stage {
 
 struct CleanHoleOptions {
     HoleFill method = HoleFill::minimal;
@@ -35,4 +35,4 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
 /// Lengths are in the world, meshes in their own space: a transform that stretches does so by its mean.
 CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part, Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::clean_stage

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace facetmill {
+namespace facetmill::clean_stage {
 
 namespace {
 
@@ -62,4 +62,4 @@ std::vector<NotDone> first_not_done(const std::vector<NotDone>& all, const Trans
     return first;
 }
 
-} // namespace facetmill
+} // namespace facetmill::clean_stage

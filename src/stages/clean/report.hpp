@@ -4,7 +4,7 @@
 #include "geometry/clean/clean.hpp"
 #include "options/fields.hpp"
 
-namespace facetmill {
+namespace facetmill::clean_stage {
 
 struct CleanedPart {
     std::string part;
@@ -20,4 +20,4 @@ void declare_clean_report(DeclareFields<CleanReport>& d);
 /// The first few repairs that were not done, with their places in the world.
 std::vector<NotDone> first_not_done(const std::vector<NotDone>& all, const Transform& to_world);
 
-} // namespace facetmill
+} // namespace facetmill::clean_stage

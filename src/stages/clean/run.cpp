@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::clean_stage {
 
 namespace {
 
@@ -53,4 +53,4 @@ const RegisterStage registered = make_stage<CleanOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::clean_stage

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::clip_stage {
 
 namespace {
 
@@ -215,4 +215,4 @@ const RegisterStage clip_stage = make_stage<ClipOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::clip_stage

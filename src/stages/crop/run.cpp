@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::crop_stage {
 
 namespace {
 
@@ -227,4 +227,4 @@ const RegisterStage registered{make_stage<CropOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::crop_stage

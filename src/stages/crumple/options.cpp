@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::crumple_stage {
 
 namespace {
 
@@ -92,4 +92,4 @@ CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene) {
     return s;
 }
 
-} // namespace facetmill
+} // namespace facetmill::crumple_stage

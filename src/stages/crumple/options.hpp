@@ -4,7 +4,7 @@
 #include "geometry/crumple/crumple.hpp"
 #include "stage/options/mask.hpp"
 
-namespace facetmill {
+namespace facetmill::crumple_stage {
 
 struct CrumpleOptions {
     enum class Intersections { allow, avoid, forbid };
@@ -30,4 +30,4 @@ void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& probl
 /// What is the same for all parts; amplitude, transform and mask are each part's own.
 CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene);
 
-} // namespace facetmill
+} // namespace facetmill::crumple_stage

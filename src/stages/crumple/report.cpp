@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::crumple_stage {
 
 namespace {
 
@@ -153,4 +153,4 @@ void warn_of_parts(const Scene& scene, Context& context) {
         }
 }
 
-} // namespace facetmill
+} // namespace facetmill::crumple_stage

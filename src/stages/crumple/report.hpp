@@ -7,7 +7,7 @@
 
 #include <span>
 
-namespace facetmill {
+namespace facetmill::crumple_stage {
 
 /// A part between being split and being moved.
 struct CrumpledPart {
@@ -46,4 +46,4 @@ void warn_of_folds(const CrumpledPart& part, Context& context);
 /// Warns when parts are so near each other that their faces may have come to meet.
 void warn_of_parts(const Scene& scene, Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::crumple_stage

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::crumple_stage {
 
 namespace {
 
@@ -106,4 +106,4 @@ const RegisterStage registered = make_stage<CrumpleOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::crumple_stage

@@ -2,7 +2,7 @@
 #include "stage/stage.hpp"
 #include "stages/ensure/help.hpp"
 
-namespace facetmill {
+namespace facetmill::ensure_stage {
 
 namespace {
 
@@ -47,4 +47,4 @@ const RegisterStage registered{make_stage<EnsureOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::ensure_stage

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::generate_stage {
 
 namespace {
 
@@ -169,4 +169,4 @@ void verify_generate(const GenerateOptions& o, const Value& given, Problems& pro
                      "give either faces, or segments and rings");
 }
 
-} // namespace facetmill
+} // namespace facetmill::generate_stage

@@ -4,7 +4,7 @@
 #include "geometry/generate/generate.hpp"
 #include "stage/stage.hpp"
 
-namespace facetmill {
+namespace facetmill::generate_stage {
 
 struct GenerateOptions {
     Shape shape = Shape::sphere;
@@ -25,4 +25,4 @@ void declare_generate(Declare<GenerateOptions>& d);
 /// What the declaration cannot say: options of other shapes, counts whose limits depend on the shape.
 void verify_generate(const GenerateOptions& o, const Value& given, Problems& problems);
 
-} // namespace facetmill
+} // namespace facetmill::generate_stage

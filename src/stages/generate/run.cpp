@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::generate_stage {
 
 namespace {
 
@@ -115,4 +115,4 @@ const RegisterStage registered = make_stage<GenerateOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::generate_stage

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::load_stage {
 
 namespace {
 
@@ -79,4 +79,4 @@ void add_tubes(Scene& scene, const std::vector<Lines>& all, const Length& thickn
             "clean: {self_intersections: union} makes one solid of them");
 }
 
-} // namespace facetmill
+} // namespace facetmill::load_stage

@@ -4,7 +4,7 @@
 #include "mesh/lines.hpp"
 #include "stage/context.hpp"
 
-namespace facetmill {
+namespace facetmill::load_stage {
 
 /// Adds a part to the file's scene for each of the lines: tubes of that thickness, a percentage being of the
 /// diagonal of the scene with its lines. Warns (W-LINES) where there were none, and where tubes go through
@@ -12,4 +12,4 @@ namespace facetmill {
 void add_tubes(Scene& scene, const std::vector<Lines>& all, const Length& thickness, int sides,
                Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::load_stage

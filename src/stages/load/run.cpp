@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::load_stage {
 
 namespace {
 
@@ -123,4 +123,4 @@ const RegisterStage registered{make_stage<LoadOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::load_stage

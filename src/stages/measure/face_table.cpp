@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <functional>
 
-namespace facetmill {
+namespace facetmill::measure_stage {
 
 namespace {
 
@@ -119,4 +119,4 @@ std::string face_table_help() {
     return fmt::format("{}", fmt::join(told, ", "));
 }
 
-} // namespace facetmill
+} // namespace facetmill::measure_stage

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace facetmill {
+namespace facetmill::measure_stage {
 
 /// The heading: the names of the columns.
 std::string face_table_head();
@@ -15,4 +15,4 @@ std::string face_table_rows(const std::string& part, const Mesh& mesh);
 /// "part (its name), face (its number, from 0), ...": the columns as the help tells them.
 std::string face_table_help();
 
-} // namespace facetmill
+} // namespace facetmill::measure_stage

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::measure_stage {
 
 void declare_measure(Declare<MeasureOptions>& d) {
     d.option("density", &MeasureOptions::density,
@@ -37,4 +37,4 @@ StageFiles files_of_measure(const MeasureOptions& o) { return {{}, o.path}; }
 
 bool lists_faces(const PathText& path) { return path.text.ends_with(".csv"); }
 
-} // namespace facetmill
+} // namespace facetmill::measure_stage

@@ -3,7 +3,7 @@
 
 #include "stage/stage.hpp"
 
-namespace facetmill {
+namespace facetmill::measure_stage {
 
 struct MeasureOptions {
     double density = 1;
@@ -20,4 +20,4 @@ StageFiles files_of_measure(const MeasureOptions& o);
 /// Whether the file gets a line for every face, rather than all results as JSON.
 bool lists_faces(const PathText& path);
 
-} // namespace facetmill
+} // namespace facetmill::measure_stage

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::measure_stage {
 
 namespace {
 
@@ -212,4 +212,4 @@ void declare_measure_report(DeclareFields<MeasureReport>& d) {
     d.tell(lines_of);
 }
 
-} // namespace facetmill
+} // namespace facetmill::measure_stage

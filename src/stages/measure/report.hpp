@@ -4,7 +4,7 @@
 #include "geometry/measure/measure.hpp"
 #include "options/fields.hpp"
 
-namespace facetmill {
+namespace facetmill::measure_stage {
 
 struct PrincipalInertia {
     std::array<double, 3> moments{};
@@ -41,4 +41,4 @@ struct MeasureReport {
 };
 void declare_measure_report(DeclareFields<MeasureReport>& d);
 
-} // namespace facetmill
+} // namespace facetmill::measure_stage

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::measure_stage {
 
 namespace {
 
@@ -27,7 +27,7 @@ struct Measures {
 };
 
 std::optional<MeasuredSolid> measured(const std::optional<SolidMass>& solid, double density) {
-    return solid ? std::optional(facetmill::measured(*solid, density)) : std::nullopt;
+    return solid ? std::optional(measure_stage::measured(*solid, density)) : std::nullopt;
 }
 
 void measure_part(Part& part, const MeasureOptions& o, bool list_faces, Measures& all, Context& context) {
@@ -85,4 +85,4 @@ const RegisterStage registered = make_stage<MeasureOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::measure_stage

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::merge_stage {
 
 namespace {
 
@@ -108,4 +108,4 @@ const RegisterStage registered =
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::merge_stage

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::orient_stage {
 
 namespace {
 
@@ -109,4 +109,4 @@ const RegisterStage registered = make_stage<OrientSettings>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::orient_stage

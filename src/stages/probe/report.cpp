@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::probe_stage {
 
 namespace {
 
@@ -303,4 +303,4 @@ std::string lines_csv(const LineAnswers& answers, const FaceNames& faces) {
     return csv;
 }
 
-} // namespace facetmill
+} // namespace facetmill::probe_stage

@@ -7,7 +7,7 @@
 
 #include <variant>
 
-namespace facetmill {
+namespace facetmill::probe_stage {
 
 /// Faces of a surface of several parts, by part and number there.
 class FaceNames {
@@ -76,4 +76,4 @@ std::string points_csv(std::span<const Vec3> points, std::span<const PointAnswer
                        const FaceNames& faces);
 std::string lines_csv(const LineAnswers& answers, const FaceNames& faces);
 
-} // namespace facetmill
+} // namespace facetmill::probe_stage

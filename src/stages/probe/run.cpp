@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::probe_stage {
 
 namespace {
 
@@ -215,4 +215,4 @@ const RegisterStage registered = make_stage<ProbeOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::probe_stage

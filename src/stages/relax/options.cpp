@@ -2,7 +2,7 @@
 
 #include "options/mark_at.hpp"
 
-namespace facetmill {
+namespace facetmill::relax_stage {
 
 namespace {
 
@@ -127,4 +127,4 @@ void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems)
             "relax: 'neighbours' does not go with the method cotangent, which weights those by angles");
 }
 
-} // namespace facetmill
+} // namespace facetmill::relax_stage

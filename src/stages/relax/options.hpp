@@ -4,7 +4,7 @@
 #include "geometry/relax/relax.hpp"
 #include "stage/options/mask.hpp"
 
-namespace facetmill {
+namespace facetmill::relax_stage {
 
 struct RelaxOptions {
     std::optional<std::int64_t> iterations;      ///< none: 1, or 1000 with until
@@ -27,4 +27,4 @@ void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems)
 /// What is the same for all parts; until, mask and the transform are each part's own.
 RelaxSettings relax_settings(const RelaxOptions& o);
 
-} // namespace facetmill
+} // namespace facetmill::relax_stage

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <limits>
 
-namespace facetmill {
+namespace facetmill::relax_stage {
 
 namespace {
 
@@ -103,4 +103,4 @@ const RegisterStage registered = make_stage<RelaxOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::relax_stage

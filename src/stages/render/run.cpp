@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::render_stage {
 
 namespace {
 
@@ -108,4 +108,4 @@ const RegisterStage registered{make_stage<RenderOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::render_stage

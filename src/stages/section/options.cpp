@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::section_stage {
 
 namespace {
 
@@ -57,4 +57,4 @@ polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& sce
             .keep = option.keep};
 }
 
-} // namespace facetmill
+} // namespace facetmill::section_stage

@@ -5,7 +5,7 @@
 #include "stage/options/plane.hpp"
 #include "stage/stage.hpp"
 
-namespace facetmill {
+namespace facetmill::section_stage {
 
 struct HatchOption {
     Length spacing = Length::percent(1);
@@ -29,4 +29,4 @@ void verify_section(const SectionOptions& o, const Value& given, Problems& probl
 /// that comes to 0.
 polygon::HatchSettings resolve_hatch(const HatchOption& option, const Scene& scene, Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::section_stage

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::section_stage {
 
 namespace {
 
@@ -197,4 +197,4 @@ SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, const Scene&
     return report;
 }
 
-} // namespace facetmill
+} // namespace facetmill::section_stage

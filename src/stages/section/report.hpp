@@ -7,7 +7,7 @@
 
 #include <functional>
 
-namespace facetmill {
+namespace facetmill::section_stage {
 
 /// What one plane cuts.
 struct ReportedSection {
@@ -40,4 +40,4 @@ void declare_section_report(DeclareFields<SectionReport>& d);
 SectionReport report_of(std::shared_ptr<const io::Drawing> drawing, const Scene& scene, double spacing,
                         Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::section_stage

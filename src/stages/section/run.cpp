@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::section_stage {
 
 namespace {
 
@@ -101,4 +101,4 @@ const RegisterStage registered{make_stage<SectionOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::section_stage

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <map>
 
-namespace facetmill {
+namespace facetmill::separate_stage {
 
 namespace {
 
@@ -96,4 +96,4 @@ PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOpt
         [&](std::int64_t, std::size_t n) { return fmt::format("{}.{}", part.name, n); });
 }
 
-} // namespace facetmill
+} // namespace facetmill::separate_stage

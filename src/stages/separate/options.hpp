@@ -3,7 +3,7 @@
 
 #include "stage/stage.hpp"
 
-namespace facetmill {
+namespace facetmill::separate_stage {
 
 struct SeparateOptions {
     enum class By { component, material, group };
@@ -29,4 +29,4 @@ struct PieceLabels {
 /// whose values are not all whole numbers.
 PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
 
-} // namespace facetmill
+} // namespace facetmill::separate_stage

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <set>
 
-namespace facetmill {
+namespace facetmill::separate_stage {
 
 namespace {
 
@@ -91,4 +91,4 @@ const RegisterStage registered = make_stage<SeparateOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::separate_stage

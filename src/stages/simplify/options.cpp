@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::simplify_stage {
 
 namespace {
 
@@ -311,4 +311,4 @@ SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to
     return s;
 }
 
-} // namespace facetmill
+} // namespace facetmill::simplify_stage

@@ -4,7 +4,7 @@
 #include "geometry/simplify/simplify.hpp"
 #include "stage/options/box.hpp"
 
-namespace facetmill {
+namespace facetmill::simplify_stage {
 
 struct LockOptions {
     bool boundary = false, seams = false, group = false;
@@ -54,4 +54,4 @@ struct SimplifyShare {
 SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to_world,
                                    const SimplifyShare& share);
 
-} // namespace facetmill
+} // namespace facetmill::simplify_stage

@@ -15,7 +15,7 @@
 #include <map>
 #include <numeric>
 
-namespace facetmill {
+namespace facetmill::simplify_stage {
 
 namespace {
 
@@ -467,4 +467,4 @@ Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, Si
     return Simplifier(std::move(scene), o, context, report).run();
 }
 
-} // namespace facetmill
+} // namespace facetmill::simplify_stage

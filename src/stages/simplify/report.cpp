@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::simplify_stage {
 
 namespace {
 
@@ -273,4 +273,4 @@ void declare_simplify_report(DeclareFields<SimplifyReport>& d) {
     d.tell(lines_of);
 }
 
-} // namespace facetmill
+} // namespace facetmill::simplify_stage

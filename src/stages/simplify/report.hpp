@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace facetmill {
+namespace facetmill::simplify_stage {
 
 /// What a surface measures.
 struct Size {
@@ -47,4 +47,4 @@ void declare_simplify_report(DeclareFields<SimplifyReport>& d);
 std::string held_by(const SimplifyResult& r);
 std::string hint_for(const SimplifyResult& r);
 
-} // namespace facetmill
+} // namespace facetmill::simplify_stage

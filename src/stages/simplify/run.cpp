@@ -1,7 +1,7 @@
 #include "stages/simplify/help.hpp"
 #include "stages/simplify/parts.hpp"
 
-namespace facetmill {
+namespace facetmill::simplify_stage {
 
 namespace {
 
@@ -20,4 +20,4 @@ const RegisterStage registered = make_stage<SimplifyOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::simplify_stage

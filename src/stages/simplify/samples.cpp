@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace facetmill {
+namespace facetmill::simplify_stage {
 
 SampledSize sampled_size(const Surface& surface) {
     SampledSize size{0, surface.size()};
@@ -31,4 +31,4 @@ std::vector<std::size_t> shared_samples(std::size_t all, std::span<const Sampled
     return shares;
 }
 
-} // namespace facetmill
+} // namespace facetmill::simplify_stage

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace facetmill {
+namespace facetmill::simplify_stage {
 
 /// What a part's share of the samples depends on.
 struct SampledSize {
@@ -20,4 +20,4 @@ SampledSize sampled_size(const Surface& surface);
 /// all.
 std::vector<std::size_t> shared_samples(std::size_t all, std::span<const SampledSize> parts);
 
-} // namespace facetmill
+} // namespace facetmill::simplify_stage

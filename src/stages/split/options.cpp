@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::split_stage {
 
 namespace {
 
@@ -125,4 +125,4 @@ SplitSettings split_settings(const SplitOptions& o) {
     return settings;
 }
 
-} // namespace facetmill
+} // namespace facetmill::split_stage

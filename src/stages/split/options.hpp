@@ -4,7 +4,7 @@
 #include "geometry/split/split.hpp"
 #include "stage/stage.hpp"
 
-namespace facetmill {
+namespace facetmill::split_stage {
 
 struct SplitOptions {
     std::optional<SplitMethod> method; ///< none: midpoint, or bisect with a target
@@ -27,4 +27,4 @@ void verify_split(const SplitOptions& o, const Value& given, Problems& problems)
 /// What is the same for all parts; max_edge, max_faces and the transform are each part's own.
 SplitSettings split_settings(const SplitOptions& o);
 
-} // namespace facetmill
+} // namespace facetmill::split_stage

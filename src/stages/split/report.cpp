@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::split_stage {
 
 namespace {
 
@@ -129,4 +129,4 @@ void warn_of_spots(const Part& part, const SplitResult& r, SplitMethod method, C
                      "clean removes duplicate faces; 'split: centroid' makes no such edges");
 }
 
-} // namespace facetmill
+} // namespace facetmill::split_stage

@@ -3,7 +3,7 @@
 
 #include "stages/split/options.hpp"
 
-namespace facetmill {
+namespace facetmill::split_stage {
 
 struct SplitPart {
     std::string part;
@@ -28,4 +28,4 @@ void warn_of_targets(const Part& part, const SplitResult& r, const SplitSettings
 /// Says where faces cannot be split as well as the stage promises.
 void warn_of_spots(const Part& part, const SplitResult& r, SplitMethod method, Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::split_stage

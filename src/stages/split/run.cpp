@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::split_stage {
 
 namespace {
 
@@ -75,4 +75,4 @@ const RegisterStage split_stage = make_stage<SplitOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::split_stage

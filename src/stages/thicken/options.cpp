@@ -1,6 +1,6 @@
 #include "stages/thicken/options.hpp"
 
-namespace facetmill {
+namespace facetmill::thicken_stage {
 
 using Mode = ThickenOptions::Mode;
 
@@ -31,4 +31,4 @@ void declare_thicken(Declare<ThickenOptions>& d) {
              "Searches the result for self-intersections and reports them.");
 }
 
-} // namespace facetmill
+} // namespace facetmill::thicken_stage

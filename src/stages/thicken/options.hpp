@@ -4,7 +4,7 @@
 #include "geometry/thicken/thicken.hpp"
 #include "stage/stage.hpp"
 
-namespace facetmill {
+namespace facetmill::thicken_stage {
 
 struct ThickenOptions {
     enum class Mode { surface, edges, boundary_edges };
@@ -19,4 +19,4 @@ struct ThickenOptions {
 
 void declare_thicken(Declare<ThickenOptions>& d);
 
-} // namespace facetmill
+} // namespace facetmill::thicken_stage

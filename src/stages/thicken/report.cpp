@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::thicken_stage {
 
 namespace {
 
@@ -139,4 +139,4 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, b
                      "is the thickness in the right unit?");
 }
 
-} // namespace facetmill
+} // namespace facetmill::thicken_stage

@@ -5,7 +5,7 @@
 
 #include <variant>
 
-namespace facetmill {
+namespace facetmill::thicken_stage {
 
 /// Of a surface that became a solid.
 struct ThickenedSurface {
@@ -29,4 +29,4 @@ void declare_thicken_report(DeclareFields<ThickenReport>& d);
 /// Warns where the solid is open, thinner than asked for (in world units), or runs into itself.
 void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, bool looked, Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::thicken_stage

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-namespace facetmill {
+namespace facetmill::thicken_stage {
 
 namespace {
 
@@ -70,4 +70,4 @@ const RegisterStage registered = make_stage<ThickenOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::thicken_stage

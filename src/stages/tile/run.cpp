@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::tile_stage {
 
 namespace {
 
@@ -183,4 +183,4 @@ const RegisterStage registered{make_stage<TileOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::tile_stage

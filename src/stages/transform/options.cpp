@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::transform_stage {
 
 namespace {
 
@@ -108,4 +108,4 @@ Transform matrix_of(const TransformOptions& o) {
     return o.matrix.empty() ? Transform{} : from_numbers(o.matrix);
 }
 
-} // namespace facetmill
+} // namespace facetmill::transform_stage

@@ -3,7 +3,7 @@
 
 #include "stage/stage.hpp"
 
-namespace facetmill {
+namespace facetmill::transform_stage {
 
 struct TransformRotation {
     Vec3 axis{0, 0, 1};
@@ -32,4 +32,4 @@ Transform spin_of(const TransformOptions& o);
 /// matrix, or the identity when it is not given.
 Transform matrix_of(const TransformOptions& o);
 
-} // namespace facetmill
+} // namespace facetmill::transform_stage

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::transform_stage {
 
 void declare_transform_report(DeclareFields<TransformReport>& d) {
     const auto rows = [](const TransformReport& r) {
@@ -35,4 +35,4 @@ void warn_of_animation(const std::string& part, Context& context) {
                  "its node has been moved; merge makes it a part without animation");
 }
 
-} // namespace facetmill
+} // namespace facetmill::transform_stage

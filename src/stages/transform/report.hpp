@@ -4,7 +4,7 @@
 #include "io/convert.hpp"
 #include "stages/transform/options.hpp"
 
-namespace facetmill {
+namespace facetmill::transform_stage {
 
 struct TransformReport {
     Transform all; ///< that moved the parts, as one
@@ -18,4 +18,4 @@ void warn_of_conversion(const io::Conversion& converted, const TransformOptions&
 /// Says that a part is not baked.
 void warn_of_animation(const std::string& part, Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::transform_stage

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::transform_stage {
 
 namespace {
 
@@ -103,4 +103,4 @@ const RegisterStage registered = make_stage<TransformOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::transform_stage

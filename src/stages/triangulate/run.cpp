@@ -6,7 +6,7 @@
 #include "stage/stage.hpp"
 #include "stages/triangulate/help.hpp"
 
-namespace facetmill {
+namespace facetmill::triangulate_stage {
 
 namespace {
 
@@ -94,4 +94,4 @@ const RegisterStage registered{make_stage<TriangulateOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::triangulate_stage

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::two_sided_stage {
 
 namespace {
 
@@ -90,4 +90,4 @@ const RegisterStage registered =
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::two_sided_stage

@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 namespace {
 
@@ -118,4 +118,4 @@ std::vector<DocumentExtension> extensions_of(const Scene& scene) {
     return all;
 }
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 /// An image of a document, a PNG or JPEG by its header; of others the sides are 0.
 struct DocumentImage {
@@ -31,4 +31,4 @@ struct DocumentExtension {
 /// By name, once for each document.
 std::vector<DocumentExtension> extensions_of(const Scene& scene);
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 namespace {
 
@@ -100,4 +100,4 @@ std::optional<std::size_t> count_locations(const Scene& scene, const Assertion& 
     return count;
 }
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -5,7 +5,7 @@
 #include "geometry/inspect/evidence.hpp"
 #include "stage/assertions.hpp"
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 /// Entries of evidence that a check carries at most.
 constexpr std::size_t max_evidence = 10;
@@ -33,4 +33,4 @@ std::vector<Location> locations_against(const Part& part, const Assertion& asser
 /// positions in the parts' own spaces (Location::key) and of the parts' names.
 std::vector<std::uint64_t> location_keys(const Scene& scene, const Assertion& assertion);
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <set>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 namespace {
 
@@ -85,4 +85,4 @@ void write_failed_copy(const Scene& scene, const std::vector<std::vector<std::ui
     for (const auto& file : written.files) io::write_now(path.parent_path() / file.name, file.bytes);
 }
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 /// Adds E-FORMAT when no codec writes such a file.
 void verify_failed_copy(const std::string& path, const Value& given, Problems& problems);
@@ -22,4 +22,4 @@ Scene failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_
 void write_failed_copy(const Scene& scene, const std::vector<std::vector<std::uint32_t>>& flags,
                        const std::filesystem::path& path);
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

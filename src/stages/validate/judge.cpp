@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <span>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 namespace {
 
@@ -199,4 +199,4 @@ ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context) {
     return Judge(std::move(settings), context).run(scene);
 }
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <optional>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 /// What the assertions are about.
 enum class Per {
@@ -39,4 +39,4 @@ struct ValidateReport {
 /// for lengths, missing and malformed for the baseline, output for the copy.
 ValidateReport judge(Scene& scene, JudgeSettings settings, Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

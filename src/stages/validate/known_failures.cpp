@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 namespace {
 
@@ -196,4 +196,4 @@ KnownFailures::Gone KnownFailures::gone(const KnownFailures& now) const {
     return gone;
 }
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 /// A failed check, and the locations that speak against it.
 struct Failure {
@@ -67,4 +67,4 @@ class KnownFailures {
     std::vector<Failure> failures_;
 };
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 namespace {
 
@@ -61,4 +61,4 @@ Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits
     return given;
 }
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

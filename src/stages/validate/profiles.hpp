@@ -4,7 +4,7 @@
 #include "stage/assertions.hpp"
 #include "stages/validate/scene_limits.hpp"
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 enum class Profile { none, solid, printing, web, simulation };
 
@@ -30,4 +30,4 @@ void declare_profile(Declare<S>& d, Profile S::*member) {
 /// marks of a sound solid.
 Assertions profiled(Assertions given, Profile profile, const SceneLimits& limits, const Mark& where);
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 namespace {
 
@@ -107,4 +107,4 @@ const RegisterStage registered{make_stage<ValidateOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

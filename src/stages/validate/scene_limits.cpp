@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 namespace {
 
@@ -149,4 +149,4 @@ std::vector<LimitCheck> check_limits(const SceneLimits& limits, const Scene& sce
     return checks;
 }
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

@@ -5,7 +5,7 @@
 #include "options/declaration.hpp"
 #include "report/record.hpp"
 
-namespace facetmill {
+namespace facetmill::validate_stage {
 
 struct SceneLimits {
     std::optional<CountLimit> parts, materials, texture_pixels;
@@ -31,4 +31,4 @@ struct LimitCheck {
 /// document}].
 std::vector<LimitCheck> check_limits(const SceneLimits& limits, const Scene& scene);
 
-} // namespace facetmill
+} // namespace facetmill::validate_stage

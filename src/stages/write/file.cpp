@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::write_stage {
 
 namespace {
 
@@ -147,4 +147,4 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
                   "have precision: full");
 }
 
-} // namespace facetmill
+} // namespace facetmill::write_stage

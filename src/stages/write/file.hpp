@@ -3,7 +3,7 @@
 
 #include "stages/write/options.hpp"
 
-namespace facetmill {
+namespace facetmill::write_stage {
 
 struct WriteReport {
     struct Bits {
@@ -29,4 +29,4 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
 void stage_files(const io::Written& written, const std::filesystem::path& path, const io::Codec& codec,
                  const Scene& scene, const io::WriteSettings& settings, Context& context);
 
-} // namespace facetmill
+} // namespace facetmill::write_stage

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::write_stage {
 
 namespace {
 
@@ -267,4 +267,4 @@ StageFiles files_of_write(const WriteOptions& o) {
     return files;
 }
 
-} // namespace facetmill
+} // namespace facetmill::write_stage

@@ -4,7 +4,7 @@
 #include "geometry/normals/normals.hpp"
 #include "stage/stage.hpp"
 
-namespace facetmill {
+namespace facetmill::write_stage {
 
 struct DracoOptions {
     enum class Degenerate { drop, keep };
@@ -55,4 +55,4 @@ const io::Codec* codec_of(const WriteOptions& o);
 io::WriteSettings settings_of(const WriteOptions& o, const io::Codec& codec,
                               const std::filesystem::path& target);
 
-} // namespace facetmill
+} // namespace facetmill::write_stage

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace facetmill {
+namespace facetmill::write_stage {
 
 namespace {
 
@@ -97,4 +97,4 @@ const RegisterStage registered = make_stage<WriteOptions>(
 
 } // namespace
 
-} // namespace facetmill
+} // namespace facetmill::write_stage
