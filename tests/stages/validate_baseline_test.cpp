@@ -15,6 +15,7 @@
 
 using namespace facetmill;
 using namespace facetmill::test;
+using namespace facetmill::validate_stage;
 using test::failure;
 using test::run_stage;
 using test::scene_of;

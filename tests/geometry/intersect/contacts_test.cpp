@@ -34,7 +34,7 @@ std::pair<std::size_t, std::size_t> counts(const Mesh& mesh) {
     const auto found = find_self_intersections(mesh, apart);
     return {found.count, found.touching};
 }
-using Counts = std::pair<std::size_t, std::size_t>;
+using PairCounts = std::pair<std::size_t, std::size_t>;
 
 constexpr Vec3 east{1, 0, 0.5}, north{0, 1, 0.5}, west{-1, 0, 0.5}, south{0, -1, 0.5};
 
@@ -54,85 +54,85 @@ TEST_CASE("two sheets at one edge touch or pass through each other", "[geometry]
     Mesh beside, through;
     add_sheet(beside, 0, 1, east, north);
     add_sheet(beside, 0, 1, west, south);
-    CHECK(counts(beside) == Counts{0, 4});
+    CHECK(counts(beside) == PairCounts{0, 4});
     add_sheet(through, 0, 1, east, west);
     add_sheet(through, 0, 1, north, south);
-    CHECK(counts(through) == Counts{4, 0});
+    CHECK(counts(through) == PairCounts{4, 0});
     CHECK(find_self_intersections(through, apart).pairs == Pairs{{0, 2}, {0, 3}, {1, 2}, {1, 3}});
     Mesh nested; // both on one side: an angle inside another
     add_sheet(nested, 0, 1, east, north);
     add_sheet(nested, 0, 1, {3, 1, 0.5}, {1, 3, 0.5});
-    CHECK(counts(nested) == Counts{0, 4});
+    CHECK(counts(nested) == PairCounts{0, 4});
     Mesh askew;
     add_sheet(askew, 0, 1, east, north);
     add_sheet(askew, 0, 1, {3, 1, 0.5}, {-1, 3, 0.5});
-    CHECK(counts(askew) == Counts{4, 0});
+    CHECK(counts(askew) == PairCounts{4, 0});
 }
 
 TEST_CASE("edges that overlap in part are edges together, those end to end are not", "[geometry]") {
     Mesh part;
     add_sheet(part, 0, 1, east, west);
     add_sheet(part, 0.5, 2, north, south);
-    CHECK(counts(part) == Counts{4, 0});
+    CHECK(counts(part) == PairCounts{4, 0});
     Mesh beside;
     add_sheet(beside, 0, 1, east, north);
     add_sheet(beside, 0.5, 2, west, south);
-    CHECK(counts(beside) == Counts{0, 4});
+    CHECK(counts(beside) == PairCounts{0, 4});
     Mesh ends;
     add_sheet(ends, 0, 1, east, west);
     add_sheet(ends, 1, 2, {0, 1, 1.5}, {0, -1, 1.5});
-    CHECK(counts(ends) == Counts{0, 4});
+    CHECK(counts(ends) == PairCounts{0, 4});
 }
 
 TEST_CASE("one open face at an edge passes through nothing", "[geometry]") {
     Mesh mesh;
     add_sheet(mesh, 0, 1, east, west);
     add_triangle(mesh, {0, 0, 0}, {0, 0, 1}, north);
-    CHECK(counts(mesh) == Counts{0, 2});
+    CHECK(counts(mesh) == PairCounts{0, 2});
 }
 
 TEST_CASE("where a face beyond the edge has no area, faces do not only touch", "[geometry]") {
     Mesh mesh;
     add_sheet(mesh, 0, 1, east, {0, 0, 0.25});
     add_triangle(mesh, {0, 0, 0}, {0, 0, 1}, north);
-    CHECK(counts(mesh) == Counts{1, 0});
+    CHECK(counts(mesh) == PairCounts{1, 0});
 }
 
 TEST_CASE("a corner inside a face, an edge in a face and a chord across are no mere touching", "[geometry]") {
     Mesh corner;
     add_triangle(corner, {0, 0, 0}, {4, 0, 0}, {0, 4, 0});
     add_triangle(corner, {1, 1, 0}, {1, 1, 1}, {2, 1, 1});
-    CHECK(counts(corner) == Counts{1, 0});
+    CHECK(counts(corner) == PairCounts{1, 0});
     Mesh edge;
     add_triangle(edge, {0, 0, 0}, {4, 0, 0}, {0, 4, 0});
     add_triangle(edge, {1, 1, 0}, {2, 1, 0}, {2, 1, 1});
-    CHECK(counts(edge) == Counts{1, 0});
+    CHECK(counts(edge) == PairCounts{1, 0});
     Mesh chord; // the two meet in a chord of both, whose ends are on edges of both
     add_triangle(chord, {0, -1, 0}, {0, 1, 0}, {2, 0, 0});
     add_triangle(chord, {0, 0, -1}, {0, 0, 1}, {2, 0, 0});
-    CHECK(counts(chord) == Counts{1, 0});
+    CHECK(counts(chord) == PairCounts{1, 0});
     Mesh tips;
     add_triangle(tips, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     add_triangle(tips, {0, 0, 0}, {-1, 0, 1}, {0, -1, 1});
-    CHECK(counts(tips) == Counts{0, 1});
+    CHECK(counts(tips) == PairCounts{0, 1});
     Mesh middle; // the tip of one in the middle of an edge of the other
     add_triangle(middle, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0});
     add_triangle(middle, {0, 0, 0}, {-1, -1, 1}, {1, -1, 1});
-    CHECK(counts(middle) == Counts{0, 1});
+    CHECK(counts(middle) == PairCounts{0, 1});
     Mesh cross; // edge across edge in one point
     add_triangle(cross, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0});
     add_triangle(cross, {0, 0, -1}, {0, 0, 1}, {0, -1, 0});
-    CHECK(counts(cross) == Counts{0, 1});
+    CHECK(counts(cross) == PairCounts{0, 1});
     Mesh flat; // in one plane, along an edge and overlapping
     add_triangle(flat, {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
     add_triangle(flat, {0, 0, 0}, {1, 0, 0}, {0, -1, 0});
-    CHECK(counts(flat) == Counts{0, 1});
+    CHECK(counts(flat) == PairCounts{0, 1});
     flat.positions.back().y = 0.25;
-    CHECK(counts(flat) == Counts{1, 0});
+    CHECK(counts(flat) == PairCounts{1, 0});
 }
 
 TEST_CASE("solids that stand edge to edge or corner to corner touch; overlapping ones do not", "[geometry]") {
-    CHECK(counts(of_boxes({{0, 0, 0}, {2, 0, 0}})) == Counts{0, 0});
+    CHECK(counts(of_boxes({{0, 0, 0}, {2, 0, 0}})) == PairCounts{0, 0});
     const auto [edge, at_edge] = counts(of_boxes({{0, 0, 0}, {1, 1, 0}}));
     CHECK(edge == 0);
     CHECK(at_edge > 0);
@@ -171,8 +171,9 @@ TEST_CASE("what runs into and what touches are all pairs, and local touching agr
           "[geometry]") {
     std::size_t touching = 0, real = 0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed)
-        for (const Mesh& mesh : {snapped(random_triangles(300, 0.3, seed), 0.125),
-                                 torn_apart(snapped(with_noise(shapes::icosphere(2), 0.2, seed), 0.125))}) {
+        for (const Mesh& mesh :
+             {snapped(random_triangles(300, 0.3, seed), 0.125),
+              torn_apart(snapped(test::with_noise(shapes::icosphere(2), 0.2, seed), 0.125))}) {
             const auto found = find_self_intersections(mesh, apart);
             Pairs both = found.pairs;
             both.insert(both.end(), found.touching_pairs.begin(), found.touching_pairs.end());
@@ -208,7 +209,7 @@ TEST_CASE("polygons that touch in one triangle and overlap in another run into e
 }
 
 TEST_CASE("touching is the same for any number of threads", "[geometry]") {
-    const Mesh mesh = torn_apart(snapped(with_noise(shapes::icosphere(3), 0.2, 3), 0.0625));
+    const Mesh mesh = torn_apart(snapped(test::with_noise(shapes::icosphere(3), 0.2, 3), 0.0625));
     set_threads(1);
     const auto one = find_self_intersections(mesh, apart);
     set_threads(0);

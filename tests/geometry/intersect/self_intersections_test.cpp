@@ -106,7 +106,7 @@ TEST_CASE("a search that goes along with a mesh finds what a new one finds", "[g
         Mesh mesh = start;
         SelfIntersectionSearch search(mesh);
         for (std::uint64_t step = 1; step <= 6; ++step) {
-            const Mesh noisy = with_noise(start, 0.1 * static_cast<double>(step), step);
+            const Mesh noisy = test::with_noise(start, 0.1 * static_cast<double>(step), step);
             std::vector<std::uint8_t> moved(mesh.face_count(), step == 3), placed(mesh.vertex_count());
             for (std::size_t v = step == 3 ? 0 : step; v < placed.size(); v += step == 3 ? 1 : 7) {
                 mesh.positions[v] = noisy.positions[v] * (step == 3 ? 100.0 : 1.0);
@@ -152,8 +152,8 @@ TEST_CASE("self-intersections agree with CGAL's", "[geometry]") {
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         for (const Mesh& mesh :
              {random_triangles(300, 0.15, seed), snapped(random_triangles(300, 0.3, seed), 0.125),
-              with_noise(shapes::icosphere(3), 0.1, seed),
-              snapped(with_noise(shapes::icosphere(3), 0.1, seed), 0.0625),
+              test::with_noise(shapes::icosphere(3), 0.1, seed),
+              snapped(test::with_noise(shapes::icosphere(3), 0.1, seed), 0.0625),
               noisy_torus(30, 20, 0.08, seed)}) {
             const auto found = find_self_intersections(mesh, everything);
             CHECK(found.pairs == oracle::self_intersections(mesh));

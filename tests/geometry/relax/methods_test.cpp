@@ -38,7 +38,7 @@ double roughness(const Mesh& mesh) {
     return std::sqrt(sum / static_cast<double>(mesh.vertex_count()));
 }
 
-double volume(const Mesh& mesh) { return *surface_size(mesh).volume; }
+double volume_of_surface(const Mesh& mesh) { return *surface_size(mesh).volume; }
 
 bool finite(const Mesh& mesh) {
     for (const Vec3& p : mesh.positions)
@@ -61,11 +61,11 @@ TEST_CASE("every method takes noise away", "[geometry]") {
 
 TEST_CASE("taubin and hc keep the volume where laplacian shrinks", "[geometry]") {
     const Mesh mesh = noisy_sphere();
-    const double before = volume(mesh),
-                 shrunk = 1 - volume(relax(mesh, by(Method::laplacian, 10)).mesh) / before;
+    const double before = volume_of_surface(mesh),
+                 shrunk = 1 - volume_of_surface(relax(mesh, by(Method::laplacian, 10)).mesh) / before;
     CHECK(shrunk > 0.02);
-    CHECK(std::abs(1 - volume(relax(mesh, by(Method::taubin, 10)).mesh) / before) < 0.2 * shrunk);
-    CHECK(std::abs(1 - volume(relax(mesh, by(Method::hc, 10)).mesh) / before) < 0.2 * shrunk);
+    CHECK(std::abs(1 - volume_of_surface(relax(mesh, by(Method::taubin, 10)).mesh) / before) < 0.2 * shrunk);
+    CHECK(std::abs(1 - volume_of_surface(relax(mesh, by(Method::hc, 10)).mesh) / before) < 0.2 * shrunk);
 }
 
 TEST_CASE("cotangent leaves a flat, irregular grid where it is; laplacian does not", "[geometry]") {
@@ -103,10 +103,10 @@ TEST_CASE("feature_angle keeps the edges of a cube", "[geometry]") {
     for (const Method method : every_method) {
         CAPTURE(static_cast<int>(method));
         RelaxSettings s = by(method, 8);
-        CHECK(std::abs(1 - volume(relax(cube, s).mesh)) > 1e-4);
+        CHECK(std::abs(1 - volume_of_surface(relax(cube, s).mesh)) > 1e-4);
         s.feature_angle = 0.5;
         const RelaxResult r = relax(cube, s);
-        CHECK(volume(r.mesh) == Approx(1).epsilon(1e-9));
+        CHECK(volume_of_surface(r.mesh) == Approx(1).epsilon(1e-9));
         CHECK(r.held == 8); // the corners
     }
 }

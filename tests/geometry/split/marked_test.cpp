@@ -20,7 +20,7 @@ SplitSettings by(SplitMethod method) {
     return s;
 }
 
-Mesh polygon(std::vector<Vec3> points) {
+Mesh polygon_of(std::vector<Vec3> points) {
     Mesh mesh;
     mesh.positions = std::move(points);
     std::vector<Index> face;
@@ -46,7 +46,7 @@ std::vector<Index> sizes(const Mesh& mesh) {
 } // namespace
 
 TEST_CASE("notch: a small triangle between the two longest edges, and a quad", "[geometry]") {
-    const Mesh mesh = split(polygon({{0, 0, 0}, {1, 0, 0}, {0.5, 8, 0}}), {SplitMethod::notch, 1, 2}).mesh;
+    const Mesh mesh = split(polygon_of({{0, 0, 0}, {1, 0, 0}, {0.5, 8, 0}}), {SplitMethod::notch, 1, 2}).mesh;
     CHECK(sizes(mesh) == std::vector<Index>{3, 4});
     CHECK(mesh.vertex_count() == 5);
     CHECK(std::count_if(mesh.positions.begin(), mesh.positions.end(),
@@ -54,7 +54,7 @@ TEST_CASE("notch: a small triangle between the two longest edges, and a quad", "
 }
 
 TEST_CASE("notch: a neighbour is cut to the opposite corner", "[geometry]") {
-    Mesh mesh = polygon({{0, 0, 0}, {1, 0, 0}, {0.5, 8, 0}});
+    Mesh mesh = polygon_of({{0, 0, 0}, {1, 0, 0}, {0.5, 8, 0}});
     mesh.positions.push_back({30, 4, 0}); // its two longest edges are others than the one they share
     const Index second[] = {1, 3, 2};
     add_face(mesh, second);
@@ -65,7 +65,7 @@ TEST_CASE("notch: a neighbour is cut to the opposite corner", "[geometry]") {
 
 TEST_CASE("halve: two quads through the longer pair of edges", "[geometry]") {
     const Mesh mesh =
-        split(polygon({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {0, 1, 0}}), {SplitMethod::halve, 1, 2}).mesh;
+        split(polygon_of({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {0, 1, 0}}), {SplitMethod::halve, 1, 2}).mesh;
     REQUIRE(sizes(mesh) == std::vector<Index>{4, 4});
     CHECK(mesh.positions[4] == Vec3{2, 0, 0});
     CHECK(mesh.positions[5] == Vec3{2, 1, 0});
@@ -74,7 +74,7 @@ TEST_CASE("halve: two quads through the longer pair of edges", "[geometry]") {
 TEST_CASE("halve: neighbours take the points on their edges", "[geometry]") {
     // A long quad above a tall one: the tall one has a mark more, and its neighbour to the right, a triangle,
     // one.
-    Mesh mesh = polygon({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {0, 1, 0}});
+    Mesh mesh = polygon_of({{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {0, 1, 0}});
     for (const Vec3& p : {Vec3{0, -9, 0}, Vec3{4, -9, 0}, Vec3{7, -5, 0}}) mesh.positions.push_back(p);
     for (const auto& face : std::vector<std::vector<Index>>{{4, 5, 1, 0}, {5, 6, 1}}) add_face(mesh, face);
     const Mesh finer = split(mesh, {SplitMethod::halve, 1, 2}).mesh;
@@ -88,7 +88,7 @@ TEST_CASE("bisect at the widest angle: at the foot of its bisector", "[geometry]
     SplitSettings s;
     s.method = SplitMethod::bisect;
     s.cut = SplitSettings::Cut::widest_angle;
-    const Mesh mesh = split(polygon({{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}), s).mesh;
+    const Mesh mesh = split(polygon_of({{0, 0, 0}, {4, 0, 0}, {0, 3, 0}}), s).mesh;
     REQUIRE(mesh.face_count() == 2);
     CHECK(mesh.positions[3].x == Approx(12.0 / 7)); // both halves of the right angle are 45 degrees
     CHECK(mesh.positions[3].y == Approx(12.0 / 7));
