@@ -126,6 +126,17 @@ class SelfIntersectionSearch::Search {
         return true;
     }
 
+    SelfIntersections run(const SelfIntersectionSettings& settings) const {
+        const std::size_t most = settings.max_box_pairs;
+        if (most == SIZE_MAX) return run(settings.limit, settings.apart);
+        const std::size_t count = pairs_.for_each(most, [](std::size_t, std::size_t) {});
+        if (count <= most) return run(settings.limit, settings.apart);
+        SelfIntersections none_looked_at;
+        none_looked_at.box_pairs = count;
+        none_looked_at.too_many = true;
+        return none_looked_at;
+    }
+
     SelfIntersections run(std::size_t limit, bool apart) const {
         // Two polygons may meet in several of their triangles: all pairs are needed to count each once.
         const bool polygons = !surface_.faces.empty();
@@ -159,8 +170,9 @@ class SelfIntersectionSearch::Search {
         }
         for (First* first : {&all.real, &all.touching})
             first->pairs.resize(std::min(limit, first->pairs.size()));
-        return {all.real.count, std::move(all.real.pairs), all.touching.count, std::move(all.touching.pairs),
-                all.box_pairs};
+        return {all.real.count,     std::move(all.real.pairs),
+                all.touching.count, std::move(all.touching.pairs),
+                all.box_pairs,      false};
     }
 
     MeetingFaces faces(std::span<const std::pair<Index, Index>> exempt, std::size_t max_box_pairs) const {
@@ -259,7 +271,7 @@ void SelfIntersectionSearch::move_to(const Mesh& mesh, const std::vector<std::ui
 
 SelfIntersections SelfIntersectionSearch::pairs(const SelfIntersectionSettings& settings) {
     search_->choose(settings.among);
-    return search_->run(settings.limit, settings.apart);
+    return search_->run(settings);
 }
 
 MeetingFaces SelfIntersectionSearch::faces(const std::vector<std::uint8_t>& among,

@@ -35,24 +35,65 @@ namespace {
 
 using namespace clean_steps;
 
-bool untangle(Work& work, const CleanSettings& s) {
-    if (s.self_intersections == Untangle::off || work.untangled) return false;
-    SelfIntersections found = crossings(work.mesh);
+void tell_of_crossings(Work& work, std::string why, const Vec3& at) {
+    work.not_done.push_back({"self_intersections", std::move(why), at});
+}
+
+/// The crossings of the mesh; none, and told, when too many boxes meet to look for them.
+SelfIntersections affordable_crossings(Work& work) {
+    const std::size_t free = work.max_box_pairs() - work.budget.box_pairs;
+    SelfIntersections found = crossings(work.mesh, {}, work.max_box_pairs());
+    const std::size_t beyond = found.box_pairs - std::min(free, found.box_pairs);
+    work.budget.box_pairs -= std::min(found.too_many ? beyond / 16 : beyond, work.budget.box_pairs);
+    if (found.too_many)
+        tell_of_crossings(work,
+                          fmt::format("not looked for, because the boxes of more than {} pairs of its {} "
+                                      "faces meet; clean smaller parts, or thinner walls and tubes",
+                                      found.box_pairs - 1, work.mesh.face_count()),
+                          corner_mean(work.mesh, 0));
+    return found;
+}
+
+bool untangle_once(Work& work, const CleanSettings& s) {
+    SelfIntersections found = affordable_crossings(work);
+    if (found.too_many) return false;
     const bool unites = s.self_intersections != Untangle::local;
     const auto overlaps = unites ? overlaps_at_edges(work.mesh) : std::vector<std::pair<Index, Index>>{};
     work.untangled = found.count == 0 && overlaps.empty();
     if (work.untangled) return false;
     if (found.count > found.pairs.size()) {
-        work.not_done.push_back(
-            {"self_intersections",
-             fmt::format("{} pairs of faces intersect, and at most {} are processed", found.count, max_pairs),
-             corner_mean(work.mesh, found.pairs[0].first)});
+        tell_of_crossings(
+            work,
+            fmt::format("{} pairs of faces intersect, and at most {} are processed", found.count, max_pairs),
+            corner_mean(work.mesh, found.pairs[0].first));
+        return false;
+    }
+    if (!work.may_process(found.count)) {
+        tell_of_crossings(
+            work,
+            fmt::format("{} pairs of its {} faces intersect, of which at most {} could be tried in "
+                        "reasonable time; clean smaller parts, or thinner walls and tubes",
+                        found.count, work.mesh.face_count(), work.budget.vain_pairs),
+            corner_mean(work.mesh, found.pairs[0].first));
         return false;
     }
     bool changed = unites && unite_solids(work, found, overlaps, s);
     if (s.self_intersections == Untangle::unite || work.untangled) return changed;
-    if (changed) found = crossings(work.mesh);
+    if (changed) found = affordable_crossings(work);
     return resolve_self_intersections(work, std::move(found)) || changed;
+}
+
+bool untangle(Work& work, const CleanSettings& s) {
+    if (s.self_intersections == Untangle::off || work.untangled) return false;
+    const std::size_t told = work.not_done.size();
+    if (work.tangled) {
+        work.not_done.insert(work.not_done.end(), work.tangled->begin(), work.tangled->end());
+        return false;
+    }
+    const bool changed = untangle_once(work, s);
+    if (!changed && !work.untangled)
+        work.tangled.emplace(work.not_done.begin() + static_cast<std::ptrdiff_t>(told), work.not_done.end());
+    return changed;
 }
 
 bool one_round(Work& work, const CleanSettings& s) {
@@ -60,7 +101,9 @@ bool one_round(Work& work, const CleanSettings& s) {
     bool changed = false;
     const auto did = [&](bool any) {
         changed |= any;
-        if (any) work.untangled = false;
+        if (!any) return;
+        work.untangled = false;
+        work.tangled.reset();
     };
     // What a patch runs into is united with it in the next round, or told there.
     const bool may_cross = s.self_intersections == Untangle::unite || s.self_intersections == Untangle::all;
@@ -102,12 +145,14 @@ CleanResult clean(Mesh mesh, const CleanSettings& settings) {
     constexpr int max_rounds = 32;
     Work work;
     work.mesh = std::move(mesh);
+    work.budget = settings.budget;
     CleanResult result;
     for (bool changed = true; changed && result.rounds < max_rounds; ++result.rounds)
         changed = one_round(work, settings);
     result.changes = changes_of(work.mesh, work.changes);
     result.mesh = std::move(work.mesh);
     result.counts = work.counts;
+    result.budget = work.budget;
     result.not_done = std::move(work.not_done);
     return result;
 }

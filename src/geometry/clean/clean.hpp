@@ -38,6 +38,17 @@ struct ComponentSettings {
     std::size_t keep = 0;      ///< all but so many of largest area go; 0: no limit
 };
 
+/// What may be spent on faces that intersect. Work is counted, not timed, so that the result is the same
+/// everywhere; where parts share a budget, each gets what those before it left.
+struct UntangleBudget {
+    /// Pairs of triangles whose boxes meet, beyond 32 for each face; to count them costs a sixteenth.
+    std::size_t box_pairs = std::size_t{1} << 25;
+    /// Intersecting pairs of faces that were processed without success. When they are used up, meshes with
+    /// more such pairs than faces are left as they are.
+    std::size_t vain_pairs = 1'000'000;
+    bool operator==(const UntangleBudget&) const = default;
+};
+
 /// Every step on or off. Lengths are in mesh units.
 struct CleanSettings {
     Nearness weld = Nearness::exact; ///< vertices at one place become one; near: ends of open edges too
@@ -52,6 +63,7 @@ struct CleanSettings {
     std::optional<HoleSettings> holes;
     std::optional<ComponentSettings> components;
     double tolerance = 0; ///< how near is near
+    UntangleBudget budget;
 };
 
 /// A repair that was not done, and why.
@@ -83,7 +95,8 @@ struct CleanResult {
     CleanCounts counts;
     std::vector<NotDone> not_done; ///< of the last round
     AttributeChanges changes;
-    int rounds = 0; ///< the last of them changed nothing, unless there were too many
+    int rounds = 0;        ///< the last of them changed nothing, unless there were too many
+    UntangleBudget budget; ///< what is left of it
 };
 
 /// Applies the steps that are on, in rounds, until a round changes nothing; so a mesh that was cleaned is not

@@ -14,6 +14,9 @@ namespace facetmill::clean_steps {
 namespace {
 
 constexpr int max_rings = 4;
+/// Each costs as much as the mesh is large; most meshes need as many as there are rings. After the half of
+/// them no region is widened any more.
+constexpr int max_attempts = 32;
 
 /// The edges of one face as (low, high), ascending.
 EdgeList boundary_of(const Mesh& mesh) {
@@ -64,6 +67,11 @@ class Untangler {
             const auto region = region_of_knots();
             const auto groups = groups_of(region);
             if (give_up_large(region, groups)) continue;
+            if (attempts_ == max_attempts || !work_.may_process(found_.count)) {
+                tell_of_untried();
+                break;
+            }
+            ++attempts_;
             Work trial;
             const auto failed = replace(region, groups, trial);
             if (failed.empty()) {
@@ -71,6 +79,7 @@ class Untangler {
                 changed = true;
                 break;
             }
+            work_.processed_in_vain(found_.count);
             widen_or_give_up(failed, groups);
         }
         for (const Knot& k : knots_)
@@ -85,9 +94,26 @@ class Untangler {
     }
 
   private:
+    void tell_of_untried() {
+        std::size_t pairs = 0;
+        const Knot* first = nullptr;
+        for (const Knot& k : knots_) {
+            if (k.given_up) continue;
+            pairs += k.pairs;
+            if (!first) first = &k;
+        }
+        work_.not_done.push_back(
+            {"self_intersections",
+             fmt::format("{} intersecting pairs are left after {} attempts, and more would not end in "
+                         "reasonable time",
+                         pairs, attempts_),
+             first->at});
+    }
+
     void widen_or_give_up(const std::set<Index>& failed, const std::vector<Index>& groups) {
         for (Knot& k : knots_)
-            if (!k.given_up && failed.contains(groups[k.faces[0]])) k.given_up = ++k.rings > max_rings;
+            if (!k.given_up && failed.contains(groups[k.faces[0]]))
+                k.given_up = ++k.rings > max_rings || attempts_ > max_attempts / 2;
     }
 
     double area(Index f) const { return length(area_vector(mesh_, f)) / 2; }
@@ -187,7 +213,7 @@ class Untangler {
         for (auto f = static_cast<Index>(kept.size()); f < patches.size(); ++f)
             for (Index c = trial.mesh.face_begin(f); c < trial.mesh.face_end(f); ++c)
                 if (trial.mesh.vertex(c) < group.size()) patches[f] = group[trial.mesh.vertex(c)];
-        auto failed = failures(trial.mesh, before, group, patches);
+        auto failed = failures(trial.mesh, before, group, patches, work_.max_box_pairs());
         // A tube is not to be cut, a handle not to be closed: what comes has the shape of what went.
         auto went = euler_of_groups(mesh_, groups), came = euler_of_groups(trial.mesh, patches);
         for (const auto& [g, euler] : went)
@@ -198,14 +224,18 @@ class Untangler {
     /// The groups of whose patches an edge is open or a face intersects another. groups: of the vertices that
     /// were there; patches: of the faces that came.
     static std::set<Index> failures(const Mesh& mesh, const EdgeList& before,
-                                    const std::vector<Index>& groups, const std::vector<Index>& patches) {
+                                    const std::vector<Index>& groups, const std::vector<Index>& patches,
+                                    std::size_t max_box_pairs) {
         std::set<Index> failed;
         for (const auto& edge : boundary_of(mesh))
             if (!std::binary_search(before.begin(), before.end(), edge)) failed.insert(groups[edge.first]);
         std::vector<std::uint8_t> among(patches.size());
         for (std::size_t f = 0; f < among.size(); ++f) among[f] = patches[f] != none;
         if (std::count(among.begin(), among.end(), 1) == 0) return failed;
-        for (const auto& [f, g] : crossings(mesh, among).pairs)
+        const SelfIntersections found = crossings(mesh, among, max_box_pairs);
+        for (const Index group : patches)
+            if (found.too_many && group != none) failed.insert(group);
+        for (const auto& [f, g] : found.pairs)
             for (const Index face : {f, g})
                 if (patches[face] != none) failed.insert(patches[face]);
         return failed;
@@ -225,6 +255,7 @@ class Untangler {
     Components pieces_;
     std::vector<double> areas_; ///< of the components
     std::vector<Knot> knots_;
+    int attempts_ = 0;
 };
 
 } // namespace

@@ -89,7 +89,7 @@ std::vector<NotDone> unfit_places(const Mesh& mesh, const Components& components
 
 } // namespace
 
-SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among) {
+SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among, std::size_t max_box_pairs) {
     Mesh plain;
     plain.positions = mesh.positions;
     plain.corners = mesh.corners;
@@ -97,7 +97,8 @@ SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among) {
     const auto place = lowest_at_place(mesh);
     for (Index w = 0; w < mesh.wedge_count(); ++w)
         plain.wedge_vertex.push_back(place[mesh.vertex_of_wedge(w)]);
-    return find_self_intersections(plain, {.limit = max_pairs, .among = std::move(among)});
+    return find_self_intersections(
+        plain, {.limit = max_pairs, .among = std::move(among), .max_box_pairs = max_box_pairs});
 }
 
 Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {

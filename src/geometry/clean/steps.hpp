@@ -7,6 +7,8 @@
 #include "geometry/edit/surgery.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 
+#include <algorithm>
+
 namespace facetmill::clean_steps {
 
 /// The mesh being cleaned and what is told of it.
@@ -16,6 +18,17 @@ struct Work {
     std::vector<NotDone> not_done;
     AttributeChanges changes; ///< of the step that mixed attributes last
     bool untangled = false;   ///< the mesh is known to have no crossings
+    /// What was told of the crossings when nothing could be done about them; while nothing changes, it holds.
+    std::optional<std::vector<NotDone>> tangled = {};
+    UntangleBudget budget = {};
+
+    /// Whether so many intersecting pairs of faces may be processed.
+    bool may_process(std::size_t pairs) const {
+        return pairs <= mesh.face_count() || pairs <= budget.vain_pairs;
+    }
+    void processed_in_vain(std::size_t pairs) { budget.vain_pairs -= std::min(pairs, budget.vain_pairs); }
+    /// How many pairs of boxes may be looked at.
+    std::size_t max_box_pairs() const { return 32 * mesh.face_count() + budget.box_pairs; }
 };
 
 /// Vertices at one place become the lowest of them. Where the faces that meet there would only come apart
@@ -53,8 +66,9 @@ bool remove_inner_components(Work& work);
 bool remove_isolated(Work& work);
 /// The pairs of faces that intersect, for the two steps below; vertices at one place count as one, so that
 /// faces which are separated only by an edge or vertex that was split (split_non_manifold) are none. At most
-/// max_pairs are listed.
-SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {});
+/// max_pairs are listed; none when more than max_box_pairs would have to be looked at.
+SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {},
+                            std::size_t max_box_pairs = std::size_t(-1));
 inline constexpr std::size_t max_pairs = std::size_t{1} << 22;
 /// Pairs of faces, lower one first, ascending, that link all faces at edges around which the surface winds
 /// more than once: there solids overlap without any crossing, as grids do that pass through each other along
@@ -69,8 +83,8 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
                   const CleanSettings& settings);
 /// Place by place: removes the faces that intersect others, if need be with up to four rings around them, and
 /// fills what that opens. A place is left as it was when that would leave an intersection or an open edge
-/// that was not there, change the topology, or take half of a component along. Faces that touch only where
-/// vertices of theirs are at one place do not count.
+/// that was not there, change the topology, take half of a component along, or use up the budget. Faces that
+/// touch only where vertices of theirs are at one place do not count.
 bool resolve_self_intersections(Work& work, SelfIntersections found);
 
 } // namespace facetmill::clean_steps

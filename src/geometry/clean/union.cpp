@@ -187,7 +187,7 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
         return std::any_of(solids.cluster.begin(), solids.cluster.end(), [](Index c) { return c != none; });
     };
     for (int trials = 0; any(); ++trials) {
-        if (trials == max_trials) {
+        if (trials == max_trials || !work.may_process(found.pairs.size())) {
             for (Index c = 0; c < solids.clusters(); ++c)
                 if (std::find(solids.cluster.begin(), solids.cluster.end(), c) != solids.cluster.end())
                     work.not_done.push_back(
@@ -202,13 +202,16 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
         if (failures.empty()) failures = open_clusters(trial.mesh(), crowded);
         if (failures.empty()) {
             auto not_done = std::move(work.not_done);
+            const UntangleBudget budget = work.budget;
             work = trial.finish();
+            work.budget = budget;
             work.counts.touching_edges += crowded;
             work.untangled = !left;
             work.not_done = std::move(not_done);
             return true;
         }
         left = true;
+        work.processed_in_vain(found.pairs.size());
         for (auto& [cluster, why] : failures) {
             work.not_done.push_back({"self_intersections", std::move(why), solids.at[cluster]});
             for (Index& c : solids.cluster)

@@ -16,6 +16,8 @@ struct SelfIntersectionSettings {
     std::size_t limit = 10;               ///< how many pairs are listed; all are counted
     std::vector<std::uint8_t> among = {}; ///< [faces] only pairs with a face that is set; empty: all pairs
     bool apart = false;                   ///< pairs that only touch are counted and listed apart
+    /// When the boxes of more pairs of triangles meet, nothing is looked at. They are counted first.
+    std::size_t max_box_pairs = std::size_t(-1);
 };
 
 struct SelfIntersections {
@@ -26,6 +28,7 @@ struct SelfIntersections {
     std::vector<std::pair<Index, Index>> touching_pairs; ///< the first of them, likewise
     /// Pairs of triangles whose boxes meet: what the work is, the same for any number of threads.
     std::size_t box_pairs = 0;
+    bool too_many = false; ///< box_pairs, which were counted up to one more than the limit: the rest is empty
 };
 
 /// Finds the pairs of faces that meet elsewhere than in the vertices and edges they share, decided exactly

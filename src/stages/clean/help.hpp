@@ -31,6 +31,10 @@ merged with them. If intersections remain after that, the mesh is left as it was
 intersecting faces region by region, with up to four rings of faces around them if needed. A region
 is left as it was where the replacement would open the surface, change its topology, take half of a
 component or leave an intersection.
+The work is bounded: where the boxes of more than 32 pairs of triangles for each face meet, and of
+33 million more in all parts together, intersections are not looked for. After a million
+intersecting pairs of faces were processed without success, parts with more such pairs than faces
+are left as they are.
 
 Holes that touch at a vertex are filled separately. A hole is left open when its patch would not
 fit, when the patch would intersect other faces, or when the neighbouring faces are oriented

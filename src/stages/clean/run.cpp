@@ -18,8 +18,12 @@ void warn(const Part& part, const std::vector<NotDone>& all, Context& context) {
 }
 
 Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& report) {
+    UntangleBudget budget;
     context.for_each_part(scene, [&](Part& part) {
-        CleanResult r = clean(std::move(part.mesh), clean_settings(o, scene, part, context));
+        CleanSettings settings = clean_settings(o, scene, part, context);
+        settings.budget = budget;
+        CleanResult r = clean(std::move(part.mesh), settings);
+        budget = r.budget;
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         warn(part, r.not_done, context);

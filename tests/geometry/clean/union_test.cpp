@@ -327,6 +327,56 @@ TEST_CASE("clean unites solids to the same bytes for any number of threads", "[g
     set_threads(0);
 }
 
+namespace {
+
+/// So many bars along x, and as many along y through them.
+Mesh crossing_bars(int n) {
+    Mesh bars;
+    for (int i = 0; i < n; ++i) {
+        append(bars, box({-1, i + 0.25, 0}, {n + 1.0, i + 0.75, 0.5}));
+        append(bars, box({i + 0.3, -1, 0.1}, {i + 0.7, n + 1.0, 0.4}));
+    }
+    return bars;
+}
+
+} // namespace
+
+TEST_CASE("clean looks for crossings only where few boxes meet, and says so", "[geometry]") {
+    const Mesh bars = crossing_bars(40);
+    CleanSettings s = uniting();
+    s.budget.box_pairs = 0;
+    std::vector<NotDone> told;
+    for (const int threads : {1, 3}) {
+        set_threads(threads);
+        const CleanResult r = clean(bars, s);
+        CHECK(test::same_mesh(r.mesh, bars));
+        REQUIRE(r.not_done.size() == 1);
+        CHECK(says(r.not_done[0].why, "the boxes of more than 30720 pairs of its 960 faces meet"));
+        if (threads == 1) told = r.not_done;
+        CHECK(r.not_done == told);
+    }
+    set_threads(0);
+    s.budget = {};
+    const CleanResult united = clean(bars, s);
+    CHECK(united.not_done.empty());
+    CHECK(united.budget.vain_pairs == UntangleBudget{}.vain_pairs);
+    CHECK(united.budget.box_pairs < UntangleBudget{}.box_pairs);
+    CHECK(inspect(united.mesh).components == 1);
+}
+
+TEST_CASE("once much was tried in vain, clean leaves meshes of more crossings than faces", "[geometry]") {
+    const Mesh bars = crossing_bars(8);
+    CleanSettings s = uniting();
+    s.budget.vain_pairs = 0;
+    const CleanResult r = clean(bars, s);
+    CHECK(test::same_mesh(r.mesh, bars));
+    REQUIRE(r.not_done.size() == 1);
+    CHECK(says(r.not_done[0].why, "reasonable time"));
+    const CleanResult few = clean(crossing_bars(1), s); // fewer pairs than faces, or as many
+    CHECK(few.not_done.empty());
+    CHECK(inspect(few.mesh).components == 1);
+}
+
 TEST_CASE("clean refuses solids that cross far too often", "[geometry]") {
     Mesh needles; // all stand on one plane, and each crosses each there
     for (int i = 0; i < 800; ++i) {
