@@ -336,7 +336,10 @@ class Parser {
             const Mark where = item.entries[0].value.mark;
             item.entries[0].value = Value::map({}, where);
         }
-        if (!common && stage) key = spelled_out(item.entries[0].value, key, *stage->options);
+        if (!common && stage) {
+            key = spelled_out(item.entries[0].value, key, *stage->options);
+            known = gathered(item.entries[0].value, key, value, known, *stage->options);
+        }
         add(common ? item : item.entries[0].value, key, std::move(value), key_mark, known);
     }
 
@@ -393,6 +396,36 @@ class Parser {
         if (slot->is_scalar() && !group->fields->shorthand)
             *slot = Value::map({{primary->name, slot->mark, *slot}}, slot->mark);
         return key;
+    }
+
+    /// A value, as the option for several would have read it.
+    Value as_list(Value value, const Option& several) {
+        if (value.is_scalar())
+            value = pipe_value(value.text, &several, value.mark, problems_);
+        else if (value.is_list())
+            value = as_one_value(std::move(value), several);
+        if (value.is_list()) return value;
+        const Mark mark = value.mark;
+        return Value::list({std::move(value)}, mark);
+    }
+
+    /// An option for one value beside one for several (plane, planes): when it is given again, or beside the
+    /// other, all go to the other. Changes key and value then, and returns the option that they are of.
+    const Option* gathered(Value& map, std::string& key, Value& value, const Option* known,
+                           const Declaration& declaration) {
+        const Option* several = known && known->name == key ? declaration.find(key + "s") : nullptr;
+        if (!several || !several->repeatable) return known;
+        const Value* slot = map.find(key);
+        if ((slot != nullptr) == (map.find(several->name) != nullptr)) return known;
+        if (slot) {
+            const Mark where = slot->mark;
+            Value list = as_list(*slot, *several);
+            std::erase_if(map.entries, [&](const auto& entry) { return entry.key == key; });
+            map.set(several->name, std::move(list), where);
+        }
+        value = as_list(std::move(value), *several);
+        key = several->name;
+        return several;
     }
 
     /// Puts a value at a dotted key; a repeatable option gathers its values.

@@ -209,6 +209,15 @@ TEST_CASE("what a file can say in braces and brackets, a one-liner can", "[cli]"
     CHECK(same_as({"clip", "--planes", "z=0,x=10pct"}, "[{clip: {planes: [z=0, x=10pct]}}]"));
     CHECK(same_as({"clip", "--planes", "{normal: [0, 0, 1], through: centre}", "--planes", "x=0"},
                   "[{clip: {planes: [{normal: [0, 0, 1], through: centre}, x=0]}}]"));
+    CHECK(same_as({"clip", "--plane", "[1,0,0,-0.25]", "--plane", "[0,0,1,-0.5]"}, both));
+    CHECK(
+        same_as({"clip", "--plane", "{normal: [0, 0, 1], through: centre}", "--plane=x=0", "--plane", "y=1"},
+                "[{clip: {planes: [{normal: [0, 0, 1], through: centre}, x=0, y=1]}}]"));
+    CHECK(same_as({"clip", "--planes", "z=0,x=10pct", "--plane", "y=1"},
+                  "[{clip: {planes: [z=0, x=10pct, y=1]}}]"));
+    CHECK(yaml({"simplify", "--ratio", "50pct", "--ratio", "20pct"})
+              .find("error[E-PIPE]: '--ratio' is given "
+                    "twice") != std::string::npos);
     CHECK(same_as({"clip", "--plane", "{normal: [0, 0, 1], through: 20pct}"},
                   "[{clip: {plane: {normal: [0, 0, 1], through: 20%}}}]"));
     CHECK(same_as({"relax", "--ensure", "{closed: true, faces: {max: 9}}"},
