@@ -71,21 +71,38 @@ std::size_t read_some(int fd, std::byte* to, std::size_t room, const std::string
     }
 }
 
-/// All that the descriptor gives; expected is a guess, not a promise (files grow and shrink).
-Bytes read_all(int fd, std::size_t expected, std::size_t limit, const std::string& name) {
+/// One after the other; each is freed as soon as it is copied, so that all are there hardly twice.
+Bytes joined(std::vector<Bytes> pieces, std::size_t size) {
+    if (pieces.size() == 1) return std::move(pieces.front());
     Bytes bytes;
-    std::size_t size = 0;
-    for (std::size_t room = expected + 1;; room = std::max<std::size_t>(size, 1 << 16)) {
-        bytes.resize(std::min(size + room, std::max(limit, expected) + 1));
-        std::size_t got = 0;
-        while (size < bytes.size() &&
-               (got = read_some(fd, bytes.data() + size, bytes.size() - size, name)) > 0)
-            size += got;
-        if (size > limit) too_large(name, limit);
-        if (size < bytes.size()) break;
+    bytes.reserve(size);
+    for (Bytes& piece : pieces) {
+        bytes.insert(bytes.end(), piece.begin(), piece.end());
+        Bytes().swap(piece);
     }
-    bytes.resize(size);
     return bytes;
+}
+
+/// All that the descriptor gives; expected is a guess, not a promise (files grow and shrink). Read in pieces:
+/// a buffer that grows would be there twice, which for what never ends is twice the limit.
+Bytes read_all(int fd, std::size_t expected, std::size_t limit, const std::string& name) {
+    constexpr std::size_t least = std::size_t{64} << 10, most = std::size_t{64} << 20;
+    limit = std::min(limit, SIZE_MAX - 1);
+    std::vector<Bytes> pieces;
+    std::size_t size = 0;
+    for (std::size_t room = expected + 1;; room = std::clamp(size, least, most)) {
+        Bytes piece(std::min(room, std::max(limit, expected) + 1 - size));
+        std::size_t filled = 0, got = 0;
+        while (filled < piece.size() &&
+               (got = read_some(fd, piece.data() + filled, piece.size() - filled, name)) > 0)
+            filled += got;
+        size += filled;
+        if (size > limit) too_large(name, limit);
+        const bool ended = filled < piece.size();
+        piece.resize(filled);
+        pieces.push_back(std::move(piece));
+        if (ended) return joined(std::move(pieces), size);
+    }
 }
 
 std::shared_ptr<const void> map_file(int fd, std::size_t size) {

@@ -61,6 +61,22 @@ TEST_CASE("a pipe is read to its end, within a limit", "[io]") {
     }
 }
 
+TEST_CASE("a long pipe is read in pieces, up to exactly its limit", "[io]") {
+    const TemporaryDirectory dir;
+    const auto fifo = dir / "fifo";
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    std::string text;
+    for (int i = 0; text.size() < 700'000; ++i) text += fmt::format("{}\n", i);
+    for (const std::size_t limit : {text.size() - 1, text.size(), text.size() + 1}) {
+        std::thread writer([&] { put(fifo, text); });
+        std::string read;
+        const std::string failed = failure([&] { read = io::as_text(Input::open(fifo, limit).bytes()); });
+        writer.join();
+        CHECK((read == text) == (limit >= text.size()));
+        CHECK((failed.find("E-SIZE") != std::string::npos) == (limit < text.size()));
+    }
+}
+
 TEST_CASE("inputs that are not there are refused", "[io]") {
     const TemporaryDirectory dir;
     CHECK(failure([&] { Input::open(dir / "no"); }) ==
