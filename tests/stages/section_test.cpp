@@ -140,12 +140,17 @@ TEST_CASE("section warns of contours that run clockwise or cross themselves", "[
     };
     CHECK_FALSE(has(run_stage("section", "z=0.5", scene_of(cube)), "W-INSIDE-OUT"));
     for (std::size_t c = 0; c < cube.corners.size(); c += 3) std::swap(cube.corners[c], cube.corners[c + 1]);
-    CHECK(has(run_stage("section", "z=0.5", scene_of(cube)), "W-INSIDE-OUT"));
+    const auto inside_out = run_stage("section", "z=0.5", scene_of(cube));
+    REQUIRE(inside_out.warnings() == std::vector<std::string>{"W-INSIDE-OUT"});
+    CHECK(inside_out.record.warnings[0].message == "1 outline runs clockwise, so its area is negative: the "
+                                                   "mesh is inside out where the plane cuts it");
     Mesh bow = shapes::quad_cube(); // of which two walls cross
     std::swap(bow.positions[2], bow.positions[3]);
     std::swap(bow.positions[6], bow.positions[7]);
     const auto run = run_stage("section", "z=0.5", scene_of(bow));
-    CHECK(has(run, "W-SECTION-CROSSES"));
+    REQUIRE(run.warnings() == std::vector<std::string>{"W-SECTION-CROSSES"});
+    CHECK(run.record.warnings[0].message ==
+          "1 contour intersects itself; all that it winds around counts as inside");
     CHECK(run.record.result["area"] == 0.5);
     CHECK(run.record.result["empty"] == 0);
 }

@@ -70,19 +70,19 @@ void warn(const SectionReport& report, Context& context) {
                      "and which are holes",
                      "use orient first");
     if (report.inside_out > 0)
-        context.warn(
-            "W-INSIDE-OUT",
-            fmt::format("{} outlines run clockwise, so their areas are negative: the mesh is inside out "
-                        "where the plane cuts it",
-                        report.inside_out),
-            "use orient first");
+        context.warn("W-INSIDE-OUT",
+                     fmt::format("{} {}: the mesh is inside out where the plane cuts it",
+                                 counted(report.inside_out, "outline"),
+                                 report.inside_out == 1 ? "runs clockwise, so its area is negative"
+                                                        : "run clockwise, so their areas are negative"),
+                     "use orient first");
     const auto crossed = report.kinds[static_cast<std::size_t>(polygon::Kind::self_intersecting)];
     if (crossed > 0)
-        context.warn(
-            "W-SECTION-CROSSES",
-            fmt::format("{} contours intersect themselves; all that they wind around counts as inside",
-                        crossed),
-            "use clean: {self_intersections: all} first, to unite what overlaps");
+        context.warn("W-SECTION-CROSSES",
+                     fmt::format("{} {} around counts as inside", counted(crossed, "contour"),
+                                 crossed == 1 ? "intersects itself; all that it winds"
+                                              : "intersect themselves; all that they wind"),
+                     "use clean: {self_intersections: all} first, to unite what overlaps");
 }
 
 // --- fields
