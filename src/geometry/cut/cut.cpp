@@ -36,6 +36,7 @@ void classify_vertices(PlaneCut& cut, const OnPlane& on) {
     const CutMemory::Entry* known = on.memory ? on.memory->find(cut.plane) : nullptr;
     const double reach = on.snap > 0 ? on.snap * normal_length(cut.plane) : 0;
     const double snap = std::isfinite(reach) ? reach : 0;
+    const double rounding = std::ldexp(snap, -27); // 4 units of a double's last place
     const auto classify = [&](const Vec3& p, Tally& t) -> std::int8_t {
         const double s = side(cut.plane, p);
         if (s == 0) {
@@ -50,6 +51,11 @@ void classify_vertices(PlaneCut& cut, const OnPlane& on) {
         if (known && known->has(p, known->plane == cut.plane ? s : side(known->plane, p))) {
             ++t.on;
             ++t.remembered;
+            return 0;
+        }
+        if (std::fabs(s) <= rounding) {
+            ++t.on;
+            ++t.snapped;
             return 0;
         }
         ++(s > 0 ? t.above : t.below);

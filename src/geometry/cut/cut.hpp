@@ -65,7 +65,8 @@ struct PlaneCut {
 
 /// What counts as on a plane besides what is exactly on it.
 struct OnPlane {
-    /// Float32 positions at most this far away (mesh units) count as on the plane; 0: none.
+    /// Float32 positions at most this far away (mesh units) count as on the plane, and others within 2^-27 of
+    /// it: where the plane is to go through computed vertices, it would cut slivers off at them. 0: none.
     double snap = 0;
     /// Points that it says were built on the plane count as on it. None: nothing is known.
     const CutMemory* memory = nullptr;

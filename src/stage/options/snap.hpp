@@ -15,7 +15,7 @@ void declare_snap(Declare<S>& d, Snap S::*snap, const std::string& what) {
          {{"auto", Snap::automatic,
            "positions that are 32-bit floats count as on " + what +
                " within one float's rounding of the part's bounds: the 0.1 of an STL is not the 0.1 of a "
-               "pipeline"},
+               "pipeline; others within four roundings of a double"},
           {"0", Snap::none, "only what is exactly on it does"}},
          "What counts as on " + what + ".")
         .option()

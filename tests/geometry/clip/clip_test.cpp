@@ -1,5 +1,6 @@
 #include "geometry/clip/clip.hpp"
 
+#include "geometry/inspect/inspect.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -35,6 +36,13 @@ std::vector<Index> sizes_in_front(double a, double b, double c) {
     std::vector<Index> sizes;
     for (Index f = 0; f < mesh.face_count(); ++f) sizes.push_back(mesh.face_size(f));
     return sizes;
+}
+
+/// The open square from -1 to 1 in n x n cells, with coordinates as they are computed.
+Mesh computed_grid(int n) {
+    Mesh mesh = shapes::grid(n, n);
+    for (Vec3& p : mesh.positions) p = {-1 + 2.0 / n * p.x, -1 + 2.0 / n * p.y, 0};
+    return mesh;
 }
 
 using Sizes = std::vector<Index>;
@@ -309,4 +317,18 @@ TEST_CASE("skin weights sum to one after a cut, of no more joints than before", 
         }
     }
     CHECK(mixed > 100);
+}
+
+TEST_CASE("a plane through computed vertices cuts no slivers off at them", "[geometry]") {
+    const Mesh grid = computed_grid(10);
+    ClipSettings settings = at_plane({{1, 1, 0}, {0.2, 0, 0}, 0});
+    const ClipResult pure = clip(grid, settings);
+    REQUIRE(pure.cut_faces > 18); // vertices lie beside the plane, by rounding
+    settings.snap = true;
+    const ClipResult snapped = clip(grid, settings);
+    CHECK(snapped.snapped > 0);
+    CHECK(snapped.cut_faces == 18); // nine cells, from corner to corner, across their diagonals
+    CHECK(inspect(snapped.front).degenerate_faces == 0);
+    settings.planes[0].through = {0.2 + 1e-12, 0, 0}; // that is no rounding
+    CHECK(clip(grid, settings).snapped == 0);
 }
