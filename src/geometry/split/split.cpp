@@ -107,7 +107,8 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
     using Stop = SplitResult::Stop;
     SplitResult result;
     const Mesh* from = &mesh;
-    if (settings.min_angle > 0) result.narrow_before = narrow_faces(triangulated(mesh), settings);
+    if (settings.min_angle > 0)
+        result.narrow = result.narrow_before = narrow_faces(triangulated(mesh), settings);
     while (true) {
         if (is_reached(*from, settings)) {
             result.stop = Stop::target;
@@ -133,7 +134,7 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
                 break;
             }
             const std::size_t narrow = narrow_faces(triangulated(finer), settings);
-            if (result.passes > 0 && narrow > result.narrow) {
+            if (narrow > result.narrow) {
                 result.stop = Stop::narrow;
                 result.folded = folded;
                 result.shared = shared;

@@ -54,7 +54,7 @@ struct SplitResult {
         passes,  ///< as many as were asked for
         target,  ///< no edge is longer than max_edge, or no triangle narrower than min_angle
         budget,  ///< the next cut would have made more than SplitSettings::max_faces
-        narrow,  ///< another pass would have made more triangles narrower than min_angle
+        narrow,  ///< a pass would have made more triangles narrower than min_angle
         nothing, ///< no edge has a length
     };
     Mesh mesh;
@@ -98,9 +98,8 @@ struct SplitResult {
 /// a smaller angle (and the closure). No angle becomes smaller than half the smallest there was with bisect
 /// (I. Rosenberg and F. Stenger, "A lower bound on the angles of triangles constructed by bisecting the
 /// longest side", 1975). Since a split only divides angles, narrow triangles become smaller but not fewer:
-/// SplitResult::narrow counts those that are left, and a pass after the first that would make more of them is
-/// not done. max_faces: with bisect the longest edges first, with other methods as many passes as
-/// fit.
+/// SplitResult::narrow counts those that are left, and a pass that would make more of them is not done.
+/// max_faces: with bisect the longest edges first, with other methods as many passes as fit.
 ///
 /// Smooth methods: C. Loop, "Smooth subdivision surfaces based on triangles" (1987), with the boundary rules
 /// of H. Biermann, A. Levin and D. Zorin, "Piecewise smooth subdivision surfaces with normal control" (2000);

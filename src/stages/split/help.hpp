@@ -36,8 +36,8 @@ result of more than 2^31 corners (E-LIMIT), or one that does not fit into memory
 refused before anything is built. A split with a target ends after the given number of passes at the
 latest; the report says what stopped it (passes, max_edge, min_angle, max_faces or narrow), and
 W-SPLIT-STOPPED and W-SPLIT-NOTHING report targets that were not reached. Because a split only
-divides angles, min_angle makes narrow triangles smaller rather than fewer; a pass after the first
-that would make more of them is not done. The report gives the longest edge and the smallest angle
+divides angles, min_angle makes narrow triangles smaller rather than fewer; a pass that would make
+more of them is not done, and the part stays as it was before it. The report gives the longest edge and the smallest angle
 before and after, in world units and degrees.
 
 Sources: P. Bourke, 'Splitting facets' (1991); I. Rosenberg and F. Stenger, 'A lower bound on the

@@ -1,6 +1,7 @@
 #include "stages/split/report.hpp"
 
 #include "base/portable_math.hpp"
+#include "base/words.hpp"
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ void declare_part(DeclareFields<SplitPart>& d) {
               {"max_edge", "max_edge", "no edge is longer"},
               {"min_angle", "min_angle", "no triangle has a smaller angle"},
               {"max_faces", "max_faces", "the next cut would have made more"},
-              {"narrow", "narrow", "another pass would have made more triangles with a smaller angle"},
+              {"narrow", "narrow", "a pass would have made more triangles with a smaller angle"},
               {"nothing", "nothing", "no edge has a length"}},
              "What stopped the work.");
     const auto self = [](const SplitPart& p) -> const SplitPart& { return p; };
@@ -77,13 +78,14 @@ const char* only_splits(SplitMethod method) {
 }
 
 void warn_of_narrow_faces(const Part& part, const SplitResult& r, const SplitSettings& s, Context& context) {
-    const char* why = r.stop == SplitResult::Stop::narrow ? "another pass would make more of them"
-                                                          : "passes ended the split";
-    context.warn(
-        "W-SPLIT-STOPPED",
-        fmt::format("part '{}' has {} faces with an angle below {:.4g} degrees left, which had {}: {}",
-                    part.name, r.narrow, s.min_angle * (180 / pi), r.narrow_before, why),
-        "a split never makes an angle larger: relax evens faces out, simplify removes narrow ones");
+    const bool narrow = r.stop == SplitResult::Stop::narrow;
+    const std::string had = r.passes > 0 ? fmt::format(" left, which had {}", r.narrow_before) : "";
+    context.warn("W-SPLIT-STOPPED",
+                 fmt::format("part '{}' {} with an angle below {:.4g} degrees{}: {}", part.name,
+                             (r.passes > 0 ? "has " : "stays as it is, with ") + counted(r.narrow, "face"),
+                             s.min_angle * (180 / pi), had,
+                             narrow ? "a pass would make more of them" : "passes ended the split"),
+                 "a split never makes an angle larger: relax evens faces out, simplify removes narrow ones");
 }
 
 } // namespace
