@@ -28,6 +28,11 @@ fs::path fixed_prefix(const fs::path& pattern) {
     return prefix;
 }
 
+bool holds_something(const fs::path& folder) {
+    std::error_code error;
+    return fs::directory_iterator(folder, error) != fs::directory_iterator() && !error;
+}
+
 /// The folder of the input from the base; empty beyond it.
 fs::path mirrored(const fs::path& input, const fs::path& base) {
     const auto whole = [](const fs::path& folder) {
@@ -59,16 +64,29 @@ class AssetFinder {
                                   : fs::path(sources_.base);
         auto files = expand_glob(pattern);
         if (!is_file && !is_glob(pattern)) files.clear();
-        if (files.empty() && !was_there(pattern))
-            missing_.push_back({Severity::error, "E-FILE", fmt::format("no file matches '{}'", pattern),
-                                sources_.place(pattern),
-                                is_glob(pattern) ? "** stands for any number of folders; the shell must not "
-                                                   "expand the pattern: quote it"
-                                                 : ""});
+        if (files.empty()) add_nothing(pattern);
         for (const auto& file : files) add_file(file, base);
     }
 
-    /// Whether an earlier batch found something there, so that nothing is left to make but to prune.
+    /// Nothing may be left to make but to prune. That nothing can be seen of a folder (its disk is not there)
+    /// is no reason to remove what was made of it.
+    void add_nothing(const std::string& pattern) {
+        std::string hint =
+            is_glob(pattern)
+                ? "** stands for any number of folders; the shell must not expand the pattern: quote it"
+                : "";
+        if (was_there(pattern)) {
+            const fs::path fixed = fixed_prefix(pattern);
+            const fs::path folder = fixed.empty() ? fs::path(".") : fixed;
+            if (holds_something(folder)) return;
+            hint = fmt::format("nothing is pruned while '{}' is missing or empty: is its disk there?",
+                               folder.string());
+        }
+        missing_.push_back({Severity::error, "E-FILE", fmt::format("no file matches '{}'", pattern),
+                            sources_.place(pattern), std::move(hint)});
+    }
+
+    /// Whether an earlier batch found something there.
     bool was_there(const std::string& pattern) const {
         return sources_.former &&
                std::any_of(sources_.former->begin(), sources_.former->end(),
@@ -96,7 +114,7 @@ class AssetFinder {
             any = any || !name.empty();
             text.remove_prefix(std::min(end + 1, text.size()));
         }
-        if (!any && !sources_.former)
+        if (!any)
             missing_.push_back({Severity::error, "E-FILE", fmt::format("'{}' names no file", list),
                                 sources_.place(list), "one name on each line, or each ended by a NUL"});
     }

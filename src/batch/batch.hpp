@@ -26,8 +26,8 @@ struct Sources {
     std::string table;                 ///< --table: a CSV or YAML file, a row an asset
     std::string base;                  ///< --base: the folder that is mirrored; empty: see find_assets
     std::function<Mark(const std::string&)> place; ///< of a value on the command line
-    /// --prune: the assets of earlier batches. A pattern that names one of them may match nothing any more,
-    /// and a list may be empty. None: that is an error.
+    /// --prune: the assets of earlier batches. A pattern that names one of them may match nothing any more
+    /// where the folder before its first wildcard holds something else. None: that is an error.
     std::optional<std::vector<std::string>> former;
 };
 

@@ -64,6 +64,24 @@ TEST_CASE("a pattern without a match is an error, each of them", "[batch]") {
     CHECK(told == 2);
 }
 
+TEST_CASE("nothing is left of a pattern only where its folder can be seen", "[batch]") {
+    const TemporaryDirectory dir;
+    const std::string file = (dir / "in/a.ply").string();
+    auto sources = sources_of({(dir / "in/**/*.ply").string()});
+    sources.former = {file};
+    const std::string refused = "missing [E-FILE] no file matches";
+    CHECK(failure([&] { batch::find_assets(sources); }).starts_with(refused));
+    fs::create_directories(dir / "in");
+    CHECK(failure([&] { batch::find_assets(sources); }).starts_with(refused));
+    put(dir / "in/other.txt", "");
+    CHECK(batch::find_assets(sources).empty());
+    sources.patterns = {file};
+    CHECK(batch::find_assets(sources).empty());
+    put(dir / "list", "\n");
+    sources.lists = {(dir / "list").string()};
+    CHECK(failure([&] { batch::find_assets(sources); }).starts_with("missing [E-FILE]"));
+}
+
 TEST_CASE("lists hold a name on each line, or each ended by a NUL", "[batch]") {
     const TemporaryDirectory dir;
     auto sources = sources_of({});

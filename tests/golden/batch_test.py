@@ -228,12 +228,20 @@ class Batch(Case):
         self.assertEqual(len(self.written()), 6)
         self.assertIn("0 assets", self.batch("--prune").stderr)
         self.assertEqual(self.written(), {})
-        self.write("in/a.off", tetrahedron())
+
+    def test_prune_removes_nothing_of_what_is_out_of_reach(self):
         self.batch()
-        (self.dir / "in/a.off").unlink()
         self.write("list", "")
-        self.batch("--inputs-from", "list", "--prune")
-        self.assertEqual(self.written(), {})
+        self.assertIn("names no file", self.batch("--inputs-from", "list", "--prune", expect=3).stderr)
+        (self.dir / "in").rename(self.dir / "elsewhere")  # as a disk that is not mounted
+        self.assertIn("is its disk there?", self.batch("--prune", expect=3).stderr)
+        self.assertIn("'in' is missing", self.batch("--input", "in/a.off", "--prune", expect=3).stderr)
+        (self.dir / "in").mkdir()  # its mount point
+        self.assertIn("is its disk there?", self.batch("--prune", expect=3).stderr)
+        self.assertEqual(len(self.written()), 6)
+        (self.dir / "in").rmdir()
+        (self.dir / "elsewhere").rename(self.dir / "in")
+        self.assertEqual(self.done_anew("--prune"), [])
 
     def test_prune_takes_the_reports_of_what_failed(self):
         self.write("in/junk.off", "no mesh")
