@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
+#include <optional>
 #include <set>
 
 namespace facetmill::cli {
@@ -38,17 +40,9 @@ void refuse_common_outputs(std::vector<pipeline::Plan>& plans, Problems& problem
     }
 }
 
-/// Files that a plan reads; with errors only what needs no look into them.
-std::vector<std::filesystem::path> inputs_of(const pipeline::Plan& plan, bool with_errors) {
-    return with_errors ? pipeline::planned_inputs(plan)
-                       : pipeline::planned_inputs(plan, pipeline::read_headers(plan));
-}
-
-/// watch: gets what the pipelines read before it is read; or null.
-int run(const std::vector<std::string>& pipelines, const PipelineOptions& options, const CommandLine& line,
-        const Console& console, Watch* watch) {
-    Problems problems;
-    const auto settings = plan_settings(options, line, problems);
+/// Options that name one file take one pipeline.
+void check_single(const std::vector<std::string>& pipelines, const PipelineOptions& options,
+                  const CommandLine& line, Problems& problems) {
     const std::pair<const char*, bool> of_one[] = {{"--depfile", !options.depfile.empty()},
                                                    {"--report", !options.reports.empty()},
                                                    {"--timings", !options.timings.empty()}};
@@ -57,47 +51,107 @@ int run(const std::vector<std::string>& pipelines, const PipelineOptions& option
             problems.add(line.find(option), "E-ARGUMENT",
                          fmt::format("{} takes one pipeline, found {}", option, pipelines.size()),
                          "run them one by one");
-    std::vector<pipeline::Plan> plans;
-    plans.reserve(pipelines.size());
-    for (const auto& pipeline : pipelines) plans.push_back(plan_of(pipeline, settings, problems));
-    if (watch)
-        for (const auto& plan : plans)
-            for (const auto& input : inputs_of(plan, problems.any_errors())) watch->add(input);
-    if (!problems.any_errors() && plans.size() > 1) refuse_common_outputs(plans, problems);
-    if (refused(plans, problems, console)) return static_cast<int>(ErrorKind::usage);
+}
+
+struct Planned {
+    std::vector<pipeline::Plan> plans; ///< of the pipelines
+    Problems problems;
+};
+
+/// on_include: as PlanSettings.
+Planned plan_all(const std::vector<std::string>& pipelines, const PipelineOptions& options,
+                 const CommandLine& line, std::function<void(const std::filesystem::path&)> on_include) {
+    Planned all;
+    auto settings = plan_settings(options, line, all.problems);
+    settings.on_include = std::move(on_include);
+    check_single(pipelines, options, line, all.problems);
+    all.plans.reserve(pipelines.size());
+    for (const auto& pipeline : pipelines) all.plans.push_back(plan_of(pipeline, settings, all.problems));
+    if (!all.problems.any_errors() && all.plans.size() > 1) refuse_common_outputs(all.plans, all.problems);
+    return all;
+}
+
+int run_all(const std::vector<std::string>& pipelines, const Planned& all, const PipelineOptions& options,
+            const Console& console) {
+    if (refused(all.plans, all.problems, console)) return static_cast<int>(ErrorKind::usage);
     int worst = 0;
-    for (std::size_t i = 0; i < plans.size(); ++i) {
+    for (std::size_t i = 0; i < all.plans.size(); ++i) {
         const bool file = pipelines[i] != "-" && std::filesystem::exists(pipelines[i]);
-        const int code = run_with_messages(plans[i], options, console, file ? pipelines[i] : "");
+        const int code = run_with_messages(all.plans[i], options, console, file ? pipelines[i] : "");
         if (worst == 0) worst = code;
     }
     return worst;
+}
+
+/// What the plans read and this run does not write: else a run would be the reason of the next. With errors
+/// only what needs no look into files.
+void watch_inputs(const Planned& all, Watch& watch) {
+    std::vector<pipeline::Headers> headers(all.plans.size());
+    for (std::size_t i = 0; i < all.plans.size(); ++i) {
+        const auto& plan = all.plans[i];
+        if (!all.problems.any_errors()) headers[i] = pipeline::read_headers(plan);
+        for (const auto& output : pipeline::planned_outputs(plan, headers[i])) watch.leave_out(output);
+        for (const auto& file : plan.others)
+            if (file.written) watch.leave_out(file.path);
+    }
+    for (std::size_t i = 0; i < all.plans.size(); ++i) {
+        for (const auto& input : pipeline::planned_inputs(all.plans[i], headers[i])) watch.add(input);
+        for (const auto& pattern : pipeline::planned_patterns(all.plans[i])) watch.add_pattern(pattern);
+    }
+}
+
+[[noreturn]] void refuse_stream(const char* what, const Mark& where) {
+    throw Error(ErrorKind::usage, "E-ARGUMENT",
+                fmt::format("--watch cannot read {} from standard input again", what), "give it as a file",
+                where);
+}
+
+void refuse_streams(const std::vector<pipeline::Plan>& plans) {
+    for (const auto& plan : plans)
+        for (const auto& file : pipeline::planned_files(plan.steps, plan.places))
+            if (!file.written && file.path == "-") refuse_stream("an input", file.where);
+}
+
+/// The exit code of the body; an Error, of a file that is gone, is told: it may come back.
+template <class Body>
+int code_of(const Console& console, Body&& body) {
+    try {
+        return body();
+    } catch (const Error& e) {
+        console.diagnostics(e);
+        return static_cast<int>(e.kind());
+    }
 }
 
 /// Runs, and again whenever something that is read changes. A signal ends it, as it ends any run.
 [[noreturn]] void run_and_watch(const std::vector<std::string>& pipelines, const PipelineOptions& options,
                                 const CommandLine& line, const Console& console) {
     if (std::find(pipelines.begin(), pipelines.end(), "-") != pipelines.end())
-        throw Error(ErrorKind::usage, "E-ARGUMENT",
-                    "--watch cannot read a pipeline from standard input again", "give it as a file",
-                    line.find("--watch"));
+        refuse_stream("a pipeline", line.find("--watch"));
+    Watch last;
     for (std::size_t number = 1;; ++number) {
         Watch watch;
         for (const auto& pipeline : pipelines) watch.add(pipeline);
         for (const auto& preset : options.presets) watch.add(preset);
-        int code = 0;
-        try {
-            code = run(pipelines, options, line, console, &watch);
-        } catch (const Error& e) { // a pipeline that is gone; it may come back
-            console.diagnostics(e);
-            code = static_cast<int>(e.kind());
+        std::optional<Planned> planned;
+        int code = code_of(console, [&] {
+            planned = plan_all(pipelines, options, line, [&](const auto& file) { watch.add(file); });
+            return 0;
+        });
+        if (planned) {
+            refuse_streams(planned->plans);
+            watch_inputs(*planned, watch);
         }
+        // What a plan that failed would read is what the last one read, as far as is known.
+        if (!planned || planned->problems.any_errors()) watch.add_all(last);
+        if (planned) code = code_of(console, [&] { return run_all(pipelines, *planned, options, console); });
         console.event({{"level", "info"}, {"event", "watch"}, {"number", number}, {"exit_code", code}});
         if (!console.json)
             console.say(
                 fmt::format("exit code {}; watching {}, Ctrl-C ends", code, counted(watch.size(), "file")));
         const auto changed = watch.wait();
         console.say(fmt::format("{} has changed", changed.string()));
+        last = std::move(watch);
     }
 }
 
@@ -116,7 +170,8 @@ Command run_command() {
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
                     if (*watch) run_and_watch(*pipelines, *options, invocation.line, console);
-                    return run(*pipelines, *options, invocation.line, console, nullptr);
+                    return run_all(*pipelines, plan_all(*pipelines, *options, invocation.line, {}), *options,
+                                   console);
                 };
             }};
 }

@@ -1,5 +1,8 @@
 #include "cli/watch.hpp"
 
+#include "base/glob.hpp"
+#include "io/output_files.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -16,11 +19,29 @@ Watch::Stamp Watch::stamp_of(const fs::path& file) {
     return std::pair(time, error ? 0 : size);
 }
 
-void Watch::add(const fs::path& file) { files_.try_emplace(file, stamp_of(file)); }
+void Watch::leave_out(const fs::path& file) { left_out_.insert(io::identity(file)); }
+
+void Watch::add(const fs::path& file) {
+    if (!files_.contains(file) && !left_out_.contains(io::identity(file)))
+        files_.emplace(file, stamp_of(file));
+}
+
+void Watch::add_all(const Watch& other) {
+    left_out_.insert(other.left_out_.begin(), other.left_out_.end());
+    for (const auto& [file, stamp] : other.files_) add(file);
+    for (const auto& pattern : other.patterns_) {
+        for (const auto& match : expand_glob(pattern)) add(match);
+        add_pattern(pattern);
+    }
+}
 
 Watch::Stamps Watch::now() const {
     Stamps stamps;
     for (const auto& [file, stamp] : files_) stamps.emplace(file, stamp_of(file));
+    for (const auto& pattern : patterns_)
+        for (const auto& match : expand_glob(pattern))
+            if (!stamps.contains(match) && !left_out_.contains(io::identity(match)))
+                stamps.emplace(match, stamp_of(match));
     return stamps;
 }
 
@@ -31,13 +52,18 @@ fs::path Watch::wait() const {
         std::this_thread::sleep_for(between);
         found = now();
     }
-    const auto differs = std::mismatch(files_.begin(), files_.end(), found.begin());
+    const auto differs =
+        std::find_if(found.begin(), found.end(), [this](const auto& one) { // it has all of files_
+            const auto known = files_.find(one.first);
+            return known == files_.end() || known->second != one.second;
+        });
+    const fs::path changed = differs->first;
     for (Stamps later; later != found;) {
         if (!later.empty()) found = std::move(later);
         std::this_thread::sleep_for(between);
         later = now();
     }
-    return differs.first->first;
+    return changed;
 }
 
 } // namespace facetmill::cli

@@ -151,7 +151,9 @@ void Planner::plan_foreach(Step& step, const Value& item, const Value::Entry& en
     step.arms = foreach_arms(variables, *body, scope, inner, {}, has_scene);
     if (!over_parts) return;
     // Planned again with the names of the parts, when they are known; everything it needs is copied.
-    step.arms_of_parts = [settings = settings_, variables, body = *body, scope, inner,
+    PlanSettings later = settings_;
+    later.on_include = {}; // what was told of is told once, and from the thread that plans
+    step.arms_of_parts = [settings = std::move(later), variables, body = *body, scope, inner,
                           has_scene](const std::vector<std::string>& parts, Problems& problems) {
         Planner planner(settings, problems);
         return planner.foreach_arms(variables, body, scope, inner, parts, has_scene);

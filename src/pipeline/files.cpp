@@ -35,8 +35,13 @@ void add_files(const Step& step, const Places& places, std::vector<PlannedFile>&
         if (input.text.empty()) continue; // known only at run time
         const fs::path path = places.input(input.text);
         const auto matches = expand_glob(path);
-        if (matches.empty()) files.push_back({path, where(input), false});
-        for (const auto& match : matches) files.push_back({match, where(input), false});
+        PlannedFile file{path, where(input), false};
+        if (is_glob(path.string())) file.pattern = path;
+        if (matches.empty()) files.push_back(file);
+        for (const auto& match : matches) {
+            file.path = match;
+            files.push_back(file);
+        }
     }
     for (const auto& output : named.outputs)
         if (!output.text.empty()) files.push_back({places.output(output.text), where(output), true});
@@ -198,6 +203,13 @@ std::vector<fs::path> planned_inputs(const Plan& plan, const Headers& headers) {
     for (const auto& file : plan.others)
         if (file.shapes) paths.add(file.path);
     return paths.all();
+}
+
+std::vector<fs::path> planned_patterns(const Plan& plan) {
+    OnceEach<fs::path> patterns;
+    for (const auto& file : planned_files(plan.steps, plan.places))
+        if (!file.pattern.empty()) patterns.add(file.pattern);
+    return patterns.all();
 }
 
 std::vector<fs::path> planned_outputs(const Plan& plan, const Headers& headers) {

@@ -46,6 +46,7 @@ void rebase_given(const Value& document, const Value& item, const fs::path& pref
 const Value* Planner::fragment(const fs::path& file, const Mark& where) {
     if (const auto known = fragments_.find(file); known != fragments_.end()) return &known->second;
     included_.push_back({file, where, false, {}, true});
+    if (settings_.on_include) settings_.on_include(file);
     std::shared_ptr<const SourceText> source;
     try {
         const auto input = io::Input::open(file);

@@ -58,6 +58,7 @@ struct PlannedFile {
     std::vector<std::pair<std::string, Value>>
         variables{};     ///< of each foreach that it stands in, the outer first
     bool shapes = false; ///< a file that the pipeline takes stages or params from: an include, a preset
+    std::filesystem::path pattern{}; ///< an input that a pattern with wildcards names: that pattern
 };
 
 struct PlanSettings {
@@ -76,7 +77,9 @@ struct PlanSettings {
     std::vector<std::string> extra_reports;  ///< --report
     std::vector<std::string> allowed;        ///< --allow: ids of warnings
     std::vector<PlannedFile> others; ///< what is read and written besides: the pipeline itself, --save ...
-    bool parameters_needed = true;   ///< false (check without -D): params without a value stand for any value
+    /// Gets each file that is included before it is opened, whether it is there or not.
+    std::function<void(const std::filesystem::path&)> on_include;
+    bool parameters_needed = true; ///< false (check without -D): params without a value stand for any value
 };
 
 struct Plan {
@@ -148,6 +151,8 @@ Headers read_headers(const Plan& plan);
 /// the headers tell); includes and presets among the inputs, at their end, and reports among the outputs.
 std::vector<std::filesystem::path> planned_inputs(const Plan& plan, const Headers& headers = {});
 std::vector<std::filesystem::path> planned_outputs(const Plan& plan, const Headers& headers = {});
+/// The patterns that name inputs.
+std::vector<std::filesystem::path> planned_patterns(const Plan& plan);
 /// W-NOTHING, at the last stage, when nothing would be left of a run: no file, no check that can fail, no
 /// report.
 std::optional<Diagnostic> without_effect(const Plan& plan);

@@ -112,6 +112,69 @@ class Process(Case):
         said = self.mill("run", "-", "--watch", stdin="", expect=2).stderr
         self.assertIn("--watch cannot read", said)
 
+    def test_what_a_watched_run_writes_is_no_reason_to_run_again(self):
+        self.write("in.off", TRIANGLE)
+        self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [load: in.off, split: midpoint, write: o.off]\n")
+        self.write("q.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [load: '*.off', split: midpoint, write: r.ply]\n")
+        run, next_end = self.watch("q.yaml")
+        self.assertEqual(next_end()[0], 0)
+        self.assertEqual(select.select([run.stderr], [], [], 2)[0], [], "it runs again by itself")
+        self.write("in.off", TRIANGLE.replace("1 0 0", "2 0 0"))
+        code, lines = next_end()
+        self.assertEqual(code, 0)
+        self.assertIn("in.off has changed", [line.get("message") for line in lines])
+        self.assertEqual(select.select([run.stderr], [], [], 2)[0], [])
+
+    def test_a_watched_run_sees_what_comes(self):
+        self.write("parts/a.off", TRIANGLE)
+        self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [load: 'parts/*.off', include: a.yaml, write: o.off]\n")
+        _, next_end = self.watch()
+        self.assertEqual(next_end()[0], 3, "there is no a.yaml")
+        fragment = "facetmill: 1\nstages: [split: midpoint]\n"
+        for _ in range(2):
+            self.write("a.yaml", fragment)
+            self.assertEqual(next_end()[0], 0)
+            (self.dir / "a.yaml").unlink()
+            self.assertEqual(next_end()[0], 3)
+        self.write("parts/a.off", TRIANGLE.replace("1 0 0", "2 0 0"))  # which the last plan read
+        self.assertEqual(next_end()[0], 3)
+        self.write("a.yaml", fragment)
+        self.assertEqual(next_end()[0], 0)
+        self.write("parts/b.off", TRIANGLE.replace("1 0 0", "3 0 0"))
+        code, lines = next_end()
+        self.assertEqual(code, 0)
+        self.assertIn("parts/b.off has changed", [line.get("message") for line in lines])
+        self.write("p.yaml", "facetmill: 1\nparams: {input: path}\nstages: [load: '${input}', write: o.off]\n")
+        said = self.mill("run", "p.yaml", "-D", "input=-", "--watch", stdin="", expect=2).stderr
+        self.assertIn("--watch cannot read", said)
+
+    def test_a_watched_run_sees_what_changes_while_it_is_planned(self):
+        self.write("in.off", TRIANGLE)
+        self.write("a.yaml", "facetmill: 1\nstages: [split: midpoint]\n")
+        self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [load: in.off, include: a.yaml, include: b.yaml, write: o.off]\n")
+        os.mkfifo(self.dir / "b.yaml")
+
+        def opened_for_reading():
+            deadline = time.monotonic() + 60
+            while True:
+                try:
+                    return os.fdopen(os.open(self.dir / "b.yaml", os.O_WRONLY | os.O_NONBLOCK), "w")
+                except OSError:
+                    self.assertLess(time.monotonic(), deadline, "b.yaml is not read")
+                    time.sleep(0.01)
+
+        _, next_end = self.watch()
+        with opened_for_reading() as pipe:  # a.yaml was read
+            time.sleep(0.05)
+            self.write("a.yaml", "facetmill: 1\nstages: [{split: midpoint}, {split: midpoint}]\n")
+            pipe.write("facetmill: 1\nstages: [relax: 1]\n")
+        self.assertEqual(next_end()[0], 0)
+        with opened_for_reading() as pipe:
+            pipe.write("facetmill: 1\nstages: [relax: 1]\n")
+        code, lines = next_end()
+        self.assertEqual(code, 0)
+        self.assertIn("a.yaml has changed", [line.get("message") for line in lines])
+
     def test_a_terminal_sees_how_far_a_stage_is(self):
         self.write("p.yaml", f"facetmill: 1\nallow: W-UNITS\nstages:\n  - load: {SCAN}\n  - relax: 100000\n  - write: o.ply\n")
         terminal, other = pty.openpty()
