@@ -39,13 +39,36 @@ std::vector<std::string> command_lines(const Job& job) {
     return all;
 }
 
-/// Runs that all take place, whichever fails, as one command of a shell; the status is that of the last that
-/// failed, in s, which `at_end` leaves with. status: how the text spells $?.
-std::string chain(const std::string& program, const std::vector<std::string>& runs, const char* status,
-                  const std::string& at_end) {
+/// How an engine spells a text that the shell is to get.
+using Spelling = std::string (*)(const std::string&);
+
+/// The job for an engine: its runs by the program, as one command of a shell.
+using CommandOf = std::string (*)(const Job&, const std::string& program, Spelling);
+
+/// Runs that all take place, whichever fails; the status is that of the last that failed, in s, which
+/// `at_end` leaves with.
+std::string chain(const Job& job, const std::string& program, Spelling spell, const std::string& at_end) {
     std::string text = "s=0;";
-    for (const auto& run : runs) text += fmt::format(" {}{} || s={};", program, run, status);
-    return text + " " + at_end;
+    for (const auto& run : command_lines(job))
+        text += fmt::format(" {}{} || s={};", program, spell(run), spell("$?"));
+    return text + " " + spell(at_end);
+}
+
+std::string plain_command(const Job& job, const std::string& program, Spelling spell) {
+    return job.runs.size() == 1 ? program + spell(command_lines(job).front())
+                                : chain(job, program, spell, "exit $s");
+}
+
+/// What a run that failed has written (its report) stays, and is out of date.
+std::string make_command(const Job& job, const std::string& program, Spelling spell) {
+    std::string outputs;
+    for (const auto& output : job.outputs) outputs += " " + for_shell(output);
+    return chain(job, program, spell,
+                 fmt::format("[ $s = 0 ] || {{ touch -c -d @86400{}; exit $s; }}", outputs));
+}
+
+std::string snakemake_command(const Job& job, const std::string& program, Spelling spell) {
+    return chain(job, program, spell, "exit $s");
 }
 
 /// A line of Make or Ninja, whose variables begin with a dollar sign.
@@ -80,22 +103,27 @@ void check_outputs(const std::vector<Job>& jobs) {
                         "give the pipeline a report: \"${input.stem}.json\", or use facetmill batch");
 }
 
-/// Linux takes 131072 bytes in one argument, as which a shell gets its command.
-void check_lengths(const std::vector<Job>& jobs) {
-    constexpr std::size_t most = 120'000;
+/// Linux takes 131072 bytes in one argument, as which a shell gets its command. Some are left for what an
+/// engine adds, and in each run for the path of the program.
+void check_lengths(const std::vector<Job>& jobs, CommandOf command) {
+    constexpr std::size_t most = 131'072 - 512, of_program = 40;
+    const auto as_it_is = [](const std::string& text) { return text; };
     for (const auto& job : jobs) {
-        std::size_t length = 0;
-        for (const auto& line : command_lines(job)) length += line.size() + 40;
-        if (length > most)
-            throw Error(ErrorKind::usage, "E-EXPORT",
-                        fmt::format("the command of {} is longer than a shell takes", job.name),
-                        fmt::format("--shard {}", std::max<std::size_t>(1, job.runs.size() * most / length)));
+        const std::size_t length = command(job, std::string(of_program, 'p'), as_it_is).size();
+        if (length <= most) continue;
+        const std::size_t fit = job.runs.size() * most / length;
+        throw Error(
+            ErrorKind::usage, "E-EXPORT",
+            fmt::format("the command of {} has {} bytes, and a shell takes {}", job.name, length, most),
+            job.runs.size() > 1
+                ? fmt::format("--shard {}", std::max<std::size_t>(1, fit))
+                : "give long params in a --preset, or write fewer files or files of shorter names");
     }
 }
 
-void check_jobs(const std::vector<Job>& jobs) {
+void check_jobs(const std::vector<Job>& jobs, CommandOf command) {
     check_outputs(jobs);
-    check_lengths(jobs);
+    check_lengths(jobs, command);
 }
 
 /// Names with these cannot be spelled.
@@ -116,13 +144,6 @@ std::string joined(const std::vector<std::string>& paths, std::string (*spelled)
     std::string text;
     for (const auto& path : paths) text += " " + spelled(path);
     return text;
-}
-
-/// The command lines for Make and Ninja.
-std::vector<std::string> spelled(const Job& job) {
-    auto lines = command_lines(job);
-    for (auto& line : lines) line = with_dollars_doubled(line);
-    return lines;
 }
 
 std::string make_target(const std::string& path) { return make_spelling(path, true); }
@@ -164,14 +185,12 @@ std::vector<Job> in_shards(std::vector<Job> jobs, std::size_t size) {
 }
 
 std::string ninja_workflow(const std::vector<Job>& jobs) {
-    check_jobs(jobs);
+    check_jobs(jobs, plain_command);
     check_names(jobs, "Ninja", "|\t", "rename the file");
     std::string text = heading() + "facetmill = facetmill\n\nrule mill\n  command = $work\n  "
                                    "description = MILL $asset\n";
     for (const auto& job : jobs) {
-        const auto runs = spelled(job);
-        const std::string work =
-            runs.size() == 1 ? "$facetmill" + runs.front() : chain("$facetmill", runs, "$$?", "exit $$s");
+        const std::string work = plain_command(job, "$facetmill", with_dollars_doubled);
         text += fmt::format("\nbuild{}: mill{}\n  asset = {}\n  work = {}\n", joined(job.outputs, ninja_path),
                             joined(job.inputs, ninja_path), with_dollars_doubled(job.name), work);
     }
@@ -179,26 +198,21 @@ std::string ninja_workflow(const std::vector<Job>& jobs) {
 }
 
 std::string make_workflow(const std::vector<Job>& jobs) {
-    check_jobs(jobs);
+    check_jobs(jobs, make_command);
     check_names(jobs, "Make", "|;=*?[]~\t", "use --to ninja, or rename the file");
     std::string rules, all;
     for (const auto& job : jobs) {
         const std::string outputs = joined(job.outputs, make_target);
         all += " \\\n " + joined(job.outputs, make_input);
-        // "&:" is one rule for all of them: GNU make 4.3. What a run that failed has written (its report)
-        // stays, and is out of date.
-        std::string old;
-        for (const auto& output : job.outputs) old += " " + for_shell(output);
-        const std::string at_end =
-            fmt::format("[ $$s = 0 ] || {{ touch -c -d @86400{}; exit $$s; }}", with_dollars_doubled(old));
+        // "&:" is one rule for all of them: GNU make 4.3.
         rules += fmt::format("\n{} &:{}\n\t{}\n", outputs.substr(1), joined(job.inputs, make_input),
-                             chain("$(FACETMILL)", spelled(job), "$$?", at_end));
+                             make_command(job, "$(FACETMILL)", with_dollars_doubled));
     }
     return heading() + "FACETMILL ?= facetmill\n\n.PHONY: all\nall:" + all + "\n" + rules;
 }
 
 std::string snakemake_workflow(const std::vector<Job>& jobs, int threads) {
-    check_jobs(jobs);
+    check_jobs(jobs, snakemake_command);
     // It takes braces for a wildcard, and has no way to say that they are none.
     check_names(jobs, "Snakemake", "{}", "rename the file");
     Json all = Json::array();
