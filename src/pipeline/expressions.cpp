@@ -210,7 +210,7 @@ bool is_deferred(const Value& value) {
                        [](const auto& e) { return is_deferred(e.value); });
 }
 
-Mark mark_within(const Mark& mark, std::string_view piece) {
+Mark mark_within(const Mark& mark, std::string_view piece, std::size_t from) {
     if (!mark.known() || mark.line == 0 || mark.column == 0) return mark;
     const std::string& text = mark.source->text;
     std::size_t at = 0;
@@ -219,7 +219,7 @@ Mark mark_within(const Mark& mark, std::string_view piece) {
     for (int column = 1; column < mark.column && at < text.size(); ++column) // columns count characters
         do ++at;
         while (at < text.size() && !is_lead(text[at]));
-    const std::size_t found = text.find(piece, at);
+    const std::size_t found = text.find(piece, at + from);
     if (found == std::string::npos || text.substr(at, found - at).find('\n') != std::string::npos)
         return mark;
     Mark inner = mark;

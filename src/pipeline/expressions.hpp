@@ -42,8 +42,9 @@ bool is_name_from_file(const Value& value, const Scope& scope);
 /// Whether anything in the tree is known only at run time.
 bool is_deferred(const Value& value);
 
-/// The place of piece inside what the mark underlines, or the mark when it is not on its line.
-Mark mark_within(const Mark& mark, std::string_view piece);
+/// The place of piece inside what the mark underlines, the first that begins `from` bytes or more after the
+/// mark; or the mark when it is not on its line.
+Mark mark_within(const Mark& mark, std::string_view piece, std::size_t from = 0);
 
 /// Of a path's text: the file's name without its suffix (and without .gz or .zst), and that suffix.
 std::string stem_of(const std::string& path);

@@ -149,7 +149,10 @@ Value list_of_text(const std::string& text, const Mark& mark, Problems& problems
         Problems found;
         list = parse_yaml(std::make_shared<const SourceText>(SourceText{"", text}), found);
         list.mark = mark;
-        for (auto& item : list.items) item.mark = mark_within(mark, item.text);
+        for (auto& item : list.items) {
+            const std::size_t at = item.mark.column > 0 ? static_cast<std::size_t>(item.mark.column) - 1 : 0;
+            item.mark = mark_within(mark, item.text, at);
+        }
         for (const auto& d : found.all())
             problems.add(mark, d.id, d.message, "a list is [50%, 10%], or 50%,10%");
         list.deferred = found.any_errors();
@@ -158,9 +161,10 @@ Value list_of_text(const std::string& text, const Mark& mark, Problems& problems
     for (std::size_t at = 0; !text.empty() && at <= text.size();) {
         const std::size_t end = std::min(text.size(), text.find(',', at));
         std::string_view one = std::string_view(text).substr(at, end - at);
-        while (one.starts_with(' ')) one.remove_prefix(1);
+        const std::size_t blanks = std::min(one.find_first_not_of(' '), one.size());
+        one.remove_prefix(blanks);
         while (one.ends_with(' ')) one.remove_suffix(1);
-        list.items.push_back(Value::scalar(std::string(one), mark_within(mark, one)));
+        list.items.push_back(Value::scalar(std::string(one), mark_within(mark, one, at + blanks)));
         at = end + 1;
     }
     return list;

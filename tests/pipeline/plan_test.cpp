@@ -506,6 +506,9 @@ TEST_CASE("each value of a list has a type, and its own place in messages", "[pi
           "-D:1:8: error[E-RANGE]: the parameter 'lods' must be at most 9, found '12'\n"
           "  lods=5,12\n"
           "         ^~");
+    for (const auto& [text, place] :
+         {std::pair("12,2", "-D:1:9: "), {"[12, 2]", "-D:1:11: "}, {"12,  2", "-D:1:11: "}})
+        CHECK(problem("{type: list, of: integer, min: 3, default: 5}", defining(text)).starts_with(place));
     CHECK(problem("{type: list, of: integer, default: [5, x]}") ==
           "p.yaml:2:55: error[E-TYPE]: expected an integer, found 'x'\n"
           "  params: {lods: {type: list, of: integer, default: [5, x]}}\n"
