@@ -8,6 +8,7 @@
 #include "geometry/simplify/methods.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/closest_point.hpp"
 #include "mesh/placement.hpp"
@@ -282,6 +283,7 @@ Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, 
     s.followed->farthest = limit * limit;
     Ended end;
     end.outcome = run_passes(s, goal);
+    Share::unknown();
     end.blocked = count_blocked(s);
     end.by_error = end.outcome.stuck && end.blocked.error > 0;
     compact(s);

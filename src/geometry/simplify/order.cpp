@@ -57,7 +57,7 @@ class Passes {
         bool stuck = false;
         count();
         const auto all = static_cast<double>(std::max<std::size_t>(1, remaining()));
-        for (; !stuck && !goal_.met(faces_, vertices_); count()) {
+        while (!stuck && !goal_.met(faces_, vertices_)) {
             lay_blocks();
             price();
             const std::uint32_t limit = threshold();
@@ -65,9 +65,9 @@ class Passes {
                 stuck = !try_again();
             else
                 commit(limit);
+            count();
             Share::tell(1 - static_cast<double>(remaining()) / all);
         }
-        Share::unknown();
         for (Member& m : members_) m.done.stuck = stuck;
     }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "geometry/simplify/subject.hpp"
 #include "geometry/simplify/targets.hpp"
 
@@ -118,6 +119,7 @@ class Sharing {
             borders.push_back(s->borders());
         }
         run_passes_separate(members, borders, targets.goal);
+        Share::unknown();
         faces = 0;
         for (std::size_t i = 0; i < members.size(); ++i) {
             sharers_[i]->member = members[i];

@@ -1,10 +1,12 @@
 // The costs of edges four at a time, against those one by one.
 #include "support/catch.hpp"
 
+#include "base/progress.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/simplify/cost.hpp"
 #include "geometry/simplify/features.hpp"
+#include "geometry/simplify/methods.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/topology.hpp"
 
@@ -117,4 +119,15 @@ TEST_CASE("costs four at a time are those one by one", "[geometry]") {
         CHECK(check_costs(priced(sphere, endpoints)) == 3 * sphere.face_count() / 2);
         CHECK(check_costs(priced(sheet, endpoints)) > sheet.face_count());
     }
+}
+
+TEST_CASE("passes that meet their goal tell that all is done", "[geometry][simplify]") {
+    State s = priced(shapes::icosphere(3), false);
+    std::atomic<double> heard{-1};
+    const Share share(&heard);
+    Goal goal;
+    goal.faces = s.live_faces / 2;
+    run_passes(s, goal);
+    CHECK(s.live_faces <= goal.faces);
+    CHECK(heard == 1);
 }
