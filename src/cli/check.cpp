@@ -18,30 +18,12 @@ Examples
 
 int check(const std::vector<std::string>& pipelines, const PipelineOptions& options, const CommandLine& line,
           const Console& console) {
-    Problems problems;
-    auto settings = plan_settings(options, line, problems);
-    settings.parameters_needed = false;
-    std::vector<Error> of_inputs;
-    for (const auto& pipeline : pipelines) {
-        Problems of_this;
-        try {
-            const auto plan = plan_of(pipeline, settings, of_this);
-            const auto headers = of_this.any_errors() ? facetmill::pipeline::Headers{}
-                                                      : facetmill::pipeline::read_headers(plan);
-            of_inputs.insert(of_inputs.end(), headers.errors.begin(), headers.errors.end());
-            if (!of_this.any_errors() && headers.errors.empty()) console.say(pipeline + ": ok");
-            if (const auto warning = facetmill::pipeline::without_effect(plan);
-                warning && !of_this.any_errors())
-                console.diagnostic(*warning);
-        } catch (const Error& unreadable) { // the others are checked all the same
-            of_inputs.push_back(unreadable);
-        }
-        if (of_this.size() > 0) problems.add(Error(ErrorKind::usage, of_this.all()));
-    }
-    if (problems.any_errors())
-        for (const auto& error : of_inputs) problems.add(error);
-    settle(problems, console);
-    settle(of_inputs);
+    plan_each(pipelines, options, line, console, [&](const std::string& name, const pipeline::Plan& plan) {
+        const auto headers = pipeline::read_headers(plan);
+        if (headers.errors.empty()) console.say(name + ": ok");
+        if (const auto warning = pipeline::without_effect(plan)) console.diagnostic(*warning);
+        settle(headers.errors);
+    });
     return 0;
 }
 

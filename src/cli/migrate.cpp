@@ -9,8 +9,8 @@ namespace {
 
 constexpr const char* migrate_examples =
     R"(Format 1 (facetmill: 1) is the only format so far, so no file is changed. What is not of format 1 is named, each with its
-place and a hint. Exit code 0: nothing is to be changed. 1, with --check: something would be. 2: a file is of no format that
-this release knows. 3: there is no such file.
+place and a hint. Exit code 0: nothing is to be changed. 1, with --check: something would be. 2: a pipeline is wrong: of no
+format that this release knows, or with any other error that `facetmill check` finds in it. 3: there is no such file.
 
 Examples
   facetmill migrate --check pipelines/*.yaml
@@ -18,27 +18,10 @@ Examples
 
 int migrate(const std::vector<std::string>& pipelines, bool check, const CommandLine& line,
             const Console& console) {
-    PipelineOptions none;
-    Problems problems;
-    auto settings = plan_settings(none, line, problems);
-    settings.parameters_needed = false;
-    std::vector<Error> unreadable;
-    for (const auto& pipeline : pipelines) {
-        Problems of_this;
-        try {
-            plan_of(pipeline, settings, of_this);
-            if (!of_this.any_errors())
-                console.say(pipeline +
-                            (check ? ": format 1, nothing to change" : ": format 1, nothing changed"));
-        } catch (const Error& error) { // the others are looked at all the same
-            unreadable.push_back(error);
-        }
-        if (of_this.any_errors()) problems.add(Error(ErrorKind::usage, of_this.all()));
-    }
-    if (problems.any_errors())
-        for (const auto& error : unreadable) problems.add(error);
-    problems.throw_if_any(ErrorKind::usage);
-    settle(unreadable);
+    plan_each(
+        pipelines, PipelineOptions(), line, console, [&](const std::string& name, const pipeline::Plan&) {
+            console.say(name + (check ? ": format 1, nothing to change" : ": format 1, nothing changed"));
+        });
     return 0;
 }
 

@@ -274,4 +274,27 @@ void settle(const std::vector<Error>& errors) {
     if (!all.empty()) throw Error(errors.front().kind(), std::move(all));
 }
 
+void plan_each(const std::vector<std::string>& pipelines, const PipelineOptions& options,
+               const CommandLine& line, const Console& console,
+               const std::function<void(const std::string& pipeline, const pipeline::Plan&)>& look) {
+    Problems problems;
+    auto settings = plan_settings(options, line, problems);
+    settings.parameters_needed = false;
+    std::vector<Error> of_inputs;
+    for (const auto& pipeline : pipelines) {
+        Problems of_this;
+        try {
+            const auto plan = plan_of(pipeline, settings, of_this);
+            if (!of_this.any_errors()) look(pipeline, plan);
+        } catch (const Error& error) { // the others are looked at all the same
+            of_inputs.push_back(error);
+        }
+        if (of_this.size() > 0) problems.add(Error(ErrorKind::usage, of_this.all()));
+    }
+    if (problems.any_errors())
+        for (const auto& error : of_inputs) problems.add(error);
+    settle(problems, console);
+    settle(of_inputs);
+}
+
 } // namespace facetmill::cli

@@ -4,6 +4,8 @@
 #include "cli/cache_options.hpp"
 #include "pipeline/run.hpp"
 
+#include <functional>
+
 namespace facetmill::cli {
 
 struct PipelineOptions {
@@ -54,6 +56,12 @@ void tell_resolved(const report::StageRecord& stage, const Console& console);
 /// pipeline_file: what the plan came from, for the depfile; empty when there is none.
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
                       const std::string& pipeline_file);
+
+/// Plans each pipeline, whatever becomes of the others; params need no value. look: gets each plan without
+/// errors; it may throw what is wrong with an input. Then as settle, for all of them.
+void plan_each(const std::vector<std::string>& pipelines, const PipelineOptions& options,
+               const CommandLine& line, const Console& console,
+               const std::function<void(const std::string& pipeline, const pipeline::Plan&)>& look);
 
 /// Shows warnings; throws usage when there are errors.
 void settle(const Problems& problems, const Console& console);
