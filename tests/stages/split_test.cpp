@@ -75,6 +75,8 @@ TEST_CASE("split: narrow faces that are left, and faces that a method leaves, ar
     CHECK(r.record.result["parts"][0]["stopped_by"] == "narrow");
     CHECK(r.record.warnings.at(0).message == "part 'part' stays as it is, with 1 face with an angle below 20 "
                                              "degrees: a pass would make more of them");
+    CHECK(r.record.result["parts"][0]["narrow"] == 1);
+    CHECK(r.record.result["parts"][0]["narrow_before"] == 1);
     CHECK(r.mesh().face_count() == 1);
     for (const char* method : {"fan", "halve", "diagonal"}) {
         const auto still = run_stage("split", options({{"method", method}}), scene_of(needle));

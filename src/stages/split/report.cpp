@@ -32,6 +32,10 @@ void declare_part(DeclareFields<SplitPart>& d) {
               {"narrow", "narrow", "a pass would have made more triangles with a smaller angle"},
               {"nothing", "nothing", "no edge has a length"}},
              "What stopped the work.");
+    d.field("narrow", &SplitPart::narrow, "Triangles left whose angle is smaller.")
+        .only_when("min_angle is given");
+    d.field("narrow_before", &SplitPart::narrow_before, "Such triangles before.")
+        .only_when("min_angle is given");
     const auto self = [](const SplitPart& p) -> const SplitPart& { return p; };
     const auto longest = [](const FacetShape& s) { return s.longest_edge; };
     const auto smallest = [](const FacetShape& s) { return s.smallest_angle * (180 / pi); };
@@ -79,11 +83,13 @@ const char* only_splits(SplitMethod method) {
 
 void warn_of_narrow_faces(const Part& part, const SplitResult& r, const SplitSettings& s, Context& context) {
     const bool narrow = r.stop == SplitResult::Stop::narrow;
-    const std::string had = r.passes > 0 ? fmt::format(" left, which had {}", r.narrow_before) : "";
+    const std::string faces = fmt::format("{} with an angle below {:.4g} degrees", counted(r.narrow, "face"),
+                                          s.min_angle * (180 / pi));
+    const std::string left = r.passes > 0 ? fmt::format(": {} {} left ({} before)", faces,
+                                                        r.narrow == 1 ? "is" : "are", r.narrow_before)
+                                          : " stays as it is, with " + faces;
     context.warn("W-SPLIT-STOPPED",
-                 fmt::format("part '{}' {} with an angle below {:.4g} degrees{}: {}", part.name,
-                             (r.passes > 0 ? "has " : "stays as it is, with ") + counted(r.narrow, "face"),
-                             s.min_angle * (180 / pi), had,
+                 fmt::format("part '{}'{}: {}", part.name, left,
                              narrow ? "a pass would make more of them" : "passes ended the split"),
                  "a split never makes an angle larger: relax evens faces out, simplify removes narrow ones");
 }

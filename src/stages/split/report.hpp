@@ -10,6 +10,7 @@ struct SplitPart {
     std::size_t added_faces = 0;
     int passes = 0;
     std::string stopped_by;
+    std::optional<std::size_t> narrow, narrow_before;
     FacetShape before, after;
 };
 

@@ -44,11 +44,14 @@ Scene run(Scene scene, const SplitOptions& o, Context& context, SplitReport& rep
         SplitResult result = split_part(part, settings);
         part.mesh = std::move(result.mesh);
         report.added_faces += result.added;
+        const auto narrow = [&](std::size_t faces) { // counted with min_angle only
+            return settings.min_angle > 0 ? std::optional(faces) : std::nullopt;
+        };
         const FacetShape after = facet_shape(part.mesh, settings.to_world);
         warn_of_targets(part, result, settings, after.longest_edge, context);
         warn_of_spots(part, result, settings.method, context);
-        report.parts.push_back(
-            {part.name, result.added, result.passes, stopped_by(o, result.stop), before, after});
+        report.parts.push_back({part.name, result.added, result.passes, stopped_by(o, result.stop),
+                                narrow(result.narrow), narrow(result.narrow_before), before, after});
         context.attribute_changes(part, result.changes);
     });
     return scene;
