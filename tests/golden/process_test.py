@@ -62,6 +62,7 @@ class Process(Case):
         run = subprocess.Popen([str(FACETMILL), "run", "p.yaml", "--watch", "--log", "json", *arguments], cwd=self.dir,
                                stderr=subprocess.PIPE, text=True)
         self.addCleanup(run.stderr.close)
+        self.addCleanup(run.wait)
         self.addCleanup(run.kill)
 
         def next_end():
