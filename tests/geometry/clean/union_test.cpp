@@ -372,6 +372,11 @@ TEST_CASE("once much was tried in vain, clean leaves meshes of more crossings th
     CHECK(test::same_mesh(r.mesh, bars));
     REQUIRE(r.not_done.size() == 1);
     CHECK(says(r.not_done[0].why, "reasonable time"));
+    // What cannot be united is in vain, and once a mesh: the second round finds it as it was.
+    const Mesh turned = together({box({0, 0, 0}, {2, 2, 2}), inside_out(box({1, 1, 1}, {3, 3, 3}))});
+    const CleanResult vain = clean(turned, uniting());
+    CHECK_FALSE(vain.not_done.empty());
+    CHECK(vain.budget.vain_pairs == UntangleBudget{}.vain_pairs - clean_steps::crossings(turned).count);
     const CleanResult few = clean(crossing_bars(1), s); // fewer pairs than faces, or as many
     CHECK(few.not_done.empty());
     CHECK(inspect(few.mesh).components == 1);
