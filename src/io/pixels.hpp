@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace facetmill::io {
 
@@ -21,8 +22,12 @@ struct Pixels {
 };
 
 /// A PNG, JPEG or WebP of at most 2^26 pixels; none for others and for what is broken. Grey becomes three
-/// equal channels, what has no alpha is opaque.
+/// equal channels, what has no alpha is opaque, 16 bits are rounded to 8. Colours are the file's own numbers:
+/// gAMA, iCCP and such are not applied, as glTF says.
 std::optional<Pixels> decoded_image(Span bytes);
+
+/// Width and height of such an image, of which no more than the header is read; none where that is broken.
+std::optional<std::pair<std::size_t, std::size_t>> image_size(Span bytes);
 
 /// Whether all pixels are grey.
 bool is_grey(const Pixels& image);

@@ -82,3 +82,28 @@ TEST_CASE("the normals of a relief lean away from what is higher", "[io]") {
     CHECK(io::decoded_image(io::normals_of_relief(upright, 1))->rgba[5] > 128);
     CHECK(io::decoded_image(io::normals_of_relief(upright, 0))->rgba[5] == 128);
 }
+
+TEST_CASE("a PNG of 16 bits, or with a gamma, keeps its numbers", "[io]") {
+    const std::string grey("\x80\x80", 2), colour("\x10\x10\x80\x80\xff\xff\x40\x40", 8);
+    for (const std::uint32_t gamma : {0U, 45455U, 100000U}) {
+        CHECK(io::decoded_image(bytes_of(png_of(0, grey, 16, gamma)))->rgba == Rgba{128, 128, 128, 255});
+        CHECK(io::decoded_image(bytes_of(png_of(6, colour, 16, gamma)))->rgba == Rgba{16, 128, 255, 64});
+        CHECK(io::decoded_image(bytes_of(png_of(0, "\x40", 8, gamma)))->rgba == Rgba{64, 64, 64, 255});
+    }
+}
+
+TEST_CASE("a WebP is decoded, and the size of an image read from its header", "[io]") {
+    // Without loss: red, and half transparent (0, 64, 255).
+    const std::string webp("\x52\x49\x46\x46\x20\x00\x00\x00\x57\x45\x42\x50\x56\x50\x38\x4c\x14\x00\x00\x00"
+                           "\x2f\x01\x00\x00\x10\x0f\x30\x40\xfb\x3f\xff\x0f\xfc\x0f\x2d\x54\x20\xa2\xff\x01",
+                           40);
+    const auto image = io::decoded_image(bytes_of(webp));
+    REQUIRE(image);
+    CHECK(image->rgba == Rgba{255, 0, 0, 255, 0, 64, 255, 128});
+    CHECK_FALSE(io::decoded_image(bytes_of(webp).first(30)));
+    using Size = std::pair<std::size_t, std::size_t>;
+    CHECK(io::image_size(bytes_of(webp)) == Size{2, 1});
+    CHECK(io::image_size(grey_jpeg(7)) == Size{1, 1});
+    CHECK(io::image_size(bytes_of(red_png())) == Size{1, 1});
+    CHECK_FALSE(io::image_size(bytes_of("no image")));
+}

@@ -7,8 +7,10 @@
 
 namespace facetmill::test {
 
-/// A PNG of one pixel. colour_type: 0 grey, 2 RGB, 6 RGBA; pixel: its bytes.
-inline std::string png_of(unsigned char colour_type, std::string pixel) {
+/// A PNG of one pixel. colour_type: 0 grey, 2 RGB, 6 RGBA; pixel: its bytes; gamma: of gAMA in 100000ths, 0:
+/// without.
+inline std::string png_of(unsigned char colour_type, std::string pixel, char bits = 8,
+                          std::uint32_t gamma = 0) {
     const auto word = [](std::uint32_t n) {
         std::string text;
         for (int shift = 24; shift >= 0; shift -= 8) text += static_cast<char>(n >> shift & 255);
@@ -27,8 +29,9 @@ inline std::string png_of(unsigned char colour_type, std::string pixel) {
                static_cast<uLong>(row.size()));
     packed.resize(size);
     std::string header = word(1) + word(1);
-    header += {8, static_cast<char>(colour_type), 0, 0, 0};
-    return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + chunk("IDAT", packed) + chunk("IEND", "");
+    header += {bits, static_cast<char>(colour_type), 0, 0, 0};
+    return "\x89PNG\r\n\x1a\n" + chunk("IHDR", header) + (gamma ? chunk("gAMA", word(gamma)) : "") +
+           chunk("IDAT", packed) + chunk("IEND", "");
 }
 
 inline std::string red_png() { return png_of(2, "\xff\x10\x10"); }
