@@ -92,6 +92,16 @@ std::size_t TextureImage::bytes() const {
     return sum;
 }
 
+std::size_t texture_bytes(std::size_t width, std::size_t height, std::size_t max_side) {
+    std::size_t sum = 0;
+    while (width > 1 || height > 1) {
+        if (std::max(width, height) <= max_side) sum += 4 * width * height;
+        width = std::max<std::size_t>(1, width / 2);
+        height = std::max<std::size_t>(1, height / 2);
+    }
+    return sum + 4;
+}
+
 std::shared_ptr<const TextureImage> texture_image(int width, int height, std::vector<std::uint8_t> rgba,
                                                   bool srgb, int max_side) {
     auto image = std::make_shared<TextureImage>();

@@ -28,6 +28,9 @@ struct TextureImage {
 std::shared_ptr<const TextureImage> texture_image(int width, int height, std::vector<std::uint8_t> rgba,
                                                   bool srgb, int max_side);
 
+/// TextureImage::bytes() of such an image, before there is one.
+std::size_t texture_bytes(std::size_t width, std::size_t height, std::size_t max_side);
+
 enum class TextureWrap { repeat, clamp, mirror };
 
 /// Red, green, blue and alpha; colours linear.

@@ -72,12 +72,15 @@ class LookBuilder {
         for (std::size_t i = 0; values && i < N; ++i) out[i] = static_cast<float>(values->at(i).real());
     }
 
+    /// No mesh has as many as 256 sets, so that a larger number stays one that is not there.
+    static int set_of(std::uint64_t number) { return static_cast<int>(std::min<std::uint64_t>(number, 255)); }
+
     /// The texture that owner[key] names; none when there is none.
     Texture texture(const Place& owner, const char* key, bool srgb) {
         const auto info = owner.find(key);
         if (!info) return {};
         Texture out;
-        out.set = static_cast<int>(info->natural_or("texCoord", 0) & 0xff);
+        out.set = set_of(info->natural_or("texCoord", 0));
         if (const auto moved = extension(*info, "KHR_texture_transform")) transform(*moved, out);
         const Place place =
             item(json_, "textures", info->at("index").index(count_of(json_, "textures"), "texture"));
@@ -102,7 +105,7 @@ class LookBuilder {
         const double angle = turned ? turned->real() : 0;
         const double c = cosine(angle), s = sine(angle), sx = scale[0], sy = scale[1];
         out.transform = {c * sx, s * sy, offset[0], -s * sx, c * sy, offset[1]};
-        out.set = static_cast<int>(moved.natural_or("texCoord", static_cast<std::uint64_t>(out.set)) & 0xff);
+        out.set = set_of(moved.natural_or("texCoord", static_cast<std::uint64_t>(out.set)));
     }
 
     static void sample(const Place& sampler, Texture& out) {
@@ -125,11 +128,16 @@ class LookBuilder {
     }
 
     std::shared_ptr<const TextureImage> read_image(std::size_t index, bool srgb) {
-        constexpr std::size_t most = std::size_t{512} << 20;
         constexpr int max_side = 4096;
         const Place place = item(json_, "images", index);
         const std::optional<Bytes> bytes = bytes_of_image(place);
         if (!bytes) return nullptr; // told when the file was read
+        const auto size = image_size(*bytes);
+        if (size && reader_.bytes_ + texture_bytes(size->first, size->second, max_side) > reader_.most_) {
+            warn(place.path(),
+                 fmt::format("the images of the scene take more than {} MiB", reader_.most_ >> 20));
+            return nullptr;
+        }
         auto pixels = decoded_image(*bytes);
         if (!pixels) {
             warn(place.path(), "it is broken, larger than 2^26 pixels, or neither PNG nor JPEG nor WebP");
@@ -137,10 +145,6 @@ class LookBuilder {
         }
         auto image = texture_image(static_cast<int>(pixels->width), static_cast<int>(pixels->height),
                                    std::move(pixels->rgba), srgb, max_side);
-        if (reader_.bytes_ + image->bytes() > most) {
-            warn(place.path(), "the images of the scene take more than 512 MiB");
-            return nullptr;
-        }
         reader_.bytes_ += image->bytes();
         return image;
     }
@@ -168,8 +172,20 @@ class LookBuilder {
     Source source_;
 };
 
+void LookReader::drop_others(const Scene& scene) {
+    std::erase_if(documents_, [&](const auto& known) {
+        return std::none_of(scene.documents.begin(), scene.documents.end(),
+                            [&](const auto& document) { return document.get() == known.first; });
+    });
+    bytes_ = 0;
+    for (const auto& [_, known] : documents_)
+        for (const auto& [key, image] : known.images)
+            if (image) bytes_ += image->bytes();
+}
+
 std::shared_ptr<const MaterialLooks> LookReader::looks(const Scene& scene,
                                                        std::vector<Diagnostic>& warnings) {
+    drop_others(scene);
     auto all = std::make_shared<MaterialLooks>();
     std::map<const Document*, LookBuilder> builders;
     for (const Material& material : scene.materials) {

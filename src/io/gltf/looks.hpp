@@ -12,13 +12,16 @@
 
 namespace facetmill::io {
 
-/// Reads looks, and keeps what it has decoded as long as it lives, so that each image is decoded once however
-/// many pictures there are of a scene as it goes from stage to stage.
+/// Reads looks, and keeps what it has decoded as long as the scene has its document, so that each image is
+/// decoded once however many pictures there are of a scene as it goes from stage to stage.
 class LookReader {
   public:
+    /// most_bytes: of decoded images.
+    explicit LookReader(std::size_t most_bytes = std::size_t{512} << 20) : most_(most_bytes) {}
+
     /// By the index of the scene's materials. One that blends with an alpha of 0 is opaque. An image that is
     /// missing, broken, of a kind that is not read, or of more than 2^26 pixels is left out, and so is what
-    /// goes beyond 512 MiB of decoded images in all: a warning (W-TEXTURE), once for each image. Levels of
+    /// goes beyond most_bytes of decoded images in all: a warning (W-TEXTURE), once for each image. Levels of
     /// more than 4096 pixels a side are not kept.
     std::shared_ptr<const MaterialLooks> looks(const Scene& scene, std::vector<Diagnostic>& warnings);
 
@@ -30,8 +33,11 @@ class LookReader {
         std::map<ImageKey, std::shared_ptr<const TextureImage>> images;
         std::map<int, MaterialLook> looks; ///< by the index of the document's materials
     };
+    void drop_others(const Scene& scene); ///< documents that the scene does not have
+
     std::map<const Document*, OfDocument> documents_;
     std::size_t bytes_ = 0; ///< of all images
+    std::size_t most_;
 };
 
 } // namespace facetmill::io

@@ -130,3 +130,31 @@ TEST_CASE("each image is decoded once, and told once", "[io]") {
     for (int i = 0; i < 2; ++i) reader.looks(broken, warnings);
     CHECK(warnings.size() == 1);
 }
+
+TEST_CASE("images of documents that are gone do not count", "[io]") {
+    const Scene one = scene_with(red_texture, {data_uri(test::red_png())});
+    const Scene other = scene_with(red_texture, {data_uri(test::blue_png())});
+    io::LookReader reader(4); // bytes: one pixel
+    std::vector<Diagnostic> warnings;
+    std::weak_ptr<const TextureImage> image = reader.looks(one, warnings)->front().base_texture.image;
+    CHECK_FALSE(image.expired());
+    CHECK(reader.looks(other, warnings)->front().base_texture);
+    CHECK(image.expired());
+    CHECK(warnings.empty());
+    io::LookReader small(3);
+    CHECK_FALSE(small.looks(one, warnings)->front().base_texture);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].message.find("take more than") != std::string::npos);
+    // The size is looked at before the pixels, which are broken here.
+    const std::string png = test::red_png();
+    warnings.clear();
+    small.looks(scene_with(red_texture, {data_uri(png.substr(0, png.size() - 20))}), warnings);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].message.find("take more than") != std::string::npos);
+}
+
+TEST_CASE("a number of texture coordinates beyond all sets is not the first", "[io]") {
+    const Json material = {
+        {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 256}}}}}};
+    CHECK(look_of(scene_with(material, {data_uri(test::red_png())})).base_texture.set == 255);
+}
