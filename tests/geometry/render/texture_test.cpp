@@ -213,11 +213,14 @@ TEST_CASE("what blends lies over each other by depth, in whatever order it comes
 
 TEST_CASE("normal textures bend the light, and turn with the surface", "[geometry]") {
     MaterialLook flat, bent;
-    bent.normal_texture.image = image_of(1, 1, {{40, 128, 200, 255}}); // towards -u: to the light's side
     const auto middle = [](const MaterialLook& look, const Scene& scene) {
         return rgba_at(picture_of(scene, front(look)), 50, 50)[0];
     };
     const int plain = middle(flat, textured_square());
+    bent.normal_texture.image = image_of(1, 1, {{60, 128, 230, 255}}); // towards -u: to the light's side
+    CHECK(middle(bent, textured_square()) > plain + 3);
+    bent.normal_texture.image = image_of(1, 1, {{196, 128, 230, 255}});
+    CHECK(middle(bent, textured_square()) < plain - 20);
     bent.normal_texture.image = image_of(1, 1, {{128, 220, 220, 255}}); // up in the image: towards the light
     const int up = middle(bent, textured_square());
     CHECK(up > plain + 5);
