@@ -96,6 +96,29 @@ TEST_CASE("the range of colours is said in the result", "[stages]") {
         CHECK(problems_of("render", options({{"path", "a.png"}, {"range", wrong}})).starts_with("E-TYPE"));
 }
 
+TEST_CASE("views beside a legend have one scale, however small a direction is", "[stages]") {
+    const test::TemporaryDirectory folder;
+    Mesh box = shapes::cube();
+    for (Vec3& p : box.positions) p.x *= 3;
+    Scene scene = scene_of(box);
+    scene.up = UpAxis::y;
+    scene.parts[0].mesh.attributes.push_back(
+        {"heat", Domain::vertex, Role::generic, 1, false, std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7}});
+    const auto scale = [&](const std::string& rest) {
+        const std::string path = (folder.path() / "v.png").string();
+        return run_stage("render",
+                         "{path: " + path + ", width: 300, height: 300, attribute: heat, " + rest + "}",
+                         scene)
+            .record.result["pixels_per_unit"]
+            .get<double>();
+    };
+    // The record has that of the first picture: the end of the box, which alone would be larger.
+    CHECK(scale("view: left") > 1.5 * scale("view: front"));
+    CHECK(scale("views: [left, front]") == Approx(scale("view: front")));
+    CHECK(scale("from: [1e-200, 0, 0]") == Approx(scale("from: [1, 0, 0]")));
+    CHECK(scale("from: [1e200, 0, 0]") == Approx(scale("from: [1, 0, 0]")));
+}
+
 TEST_CASE("render says what it was not given", "[stages]") {
     const test::TemporaryDirectory folder;
     const auto run =

@@ -55,7 +55,8 @@ void fill_square(Picture& picture, int x, int y, int side, const std::array<std:
 
 void write_text(Picture& picture, int x, int y, int scale, std::string_view text,
                 const std::array<std::uint8_t, 3>& colour) {
-    for (const char c : text) {
+    for (std::size_t i = 0; i < text.size(); i += character_length(text, i)) {
+        const char c = text[i];
         const std::uint8_t* columns = c >= ' ' && c <= '~' ? letters[c - ' '] : box;
         for (int column = 0; column < 5; ++column)
             for (int row = 0; row < letter_height; ++row)

@@ -1,16 +1,24 @@
 #pragma once
 // Letters of five by seven pixels, for the numbers in pictures.
 
+#include "base/words.hpp"
 #include "geometry/render/render.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 namespace facetmill {
 
 inline constexpr int letter_width = 6, letter_height = 7; ///< pixels, the gap after a letter included
 
+/// The bytes of the character at i of a text in UTF-8; 1 where there is none.
+inline std::size_t character_length(std::string_view text, std::size_t i) {
+    return std::max<std::size_t>(1, utf8_length(text, i));
+}
+
 /// Writes the text with its upper left corner at (x, y), each pixel of a letter a square of `scale` pixels;
-/// what does not fit is cut off. ASCII; other bytes are boxes.
+/// what does not fit is cut off. UTF-8: each character beyond ASCII is a box, and so is each byte that is
+/// none.
 void write_text(Picture& picture, int x, int y, int scale, std::string_view text,
                 const std::array<std::uint8_t, 3>& colour);
 

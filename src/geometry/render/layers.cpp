@@ -6,7 +6,7 @@ Layers::Layers(const std::vector<std::uint32_t>& numbers, int first_row, int las
                const SceneDrawing& drawing, const Shader& shader)
     : first_(first_row), last_(last_row), width_(canvas.width / Canvas::samples) {
     // What lies deep is dropped as soon as there is much, so that memory does not grow with the depth.
-    const std::size_t enough = most * static_cast<std::size_t>(width_) * 64;
+    constexpr std::size_t enough = bytes / sizeof(Layer);
     std::size_t limit = enough;
     for (const std::uint32_t number : numbers) {
         const PartDrawing& part = drawing.part_of(number);
@@ -61,11 +61,17 @@ void Layers::sort_and_cut() {
         if (a.pixel != b.pixel) return a.pixel < b.pixel;
         return a.depth != b.depth ? a.depth > b.depth : a.number < b.number;
     });
-    std::size_t kept = 0, same = 0;
+    std::size_t kept = 0;
+    std::uint32_t pixel_before = 0;
+    std::array<std::size_t, Canvas::samples * Canvas::samples> over{}; // each sample of the pixel
     for (std::size_t i = 0; i < layers_.size(); ++i) {
-        same = i > 0 && layers_[i].pixel == layers_[i - 1].pixel ? same + 1 : 0;
-        // A pixel's samples are covered by different triangles along their edges.
-        if (same < most * Canvas::samples * Canvas::samples) layers_[kept++] = layers_[i];
+        Layer layer = layers_[i];
+        if (layer.pixel != pixel_before) over = {};
+        for (std::size_t k = 0; k < over.size(); ++k)
+            if ((layer.samples >> k & 1) && ++over[k] > most)
+                layer.samples = static_cast<std::uint8_t>(layer.samples & ~(1U << k));
+        pixel_before = layer.pixel;
+        if (layer.samples != 0) layers_[kept++] = layer;
     }
     layers_.resize(kept);
 }

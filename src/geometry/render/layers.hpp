@@ -9,6 +9,9 @@ namespace facetmill {
 class Layers {
   public:
     static constexpr std::size_t most = 16; ///< over one sample: the nearest ones
+    /// Bytes before what lies deep is dropped. Where that is not enough to keep what is seen, twice of what
+    /// is: of a band at most `most` layers for each sample.
+    static constexpr std::size_t bytes = std::size_t{64} << 20;
 
     /// numbers: of all triangles in the band, those that do not blend too.
     Layers(const std::vector<std::uint32_t>& numbers, int first_row, int last_row, const Canvas& canvas,

@@ -1,9 +1,11 @@
 #include "geometry/render/legend.hpp"
 
+#include "base/numbers.hpp"
 #include "geometry/render/font.hpp"
 #include "geometry/render/srgb.hpp"
 
 #include <fmt/format.h>
+#include <limits>
 
 namespace facetmill {
 
@@ -12,6 +14,7 @@ namespace {
 using Ink = std::array<std::uint8_t, 3>;
 
 constexpr int letters_wide = 17; ///< of the legend
+constexpr int bar_letters = 3;   ///< of these, the colours and the ticks beside them
 
 int letter_scale(const PictureSettings& s) {
     return std::clamp(std::min(s.width / 500, s.height / 300), 1, 8);
@@ -33,15 +36,16 @@ void fill(Picture& p, int x0, int y0, int x1, int y1, const std::array<std::uint
                                    static_cast<std::size_t>(x))]);
 }
 
-std::string shortened(std::string text) {
-    if (text.size() > letters_wide) {
-        text.resize(letters_wide - 2);
-        text += "..";
+std::string shortened(const std::string& text) {
+    std::size_t count = 0, cut = 0; // characters; the bytes of those that stay before the dots
+    for (std::size_t i = 0; i < text.size(); i += character_length(text, i)) {
+        if (count == letters_wide - 2) cut = i;
+        ++count;
     }
-    return text;
+    return count > letters_wide ? text.substr(0, cut) + ".." : text;
 }
 
-std::string number_text(double x) { return fmt::format("{:.4g}", x == 0 ? 0.0 : x); }
+std::string number_text(double x, int digits = 4) { return fmt::format("{:.{}g}", x == 0 ? 0.0 : x, digits); }
 
 /// The lines below the scale.
 std::vector<std::string> footnotes(const ValueRange& range) {
@@ -52,6 +56,25 @@ std::vector<std::string> footnotes(const ValueRange& range) {
         lines.push_back("  to " + number_text(range.most));
     }
     return lines;
+}
+
+int line_height(const PictureSettings& s) { return (letter_height + 3) * letter_scale(s); }
+
+/// The rows of pixels of the colours.
+struct Bar {
+    int top, bottom;
+};
+
+Bar bar_of(const PictureSettings& s, const ValueRange& range) {
+    const int line = line_height(s);
+    return {(s.unit.empty() ? 3 : 4) * line,
+            s.height - (2 + static_cast<int>(footnotes(range).size())) * line};
+}
+
+/// Whether a text of a number says it to within `error`.
+bool says(const std::string& text, double x, double error) {
+    const auto read = parse_real(text);
+    return read && std::abs(*read - x) <= error;
 }
 
 /// The picture on the left of a wider one.
@@ -71,8 +94,11 @@ Picture widened(const Picture& picture, const PictureSettings& settings) {
 
 } // namespace
 
-int legend_width(const PictureSettings& settings) {
-    return std::min(settings.width - 1, letters_wide * letter_width * letter_scale(settings));
+int legend_width(const PictureSettings& settings, const ValueRange& range) {
+    if (!settings.legend || !range.known) return 0;
+    const int width = letters_wide * letter_width * letter_scale(settings);
+    const Bar bar = bar_of(settings, range);
+    return 2 * width <= settings.width && bar.bottom - bar.top >= 2 * line_height(settings) ? width : 0;
 }
 
 std::vector<double> round_numbers(double low, double high, std::size_t most) {
@@ -87,19 +113,40 @@ std::vector<double> round_numbers(double low, double high, std::size_t most) {
             break;
         }
     std::vector<double> numbers;
-    for (double k = std::ceil(low / step); k * step <= high && numbers.size() < most; ++k)
+    for (double k = std::ceil(low / step); k * step <= high && numbers.size() < most; ++k) {
+        if (k + 1 == k) return {low, high}; // beyond 2^53: neighbouring doubles are farther apart than steps
         numbers.push_back(k * step);
+    }
     return numbers.size() < 2 ? std::vector<double>{low, high} : numbers;
+}
+
+std::vector<std::string> number_texts(const std::vector<double>& numbers, std::size_t letters) {
+    double gap = HUGE_VAL;
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+        if (numbers[i] > numbers[i - 1]) gap = std::min(gap, numbers[i] - numbers[i - 1]);
+    std::vector<std::string> texts;
+    for (int digits = 4; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+        std::vector<std::string> longer;
+        bool fit = true, enough = true;
+        for (const double x : numbers) {
+            longer.push_back(number_text(x, digits));
+            fit = fit && longer.back().size() <= letters;
+            enough = enough && says(longer.back(), x, gap / 100);
+        }
+        if (!fit && digits > 4) break;
+        texts = std::move(longer);
+        if (enough) break;
+    }
+    return texts;
 }
 
 Picture with_legend(const Picture& picture, const PictureSettings& settings, const ValueRange& range) {
     Picture out = widened(picture, settings);
-    const int scale = letter_scale(settings), line = (letter_height + 3) * scale;
+    const int scale = letter_scale(settings), line = line_height(settings);
     const Ink ink = ink_for(settings);
     const int left = picture.width, bar = left + letter_width * scale * 2;
     const std::vector<std::string> notes = footnotes(range);
-    const int top = 3 * line + (settings.unit.empty() ? 0 : line);
-    const int bottom = out.height - 2 * line - static_cast<int>(notes.size()) * line;
+    const auto [top, bottom] = bar_of(settings, range);
     write_text(out, left, line, scale, shortened(settings.attribute), ink);
     if (!settings.unit.empty()) write_text(out, left, 2 * line, scale, shortened("in " + settings.unit), ink);
     for (int y = top; y < bottom; ++y) {
@@ -107,11 +154,13 @@ Picture with_legend(const Picture& picture, const PictureSettings& settings, con
         fill(out, left, y, bar, y + 1, {srgb_of(c[0]), srgb_of(c[1]), srgb_of(c[2]), 255});
     }
     const auto most = static_cast<std::size_t>(std::clamp((bottom - top) / (3 * line), 2, 9));
-    for (const double x : round_numbers(range.low, range.high, most)) {
-        const double at = bottom - in_range(x, range) * (bottom - top);
+    const std::vector<double> numbers = round_numbers(range.low, range.high, most);
+    const std::vector<std::string> texts = number_texts(numbers, letters_wide - bar_letters);
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const double at = bottom - in_range(numbers[i], range) * (bottom - top);
         const int y = static_cast<int>(std::floor(std::clamp<double>(at, top, bottom) + 0.5));
         fill(out, bar, y - scale / 2, bar + 3 * scale, y - scale / 2 + scale, {ink[0], ink[1], ink[2], 255});
-        write_text(out, bar + 5 * scale, y - letter_height * scale / 2, scale, number_text(x), ink);
+        write_text(out, bar + 5 * scale, y - letter_height * scale / 2, scale, texts[i], ink);
     }
     for (std::size_t i = 0; i < notes.size(); ++i)
         write_text(out, left, bottom + line + static_cast<int>(i) * line, scale, shortened(notes[i]), ink);

@@ -7,16 +7,17 @@
 #include "geometry/render/occlusion.hpp"
 #include "geometry/render/srgb.hpp"
 
+#include <numeric>
+
 namespace facetmill {
 
 namespace {
 
 constexpr int band_rows = 32; ///< of samples, drawn by one thread
 
-/// The numbers of the triangles that touch each band of rows, in order.
-std::vector<std::vector<std::uint32_t>> in_bands(const SceneDrawing& drawing, int height) {
-    std::vector<std::vector<std::uint32_t>> bands(
-        static_cast<std::size_t>((height + band_rows - 1) / band_rows));
+/// Calls visit(band, number) for each band of rows that a triangle touches, triangle by triangle.
+template <class Visit>
+void for_each_in_band(const SceneDrawing& drawing, int height, Visit&& visit) {
     for (const PartDrawing& part : drawing.parts())
         for (Index f = 0; part.has_faces() && f < part.count(); ++f) {
             const double a = part.corner(f, 0).y, b = part.corner(f, 1).y, c = part.corner(f, 2).y;
@@ -24,8 +25,21 @@ std::vector<std::vector<std::uint32_t>> in_bands(const SceneDrawing& drawing, in
             if (!(top < height && bottom >= 0)) continue; // NaN too
             const auto last = static_cast<std::size_t>(std::min<double>(bottom, height - 1) / band_rows);
             for (auto i = static_cast<std::size_t>(std::max(top, 0.0) / band_rows); i <= last; ++i)
-                bands[i].push_back(part.first() + f);
+                visit(i, part.first() + f);
         }
+}
+
+/// The numbers of the triangles that touch each band of rows, in order.
+std::vector<std::vector<std::uint32_t>> in_bands(const SceneDrawing& drawing, int height) {
+    const auto count = static_cast<std::size_t>((height + band_rows - 1) / band_rows);
+    std::vector<std::size_t> sizes(count);
+    for_each_in_band(drawing, height, [&](std::size_t band, std::uint32_t) { ++sizes[band]; });
+    const double all = std::accumulate(sizes.begin(), sizes.end(), 0.0);
+    require_memory(all * sizeof(std::uint32_t), "the picture", "render fewer faces or fewer rows of pixels");
+    std::vector<std::vector<std::uint32_t>> bands(count);
+    for (std::size_t i = 0; i < count; ++i) bands[i].reserve(sizes[i]);
+    for_each_in_band(drawing, height,
+                     [&](std::size_t band, std::uint32_t number) { bands[band].push_back(number); });
     return bands;
 }
 
@@ -233,26 +247,34 @@ bool any_part_has(const Scene& scene, const PictureSettings& settings) {
     });
 }
 
+ValueRange painted_range(const Scene& scene, const PictureSettings& settings) {
+    if (settings.attribute.empty()) return {};
+    return value_range(scene, settings.attribute, settings.range, settings.shows);
+}
+
+/// The settings for what the legend leaves of the picture.
+PictureSettings beside_legend(const PictureSettings& settings, const ValueRange& range) {
+    PictureSettings own = settings;
+    own.width -= legend_width(settings, range);
+    return own;
+}
+
 } // namespace
 
 Picture picture_of(const Scene& scene, const PictureSettings& settings) {
     require_memory(64.0 * settings.width * settings.height, "the picture", "render fewer pixels");
-    ValueRange range;
-    if (!settings.attribute.empty())
-        range = value_range(scene, settings.attribute, settings.range, settings.shows);
-    const bool legend = settings.legend && range.known;
-    PictureSettings own = settings;
-    if (legend) own.width = std::max(1, settings.width - legend_width(settings));
+    const ValueRange range = painted_range(scene, settings);
+    const PictureSettings own = beside_legend(settings, range);
     Picture picture = PictureDrawing(scene, own, range).picture();
     picture.range = range;
     picture.has_attribute = !settings.attribute.empty() && any_part_has(scene, settings);
-    return legend ? with_legend(picture, settings, range) : picture;
+    return own.width < settings.width ? with_legend(picture, settings, range) : picture;
 }
 
 double fitting_scale(const Scene& scene, const PictureSettings& settings) {
-    PictureSettings plain = settings;
+    PictureSettings plain = beside_legend(settings, painted_range(scene, settings));
     plain.zoom = 1;
-    return view_of(scene, plain, Canvas::samples * settings.width, Canvas::samples * settings.height).scale /
+    return view_of(scene, plain, Canvas::samples * plain.width, Canvas::samples * plain.height).scale /
            Canvas::samples;
 }
 

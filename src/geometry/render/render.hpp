@@ -67,7 +67,7 @@ struct PictureSettings {
     std::string attribute; ///< instead of paint, where a mesh has it: its first component, identifiers
                            ///< (Role::index) in colours of their own, numbers on a scale
     ColourRange range{};   ///< of that scale
-    bool legend = false;   ///< the scale with its numbers is drawn beside the scene
+    bool legend = false;   ///< the scale with its numbers is drawn beside the scene, where it fits
     std::string unit{};    ///< after the name of the attribute in the legend
     EdgeLines edges = EdgeLines::few;
     std::size_t few = 6000;
@@ -92,12 +92,13 @@ struct Picture {
 /// vertices. Points that are not finite are left out, and an empty scene gives an empty picture. Polygons are
 /// drawn as triangulated() cuts them, their own edges only. Each pixel has four samples of what is seen, and
 /// one shade for each face among them. Materials that blend lie over each other by depth, the sixteen
-/// nearest of them. Occlusion is seen in the depths around each pixel (M. McGuire, M. Mara, D. Luebke,
+/// nearest at each sample. Occlusion is seen in the depths around each pixel (M. McGuire, M. Mara, D. Luebke,
 /// "Scalable Ambient Obscurance", 2012). The same bytes for any number of threads and any processor. Memory:
-/// 64 bytes a pixel, and 24 a vertex. Throws limit (E-MEMORY) when it is not there.
+/// 64 bytes a pixel, 24 a vertex, 4 for each band of 16 rows of pixels that a triangle touches, and what
+/// blends (Layers). Throws limit (E-MEMORY) when it is not there.
 Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
 
-/// Picture::scale without the picture, before zoom.
+/// Picture::scale without the picture, before zoom: beside the legend, where there is one.
 double fitting_scale(const Scene& scene, const PictureSettings& settings);
 
 /// Pictures of one size in rows of so many columns; what is left of the last row is transparent.

@@ -44,6 +44,8 @@ std::pair<std::size_t, std::size_t> count_and_columns(const RenderOptions& o) {
     return {count, std::min<std::size_t>(count, 4)};
 }
 
+double largest_component(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
 /// In linear light.
 std::optional<std::array<float, 3>> ground_of(Ground ground) {
     const auto grey = [](float linear) { return std::array<float, 3>{linear, linear, linear}; };
@@ -163,7 +165,10 @@ void declare_render(Declare<RenderOptions>& d) {
         "Which numbers are at the ends of the scale: auto (the smallest and largest, or, if few outliers "
         "take up more than three quarters of that, the 1st and 99th percentile), percentile, all (the "
         "smallest and largest), or two numbers.");
-    d.option("legend", &RenderOptions::legend, "Whether the scale is drawn beside the scene, with numbers.");
+    d.option(
+        "legend", &RenderOptions::legend,
+        "Whether the scale is drawn beside the scene, with numbers. It is left out where it would take more "
+        "than half of the width, or does not fit into the height.");
     d.option("unit", &RenderOptions::unit, "The unit of the attribute, for the legend.");
     d.choice<EdgeLines>("edges", &RenderOptions::edges,
                         {{"few", EdgeLines::few, "if the scene has at most 6000 faces"},
@@ -191,7 +196,7 @@ void verify_render(const RenderOptions& o, const Value& given, Problems& problem
         problems.add(mark_at(given, "path"), "E-PICTURE",
                      fmt::format("render: images are PNG, and '{}' does not end in .png", o.path.text),
                      "for example render: view.png");
-    if (o.from && !(length(*o.from) > 0))
+    if (o.from && !(largest_component(*o.from) > 0))
         problems.add(mark_at(given, "from"), "E-DIRECTION", "render: 'from' needs a direction, found 0 0 0",
                      "for example from: [1, -2, 1]");
     for (const auto& view : o.views)
@@ -222,7 +227,7 @@ PictureSettings common_settings(const RenderOptions& o, const Scene& scene, cons
     s.width = static_cast<int>(o.width);
     s.height = static_cast<int>(o.height);
     s.viewpoint = o.view;
-    s.from = o.from;
+    if (o.from) s.from = *o.from / largest_component(*o.from); // squares of the smallest numbers are 0
     if (o.perspective) s.perspective = o.perspective->radians;
     s.at = o.at;
     s.zoom = o.zoom.value_or(o.at ? 4 : 1);
@@ -267,7 +272,7 @@ Shots shots_of(const RenderOptions& o, const Scene& scene, const Context& contex
             add(s);
         }
     }
-    if (o.views.size() + shots.settings.size() > 2) {
+    if (shots.settings.size() > 1) {
         for (const auto& s : shots.settings)
             common.max_scale = std::min(common.max_scale, fitting_scale(scene, s));
         for (auto& s : shots.settings) s.max_scale = common.max_scale;

@@ -1,6 +1,8 @@
 #include "support/catch.hpp"
 
 #include "base/parallel.hpp"
+#include "geometry/render/font.hpp"
+#include "geometry/render/legend.hpp"
 #include "geometry/render/render.hpp"
 #include "mesh/shapes.hpp"
 #include "support/run_stage.hpp"
@@ -376,6 +378,75 @@ TEST_CASE("a legend stands beside the scene", "[geometry]") {
     CHECK(ink > 20); // the numbers
     s.legend = false;
     CHECK(at(picture_of(scene, s), 290, 50).r > 200);
+}
+
+TEST_CASE("a legend that does not fit is left out", "[geometry]") {
+    PictureSettings s;
+    s.legend = true;
+    ValueRange range;
+    range.known = true;
+    range.high = range.most = 10;
+    const auto width = [&](int wide, int high) {
+        s.width = wide;
+        s.height = high;
+        return legend_width(s, range);
+    };
+    CHECK(width(204, 100) == 102);
+    CHECK(width(203, 100) == 0);
+    CHECK(width(1, 1) == 0);
+    CHECK(width(300, 70) == 102);
+    CHECK(width(300, 69) == 0);
+    s.unit = "mm";
+    range.percentiles = true;
+    range.most = 20; // three lines below, one more above
+    CHECK(width(300, 100) == 0);
+    CHECK(width(300, 110) == 102);
+    Scene scene = square();
+    scene.parts[0].mesh.attributes.push_back(
+        {"heat", Domain::wedge, Role::generic, 1, false, std::vector<float>{0, 10, 10, 0}});
+    s.attribute = "heat";
+    s.width = 300;
+    s.height = 40;
+    const Picture with = picture_of(scene, s);
+    s.legend = false;
+    CHECK(with.rgba == picture_of(scene, s).rgba);
+}
+
+TEST_CASE("the fitting scale is that beside the legend", "[geometry]") {
+    Scene scene = square();
+    scene.parts[0].mesh.attributes.push_back(
+        {"heat", Domain::wedge, Role::generic, 1, false, std::vector<float>{0, 10, 10, 0}});
+    PictureSettings s = seen_from({0, 0, 1});
+    s.width = 210;
+    s.height = 200; // 108 pixels wide are left
+    s.attribute = "heat";
+    s.legend = true;
+    CHECK(fitting_scale(scene, s) == Approx(0.92 * 108));
+    CHECK(picture_of(scene, s).scale == Approx(0.92 * 108));
+}
+
+TEST_CASE("numbers of a narrow range are told apart", "[geometry]") {
+    using Texts = std::vector<std::string>;
+    CHECK(number_texts({0, 2.5, 5}, 14) == Texts{"0", "2.5", "5"});
+    CHECK(number_texts({1000.01, 1000.02, 1000.03}, 14) == Texts{"1000.01", "1000.02", "1000.03"});
+    CHECK(number_texts({12340, 12345}, 14) == Texts{"12340", "12345"});
+    CHECK(number_texts({7, 7}, 14) == Texts{"7", "7"});
+    const double large = 9007199254740992; // 2^53: its neighbours are 2 apart
+    CHECK(round_numbers(large, large + 4, 9) == std::vector<double>{large, large + 4});
+}
+
+TEST_CASE("a character of several bytes is one box", "[geometry]") {
+    const auto written = [](const char* text) {
+        Picture p;
+        p.width = 40;
+        p.height = 8;
+        p.rgba.assign(4 * 40 * 8, 0);
+        write_text(p, 0, 0, 1, text, {1, 2, 3});
+        return p.rgba;
+    };
+    CHECK(written("\xc2\xb5m") == written("\x01m"));
+    CHECK(written("\xe2\x82\xac") == written("\x01"));
+    CHECK(written("\xc2") == written("\x01")); // cut short
 }
 
 TEST_CASE("pictures of what can hardly be seen", "[geometry]") {
