@@ -163,6 +163,18 @@ Bytes inflated(Span bytes, std::size_t limit, const std::string& name) {
 
 } // namespace
 
+template <class Stat>
+Input::Stamp Input::stamp_of(const Stat& about) {
+    return {about.st_dev,         about.st_ino,          static_cast<std::uint64_t>(about.st_size),
+            about.st_mtim.tv_sec, about.st_mtim.tv_nsec, about.st_ctim.tv_sec,
+            about.st_ctim.tv_nsec};
+}
+
+bool Input::is_as_opened() const {
+    struct stat about {};
+    return !mapped_ || (::stat(path_.c_str(), &about) == 0 && stamp_of(about) == *mapped_);
+}
+
 Input Input::open(const std::filesystem::path& path, std::size_t max_stream) {
     Input input;
     const bool standard = path == "-";
@@ -179,6 +191,7 @@ Input Input::open(const std::filesystem::path& path, std::size_t max_stream) {
     if (size >= map_from) input.owner_ = map_file(file.fd, size);
     if (input.owner_) {
         input.bytes_ = {static_cast<const std::byte*>(input.owner_.get()), size};
+        input.mapped_ = stamp_of(about);
     } else {
         const bool device = S_ISCHR(about.st_mode) || S_ISBLK(about.st_mode);
         const std::size_t limit = regular  ? SIZE_MAX - 1

@@ -4,9 +4,11 @@
 #include "base/error.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -41,12 +43,25 @@ class Input {
     const std::filesystem::path& path() const { return path_; } ///< empty for streams
     Span bytes() const { return bytes_; }
     Span stored() const { return stored_; } ///< as the file holds them: still compressed, when it was gzip
+    /// False when a file that is mapped is no longer as it was when it was opened (its place, size or times):
+    /// who read its bytes may have seen some of before and some of after.
+    bool is_as_opened() const;
 
   private:
     void inflate(std::size_t limit);
 
     std::string name_;
     std::filesystem::path path_;
+    /// What the system says of a file when it is opened.
+    struct Stamp {
+        std::uint64_t device = 0, inode = 0, size = 0;
+        std::int64_t seconds = 0, nanoseconds = 0, status_seconds = 0, status_nanoseconds = 0;
+        bool operator==(const Stamp&) const = default;
+    };
+    template <class Stat>
+    static Stamp stamp_of(const Stat& about);
+
+    std::optional<Stamp> mapped_; ///< none: the bytes are a copy
     std::shared_ptr<const void> owner_, stored_owner_;
     std::shared_ptr<const Instead> instead_;
     Span bytes_, stored_;

@@ -16,12 +16,22 @@ struct ReadWarning : Diagnostic {
     bool is_loss = true; ///< something of the file is not in the scene, or not as the file has it
 };
 
+/// A neighbour of a file that was read.
+struct ReadFile {
+    std::filesystem::path path;
+    std::size_t bytes = 0;
+    std::string sha256 = {}; ///< of the bytes as they were read; empty: only a part of the file was read
+};
+
 /// What a reader wants to tell besides the scene: warnings with stable ids, and other files it read.
 struct ReadLog {
     std::vector<ReadWarning> warnings;
-    std::vector<std::filesystem::path> files;  ///< neighbours that were read (buffers, images, .mtl)
+    std::vector<ReadFile> files;               ///< neighbours that were read (buffers, images, .mtl)
     std::vector<std::filesystem::path> absent; ///< neighbours that the file names and that are not there
     std::vector<Lines> lines;                  ///< of the file, when ReadSettings::lines asks for them
+    /// A neighbour was refused, or changed while it was read: reading again may give another scene although
+    /// all of `files` are the same and those of `absent` still missing.
+    bool unrepeatable = false;
 };
 
 /// What a reader says to whoever might want the lines that it skipped.

@@ -1,5 +1,6 @@
 #include "io/image_files.hpp"
 
+#include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/spelling.hpp"
 
@@ -70,9 +71,11 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
         return {};
     };
     const auto path = relative ? path_below(input, *relative) : std::nullopt;
-    if (!path)
+    if (!path) {
+        log.unrepeatable = true; // a link may lead elsewhere the next time
         return refuse(
             fmt::format("\"{}\" is not a file in the directory of '{}' and is not read", name, input.name()));
+    }
     std::error_code ignored;
     if (!fs::is_regular_file(*path, ignored)) {
         log.absent.push_back(*path);
@@ -84,9 +87,11 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
                        "use a machine with more memory");
     try {
         const Input image = Input::open(*path);
-        log.files.push_back(*path);
-        return Bytes(image.stored().begin(), image.stored().end());
+        Bytes bytes(image.stored().begin(), image.stored().end());
+        log.files.push_back({*path, bytes.size(), sha256(bytes)});
+        return bytes;
     } catch (const Error& error) {
+        log.unrepeatable = true; // it is there, and may be readable the next time
         return refuse(error.diagnostics().front().message);
     }
 }

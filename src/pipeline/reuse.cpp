@@ -178,6 +178,7 @@ Reuse::Before Reuse::before(const Step& step, const Flow& flow, const RunState& 
     before.staged = run.outputs.files().size();
     before.checks = run.record.checks.size();
     before.warnings = run.record.warnings.size();
+    before.unrepeatable = run.unrepeatable;
     before.load_diagonal = run.load_diagonal;
     return before;
 }
@@ -191,10 +192,10 @@ void Reuse::keep(const Step& step, Flow& flow, const RunState& run, const report
     const bool loads = step.stage->loads;
     const bool reads = run.record.inputs.size() != before.inputs ||
                        run.record.absent.size() != before.absent || run.load_diagonal != before.load_diagonal;
-    const bool does_more = run.record.outputs.size() != before.outputs ||
-                           run.outputs.files().size() != before.staged ||
-                           run.record.checks.size() != before.checks ||
-                           run.record.warnings.size() != before.warnings || (reads && !loads);
+    const bool does_more =
+        run.record.outputs.size() != before.outputs || run.outputs.files().size() != before.staged ||
+        run.record.checks.size() != before.checks || run.record.warnings.size() != before.warnings ||
+        run.unrepeatable != before.unrepeatable || (reads && !loads);
     const bool at_step = std::all_of(stage.warnings.begin(), stage.warnings.end(),
                                      [&](const Diagnostic& d) { return same_mark(d.where, step.where); });
     if (before.key.empty() || does_more || !at_step) return flow.replaced();

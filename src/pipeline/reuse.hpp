@@ -34,7 +34,8 @@ class Reuse {
     /// What is to be known of a run before a stage for judging it afterwards.
     struct Before {
         std::string key; ///< of the stage with this scene; empty: it is not stored
-        std::size_t inputs = 0, absent = 0, outputs = 0, staged = 0, checks = 0, warnings = 0;
+        std::size_t inputs = 0, absent = 0, outputs = 0, staged = 0, checks = 0, warnings = 0,
+                    unrepeatable = 0;
         double load_diagonal = 0;
     };
     Before before(const Step& step, const Flow& flow, const RunState& run) const;

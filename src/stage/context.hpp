@@ -38,6 +38,9 @@ struct RunState {
     std::shared_ptr<const Surface>
         loaded;            ///< the scene after the last load, when a contract compares with it
     bool read_back = true; ///< decode written files again and compare
+    /// How many results depended on more than scene, options and recorded inputs: on the memory that was
+    /// free, on a file that was refused.
+    std::size_t unrepeatable = 0;
 };
 
 /// One stage's view of the run. All the stage says goes into its StageRecord.
@@ -71,6 +74,9 @@ class Context {
     /// Stages a file that the stage writes, its path as in the options, and records it among the outputs.
     /// Throws as io::Outputs::add.
     void output(const std::string& path, io::Span bytes);
+
+    /// The result may be another the next time, from the same scene, options and inputs: it is not stored.
+    void tell_unrepeatable() { ++run_.unrepeatable; }
 
     const Places& places() const { return run_.places; }
     RunState& run() { return run_; }

@@ -1,6 +1,7 @@
 """facetmill run, pipe and batch with the cache: what a hit gives is what a miss gives, byte for byte, whatever happens to
 the cache."""
 
+import base64
 import os
 import pathlib
 import shutil
@@ -22,6 +23,8 @@ stages:
   - write: out.ply
 report: out.json
 """
+# A red pixel.
+PNG = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC")
 # Several paths of one scene, a condition and a contract on it, and stages that read and write besides.
 WINDING = """facetmill: 1
 params:
@@ -202,6 +205,23 @@ class Keys(Cache):
         scan.write_bytes(data)
         lines = self.explained("-D", "keep=40%", scan=scan)
         self.assertTrue(lines[0].startswith("load reruns: ") and lines[0].endswith("scan.ply changed"), lines[0])
+
+    def test_a_texture_that_was_refused(self):
+        """Neither its bytes nor its absence tell that it may be read the next time."""
+        (self.dir / "in").mkdir()
+        (self.dir / "elsewhere.png").write_bytes(PNG)
+        self.write("in/quad.obj", "mtllib quad.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\n"
+                                  "f 1/1 2/2 3/3\n")
+        self.write("in/quad.mtl", "newmtl a\nmap_Kd red.png\n")
+        (self.dir / "in/red.png").symlink_to(self.dir / "elsewhere.png")
+        run = ("pipe", *ALL, "load", "in/quad.obj", "!", "write", "quad.glb")
+        refused = self.told(*run)
+        self.assertIn("W-IMAGE", refused[1])
+        (self.dir / "in/red.png").unlink()
+        (self.dir / "in/red.png").write_bytes(PNG)
+        read = self.told(*run)
+        self.assertNotIn("W-IMAGE", read[1])
+        self.assertNotEqual(read[2], refused[2])
 
     def test_off(self):
         self.run_it(env={"FACETMILL_CACHE": ""})

@@ -1,5 +1,6 @@
 #include "io/gltf/container.hpp"
 
+#include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/once_each.hpp"
 #include "io/gltf/accessor.hpp"
@@ -210,7 +211,9 @@ Bytes load_uri(const Place& buffer, const std::string& uri, std::size_t length, 
         require_memory(2.0 * static_cast<double>(std::min<std::uintmax_t>(size, length)),
                        fmt::format("reading '{}'", path->string()), "use a machine with more memory");
     Bytes bytes = resolve_with_tinygltf(buffer, uri, {*path, length});
-    log.files.push_back(*path);
+    // One that is longer than the buffer is not read to its end.
+    const bool whole = !ignored && size == bytes.size();
+    log.files.push_back({*path, bytes.size(), whole ? sha256(bytes) : std::string()});
     return bytes;
 }
 

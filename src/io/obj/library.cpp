@@ -1,6 +1,7 @@
 // The statements of .mtl files. Wavefront Technologies, "MTL material format", 1995; the words of physically
 // based materials (Pr, Pm, norm, map_RMA ...) after Exocortex, "Extending the MTL format for PBR", 2016.
 
+#include "base/hash.hpp"
 #include "base/spelling.hpp"
 #include "io/image_files.hpp"
 #include "io/obj/materials.hpp"
@@ -189,10 +190,15 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
         }
         try {
             const Input library = input.beside(*path);
-            log.files.push_back(library.path());
+            log.files.push_back({library.path(), library.stored().size(), sha256(library.stored())});
             LibraryReader(library, path->parent_path(), all).read();
+            log.unrepeatable |= !library.is_as_opened();
         } catch (const Error& error) {
-            if (error.kind() == ErrorKind::missing) log.absent.push_back(input.path_beside(*path));
+            std::error_code ignored;
+            if (fs::exists(input.path_beside(*path), ignored))
+                log.unrepeatable = true; // it is refused, and may be readable the next time
+            else
+                log.absent.push_back(input.path_beside(*path));
             warn(log, input.name(),
                  fmt::format("materials keep their names only: {}", error.diagnostics().front().message));
         }

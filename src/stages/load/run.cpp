@@ -60,10 +60,20 @@ void verify(const LoadOptions& o, const Value& given, Problems& problems) {
                  suggestion(o.format, io::names_of_readers()));
 }
 
-void record_input(Context& context, const std::string& path, io::Span bytes) {
-    std::string sum = sha256(bytes);
+void record_input(Context& context, const std::string& path, std::size_t bytes, std::string sum) {
     context.run().outputs.protect(path, sum);
-    context.run().record.inputs.push_back({path, bytes.size(), std::move(sum), {}});
+    context.run().record.inputs.push_back({path, bytes, std::move(sum), {}});
+}
+
+void record_input(Context& context, const std::string& path, io::Span bytes) {
+    record_input(context, path, bytes.size(), sha256(bytes));
+}
+
+/// With the sum of what was read, which a file that was replaced since then no longer has.
+void record_neighbour(Context& context, const io::ReadFile& file) {
+    if (!file.sha256.empty()) return record_input(context, file.path.string(), file.bytes, file.sha256);
+    context.tell_unrepeatable(); // what is read now need not be what the reader saw
+    record_input(context, file.path.string(), io::Input::open(file.path).stored());
 }
 
 io::ReadSettings read_settings(const LoadOptions& o) {
@@ -82,8 +92,9 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
     Scene more = io::read_scene(input, read_settings(o), log, io::codec_named(o.format));
     for (const auto& w : log.warnings)
         context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
-    for (const auto& file : log.files) record_input(context, file.string(), io::Input::open(file).stored());
+    for (const auto& file : log.files) record_neighbour(context, file);
     for (const auto& file : log.absent) context.run().record.absent.push_back(file.string());
+    if (log.unrepeatable || !input.is_as_opened()) context.tell_unrepeatable();
     if (o.lines) add_tubes(more, log.lines, *o.lines, static_cast<int>(o.line_sides), context);
     const bool first = scene.parts.empty();
     const io::Conversion done = io::add_scene(scene, std::move(more));

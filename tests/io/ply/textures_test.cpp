@@ -1,4 +1,5 @@
 // The textures that PLY files name in comments.
+#include "base/hash.hpp"
 #include "support/catch.hpp"
 #include "support/gltf.hpp"
 #include "support/images.hpp"
@@ -26,7 +27,9 @@ TEST_CASE("a textured PLY is a textured GLB", "[io]") {
     io::ReadLog log;
     const Scene scene = io::read_scene(io::Input::open(dir / "a.ply"), {}, log);
     CHECK(log.warnings.empty());
-    CHECK(log.files == std::vector<std::filesystem::path>{dir / "red.png"});
+    REQUIRE(log.files.size() == 1);
+    CHECK(log.files[0].path == dir / "red.png");
+    CHECK(log.files[0].sha256 == sha256(std::as_bytes(std::span(test::get(dir / "red.png")))));
     const Json all = Json::parse(json_of(written(scene, "glb").files.at(0).bytes));
     CHECK(all["images"].at(0)["mimeType"] == "image/png");
     CHECK(all["materials"].at(0)["pbrMetallicRoughness"]["baseColorTexture"]["index"] == 0);
