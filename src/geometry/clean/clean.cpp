@@ -153,6 +153,7 @@ CleanResult clean(Mesh mesh, const CleanSettings& settings) {
     result.mesh = std::move(work.mesh);
     result.counts = work.counts;
     result.budget = work.budget;
+    result.short_of_memory = work.short_of_memory;
     result.not_done = std::move(work.not_done);
     return result;
 }

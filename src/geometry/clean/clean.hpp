@@ -97,6 +97,8 @@ struct CleanResult {
     AttributeChanges changes;
     int rounds = 0;        ///< the last of them changed nothing, unless there were too many
     UntangleBudget budget; ///< what is left of it
+    /// A union was not tried for want of memory: with more, the result would be another.
+    bool short_of_memory = false;
 };
 
 /// Applies the steps that are on, in rounds, until a round changes nothing; so a mesh that was cleaned is not

@@ -21,6 +21,7 @@ struct Work {
     /// What was told of the crossings when nothing could be done about them; while nothing changes, it holds.
     std::optional<std::vector<NotDone>> tangled = {};
     UntangleBudget budget = {};
+    bool short_of_memory = false; ///< something was not tried for want of memory
 
     /// Whether so many intersecting pairs of faces may be processed.
     bool may_process(std::size_t pairs) const {

@@ -78,6 +78,7 @@ class Trial {
     }
 
     const Mesh& mesh() const { return work_.mesh; }
+    bool is_short_of_memory() const { return short_of_memory_; }
     Work finish() {
         work_.mesh.drop(mark_name, Domain::face);
         forget_change(work_.changes, mark_name);
@@ -91,6 +92,7 @@ class Trial {
 
     bool one_pass(const Solids& solids, const SelfIntersections& found, double tolerance) {
         United united = unite(work_.mesh, solids, found, tolerance);
+        short_of_memory_ |= united.short_of_memory;
         for (const auto& refused :
              united.refused) { // a cluster of this pass; its marks say which of the first
             for (Index f = 0; f < work_.mesh.face_count(); ++f)
@@ -148,6 +150,7 @@ class Trial {
     const Solids& solids_;
     Work work_;
     Failures failures_;
+    bool short_of_memory_ = false;
 };
 
 /// The clusters whose faces do not close any more; counts the edges of more than two faces of clusters.
@@ -198,13 +201,16 @@ bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pa
         }
         Trial trial(work, solids, settings);
         Failures failures = trial.run(found);
+        work.short_of_memory |= trial.is_short_of_memory();
         std::size_t crowded = 0;
         if (failures.empty()) failures = open_clusters(trial.mesh(), crowded);
         if (failures.empty()) {
             auto not_done = std::move(work.not_done);
             const UntangleBudget budget = work.budget;
+            const bool short_of_memory = work.short_of_memory;
             work = trial.finish();
             work.budget = budget;
+            work.short_of_memory = short_of_memory;
             work.counts.touching_edges += crowded;
             work.untangled = !left;
             work.not_done = std::move(not_done);

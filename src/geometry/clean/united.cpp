@@ -79,6 +79,7 @@ class Uniting {
                               bytes_a_triangle * static_cast<double>(soup.triangles.size());
         if (!available || needed < static_cast<double>(*available)) return false;
         for (Index c = 0; c < solids_.clusters(); ++c) refuse(c, no_memory);
+        result_.short_of_memory = true;
         return true;
     }
 

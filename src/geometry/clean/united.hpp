@@ -16,6 +16,7 @@ struct United {
         const char* why;
     };
     std::vector<Refused> refused; ///< when there are any, the rest is not filled
+    bool short_of_memory = false; ///< they are refused for the memory that is free
 };
 
 /// Cuts the faces of the clusters that intersect along each other, asks for the winding number on both sides

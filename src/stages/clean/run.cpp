@@ -24,6 +24,7 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
         settings.budget = budget;
         CleanResult r = clean(std::move(part.mesh), settings);
         budget = r.budget;
+        if (r.short_of_memory) context.tell_unrepeatable();
         part.mesh = std::move(r.mesh);
         context.attribute_changes(part, r.changes);
         warn(part, r.not_done, context);
