@@ -1,6 +1,7 @@
 #include "cache/store.hpp"
 
 #include "base/hash.hpp"
+#include "io/clean_up.hpp"
 #include "io/output_files.hpp"
 
 #include <algorithm>
@@ -9,7 +10,9 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <limits>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 namespace facetmill::cache {
@@ -24,9 +27,14 @@ constexpr std::size_t digits = 64;
 constexpr std::string_view suffixes[] = {".memory", ".scene", ".last"};
 constexpr std::string_view temporary = ".part";
 
+/// The digits of a SHA-256: what goes into a path is nothing else.
+bool is_key(const std::string& text) {
+    return text.size() == digits && text.find_first_not_of("0123456789abcdef") == text.npos;
+}
+
 bool is_entry(const fs::path& path) {
-    return std::find(std::begin(suffixes), std::end(suffixes), path.extension().string()) !=
-           std::end(suffixes);
+    return is_key(path.stem().string()) && std::find(std::begin(suffixes), std::end(suffixes),
+                                                     path.extension().string()) != std::end(suffixes);
 }
 
 io::Span span_of(std::string_view text) { return std::as_bytes(std::span(text)); }
@@ -59,25 +67,60 @@ std::int64_t nanoseconds_of(const timespec& time) {
     return time.tv_sec * in_a_second + time.tv_nsec;
 }
 
-/// The whole file; none when it cannot be read. Read rather than mapped: a file that shrinks while it is
-/// mapped would end the process.
-std::optional<io::Bytes> read_file(const fs::path& path) {
-    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (fd < 0) return {};
-    struct stat about {};
-    io::Bytes bytes;
-    if (::fstat(fd, &about) == 0 && S_ISREG(about.st_mode))
-        bytes.resize(static_cast<std::size_t>(about.st_size));
-    std::size_t at = 0;
+/// Only what this user has put there is believed: a plain file of his own, not a link or a pipe.
+bool is_own_file(const struct stat& about) { return S_ISREG(about.st_mode) && about.st_uid == ::geteuid(); }
+
+/// Reads at most so many bytes more.
+void read_more(int fd, io::Bytes& bytes, std::size_t more) {
+    std::size_t at = bytes.size();
+    bytes.resize(at + more);
     while (at < bytes.size()) {
         const ssize_t n = ::read(fd, bytes.data() + at, bytes.size() - at);
         if (n < 0 && errno == EINTR) continue;
         if (n <= 0) break;
         at += static_cast<std::size_t>(n);
     }
-    ::close(fd);
     bytes.resize(at);
+}
+
+struct OpenFile {
+    int fd;
+    ~OpenFile() {
+        if (fd >= 0) ::close(fd);
+    }
+};
+
+/// What is not begun as an entry of that name is not read further, and nothing of one beyond the limit: the
+/// result is then shorter than a head. None when there is no file of ours. Read rather than mapped: a file
+/// that shrinks while it is mapped would end the process.
+std::optional<io::Bytes> read_entry(const fs::path& path, std::size_t head, std::uint64_t max_bytes) {
+    const OpenFile file{::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+    struct stat about {};
+    if (file.fd < 0 || ::fstat(file.fd, &about) != 0 || !is_own_file(about)) return {};
+    const auto size = static_cast<std::uint64_t>(about.st_size);
+    io::Bytes bytes;
+    if (size < head || size > max_bytes) return bytes;
+    read_more(file.fd, bytes, head);
+    const std::string end = path.filename().string() + "\n";
+    if (!io::as_text(bytes).starts_with(magic) || !io::as_text(bytes).ends_with(end)) return io::Bytes();
+    read_more(file.fd, bytes, static_cast<std::size_t>(size) - head);
     return bytes;
+}
+
+/// Makes what is missing of it, the last one for this user alone.
+void make_folder(const fs::path& folder) {
+    constexpr mode_t of_the_user = 0700;
+    if (::mkdir(folder.c_str(), of_the_user) != 0 && errno != EEXIST)
+        throw fs::filesystem_error("mkdir", folder, std::error_code(errno, std::generic_category()));
+}
+
+/// Others need the disk more than the cache does: twice the entry stays free beside this much.
+constexpr std::uint64_t reserve = std::uint64_t{64} << 20;
+
+bool has_space(const fs::path& folder, std::uint64_t bytes) {
+    struct statvfs about {};
+    if (::statvfs(folder.c_str(), &about) != 0) return true; // writing will tell
+    return static_cast<std::uint64_t>(about.f_bavail) * about.f_frsize >= 2 * bytes + reserve;
 }
 
 /// Measured on slow machines; what a store has seen takes its place.
@@ -96,7 +139,8 @@ fs::path Store::path_of(const std::string& key, Kind kind) const {
 }
 
 void Store::use(const fs::path& path) {
-    ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0); // one that is not ours to touch is only removed earlier
+    ::utimensat(AT_FDCWD, path.c_str(), nullptr,
+                AT_SYMLINK_NOFOLLOW); // one that is not ours to touch is only removed earlier
     const std::lock_guard lock(guard_);
     used_.insert(path);
 }
@@ -114,11 +158,12 @@ void Store::drop(const fs::path& path, const char* why) {
 void Store::reject(const std::string& key, Kind kind) { drop(path_of(key, kind), "is corrupt"); }
 
 std::optional<io::Bytes> Store::get(const std::string& key, Kind kind) {
+    if (!is_key(key)) return {};
     const fs::path path = path_of(key, kind);
-    auto file = read_file(path);
-    if (!file) return {};
     const std::string name = path.filename().string();
     const std::size_t head = magic.size() + digits + name.size() + 1;
+    auto file = read_entry(path, head, settings_.max_bytes);
+    if (!file) return {};
     const bool whole = file->size() >= head && io::as_text(io::Span(*file).first(head)) ==
                                                    head_of(name, io::Span(*file).subspan(head));
     if (!whole) {
@@ -131,8 +176,10 @@ std::optional<io::Bytes> Store::get(const std::string& key, Kind kind) {
 }
 
 bool Store::has(const std::string& key, Kind kind) {
+    if (!is_key(key)) return false;
     const fs::path path = path_of(key, kind);
-    if (::access(path.c_str(), R_OK) != 0) return false;
+    struct stat about {};
+    if (::lstat(path.c_str(), &about) != 0 || !is_own_file(about)) return false;
     use(path);
     return true;
 }
@@ -151,24 +198,53 @@ void Store::cannot_write(const std::string& why) {
              "the run goes on without; FACETMILL_CACHE names another folder, --no-cache uses none"});
 }
 
-void Store::write(const fs::path& path, io::Span head, io::Span bytes) {
-    fs::create_directories(path.parent_path());
-    static std::atomic<std::uint64_t> number{0}; // stores of one process may share a folder
-    const fs::path part = path.parent_path() / fmt::format(".{}-{}{}", ::getpid(), number++, temporary);
-    const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (fd < 0) io::cannot_write(part, errno);
-    try {
-        io::write_all(fd, head, part);
-        io::write_all(fd, bytes, part);
-    } catch (...) {
-        ::close(fd);
-        ::unlink(part.c_str());
-        throw;
+namespace {
+
+/// A file beside an entry, until it takes its name; a signal removes it, too.
+struct PartFile {
+    fs::path path;
+    io::CleanUp* clean_up = nullptr;
+    int fd = -1;
+
+    explicit PartFile(const fs::path& folder) {
+        static std::atomic<std::uint64_t> number{0}; // stores of one process may share a folder
+        constexpr int most_attempts = 1000;          // leftovers of a process of the same id
+        for (int attempt = 0;; ++attempt) {
+            path = folder / fmt::format(".{}-{}{}", ::getpid(), number++, temporary);
+            clean_up = io::clean_up_file(path);
+            fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+            if (fd >= 0) return;
+            const int why = errno;
+            io::keep(clean_up);
+            if (why != EEXIST || attempt >= most_attempts) io::cannot_write(path, why);
+        }
     }
-    if (::close(fd) == 0 && ::rename(part.c_str(), path.c_str()) == 0) return;
-    const int why = errno;
-    ::unlink(part.c_str());
-    io::cannot_write(part, why);
+    PartFile(const PartFile&) = delete;
+    PartFile& operator=(const PartFile&) = delete;
+    ~PartFile() {
+        if (fd >= 0) ::close(fd);
+        ::unlink(path.c_str());
+        io::keep(clean_up);
+    }
+    /// Whether the file took the name: not when somebody has cleared the cache. Throws output.
+    bool take_name(const fs::path& name) {
+        const bool renamed = ::close(std::exchange(fd, -1)) == 0 && ::rename(path.c_str(), name.c_str()) == 0;
+        if (!renamed && errno != ENOENT) io::cannot_write(path, errno);
+        return renamed;
+    }
+};
+
+} // namespace
+
+bool Store::write(const fs::path& path, io::Span head, io::Span bytes) {
+    if (!settings_.folder.parent_path().empty()) fs::create_directories(settings_.folder.parent_path());
+    make_folder(settings_.folder);
+    if (!has_space(settings_.folder, head.size() + bytes.size())) return false;
+    make_folder(path.parent_path());
+    PartFile part(path.parent_path());
+    io::write_all(part.fd, head, part.path);
+    io::write_all(part.fd, bytes, part.path);
+    return part.take_name(path);
 }
 
 bool Store::is_usable() const {
@@ -178,12 +254,13 @@ bool Store::is_usable() const {
 
 bool Store::put(const std::string& key, Kind kind, io::Span bytes) {
     const fs::path path = path_of(key, kind);
-    if (!is_usable()) return false;
-    if (kind != Kind::last_run && has(key, kind)) return true;
+    if (!is_key(key) || !is_usable()) return false;
+    // A scene is all that its key says. What is told of a load depends on the files at its paths, too.
+    if (kind == Kind::scene && has(key, kind)) return true;
     try {
         const std::string head = head_of(path.filename().string(), bytes);
         if (!make_room(head.size() + bytes.size())) return false;
-        write(path, span_of(head), bytes);
+        if (!write(path, span_of(head), bytes)) return false;
     } catch (const Error& e) {
         cannot_write(e.diagnostics().front().message);
         return false;
@@ -212,6 +289,7 @@ bool Store::make_room(std::uint64_t bytes) {
     if (bytes > settings_.max_bytes) return false;
     constexpr std::uint64_t parts = 20;
     if (!total_ || since_counted_ > settings_.max_bytes / parts) {
+        remove_leftovers();
         total_ = contents().bytes;
         since_counted_ = 0;
     }
@@ -230,8 +308,9 @@ bool Store::make_room(std::uint64_t bytes) {
 Contents Store::contents() const {
     Contents all;
     for_each_file(settings_.folder, [&](const fs::path& path, const struct stat& about) {
+        if (!is_entry(path)) return;
         all.bytes += static_cast<std::uint64_t>(about.st_size);
-        all.entries += is_entry(path);
+        ++all.entries;
         all.scenes += path.extension() == suffixes[static_cast<std::size_t>(Kind::scene)];
     });
     return all;
@@ -248,8 +327,9 @@ Contents Store::shrink(std::uint64_t limit) {
     std::uint64_t total = 0;
     for_each_file(settings_.folder, [&](const fs::path& path, const struct stat& about) {
         const auto bytes = static_cast<std::uint64_t>(about.st_size);
+        if (!is_entry(path)) return;
         total += bytes;
-        if (is_entry(path)) entries.push_back({nanoseconds_of(about.st_mtim), path, bytes});
+        entries.push_back({nanoseconds_of(about.st_mtim), path, bytes});
     });
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
         return std::tie(a.used, a.path) < std::tie(b.used, b.path);
@@ -265,12 +345,12 @@ Contents Store::shrink(std::uint64_t limit) {
     return gone;
 }
 
-void Store::remove_leftovers() const {
+void Store::remove_leftovers(std::int64_t older_than) const {
     timespec now{};
     ::clock_gettime(CLOCK_REALTIME, &now);
-    constexpr std::int64_t an_hour = 3600; // no entry takes that long to write
     for_each_file(settings_.folder, [&](const fs::path& path, const struct stat& about) {
-        if (path.extension() == temporary && now.tv_sec - about.st_mtim.tv_sec > an_hour)
+        if (path.extension() == temporary && path.filename().string().starts_with('.') &&
+            now.tv_sec - about.st_mtim.tv_sec >= older_than)
             ::unlink(path.c_str());
     });
 }
@@ -282,7 +362,7 @@ Contents Store::collect() {
 }
 
 Contents Store::clear() {
-    remove_leftovers();
+    remove_leftovers(std::numeric_limits<std::int64_t>::min()); // who is writing one finds that it is gone
     Contents gone;
     for_each_file(settings_.folder, [&](const fs::path& path, const struct stat& about) {
         if (!is_entry(path) || ::unlink(path.c_str()) != 0) return;

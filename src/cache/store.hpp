@@ -1,5 +1,5 @@
 #pragma once
-// A folder of entries that are found by their keys: written whole or not at all, never changed, and removed
+// A folder of entries that are found by their keys: written whole or not at all, replaced whole, and removed
 // when there are too many, those first that have not been used for longest. Any number of processes may share
 // it.
 
@@ -31,6 +31,7 @@ struct Contents {
     std::uint64_t entries = 0, bytes = 0, scenes = 0;
 };
 
+/// Keys are 64 hexadecimal digits; others are not there. Files that are not this user's are not either.
 /// Safe for several threads. What goes wrong is told, not thrown: a run does without its cache.
 class Store {
   public:
@@ -41,7 +42,9 @@ class Store {
     std::optional<io::Bytes> get(const std::string& key, Kind kind);
     /// Whether there is an entry, which then counts as used.
     bool has(const std::string& key, Kind kind);
-    /// Whether it is there afterwards: not when it cannot be written, or there is no room beside what stays.
+    /// Whether it is there afterwards: not when it cannot be written, there is no room beside what stays, or
+    /// the disk has less free than twice the entry and 64 MiB. Replaces what is there, but for scenes, which
+    /// are all that their keys say.
     bool put(const std::string& key, Kind kind, io::Span bytes);
     /// get() of bytes that turned out to mean nothing: removed, with the note.
     void reject(const std::string& key, Kind kind);
@@ -63,10 +66,11 @@ class Store {
   private:
     std::filesystem::path path_of(const std::string& key, Kind kind) const;
     void use(const std::filesystem::path& path);
-    void write(const std::filesystem::path& path, io::Span head, io::Span bytes);
+    bool write(const std::filesystem::path& path, io::Span head, io::Span bytes);
     bool make_room(std::uint64_t bytes);
     Contents shrink(std::uint64_t limit);
-    void remove_leftovers() const;
+    /// Of writers that ended early: no entry takes an hour to write.
+    void remove_leftovers(std::int64_t older_than = 3600) const;
     void cannot_write(const std::string& why);
     void drop(const std::filesystem::path& path, const char* why);
 

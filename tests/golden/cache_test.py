@@ -2,6 +2,7 @@
 the cache."""
 
 import base64
+import json
 import os
 import pathlib
 import shutil
@@ -223,6 +224,16 @@ class Keys(Cache):
         self.assertNotIn("W-IMAGE", read[1])
         self.assertNotEqual(read[2], refused[2])
 
+    def test_an_input_that_changes_is_stored_again(self):
+        scan = self.dir / "scan.ply"
+        shutil.copy(SCAN, scan)
+        self.explained(scan=scan)
+        data = bytearray(scan.read_bytes())
+        data[data.index(b"end_header\n") + 11] ^= 1
+        scan.write_bytes(data)
+        self.assertIn("load reruns", self.explained(scan=scan)[0])
+        self.assertEqual(self.explained(scan=scan)[:3], self.CACHED)
+
     def test_off(self):
         self.run_it(env={"FACETMILL_CACHE": ""})
         self.run_it(env={"FACETMILL_CACHE": "off"})
@@ -290,6 +301,28 @@ class Trouble(Cache):
         self.run_it(env={**self.env, "FACETMILL_CACHE_SIZE": "1"})
         self.mill("run", "p.yaml", "-D", f"input={SCAN}", expect=2, env={**self.env, "FACETMILL_CACHE_SIZE": "much"})
 
+    def test_only_plain_files_are_read(self):
+        """What somebody else may have put there: pipes, links, a file that says it is huge."""
+        expected = self.run_it()
+        for entry in self.entries(".memory"):
+            entry.unlink()
+            os.mkfifo(entry)
+        self.assertEqual(self.run_it(), expected)
+        for entry in self.entries(".scene"):
+            whole = entry.with_name("whole")
+            entry.rename(whole)
+            entry.symlink_to(whole)
+        os.utime(whole, (1000, 1000))
+        self.assertEqual(self.run_it(), expected)
+        self.assertEqual(whole.stat().st_mtime, 1000, "nothing is done by way of links")
+        for entry in self.entries(".memory"):
+            os.truncate(entry, 1 << 40)
+        code, said, files = self.run_it()
+        self.assertEqual((code, files), (expected[0], expected[2]))
+        self.assertIn("note[W-CACHE]", said)
+        for folder in [self.cache, *(p for p in self.cache.iterdir())]:
+            self.assertEqual(folder.stat().st_mode & 0o777, 0o700)
+
     def test_processes_share_it(self):
         expected = self.run_it("--no-cache")[2]
         for _ in range(2):
@@ -332,6 +365,13 @@ class Command(Cache):
         self.run_it()
         self.assertIn("removed", self.mill("cache", "clear", env=self.env).stdout)
         self.assertEqual([p for p in self.cache.rglob("*") if p.is_file()], [stranger])
+        left.write_text("of a process that has just been killed")
+        self.assertIn("0 entries", self.mill("cache", "stats", env=self.env).stdout)
+        self.assertEqual(json.loads(self.mill("cache", "stats", "--json", env=self.env).stdout)["bytes"], 0)
+        self.mill("cache", "gc", env=self.env)
+        self.assertTrue(left.exists())
+        self.mill("cache", "clear", env=self.env)
+        self.assertFalse(left.exists())
         self.mill("cache", "empty", expect=2)
 
     def test_restat(self):
