@@ -40,6 +40,43 @@ void unpack(const std::byte* from, std::vector<std::uint32_t>& all) {
 
 } // namespace
 
+namespace {
+
+/// Stops where values are nested deeper than anything that is stored: reading and destroying them recurses.
+class DepthLimit : public nlohmann::json_sax<Json> {
+  public:
+    bool null() override { return true; }
+    bool boolean(bool) override { return true; }
+    bool number_integer(number_integer_t) override { return true; }
+    bool number_unsigned(number_unsigned_t) override { return true; }
+    bool number_float(number_float_t, const string_t&) override { return true; }
+    bool string(string_t&) override { return true; }
+    bool binary(binary_t&) override { return true; }
+    bool key(string_t&) override { return true; }
+    bool start_object(std::size_t) override { return ++depth_ <= deepest; }
+    bool start_array(std::size_t) override { return ++depth_ <= deepest; }
+    bool end_object() override { return --depth_ >= 0; }
+    bool end_array() override { return --depth_ >= 0; }
+    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+        return false;
+    }
+
+  private:
+    static constexpr int deepest = 200;
+    int depth_ = 0;
+};
+
+} // namespace
+
+Json json_of_cbor(io::Span cbor) {
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(cbor.data());
+    DepthLimit limit;
+    if (!Json::sax_parse(begin, begin + cbor.size(), &limit, Json::input_format_t::cbor)) throw Corrupt();
+    Json json = Json::from_cbor(begin, begin + cbor.size(), true, false);
+    if (json.is_discarded()) throw Corrupt();
+    return json;
+}
+
 void ByteWriter::doubles(const double* from, std::size_t n) {
     const bool small = are_floats(from, n);
     put(small);

@@ -40,6 +40,9 @@ struct Corrupt : std::exception {
     const char* what() const noexcept override { return "the bytes are not as they were written"; }
 };
 
+/// Throws Corrupt for what is no CBOR, or is nested more than 200 deep.
+Json json_of_cbor(io::Span cbor);
+
 /// Points as numbers, three each; null for null.
 inline const double* coordinates(const Vec3* points) {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
@@ -183,12 +186,7 @@ class ByteReader {
         text.resize(count(1));
         raw(text.data(), text.size());
     }
-    void get(Json& json) {
-        const io::Span cbor = take(count(1));
-        const auto* begin = reinterpret_cast<const std::uint8_t*>(cbor.data());
-        json = Json::from_cbor(begin, begin + cbor.size(), true, false);
-        if (json.is_discarded()) throw Corrupt();
-    }
+    void get(Json& json) { json = json_of_cbor(take(count(1))); }
     template <Record R>
     void get(R& record) {
         Members<R>::each(record, [this](auto&... fields) { (get(fields), ...); });

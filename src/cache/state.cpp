@@ -30,7 +30,9 @@ std::optional<T> read_from(io::Span bytes) {
         reader(value);
         reader.end();
         return value;
-    } catch (const Corrupt&) {
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) { // Corrupt, or what a library says of bytes that nobody wrote
         return {};
     }
 }

@@ -4,6 +4,7 @@
 #include "base/glob.hpp"
 #include "base/hash.hpp"
 #include "base/numbers.hpp"
+#include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
 
 #include <algorithm>
@@ -136,7 +137,7 @@ bool Reuse::recall(const Step& step, Flow& flow, RunState& run, report::StageRec
     trace_.back().way = TracedStep::Way::ran;
     try {
         return recall_known(step, flow, run, stage);
-    } catch (const std::bad_alloc&) { // the stage may need less, and says so when it does not
+    } catch (const std::exception&) { // no memory, which the stage may need less of; or bytes nobody wrote
         return false;
     }
 }
@@ -236,18 +237,26 @@ void Reuse::store_scene(Flow& flow, const std::string& key) {
     flow.unsaved = 0;
 }
 
+/// None when there is not enough memory for both its bytes and itself: the stages may need less.
+std::optional<Scene> Reuse::stored_scene(const std::string& key) {
+    try {
+        const auto bytes = store_->get(key, cache::Kind::scene);
+        if (!bytes) return {};
+        auto scene = cache::decoded_scene(*bytes);
+        if (scene && broken_invariants(*scene).empty()) return scene;
+        store_->reject(key, cache::Kind::scene);
+    } catch (const std::bad_alloc&) {
+    }
+    return {};
+}
+
 void Reuse::fetch(Flow& flow) {
     if (flow.is_here()) return;
     std::size_t first = flow.recalled.size();
     for (; first > flow.inherited; --first) {
         const std::string& key = flow.recalled[first - 1].memory.scene;
-        const auto bytes = store_->get(key, cache::Kind::scene);
-        if (!bytes) continue;
-        auto scene = cache::decoded_scene(*bytes);
-        if (!scene) {
-            store_->reject(key, cache::Kind::scene);
-            continue;
-        }
+        auto scene = stored_scene(key);
+        if (!scene) continue;
         flow.scene = std::move(*scene);
         share_documents(flow.scene);
         break;
@@ -261,7 +270,11 @@ void Reuse::fetch(Flow& flow) {
     flow.recalled.clear();
     flow.origin = nullptr;
     flow.inherited = 0;
-    if (again) store_scene(flow, flow.key);
+    if (!again) return;
+    try {
+        store_scene(flow, flow.key);
+    } catch (const std::bad_alloc&) { // the scene itself is there
+    }
 }
 
 void Reuse::know_documents(const Scene& scene) {

@@ -57,6 +57,7 @@ class Reuse {
     void know_documents(const Scene& scene);
     void share_documents(Scene& scene);
     void store_scene(Flow& flow, const std::string& key);
+    std::optional<Scene> stored_scene(const std::string& key);
 
     cache::Store* store_;
     const Places& places_;

@@ -29,7 +29,7 @@ TEST_CASE("a textured PLY is a textured GLB", "[io]") {
     CHECK(log.warnings.empty());
     REQUIRE(log.files.size() == 1);
     CHECK(log.files[0].path == dir / "red.png");
-    CHECK(log.files[0].sha256 == sha256(std::as_bytes(std::span(test::get(dir / "red.png")))));
+    CHECK(log.files[0].sha256 == sha256(test::bytes_of(test::get(dir / "red.png"))));
     const Json all = Json::parse(json_of(written(scene, "glb").files.at(0).bytes));
     CHECK(all["images"].at(0)["mimeType"] == "image/png");
     CHECK(all["materials"].at(0)["pbrMetallicRoughness"]["baseColorTexture"]["index"] == 0);
