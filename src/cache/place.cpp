@@ -30,6 +30,8 @@ std::optional<fs::path> folder(bool usual) {
     return {};
 }
 
+bool is_left_out_of_ci() { return variable("CI") == "true" && variable("FACETMILL_CACHE").empty(); }
+
 std::uint64_t size_limit() {
     constexpr std::uint64_t usual = std::uint64_t{5} << 30;
     const std::string text = variable("FACETMILL_CACHE_SIZE");

@@ -11,6 +11,10 @@ namespace facetmill::cache {
 /// ~/.cache. None where there is no such place, and for FACETMILL_CACHE=off.
 std::optional<std::filesystem::path> folder(bool usual);
 
+/// Whether this is a job of a CI (CI=true) that FACETMILL_CACHE names no folder for: what is kept of such a
+/// job is said there or nowhere.
+bool is_left_out_of_ci();
+
 /// FACETMILL_CACHE_SIZE (5GB, 500MiB), by default 5 GiB. Throws usage (E-ARGUMENT) for what is no amount.
 std::uint64_t size_limit();
 

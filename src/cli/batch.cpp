@@ -205,7 +205,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings = batch_settings(options, line, of_all.places);
     set_planner(settings, options, of_all);
-    const auto store = store_for(options.common.cache, console);
+    const auto store = store_for(options.common.cache, options.common.allowed, console);
     settings.store = store.get();
     const auto assets = assets_of(options, line, options.prune);
     auto prepared = batch::prepare(assets, settings, problems);

@@ -2,6 +2,8 @@
 
 #include "cache/place.hpp"
 
+#include <algorithm>
+
 namespace facetmill::cli {
 
 void add_cache_options(Arguments& arguments, CacheOptions& options) {
@@ -12,18 +14,20 @@ void add_cache_options(Arguments& arguments, CacheOptions& options) {
         .hidden();
 }
 
-std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const Console& console) {
+std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::vector<std::string>& allowed,
+                                        const Console& console) {
     if (options.on && options.off)
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache and --no-cache exclude each other");
-    if (options.off) return nullptr;
+    if (options.off || cache::is_left_out_of_ci()) return nullptr;
     const auto folder = cache::folder(options.on);
     if (!folder && options.on)
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache finds no folder for it",
                     "FACETMILL_CACHE names one (and is not off), or HOME");
     if (!folder) return nullptr;
+    std::function<void(const Diagnostic&)> tell = [&console](const Diagnostic& d) { console.diagnostic(d); };
+    if (std::find(allowed.begin(), allowed.end(), "W-CACHE") != allowed.end()) tell = nullptr;
     return std::make_unique<cache::Store>(
-        cache::StoreSettings{*folder, cache::size_limit(), options.everything,
-                             [&console](const Diagnostic& d) { console.diagnostic(d); }});
+        cache::StoreSettings{*folder, cache::size_limit(), options.everything, std::move(tell)});
 }
 
 } // namespace facetmill::cli

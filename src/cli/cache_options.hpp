@@ -13,8 +13,10 @@ struct CacheOptions {
 /// --cache and --no-cache.
 void add_cache_options(Arguments& arguments, CacheOptions& options);
 
-/// The store that the options and FACETMILL_CACHE ask for, which tells what hinders it; null for none. Throws
+/// The store that the options and FACETMILL_CACHE ask for, which tells what hinders it unless W-CACHE is
+/// among the allowed warnings; null for none, and with CI=true where FACETMILL_CACHE names no folder. Throws
 /// usage when both options are given.
-std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const Console& console);
+std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::vector<std::string>& allowed,
+                                        const Console& console);
 
 } // namespace facetmill::cli

@@ -4,6 +4,7 @@
 #include "io/outputs.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 namespace facetmill::cli {
 
@@ -74,7 +75,12 @@ std::vector<std::string> targets_of(const report::RunRecord& record, const std::
 
 /// An output beside which a file is missing is not older than the folder that both are in, or it would be
 /// made again each time.
-void make_newer_than_folders(const report::RunRecord& record) {
+void make_newer_than_folders(const report::RunRecord& record, std::optional<fs::file_time_type> kept_before) {
+    constexpr std::chrono::milliseconds tick(20); // times of files come from a clock that is as late as this
+    const auto is_kept = [&](const std::string& path) {
+        std::error_code ignored;
+        return kept_before && fs::last_write_time(path, ignored) < *kept_before - tick;
+    };
     std::vector<std::string> written = record.reports;
     for (const auto& file : record.outputs) written.push_back(file.path);
     const auto now = fs::file_time_type::clock::now();
@@ -84,7 +90,7 @@ void make_newer_than_folders(const report::RunRecord& record) {
             return fs::equivalent(input.path, path, ignored);
         };
         std::error_code ignored; // then it is made again, no more
-        if (fs::is_regular_file(path, ignored) &&
+        if (fs::is_regular_file(path, ignored) && !is_kept(path) &&
             std::none_of(record.inputs.begin(), record.inputs.end(), is_this))
             fs::last_write_time(path, now, ignored);
     }
@@ -93,7 +99,8 @@ void make_newer_than_folders(const report::RunRecord& record) {
 } // namespace
 
 void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
-                   const pipeline::Plan& plan, const report::RunRecord& record) {
+                   const pipeline::Plan& plan, const report::RunRecord& record,
+                   std::optional<fs::file_time_type> kept_before) {
     Paths inputs;
     if (!pipeline_file.empty()) inputs.add(pipeline_file);
     for (const auto& file : record.inputs) inputs.add(file.path);
@@ -102,7 +109,7 @@ void write_depfile(const std::string& depfile, const std::string& target, const 
     const std::string text =
         depfile_text(target.empty() ? targets_of(record, depfile).front() : target, inputs.all());
     io::write_now(depfile, std::as_bytes(std::span(text)));
-    if (!record.absent.empty()) make_newer_than_folders(record);
+    if (!record.absent.empty()) make_newer_than_folders(record, kept_before);
 }
 
 } // namespace facetmill::cli

@@ -16,8 +16,10 @@ std::string depfile_text(const std::string& target, const std::vector<std::strin
 /// one given, since Ninja knows only one; empty: the first mesh that was written, else the first output, the
 /// first report, or the depfile itself. It depends on the pipeline's file, unless that is empty, on all that
 /// is read, and for a file that an input names and that is not there on the folder in which it would appear:
-/// the run is due when it does, and not before.
+/// the run is due when it does, and not before. For that outputs become newer than such a folder; with
+/// kept_before, those that are older than that time keep their times (--restat).
 void write_depfile(const std::string& depfile, const std::string& target, const std::string& pipeline_file,
-                   const pipeline::Plan& plan, const report::RunRecord& record);
+                   const pipeline::Plan& plan, const report::RunRecord& record,
+                   std::optional<std::filesystem::file_time_type> kept_before = {});
 
 } // namespace facetmill::cli

@@ -222,19 +222,22 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
         tell_stage(stage, "", console);
         if (console.verbose) tell_resolved(stage, console);
     };
-    const auto store = store_for(options.cache, console);
+    const auto store = store_for(options.cache, plan.allowed, console);
     settings.store = store.get();
     settings.keep_unchanged = options.restat;
     if (options.explain && !store)
         console.say("--explain has nothing to compare with: no cache is used (--cache, or FACETMILL_CACHE)");
+    pipeline::Trace trace;
     if (store)
-        settings.on_trace = [&](const pipeline::Trace& trace) {
+        settings.on_trace = [&](const pipeline::Trace& all) {
+            trace = all;
             if (options.explain)
                 for (const auto& line : pipeline::explained(trace, plan, pipeline_file, *store))
                     console.say(line);
-            pipeline::remember(trace, plan, pipeline_file, *store);
         };
+    const auto started = fs::file_time_type::clock::now();
     const auto record = located(pipeline::run_plan(plan, settings), plan.places);
+    if (store) pipeline::remember(trace, plan, pipeline_file, record.exit_code == 0, *store);
     if (progress) progress->done();
     for (const auto& error : record.errors) tell(error);
     summarise(record, console);
@@ -244,7 +247,8 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
         io::write_now(plan.places.output(options.timings), std::as_bytes(std::span(text)));
     }
     if (record.exit_code == 0 && !options.depfile.empty())
-        write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record);
+        write_depfile(options.depfile, options.depfile_target, pipeline_file, plan, record,
+                      options.restat ? std::optional(started) : std::nullopt);
     return record.exit_code;
 }
 

@@ -32,12 +32,30 @@ Json as_json(const TracedStep& step) {
             {"key", step.key}};
 }
 
+bool is_step(const Json& step) {
+    const auto has = [&](const char* key, bool (Json::*is)() const noexcept) {
+        return step.contains(key) && (step[key].*is)();
+    };
+    const auto is_pair = [](const Json& input) {
+        return input.is_array() && input.size() == 2 && input[0].is_string() && input[1].is_string();
+    };
+    return step.is_object() && has("name", &Json::is_string) && has("stage", &Json::is_string) &&
+           has("options", &Json::is_object) && has("inputs", &Json::is_array) &&
+           has("key", &Json::is_string) && std::all_of(step["inputs"].begin(), step["inputs"].end(), is_pair);
+}
+
+bool is_last(const Json& last) {
+    return last.is_object() && last.contains("format") && last["format"] == 1 && last.contains("code") &&
+           last.contains("steps") && last["steps"].is_array() &&
+           std::all_of(last["steps"].begin(), last["steps"].end(), is_step);
+}
+
 /// What is broken is none.
 Json last_of(const std::string& name, cache::Store& store) {
     const auto bytes = store.get(name, cache::Kind::last_run);
     if (!bytes) return {};
     Json last = parse_json(io::as_text(*bytes), Broken::discarded);
-    return last.is_object() && last.value("format", 0) == 1 && last["steps"].is_array() ? last : Json();
+    return is_last(last) ? last : Json();
 }
 
 const Json* step_named(const Json& last, const std::string& name) {
@@ -124,11 +142,18 @@ std::vector<std::string> explained(const Trace& trace, const Plan& plan, const s
     return lines;
 }
 
-void remember(const Trace& trace, const Plan& plan, const std::string& pipeline_file, cache::Store& store) {
+void remember(const Trace& trace, const Plan& plan, const std::string& pipeline_file, bool whole,
+              cache::Store& store) {
+    const std::string name = name_of_last(plan, pipeline_file);
+    const Json before = whole ? Json() : last_of(name, store);
     Json last = {{"format", 1}, {"code", code_id()}, {"steps", Json::array()}};
     for (const auto& step : trace) last["steps"].push_back(as_json(step));
+    const Json reached = last;
+    if (!before.is_null())
+        for (const auto& step : before["steps"])
+            if (!step_named(reached, step["name"].get<std::string>())) last["steps"].push_back(step);
     const std::string text = last.dump(-1, ' ', false, Json::error_handler_t::replace);
-    store.put(name_of_last(plan, pipeline_file), cache::Kind::last_run, std::as_bytes(std::span(text)));
+    store.put(name, cache::Kind::last_run, std::as_bytes(std::span(text)));
 }
 
 } // namespace facetmill::pipeline

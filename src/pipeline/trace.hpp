@@ -29,7 +29,9 @@ using Trace = std::vector<TracedStep>;
 /// pipeline, or a one-liner.
 std::vector<std::string> explained(const Trace& trace, const Plan& plan, const std::string& pipeline_file,
                                    cache::Store& store);
-/// Remembers the run as the last one of this pipeline file that wrote these files.
-void remember(const Trace& trace, const Plan& plan, const std::string& pipeline_file, cache::Store& store);
+/// Remembers the run as the last one of this pipeline file that wrote these files. whole: it came to its end;
+/// else what is known of the steps that it did not reach stays.
+void remember(const Trace& trace, const Plan& plan, const std::string& pipeline_file, bool whole,
+              cache::Store& store);
 
 } // namespace facetmill::pipeline

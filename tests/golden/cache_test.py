@@ -188,6 +188,13 @@ class Keys(Cache):
         self.assertIn("is read now", lines[0])
         self.assertEqual(lines[1:3], self.CACHED[1:])
 
+    def test_a_failed_run_does_not_forget_what_it_did_not_reach(self):
+        self.explained("-D", "keep=40%")
+        self.write("p.yaml", PIPELINE.replace("relax: 1", "crop: {footprint: missing.svg}"))
+        self.run_it(expect=None)
+        self.write("p.yaml", PIPELINE)
+        self.assertEqual(self.explained()[2], "simplify reruns: ratio 40% -> 50%")
+
     def test_what_matters(self):
         scan = self.dir / "scan.ply"
         shutil.copy(SCAN, scan)
@@ -215,14 +222,13 @@ class Keys(Cache):
                                   "f 1/1 2/2 3/3\n")
         self.write("in/quad.mtl", "newmtl a\nmap_Kd red.png\n")
         (self.dir / "in/red.png").symlink_to(self.dir / "elsewhere.png")
-        run = ("pipe", *ALL, "load", "in/quad.obj", "!", "write", "quad.glb")
-        refused = self.told(*run)
-        self.assertIn("W-IMAGE", refused[1])
+        run = ("pipe", *ALL, "-o", "out", "load", "in/quad.obj", "!", "write", "quad.glb")
+        self.assertIn("W-IMAGE", self.mill(*run, env=self.env).stderr)
+        refused = self.files(self.dir / "out")
         (self.dir / "in/red.png").unlink()
         (self.dir / "in/red.png").write_bytes(PNG)
-        read = self.told(*run)
-        self.assertNotIn("W-IMAGE", read[1])
-        self.assertNotEqual(read[2], refused[2])
+        self.assertNotIn("W-IMAGE", self.mill(*run, env=self.env).stderr)
+        self.assertNotEqual(self.files(self.dir / "out"), refused)
 
     def test_an_input_that_changes_is_stored_again(self):
         scan = self.dir / "scan.ply"
@@ -239,11 +245,16 @@ class Keys(Cache):
         self.run_it(env={"FACETMILL_CACHE": "off"})
         self.run_it("--no-cache")
         self.assertFalse(self.cache.exists())
-        home = {"FACETMILL_CACHE": "", "XDG_CACHE_HOME": str(self.dir / "xdg"), "HOME": str(self.dir / "home")}
+        home = {"FACETMILL_CACHE": "", "CI": "", "XDG_CACHE_HOME": str(self.dir / "xdg"), "HOME": str(self.dir / "home")}
         self.run_it("--cache", env=home)
         self.assertTrue(list((self.dir / "xdg/facetmill").rglob("*.scene")))
         self.run_it("--cache", env={**home, "XDG_CACHE_HOME": ""})
         self.assertTrue(list((self.dir / "home/.cache/facetmill").rglob("*.scene")))
+        shutil.rmtree(self.dir / "home")
+        self.run_it("--cache", env={**home, "XDG_CACHE_HOME": "", "CI": "true"})
+        self.assertFalse((self.dir / "home").exists())
+        self.run_it("--cache", env={**self.env, "CI": "true"})
+        self.assertTrue(self.entries(".scene"))
         run = self.mill("run", "p.yaml", "-D", f"input={SCAN}", "--cache", "--no-cache", expect=2)
         self.assertIn("exclude each other", run.stderr)
 
@@ -287,6 +298,8 @@ class Trouble(Cache):
             code, said, files = self.run_it(*options, env={"FACETMILL_CACHE": str(self.dir / "file/cache")})
             self.assertEqual((code, files), (0, expected[2]))
             self.assertEqual(said.count("warning[W-CACHE]"), 1, said)
+        said = self.run_it("--allow", "W-CACHE", env={"FACETMILL_CACHE": str(self.dir / "file/cache")})[1]
+        self.assertNotIn("W-CACHE", said)
 
     def test_only_the_limit_is_kept(self):
         expected = self.run_it()
@@ -319,7 +332,7 @@ class Trouble(Cache):
             os.truncate(entry, 1 << 40)
         code, said, files = self.run_it()
         self.assertEqual((code, files), (expected[0], expected[2]))
-        self.assertIn("note[W-CACHE]", said)
+        self.assertTrue(all(entry.stat().st_size < 1 << 20 for entry in self.entries(".memory")))
         for folder in [self.cache, *(p for p in self.cache.iterdir())]:
             self.assertEqual(folder.stat().st_mode & 0o777, 0o700)
 
@@ -382,6 +395,13 @@ class Command(Cache):
             os.utime(path, (1000, 1000))
         self.mill(*run, "--restat", env=self.env)
         self.assertEqual([path.stat().st_mtime for path in outputs], [1000, 1000])
+        self.write("tri.obj", "mtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        self.mill("pipe", *ALL, "-o", "out", "load", "tri.obj", "!", "write", "tri.ply", env=self.env)
+        os.utime(self.dir / "out/tri.ply", (1000, 1000))
+        self.mill("pipe", *ALL, "-o", "out", "--restat", "--depfile", "tri.d", "load", "tri.obj", "!", "write", "tri.ply",
+                  env=self.env)
+        self.assertEqual((self.dir / "out/tri.ply").stat().st_mtime, 1000)
+        (self.dir / "out/tri.ply").unlink()
         self.mill(*run, "--restat", "-D", "keep=40%", env=self.env)
         self.assertTrue(all(path.stat().st_mtime > 1000 for path in outputs))
         for path in outputs:
