@@ -86,6 +86,7 @@ double sampled_stretch(std::span<const CrumpleSheet> sheets, double mean_edge, s
     std::vector<SampledSheet> samples;
     samples.reserve(sheets.size());
     std::vector<CrumpleSheet> sampled;
+    sampled.reserve(sheets.size());
     for (const CrumpleSheet& sheet : sheets) samples.emplace_back(sheet, cubes);
     for (SampledSheet& sample : samples) sampled.push_back({&sample.mesh, std::move(sample.sheet.moves)});
     const CrumplePlaces places(sampled);
