@@ -11,9 +11,10 @@ namespace {
 
 constexpr const char* export_examples =
     R"(One job an asset, or a shard of several, with what it reads and writes, as far as it is known before it runs, its
-threads, and for Snakemake an estimate of its memory. The assets of a shard run one after the other; one that fails lets
-the others go on, and fails the job, with the exit code of the last that failed. Of the outputs of the others in a job that
-failed, Snakemake removes all; Make and Ninja leave them, and make the whole shard again. Paths are those that lead there from the working directory: run the workflow in it.
+threads, and for Snakemake an estimate of its memory. The assets of a shard run one after the other; one that fails
+lets the others go on, and fails the job, with the exit code of the last that failed. Of the outputs of the others in
+a job that failed, Snakemake removes all; Make and Ninja leave them, and make the whole shard again. Paths are those
+that lead there from the working directory: run the workflow in it.
 The outputs are those of `facetmill batch` with the same options, byte for byte.
 
 Examples
