@@ -114,7 +114,7 @@ TEST_CASE("a row of a table is an asset with params of its own", "[batch]") {
     CHECK(assets[2].folder.string() == "sub");
 }
 
-TEST_CASE("the gravest exit code", "[batch]") {
+TEST_CASE("the most severe exit code", "[batch]") {
     CHECK(batch::graver(0, 1) == 1);
     CHECK(batch::graver(70, 2) == 70);
     CHECK(batch::graver(1, 3) == 3);

@@ -142,7 +142,7 @@ class Batch(Case):
                 jsonschema.validate(json.loads((self.dir / "out/s.json").read_text()), schema)
         self.assertTrue((self.dir / "out/s.json").exists())
 
-    def test_the_gravest_exit_code(self):
+    def test_the_most_severe_exit_code(self):
         self.write("p.yaml", PIPELINE.replace('- write', '- validate: {faces: 4}\n  - write'))
         self.write("in/check.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
         self.batch("-k", expect=1)
