@@ -8,8 +8,8 @@ namespace {
 
 constexpr const char* check_examples =
     R"(All errors of all files are reported. Params without a value stand for any value unless -D gives one. Inputs that
-exist are looked into, as far as their headers go: format, unit. Exit code 2 when a pipeline is wrong, 6 when only
-an input is malformed.
+exist are looked into, as far as their headers go: format, unit; a pattern must match. Exit code 2 when a pipeline is
+wrong, 6 when only an input is malformed, 3 when only a pattern matches nothing.
 
 Examples
   facetmill check pipelines/*.yaml
@@ -19,10 +19,12 @@ Examples
 int check(const std::vector<std::string>& pipelines, const PipelineOptions& options, const CommandLine& line,
           const Console& console) {
     plan_each(pipelines, options, line, console, [&](const std::string& name, const pipeline::Plan& plan) {
+        auto errors = pipeline::unmatched_patterns(plan);
         const auto headers = pipeline::read_headers(plan);
-        if (headers.errors.empty()) console.say(name + ": ok");
+        errors.insert(errors.end(), headers.errors.begin(), headers.errors.end());
+        if (errors.empty()) console.say(name + ": ok");
         if (const auto warning = pipeline::without_effect(plan)) console.diagnostic(*warning);
-        settle(headers.errors);
+        settle(errors);
     });
     return 0;
 }

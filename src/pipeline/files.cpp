@@ -146,20 +146,43 @@ bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems)
     return good;
 }
 
+namespace {
+
+/// The files that are read and not there.
+std::vector<PlannedFile> missing_files(const Plan& plan) {
+    auto files = planned_files(plan.steps, plan.places);
+    std::erase_if(files, [](const PlannedFile& file) {
+        std::error_code error;
+        return file.written || file.path == "-" || fs::exists(file.path, error);
+    });
+    return files;
+}
+
+Diagnostic about_missing(const PlannedFile& file) {
+    if (!file.pattern.empty())
+        return {Severity::error,
+                "E-FILE",
+                fmt::format("no file matches '{}'", file.pattern.string()),
+                file.where,
+                {}};
+    return {Severity::error, "E-FILE", fmt::format("there is no file '{}'", file.path.string()), file.where,
+            nearest_file(file.path)};
+}
+
+} // namespace
+
 std::vector<Diagnostic> missing_inputs(const Plan& plan) {
     std::vector<Diagnostic> missing;
-    for (const auto& file : planned_files(plan.steps, plan.places)) {
-        std::error_code error;
-        if (file.written || file.path == "-" || fs::exists(file.path, error)) continue;
-        const std::string path = file.path.string();
-        if (is_glob(path))
-            missing.push_back(
-                {Severity::error, "E-FILE", fmt::format("no file matches '{}'", path), file.where, {}});
-        else
-            missing.push_back({Severity::error, "E-FILE", fmt::format("there is no file '{}'", path),
-                               file.where, nearest_file(file.path)});
-    }
+    for (const auto& file : missing_files(plan)) missing.push_back(about_missing(file));
     return missing;
+}
+
+std::vector<Error> unmatched_patterns(const Plan& plan) {
+    std::vector<Error> unmatched;
+    for (const auto& file : missing_files(plan))
+        if (!file.pattern.empty())
+            unmatched.emplace_back(ErrorKind::missing, std::vector<Diagnostic>{about_missing(file)});
+    return unmatched;
 }
 
 namespace {

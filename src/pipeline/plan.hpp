@@ -124,6 +124,8 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places)
 bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
 /// An E-FILE for every input that does not exist, at its place; exit code 3. run_plan begins with it.
 std::vector<Diagnostic> missing_inputs(const Plan& plan);
+/// ... of them those that patterns name: what they stand for is not known before it is there.
+std::vector<Error> unmatched_patterns(const Plan& plan);
 
 /// An input and what its header says.
 struct InputHeader {
