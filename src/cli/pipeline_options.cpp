@@ -6,12 +6,13 @@
 #include "base/spelling.hpp"
 #include "cli/depfile.hpp"
 #include "docs/ready.hpp"
+#include "io/output_files.hpp"
 #include "io/outputs.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>
-
 #include <fmt/format.h>
+#include <set>
 
 namespace facetmill::cli {
 
@@ -207,8 +208,22 @@ void tell_stage(const report::StageRecord& stage, const std::string& asset, cons
     console.event(event);
 }
 
+namespace {
+
+/// The outputs that are no inputs.
+std::vector<fs::path> newly_written(const report::RunRecord& record) {
+    std::set<fs::path> inputs;
+    for (const auto& input : record.inputs) inputs.insert(io::identity(input.path));
+    std::vector<fs::path> written;
+    for (const auto& output : record.outputs)
+        if (!inputs.contains(io::identity(output.path))) written.emplace_back(output.path);
+    return written;
+}
+
+} // namespace
+
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
-                      const std::string& pipeline_file) {
+                      const std::string& pipeline_file, std::vector<std::filesystem::path>* written) {
     set_threads(options.threads);
     const auto progress = console.progress();
     pipeline::RunSettings settings;
@@ -237,6 +252,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
         };
     const auto started = fs::file_time_type::clock::now();
     const auto record = located(pipeline::run_plan(plan, settings), plan.places);
+    if (written) *written = newly_written(record);
     if (store) pipeline::remember(trace, plan, pipeline_file, record.exit_code == 0, *store);
     if (progress) progress->done();
     for (const auto& error : record.errors) tell(error);

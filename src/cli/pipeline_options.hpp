@@ -53,9 +53,11 @@ void tell_stage(const report::StageRecord& stage, const std::string& asset, cons
 void tell_resolved(const report::StageRecord& stage, const Console& console);
 
 /// Runs a plan with messages and progress, and writes the depfile when all went well. Returns the exit code.
-/// pipeline_file: what the plan came from, for the depfile; empty when there is none.
+/// pipeline_file: what the plan came from, for the depfile; empty when there is none. written: gets the
+/// outputs, but for files that were read and already had their bytes.
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
-                      const std::string& pipeline_file);
+                      const std::string& pipeline_file,
+                      std::vector<std::filesystem::path>* written = nullptr);
 
 /// Plans each pipeline, whatever becomes of the others; params need no value. look: gets each plan without
 /// errors; it may throw what is wrong with an input. Then as settle, for all of them.

@@ -71,13 +71,17 @@ Planned plan_all(const std::vector<std::string>& pipelines, const PipelineOption
     return all;
 }
 
+/// on_written: gets the files that each run has written; may be empty.
 int run_all(const std::vector<std::string>& pipelines, const Planned& all, const PipelineOptions& options,
-            const Console& console) {
+            const Console& console, const std::function<void(const std::filesystem::path&)>& on_written) {
     if (refused(all.plans, all.problems, console)) return static_cast<int>(ErrorKind::usage);
     int worst = 0;
     for (std::size_t i = 0; i < all.plans.size(); ++i) {
         const bool file = pipelines[i] != "-" && std::filesystem::exists(pipelines[i]);
-        const int code = run_with_messages(all.plans[i], options, console, file ? pipelines[i] : "");
+        std::vector<std::filesystem::path> written;
+        const int code = run_with_messages(all.plans[i], options, console, file ? pipelines[i] : "",
+                                           on_written ? &written : nullptr);
+        for (const auto& path : written) on_written(path);
         if (worst == 0) worst = code;
     }
     return worst;
@@ -144,7 +148,11 @@ int code_of(const Console& console, Body&& body) {
         }
         // What a plan that failed would read is what the last one read, as far as is known.
         if (!planned || planned->problems.any_errors()) watch.add_all(last);
-        if (planned) code = code_of(console, [&] { return run_all(pipelines, *planned, options, console); });
+        // Some names of outputs are known only now.
+        const auto on_written = [&](const auto& file) { watch.leave_out(file); };
+        if (planned)
+            code =
+                code_of(console, [&] { return run_all(pipelines, *planned, options, console, on_written); });
         console.event({{"level", "info"}, {"event", "watch"}, {"number", number}, {"exit_code", code}});
         if (!console.json)
             console.say(
@@ -171,7 +179,7 @@ Command run_command() {
                 return [=, &console](const Invocation& invocation) {
                     if (*watch) run_and_watch(*pipelines, *options, invocation.line, console);
                     return run_all(*pipelines, plan_all(*pipelines, *options, invocation.line, {}), *options,
-                                   console);
+                                   console, {});
                 };
             }};
 }

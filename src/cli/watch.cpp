@@ -19,7 +19,11 @@ Watch::Stamp Watch::stamp_of(const fs::path& file) {
     return std::pair(time, error ? 0 : size);
 }
 
-void Watch::leave_out(const fs::path& file) { left_out_.insert(io::identity(file)); }
+void Watch::leave_out(const fs::path& file) {
+    const fs::path self = io::identity(file);
+    if (!left_out_.insert(self).second) return;
+    std::erase_if(files_, [&](const auto& one) { return io::identity(one.first) == self; });
+}
 
 void Watch::add(const fs::path& file) {
     if (!files_.contains(file) && !left_out_.contains(io::identity(file)))

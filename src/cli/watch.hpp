@@ -14,7 +14,8 @@ namespace facetmill::cli {
 /// By time and size, a few times a second: that works on every file system, and whatever writes the file.
 class Watch {
   public:
-    /// A file that is written: it is looked at neither as a file nor as a match of a pattern.
+    /// A file that is written: it is looked at neither as a file, were it added before or after, nor as a
+    /// match of a pattern.
     void leave_out(const std::filesystem::path& file);
     /// As it is now; a file that is known already stays as it was. It need not be there.
     void add(const std::filesystem::path& file);

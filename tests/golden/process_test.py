@@ -126,6 +126,34 @@ class Process(Case):
         self.assertIn("in.off has changed", [line.get("message") for line in lines])
         self.assertEqual(select.select([run.stderr], [], [], 2)[0], [])
 
+    def test_what_a_watched_run_names_after_parts_is_no_reason_to_run_again(self):
+        parts = "".join(f"o {name}\nv {i} 0 0\nv {i} 1 0\nv {i} 0 1\nf -3 -2 -1\n" for i, name in enumerate(("left", "right")))
+        self.write("in.obj", parts)
+        self.write("left.off", TRIANGLE)
+        self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nstages:\n  - load: in.obj\n  - foreach: {part: '*'}\n"
+                             "    do: [write: '${part}.off']\n")
+        self.write("q.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [load: left.off, load: 'r*.off', write: r.ply]\n")
+        self.write("right.off", TRIANGLE)
+        run, next_end = self.watch("q.yaml")
+        self.assertEqual(next_end()[0], 0)
+        self.assertEqual(select.select([run.stderr], [], [], 2)[0], [], "it runs again by itself")
+        self.write("in.obj", parts.replace("v 1 1", "v 1 2"))
+        code, lines = next_end()
+        self.assertEqual(code, 0)
+        self.assertIn("in.obj has changed", [line.get("message") for line in lines])
+        self.assertEqual(select.select([run.stderr], [], [], 2)[0], [])
+
+    def test_a_pattern_that_matches_nothing_is_refused_before_the_run(self):
+        self.write("p.yaml", "facetmill: 1\nparams: {folder: {type: text}}\nstages: [load: 'in/*.off', load: '${folder}/*.off', write: o.ply]\n")
+        self.write("q.yaml", "facetmill: 1\nstages: [load: in.off, write: q.ply]\n")
+        for command in (("check", "p.yaml", "q.yaml"), ("plan", "p.yaml", "-D", "folder=more")):
+            said = self.mill(*command, expect=3).stderr
+            self.assertIn("p.yaml:3:16: error[E-FILE]: no file matches", said)
+            self.assertEqual("more/*.off" in said, "plan" in command)
+        self.assertIn("in/*.off", self.mill("plan", "p.yaml", "-D", "folder=more", "--inputs").stdout)
+        self.write("in/a.off", TRIANGLE)
+        self.mill("check", "p.yaml", "q.yaml")
+
     def test_a_watched_run_sees_what_comes(self):
         self.write("parts/a.off", TRIANGLE)
         self.write("p.yaml", "facetmill: 1\nallow: W-UNITS\nstages: [load: 'parts/*.off', include: a.yaml, write: o.off]\n")
