@@ -130,8 +130,17 @@ constexpr double seconds_of_a_file = 0.0005;
 
 } // namespace
 
-Store::Store(StoreSettings settings)
-    : settings_(std::move(settings)), bytes_per_second_(usual_bytes_per_second) {}
+Store::Store(StoreSettings settings) : settings_(std::move(settings)), known_(std::make_shared<Known>()) {
+    known_->bytes_per_second = usual_bytes_per_second;
+}
+
+Store::Store(const Store& other) : settings_(other.settings_), known_(other.known_) {}
+
+Store::~Store() {
+    const std::lock_guard lock(known_->guard);
+    for (const auto& path : used_)
+        if (const auto found = known_->used.find(path); --found->second == 0) known_->used.erase(found);
+}
 
 fs::path Store::path_of(const std::string& key, Kind kind) const {
     return settings_.folder / key.substr(0, 2) /
@@ -141,8 +150,8 @@ fs::path Store::path_of(const std::string& key, Kind kind) const {
 void Store::use(const fs::path& path) {
     ::utimensat(AT_FDCWD, path.c_str(), nullptr,
                 AT_SYMLINK_NOFOLLOW); // one that is not ours to touch is only removed earlier
-    const std::lock_guard lock(guard_);
-    used_.insert(path);
+    const std::lock_guard lock(known_->guard);
+    if (used_.insert(path).second) ++known_->used[path];
 }
 
 void Store::drop(const fs::path& path, const char* why) {
@@ -186,8 +195,8 @@ bool Store::has(const std::string& key, Kind kind) {
 
 void Store::cannot_write(const std::string& why) {
     {
-        const std::lock_guard lock(guard_);
-        if (std::exchange(broken_, true)) return;
+        const std::lock_guard lock(known_->guard);
+        if (std::exchange(known_->broken, true)) return;
     }
     if (settings_.tell)
         settings_.tell(
@@ -248,8 +257,8 @@ bool Store::write(const fs::path& path, io::Span head, io::Span bytes) {
 }
 
 bool Store::is_usable() const {
-    const std::lock_guard lock(guard_);
-    return !broken_;
+    const std::lock_guard lock(known_->guard);
+    return !known_->broken;
 }
 
 bool Store::put(const std::string& key, Kind kind, io::Span bytes) {
@@ -273,35 +282,36 @@ bool Store::put(const std::string& key, Kind kind, io::Span bytes) {
 }
 
 double Store::seconds_for(std::size_t bytes) const {
-    const std::lock_guard lock(guard_);
-    return seconds_of_a_file + static_cast<double>(bytes) / bytes_per_second_;
+    const std::lock_guard lock(known_->guard);
+    return seconds_of_a_file + static_cast<double>(bytes) / known_->bytes_per_second;
 }
 
 void Store::took(std::size_t bytes, double seconds) {
     constexpr std::size_t enough = 1 << 20; // less says nothing of the rate
     if (bytes < enough || !(seconds > 0)) return;
-    const std::lock_guard lock(guard_);
-    bytes_per_second_ = (bytes_per_second_ + static_cast<double>(bytes) / seconds) / 2;
+    const std::lock_guard lock(known_->guard);
+    known_->bytes_per_second = (known_->bytes_per_second + static_cast<double>(bytes) / seconds) / 2;
 }
 
 bool Store::make_room(std::uint64_t bytes) {
-    const std::lock_guard lock(guard_);
+    const std::lock_guard lock(known_->guard);
     if (bytes > settings_.max_bytes) return false;
     constexpr std::uint64_t parts = 20;
-    if (!total_ || since_counted_ > settings_.max_bytes / parts) {
+    auto& total = known_->total;
+    if (!total || known_->since_counted > settings_.max_bytes / parts) {
         remove_leftovers();
-        total_ = contents().bytes;
-        since_counted_ = 0;
+        total = contents().bytes;
+        known_->since_counted = 0;
     }
-    if (*total_ + bytes > settings_.max_bytes) {
+    if (*total + bytes > settings_.max_bytes) {
         // More than needed at a time, so that not every put looks at all entries.
         const std::uint64_t room = std::max(bytes, settings_.max_bytes / 10);
         shrink(settings_.max_bytes - std::min(room, settings_.max_bytes));
-        total_ = contents().bytes;
+        total = contents().bytes;
     }
-    if (*total_ + bytes > settings_.max_bytes) return false;
-    *total_ += bytes;
-    since_counted_ += bytes;
+    if (*total + bytes > settings_.max_bytes) return false;
+    *total += bytes;
+    known_->since_counted += bytes;
     return true;
 }
 
@@ -337,7 +347,7 @@ Contents Store::shrink(std::uint64_t limit) {
     Contents gone;
     for (const auto& entry : entries) {
         if (total <= limit) break;
-        if (used_.contains(entry.path) || ::unlink(entry.path.c_str()) != 0) continue;
+        if (known_->used.contains(entry.path) || ::unlink(entry.path.c_str()) != 0) continue;
         total -= entry.bytes;
         gone.bytes += entry.bytes;
         ++gone.entries;
@@ -357,7 +367,7 @@ void Store::remove_leftovers(std::int64_t older_than) const {
 
 Contents Store::collect() {
     remove_leftovers();
-    const std::lock_guard lock(guard_);
+    const std::lock_guard lock(known_->guard);
     return shrink(settings_.max_bytes);
 }
 

@@ -8,6 +8,8 @@
 
 #include <chrono>
 #include <functional>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -36,9 +38,15 @@ struct Contents {
 class Store {
   public:
     explicit Store(StoreSettings settings);
+    /// Another for the same folder, which knows what this one knows: for one of many runs at a time, whose
+    /// entries need not stay when it is over.
+    explicit Store(const Store& other);
+    Store& operator=(const Store&) = delete;
+    ~Store();
 
     /// The bytes that were put, or nothing. An entry whose bytes are not what was written is removed, with a
-    /// note. What was asked for counts as used, and stays as long as this object lives.
+    /// note. What was asked for counts as used, and stays as long as this object lives: as it does for the
+    /// others of the process that know of it.
     std::optional<io::Bytes> get(const std::string& key, Kind kind);
     /// Whether there is an entry, which then counts as used.
     bool has(const std::string& key, Kind kind);
@@ -74,13 +82,19 @@ class Store {
     void cannot_write(const std::string& why);
     void drop(const std::filesystem::path& path, const char* why);
 
+    /// What stores of one folder and process know together.
+    struct Known {
+        std::mutex guard;                          ///< of all that follows, and of used_ of each
+        std::map<std::filesystem::path, int> used; ///< by how many of them
+        std::optional<std::uint64_t> total;        ///< bytes there, as far as known
+        std::uint64_t since_counted = 0;           ///< bytes put since then: other processes put some, too
+        bool broken = false;                       ///< it cannot be written: not tried again
+        double bytes_per_second = 0;
+    };
+
     const StoreSettings settings_;
-    mutable std::mutex guard_; ///< of all that follows
+    const std::shared_ptr<Known> known_;
     std::set<std::filesystem::path> used_;
-    std::optional<std::uint64_t> total_; ///< bytes there, as far as known
-    std::uint64_t since_counted_ = 0;    ///< bytes put since then: other processes put some, too
-    bool broken_ = false;                ///< it cannot be written: not tried again
-    double bytes_per_second_;
 };
 
 } // namespace facetmill::cache

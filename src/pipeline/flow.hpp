@@ -4,6 +4,8 @@
 #include "cache/state.hpp"
 #include "pipeline/plan.hpp"
 
+#include <algorithm>
+
 namespace facetmill::pipeline {
 
 /// A step that was not run, because the cache knows what it would tell.
@@ -19,8 +21,11 @@ struct Flow {
     std::vector<Recalled> recalled;
     /// Of the scene after them: scenes with one key are equal. Empty: not known yet.
     std::string key;
-    /// Seconds that stages took since the last scene of this way that the cache has.
+    /// Seconds that stages took since the last scene of this way that the cache has, less those that storing
+    /// has used up.
     double unsaved = 0;
+    double before_branch = 0;       ///< ... of them those before the branch, which all its arms share
+    double spent_before_branch = 0; ///< what this arm has used up of them
     /// What the cache gets of these stages as soon as it gets a scene after them: by key.
     std::vector<std::pair<std::string, io::Bytes>> memories;
     bool without_cache = false;
@@ -32,22 +37,38 @@ struct Flow {
     Box bounds() const { return is_here() ? scene.bounds() : recalled.back().memory.bounds; }
     /// The same scene, for an arm: what must be made to get it is made once, for all arms.
     Flow branched_off() {
-        if (is_here()) return *this;
         Flow arm;
-        arm.recalled = recalled;
-        arm.key = key;
-        arm.unsaved = unsaved;
-        arm.memories = memories;
-        arm.without_cache = without_cache;
-        arm.origin = this;
-        arm.inherited = recalled.size();
+        if (is_here())
+            arm = *this;
+        else {
+            arm.recalled = recalled;
+            arm.key = key;
+            arm.unsaved = unsaved;
+            arm.memories = memories;
+            arm.without_cache = without_cache;
+            arm.origin = this;
+            arm.inherited = recalled.size();
+        }
+        arm.before_branch = unsaved;
+        arm.spent_before_branch = 0;
         return arm;
+    }
+    /// Storing has used up so many of the seconds: of this way's own first.
+    void spend(double seconds) {
+        const double shared = std::clamp(seconds - (unsaved - before_branch), 0.0, before_branch);
+        unsaved = std::max(0.0, unsaved - seconds);
+        before_branch -= shared;
+        spent_before_branch += shared;
+    }
+    /// All so far is stored, or has become worthless.
+    void begin_anew() {
+        unsaved = before_branch = 0;
+        memories.clear();
     }
     /// The scene has become another, which no key is known of.
     void replaced() {
         key.clear();
-        unsaved = 0;
-        memories.clear();
+        begin_anew();
     }
 };
 

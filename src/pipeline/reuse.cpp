@@ -233,8 +233,8 @@ void Reuse::store_scene(Flow& flow, const std::string& key) {
         store_->took(bytes, seconds_from(start));
     }
     for (const auto& [name, memory] : flow.memories) store_->put(name, cache::Kind::memory, memory);
-    flow.memories.clear();
-    flow.unsaved = 0;
+    flow.spend(seconds_from(start) / share_for_storing);
+    flow.begin_anew();
 }
 
 /// None when there is not enough memory for both its bytes and itself: the stages may need less.

@@ -369,16 +369,20 @@ class Runner {
         std::vector<NamedScene> results;
         bool all_done = true;
         for (const auto& arm : step.arms) {
-            const bool last = &arm == &step.arms.back();
+            const bool moved = &arm == &step.arms.back() && (step.join || !needed);
             Flow inside;
             if (!failures_.guarded(step.where, step.name, [&] {
-                    if (last && (step.join || !needed))
+                    if (moved)
                         inside = std::move(flow);
                     else
                         inside = flow.branched_off();
                 }))
                 return false;
             all_done = run_arm(step, arm, inside) && all_done;
+            if (moved)
+                flow.spent_before_branch = inside.spent_before_branch;
+            else
+                flow.spend(inside.spent_before_branch); // it is not there for the next arm
             if (step.join) results.push_back({arm.name, std::move(inside.scene)});
         }
         if (!step.join) return true; // the scene that entered goes on, whatever became of the branches

@@ -2,6 +2,7 @@
 
 #include "support/catch.hpp"
 
+#include "cache/archive.hpp"
 #include "cache/state.hpp"
 #include "mesh/cut_memory.hpp"
 #include "mesh/shapes.hpp"
@@ -205,6 +206,19 @@ TEST_CASE("what a run tells of a stage comes back, but for its places", "[cache]
     CHECK(back->absent == memory.absent);
     CHECK(back->scene == "key");
     CHECK(back->bounds.max == memory.bounds.max);
+}
+
+TEST_CASE("values that are nested deeper than any that is stored are corrupt, and nothing worse", "[cache]") {
+    const auto nested = [](std::size_t depth) {
+        io::Bytes cbor(depth, std::byte{0x81}); // arrays of one
+        cbor.push_back(std::byte{0x01});
+        return cbor;
+    };
+    CHECK(cache::json_of_cbor(nested(200)).is_array());
+    CHECK_THROWS_AS(cache::json_of_cbor(nested(201)), cache::Corrupt);
+    CHECK_THROWS_AS(cache::json_of_cbor(nested(10'000'000)), cache::Corrupt);
+    CHECK_THROWS_AS(cache::json_of_cbor(io::Bytes(1'000'000, std::byte{0x9f})),
+                    cache::Corrupt); // never closed
 }
 
 TEST_CASE("keys tell texts apart however they are divided", "[cache]") {

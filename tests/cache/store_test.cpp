@@ -112,6 +112,33 @@ TEST_CASE("a store that is full loses what was not used for longest, but nothing
     CHECK(shop.told.empty());
 }
 
+TEST_CASE("what one of several runs has used may go when it is over", "[cache]") {
+    Shop shop;
+    constexpr std::uint64_t limit = 100'000;
+    const std::string bytes(9'000, 'x');
+    Store store(shop.settings(limit));
+    {
+        Store first(store), second(store);
+        for (int i = 0; i < 9; ++i) CHECK(first.put(key(i), Kind::scene, test::bytes_of(bytes)));
+        CHECK(second.has(key(0), Kind::scene));
+        CHECK(second.put(key(9), Kind::scene, test::bytes_of(bytes)));
+        CHECK_FALSE(second.put(key(10), Kind::scene, test::bytes_of(bytes + bytes)));
+    }
+    Store third(store);
+    CHECK(third.has(key(0), Kind::scene));
+    CHECK(third.put(key(10), Kind::scene, test::bytes_of(bytes + bytes)));
+    CHECK(third.has(key(0), Kind::scene));
+    CHECK_FALSE(third.has(key(1), Kind::scene));
+}
+
+TEST_CASE("stores of one process say once that they cannot be written", "[cache]") {
+    Shop shop;
+    test::put(shop.folder / "file", "");
+    Store store(shop.settings(1 << 20, "file/cache"));
+    for (int i = 0; i < 3; ++i) CHECK_FALSE(Store(store).put(key(i), Kind::scene, test::bytes_of("a")));
+    CHECK(shop.told == std::vector<std::string>{"W-CACHE"});
+}
+
 TEST_CASE("a store that cannot be written says so once", "[cache]") {
     Shop shop;
     test::put(shop.folder / "file", "");

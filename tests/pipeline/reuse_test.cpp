@@ -2,6 +2,7 @@
 
 #include "support/catch.hpp"
 
+#include "pipeline/flow.hpp"
 #include "pipeline/run.hpp"
 #include "support/planning.hpp"
 #include "support/temporary.hpp"
@@ -104,6 +105,36 @@ TEST_CASE("what takes longer to store than it saves is not stored", "[pipeline][
     works.run(chain);
     CHECK(works.ways() == "load ran, split ran, relax ran, write always");
     CHECK(slow.contents().entries == 0);
+}
+
+TEST_CASE("what may be otherwise the next time is not stored, and what follows is", "[pipeline][cache]") {
+    Works works;
+    const std::string stages = "  - load: a.off\n  - test-unrepeatable\n  - relax: 1\n  - write: b.ply\n";
+    works.run(stages);
+    works.run(stages);
+    CHECK(works.ways() == "load recalled, test-unrepeatable ran, relax recalled, write always");
+}
+
+TEST_CASE("what one arm of a branch has used up for storing is not there for the next", "[pipeline][cache]") {
+    pipeline::Flow flow;
+    flow.unsaved = 10;
+    pipeline::Flow arm = flow.branched_off();
+    arm.unsaved += 2;
+    arm.spend(1);
+    CHECK(arm.spent_before_branch == 0);
+    CHECK(arm.unsaved == 11);
+    pipeline::Flow inner = arm.branched_off();
+    inner.unsaved += 1;
+    inner.spend(5);
+    inner.begin_anew();
+    CHECK(inner.spent_before_branch == 4);
+    arm.spend(inner.spent_before_branch);
+    CHECK(arm.spent_before_branch == 3);
+    flow.spend(arm.spent_before_branch);
+    CHECK(flow.unsaved == 7);
+    CHECK(flow.branched_off().unsaved == 7);
+    flow.spend(100);
+    CHECK(flow.unsaved == 0);
 }
 
 TEST_CASE("an input that changes while the pipeline runs is an error", "[pipeline][cache]") {

@@ -144,6 +144,18 @@ Scene run_warn(Scene scene, const WarnOptions& o, Context& context) {
 }
 const RegisterStage warn(make_stage<WarnOptions>(info("test-warn", "Warns"), declare_warn, run_warn));
 
+// --- test-unrepeatable: what it does may be otherwise the next time
+
+struct UnrepeatableOptions {};
+void declare_unrepeatable(Declare<UnrepeatableOptions>&) {}
+Scene run_unrepeatable(Scene scene, const UnrepeatableOptions&, Context& context) {
+    context.tell_unrepeatable();
+    return scene;
+}
+const RegisterStage unrepeatable(make_stage<UnrepeatableOptions>(
+    info("test-unrepeatable", "Tells that it may do something else the next time"), declare_unrepeatable,
+    run_unrepeatable));
+
 enum class How { error, memory, bug };
 struct FailOptions {
     How how = How::error;
