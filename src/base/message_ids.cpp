@@ -582,10 +582,9 @@ const std::vector<MessageId>& message_ids() {
          "Close it first with `clean`."},
         {"W-PRUNE",
          {},
-         "A batch with --prune removed nothing, because assets failed or were not run: what they would write "
-         "is not "
-         "known.",
-         "Repair or leave out what fails, and run the batch again."},
+         "A batch with --prune left what it might have removed: assets failed or were not run, so that what "
+         "they would write is not known, or sources are out of reach.",
+         "Repair or leave out what fails, mount the disk that is missing, and run the batch again."},
         {"W-RELAX-STOPPED",
          {},
          "relax did not converge: `until` was not reached within its iterations, or before a third of the "

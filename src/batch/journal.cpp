@@ -44,6 +44,7 @@ Json done_json(const Done& done) {
     return {{"asset", done.asset},
             {"digest", done.digest},
             {"source", done.source},
+            {"mount_point", done.mount_point},
             {"of_table", done.of_table},
             {"inputs", stamps_json(done.inputs)},
             {"outputs", stamps_json(done.outputs)},
@@ -61,6 +62,7 @@ Done done_from(const Json& json) {
     json.at("asset").get_to(done.asset);
     json.at("digest").get_to(done.digest);
     json.at("source").get_to(done.source);
+    done.mount_point = json.value("mount_point", "");
     json.at("of_table").get_to(done.of_table);
     done.inputs = stamps_from(json.at("inputs"));
     done.outputs = stamps_from(json.at("outputs"));

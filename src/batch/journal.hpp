@@ -25,8 +25,9 @@ struct Stamp {
 /// A run that went well; or the reports of one that did not, beside what was there before it.
 struct Done {
     std::string asset;
-    std::string digest; ///< of Work; empty: it failed, and is never unchanged
-    std::string source; ///< the asset's input, absolute; empty: a row without one
+    std::string digest;      ///< of Work; empty: it failed, and is never unchanged
+    std::string source;      ///< the asset's input, absolute; empty: a row without one
+    std::string mount_point; ///< of the source; empty: not known
     bool of_table = false;
     std::vector<Stamp> inputs, outputs;
     std::vector<std::string> absent; ///< files that inputs name and that were not there

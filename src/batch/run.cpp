@@ -9,6 +9,7 @@
 #include "batch/jobserver.hpp"
 #include "batch/journal.hpp"
 #include "batch/pool.hpp"
+#include "batch/reach.hpp"
 #include "io/bytes.hpp"
 #include "io/output_files.hpp"
 
@@ -195,7 +196,8 @@ class BatchRun {
         run.strict = settings_.strict;
         run.check_invariants = settings_.check_invariants;
         run.last_picture = settings_.pictures;
-        run.store = settings_.store;
+        std::optional<cache::Store> store; // what this asset has used may go when it is done
+        if (settings_.store) run.store = &store.emplace(*settings_.store);
         run.on_output = [&](const io::Outputs::File& file) { claim(work.asset, file); };
         run.on_warning = [&](const Diagnostic& d) { warnings.push_back(about_asset(work.asset, d)); };
         if (listener_.on_stage)
@@ -233,7 +235,9 @@ class BatchRun {
         Done done;
         done.asset = work.asset.name;
         done.of_table = work.asset.of_table;
-        if (!work.asset.input.empty()) done.source = absolute_name(work.asset.input);
+        if (work.asset.input.empty()) return done;
+        done.source = absolute_name(work.asset.input);
+        done.mount_point = mount_point_of(done.source);
         return done;
     }
 
@@ -322,12 +326,6 @@ class BatchRun {
                     "name it by the asset: ${input.stem}");
     }
 
-    /// Whether the source is known to be gone; not where it cannot be looked for.
-    static bool is_gone(const std::string& source) {
-        std::error_code ignored;
-        return !source.empty() && fs::status(source, ignored).type() == fs::file_type::not_found;
-    }
-
     /// The outputs that assets have or will have when they are made, and those of other pipelines.
     std::set<std::string> current_outputs() const {
         std::set<std::string> current = journal_.outputs_of_others();
@@ -360,20 +358,39 @@ class BatchRun {
             names.insert(work.asset.name);
             table = table || work.asset.of_table;
         }
-        std::vector<std::string> gone;
+        std::vector<std::string> gone, out_of_reach;
         for (const auto& [name, done] : journal_.all()) {
             if (names.contains(name)) continue;
-            if (is_gone(done.source) || (table && done.of_table))
+            const Presence presence = presence_of(done.source, done.mount_point);
+            if (presence == Presence::gone || (table && done.of_table)) {
                 gone.push_back(name);
-            else
-                for (const auto& output : done.outputs) current.insert(output.path);
+                continue;
+            }
+            if (presence == Presence::out_of_reach) out_of_reach.push_back(name);
+            for (const auto& output : done.outputs) current.insert(output.path);
         }
+        warn_of_reach(out_of_reach);
         const auto note = [&](std::vector<std::string> removed) {
             for (auto& path : removed) summary_.pruned.push_back(std::move(path));
         };
         for (const auto& name : gone) note(journal_.remove_all(name, current));
         for (const auto& work : works_) note(journal_.remove_former(work.asset.name, current));
         std::sort(summary_.pruned.begin(), summary_.pruned.end());
+    }
+
+    void warn_of_reach(const std::vector<std::string>& names) {
+        if (names.empty()) return;
+        warn(Diagnostic{Severity::warning,
+                        "W-PRUNE",
+                        fmt::format("what was made of {} is not pruned: {} out of reach", list_of(names),
+                                    names.size() == 1 ? "it is" : "they are"),
+                        {},
+                        "is the disk there?"});
+    }
+
+    static std::string list_of(const std::vector<std::string>& names) {
+        return names.size() == 1 ? names.front()
+                                 : fmt::format("{} and {} more", names.front(), names.size() - 1);
     }
 
     void close_summary() {

@@ -205,8 +205,6 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings = batch_settings(options, line, of_all.places);
     set_planner(settings, options, of_all);
-    const auto store = store_for(options.common.cache, options.common.allowed, console);
-    settings.store = store.get();
     const auto assets = assets_of(options, line, options.prune);
     auto prepared = batch::prepare(assets, settings, problems);
     const auto refuse = [&](ErrorKind kind, const std::vector<Diagnostic>& why) {
@@ -218,6 +216,8 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     if (problems.any_errors()) return refuse(ErrorKind::usage, problems.all());
     if (!prepared.missing.empty() && !options.keep_going) return refuse(ErrorKind::missing, prepared.missing);
     settings.allowed = prepared.allowed.empty() ? options.common.allowed : prepared.allowed;
+    const auto store = store_for(options.common.cache, settings.allowed, console);
+    settings.store = store.get();
     const auto bar = std::make_shared<BatchBar>(console);
     const auto summary = batch::run(std::move(prepared.works), settings,
                                     listener_for(options.common, of_all.places, console, bar));

@@ -243,6 +243,48 @@ class Batch(Case):
         (self.dir / "elsewhere").rename(self.dir / "in")
         self.assertEqual(self.done_anew("--prune"), [])
 
+    def test_prune_of_several_folders_of_which_one_is_out_of_reach(self):
+        self.write("disk/d.off", tetrahedron(4))
+        (self.dir / "in/link").symlink_to(self.dir / "disk")
+        pattern = ("--input", "in/*/*.off", "--prune")
+        self.batch(*pattern)
+        self.assertIn("link/d.ply", self.written())
+        (self.dir / "disk").rename(self.dir / "elsewhere")
+        said = self.batch(*pattern).stderr
+        self.assertIn("W-PRUNE", said)
+        self.assertIn("in/link/d.off", said)
+        self.assertIn("link/d.ply", self.written())
+        (self.dir / "elsewhere").rename(self.dir / "disk")
+        self.assertEqual(self.done_anew(*pattern), [])
+        (self.dir / "disk/d.off").unlink()
+        self.assertNotIn("W-PRUNE", self.batch(*pattern).stderr)
+        self.assertNotIn("link/d.ply", self.written())
+
+    def test_prune_of_several_folders_of_which_one_is_not_mounted(self):
+        (self.dir / "in/disk").mkdir()
+        mount = ["mount", "-t", "tmpfs", "tmpfs", str(self.dir / "in/disk")]
+        if subprocess.run(mount, capture_output=True).returncode:
+            self.skipTest("only root may mount")
+        unmount = ["umount", str(self.dir / "in/disk")]
+        self.addCleanup(subprocess.run, unmount, check=False, capture_output=True)
+        self.write("in/disk/d.off", tetrahedron(4))
+        self.batch("--prune")
+        subprocess.run(unmount, check=True)
+        self.assertIn("in/disk/d.off", self.batch("--prune").stderr)
+        (self.dir / "in/disk").rmdir()
+        self.assertIn("W-PRUNE", self.batch("--prune").stderr)
+        self.assertIn("disk/d.ply", self.written())
+
+    def test_the_pipeline_allows_what_the_cache_tells(self):
+        self.write("file", "")
+        no_cache = {"env": {"FACETMILL_CACHE": str(self.dir / "file/cache")}}
+        everything = ("--cache-everything", "--input", "in/a.off")
+        self.assertIn("W-CACHE", self.batch(*everything, **no_cache).stderr)
+        self.write("p.yaml", PIPELINE.replace("allow: W-UNITS", "allow: [W-UNITS, W-CACHE]"))
+        self.assertEqual(self.done_anew(*everything, "-q"), ["in/a.off"])
+        self.write("p.yaml", PIPELINE.replace("allow: W-UNITS", "allow: [W-CACHE, W-UNITS]").replace("ply", "stl"))
+        self.assertNotIn("W-CACHE", self.batch(*everything, **no_cache).stderr)
+
     def test_prune_takes_the_reports_of_what_failed(self):
         self.write("in/junk.off", "no mesh")
         self.batch("-k", expect=6)
