@@ -261,9 +261,9 @@ void Outputs::commit() {
     const bool streams =
         std::any_of(files_.begin(), files_.end(), [](const auto& f) { return is_streamed(*f); });
     std::vector<Renamed> all;
+    leave_unchanged(); // it reads files that may be large, so a signal need not wait for it
     {
         const HoldSignals hold;
-        leave_unchanged();
         all = rename_all(streams);
         if (!streams) return settle(all);
     }
