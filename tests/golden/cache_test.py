@@ -5,7 +5,9 @@ import base64
 import json
 import os
 import pathlib
+import resource
 import shutil
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -346,6 +348,104 @@ class Trouble(Cache):
         self.assertTrue(all(entry.stat().st_size < 1 << 20 for entry in self.entries(".memory")))
         for folder in [self.cache, *(p for p in self.cache.iterdir())]:
             self.assertEqual(folder.stat().st_mode & 0o777, 0o700)
+
+    @unittest.skipIf(SLOW, "the limit of addresses does not go with AddressSanitizer")
+    def test_a_union_that_was_refused_for_memory(self):
+        """It is done when there is enough."""
+        sphere = "generate: {shape: icosphere, subdivisions: 4, noise: 0.01, seed: %d}"
+        self.write("u.yaml", "facetmill: 1\nstages:\n  - foreach: {seed: [1, 2]}\n    join: true\n    do:\n      - "
+                   + sphere.replace("%d", '"${seed}"')
+                   + "\n  - merge\n  - clean: {self_intersections: union}\n  - write: u.ply\n")
+        self.write("v.yaml", (self.dir / "u.yaml").read_text().replace("  - clean: {self_intersections: union}\n", ""))
+        expected = self.told("run", "u.yaml", "--no-cache")
+        self.assertNotIn("not enough memory", expected[1])
+        least = self.least_memory("run", "v.yaml", "--no-cache")
+        refused = self.limited(least + (8 << 20), "run", "u.yaml", *ALL, "-q", "-j1", "-o", "out")
+        self.assertIn("there is not enough memory to unite", refused.stderr)
+        self.assertEqual(refused.returncode, 0)
+        self.assertEqual(self.told("run", "u.yaml", *ALL), expected)
+
+    @unittest.skipIf(SLOW, "the limit of addresses does not go with AddressSanitizer")
+    def test_without_memory(self):
+        """Exit code 7, or all as it should be, whatever the cache has when memory ends."""
+        self.write("p.yaml", PIPELINE.replace("relax: 1", "split: midpoint"))  # much more than the libraries take
+        expected = self.run_it("-j1")
+        run = ("run", "p.yaml", "-D", f"input={SCAN}", *ALL, "-q", "-j1", "-o", "out")
+        least = self.least_memory("run", "p.yaml", "-D", f"input={SCAN}", "--no-cache")
+        codes = set()
+        for suffix in ("", ".scene"):
+            for entry in self.entries(suffix) if suffix else ():
+                entry.unlink()
+            for part in (0.7, 0.9):
+                code = self.limited(int(part * least), *run).returncode
+                codes.add(code)
+                self.assertIn(code, (0, 7))
+                self.assertFalse([p for p in self.cache.rglob("*.part")])
+        self.assertIn(7, codes)
+        self.assertEqual(self.run_it("-j1"), expected)
+
+    def limited(self, addresses, *arguments):
+        """A run that may take so many bytes of addresses."""
+        return subprocess.run([str(FACETMILL), *arguments], cwd=self.dir, env={**os.environ, **self.env}, capture_output=True,
+                              text=True, timeout=300,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (addresses, addresses)))
+
+    def least_memory(self, *arguments):
+        """About how many bytes of addresses a run takes."""
+        low, high = 40 << 20, 640 << 20  # with less not even the threads begin
+        while high - low > high // 16:
+            middle = (low + high) // 2
+            done = self.limited(middle, *arguments, "-q", "-j1", "-o", "least").returncode == 0
+            low, high = (low, middle) if done else (middle, high)
+        return high
+
+    def test_a_disk_that_is_nearly_full(self):
+        """It keeps its last 64 MiB, without a word."""
+        self.cache.mkdir()
+        mount = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=48m", "tmpfs", str(self.cache)], capture_output=True)
+        if mount.returncode:
+            self.skipTest("only root may mount")
+        self.addCleanup(subprocess.run, ["umount", str(self.cache)], check=False)
+        code, said, _ = self.run_it()
+        self.assertEqual((code, "W-CACHE" in said), (0, False), said)
+        self.assertEqual([p for p in self.cache.rglob("*") if p.is_file()], [])
+
+    def test_names_that_another_process_has_taken(self):
+        """Two of one number in two containers, or one that was killed."""
+        self.run_it()
+        entries = self.entries(".scene") + self.entries(".memory")
+        for entry in entries:
+            entry.unlink()
+
+        def taken():
+            for entry in entries:
+                for number in range(40):
+                    (entry.parent / f".{os.getpid()}-{number}.part").touch()
+
+        run = subprocess.run([str(FACETMILL), "run", "p.yaml", "-D", f"input={SCAN}", *ALL, "-q", "-o", "out"], cwd=self.dir,
+                             env={**os.environ, **self.env}, capture_output=True, text=True, preexec_fn=taken, timeout=600)
+        self.assertEqual((run.returncode, "W-CACHE" in run.stderr), (0, False), run.stderr)
+        self.assertEqual(self.entries(".scene") + self.entries(".memory"), entries)
+
+    def test_a_mapped_file_that_changes_while_it_is_loaded(self):
+        """Nobody knows which bytes were read."""
+        mesh = self.dir / "large.ply"
+        rows = 1 << 20
+        with mesh.open("wb") as file:
+            file.write(b"ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                       b"property float z\nelement face 1\nproperty list uchar uint vertex_indices\nelement padding %d\n"
+                       % rows + b"".join(b"property double p%d\n" % k for k in range(8)) + b"end_header\n"
+                       + struct.pack("<9fB3I", 0, 0, 0, 1, 0, 0, 0, 1, 0, 3, 0, 1, 2))
+            file.truncate(file.tell() + 64 * rows)
+        self.write("m.yaml", f"facetmill: 1\nstages: [load: {mesh}, split: midpoint, write: o.ply]\n")
+        run = ("run", "m.yaml", *ALL, "--explain", "-o", "out")
+        changing = subprocess.Popen([str(FACETMILL), *run], cwd=self.dir, env={**os.environ, **self.env},
+                                    stderr=subprocess.DEVNULL)
+        while changing.poll() is None:
+            os.utime(mesh)
+        self.assertEqual(changing.returncode, 0)
+        for way in ("load reruns: its result was not stored", "load: from the cache"):
+            self.assertIn(way, self.mill(*run, env=self.env).stderr)
 
     def test_processes_share_it(self):
         expected = self.run_it("--no-cache")[2]

@@ -41,6 +41,24 @@ TEST_CASE("gzip is inflated, members one after another, and its stored bytes are
                       (dir / "cut.gz").string(), packed.size() - 20));
 }
 
+TEST_CASE("a file that is mapped and changes is no longer as it was opened", "[io]") {
+    const TemporaryDirectory dir;
+    put(dir / "small", "x");
+    put(dir / "large", "");
+    std::filesystem::resize_file(dir / "large", 64 << 20); // no block of it is on the disk
+    const Input small = Input::open(dir / "small"), large = Input::open(dir / "large");
+    CHECK(large.is_as_opened());
+    for (const char* name : {"small", "large"})
+        std::filesystem::last_write_time(dir / name, std::filesystem::file_time_type::clock::now() +
+                                                         std::chrono::seconds(1));
+    CHECK(small.is_as_opened()); // its bytes are a copy
+    CHECK_FALSE(large.is_as_opened());
+    const Input again = Input::open(dir / "large");
+    CHECK(again.is_as_opened());
+    std::filesystem::remove(dir / "large");
+    CHECK_FALSE(again.is_as_opened());
+}
+
 TEST_CASE("a pipe is read to its end, within a limit", "[io]") {
     const TemporaryDirectory dir;
     const auto fifo = dir / "fifo";
