@@ -452,7 +452,7 @@ const std::vector<MessageId>& message_ids() {
          "The outline of crop does not cut the mesh; all of it is kept.",
          "Check the outline and its axis; `facetmill info` prints the bounds."},
         {"W-CROP-NOTHING", {}, "crop keeps nothing.", "Check the outline and its axis, or keep the outside."},
-        {"W-CRUMPLE-HURRIED",
+        {"W-CRUMPLE-COARSE",
          {},
          "To end in time, crumple with `self_intersections: avoid` lowered displacements in large steps, so "
          "that "
@@ -601,7 +601,7 @@ const std::vector<MessageId>& message_ids() {
          {},
          "Contours of a section intersect themselves. What they wind around, either way, counts as inside.",
          "Use `clean: {self_intersections: all}` first."},
-        {"W-SIMPLIFY-CEILING",
+        {"W-SIMPLIFY-LIMIT",
          {},
          "simplify stopped above its target, because any fewer triangles would move the surface by more than "
          "`max_quadric_error`, which is 1 % of each part's diagonal unless it is given.",

@@ -117,8 +117,8 @@ TEST_CASE("crumple: parts near each other are warned of when faces are kept apar
 TEST_CASE("crumple: displacements that are lowered in large steps are warned of", "[stages]") {
     const Value o = options({{"grid", "1"}, {"amplitude", "100%"}, {"self_intersections", "avoid"}});
     const auto r = run_stage("crumple", o, scene_of(shapes::grid(30, 30)));
-    CHECK(r.warnings() == std::vector<std::string>{"W-CRUMPLE-HURRIED"});
-    CHECK(r.record.result["self_intersections"]["hurried"] > 0);
+    CHECK(r.warnings() == std::vector<std::string>{"W-CRUMPLE-COARSE"});
+    CHECK(r.record.result["self_intersections"]["coarse"] > 0);
     CHECK(find_self_intersections(r.mesh()).count == 0);
 }
 

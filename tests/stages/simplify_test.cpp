@@ -471,7 +471,7 @@ TEST_CASE("simplify: borders of parts stay matched where others share the target
 TEST_CASE("simplify stops before the shape is lost, and says so", "[stages]") {
     const auto r = run_stage("simplify", "30%", scene_of(shapes::cube()));
     CHECK(test::same(r.mesh(), shapes::cube()));
-    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-CEILING"});
+    CHECK(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-LIMIT"});
     CHECK(r.record.warnings[0].message == "part 'part' stopped at 12 of 12 triangles, above the target: any "
                                           "fewer would move the surface by more "
                                           "than max_quadric_error (1% of part)");
@@ -496,7 +496,7 @@ TEST_CASE("simplify: separate boxes do not become slivers, and one warning tells
     }
     const auto r = run_stage("simplify", "30%", scene);
     CHECK(r.scene.face_count() == 240);
-    REQUIRE(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-CEILING"});
+    REQUIRE(r.warnings() == std::vector<std::string>{"W-SIMPLIFY-LIMIT"});
     CHECK(r.record.warnings[0].message.starts_with(
         "20 parts, the first part 'box0', stopped at 240 of 240 triangles, above the target"));
     // What is flat goes all the same.

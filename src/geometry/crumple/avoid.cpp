@@ -100,19 +100,19 @@ class Patience {
 
 /// Notes the places that are about to be lowered in large steps.
 void note(const std::vector<std::uint8_t>& marked, const std::vector<std::uint8_t>& levels,
-          std::vector<std::uint8_t>& hurried) {
+          std::vector<std::uint8_t>& coarse) {
     for (std::size_t p = 0; p < marked.size(); ++p)
-        if (marked[p] && levels[p] < last_level) hurried[p] = 1;
+        if (marked[p] && levels[p] < last_level) coarse[p] = 1;
 }
 
 /// Lowers places until no new faces meet.
 class Separation {
   public:
-    /// `hurried`: [places] 1 for those that were lowered in large steps before; `stretch`: so far.
+    /// `coarse`: [places] 1 for those that were lowered in large steps before; `stretch`: so far.
     Separation(std::vector<TestSheet>& tests, std::vector<std::uint8_t>& levels, FacesOfSheets& found,
-               AvoidResult& result, std::vector<std::uint8_t> hurried, double stretch)
+               AvoidResult& result, std::vector<std::uint8_t> coarse, double stretch)
         : tests_(tests), levels_(levels), found_(found), result_(result), patience_(tests),
-          hurried_(std::move(hurried)), stretch_(stretch) {}
+          coarse_(std::move(coarse)), stretch_(stretch) {}
 
     /// Adds the faces that meet in the first round that looks at all to `found`.
     void run() {
@@ -133,7 +133,7 @@ class Separation {
             if (changed.empty()) break;
             for (TestSheet& test : tests_) test.place(levels_, changed);
         }
-        result_.hurried = static_cast<std::size_t>(std::count(hurried_.begin(), hurried_.end(), 1));
+        result_.coarse = static_cast<std::size_t>(std::count(coarse_.begin(), coarse_.end(), 1));
     }
 
   private:
@@ -147,7 +147,7 @@ class Separation {
             more |= tests_[s].mark(trouble[s].faces, how.rings, marked);
         }
         if (!more) return {};
-        if (how.step > 1) note(marked, levels_, hurried_);
+        if (how.step > 1) note(marked, levels_, coarse_);
         if (!lower(marked, levels_, how.step)) // where nothing moves, all pairs were there before
             throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move came to intersect");
         return marked;
@@ -163,13 +163,13 @@ class Separation {
             FacesOfSheets found(tests_.size());
             const auto lowered = slacken(tests_, levels_, stretch_, found);
             if (levels_ == before) continue;
-            note(lowered, before, hurried_);
+            note(lowered, before, coarse_);
             return lowered;
         }
         std::vector<std::uint8_t> marked(levels_.size());
         for (std::size_t s = 0; s < tests_.size(); ++s)
             if (trouble[s].too_many) tests_[s].mark(tests_[s].touched(), how.rings, marked);
-        note(marked, levels_, hurried_);
+        note(marked, levels_, coarse_);
         if (!lower(marked, levels_, last_level))
             throw Error(ErrorKind::bug, "E-BUG", "crumple: faces that do not move are too many to look at");
         return marked;
@@ -180,7 +180,7 @@ class Separation {
     FacesOfSheets& found_;
     AvoidResult& result_;
     Patience patience_;
-    std::vector<std::uint8_t> hurried_;
+    std::vector<std::uint8_t> coarse_;
     double stretch_;
 };
 
@@ -190,10 +190,10 @@ void avoid(std::span<const CrumpleSheet> sheets, std::vector<TestSheet>& tests,
     FacesOfSheets found(tests.size());
     slacken(tests, levels, max_stretch, found);
     const double stretch = first_stretch(sheets, tests, levels, max_pairs);
-    std::vector<std::uint8_t> hurried(levels.size());
-    if (stretch < max_stretch) hurried = slacken(tests, levels, stretch, found);
+    std::vector<std::uint8_t> coarse(levels.size());
+    if (stretch < max_stretch) coarse = slacken(tests, levels, stretch, found);
     for (TestSheet& test : tests) test.place(levels, {});
-    Separation(tests, levels, found, result, std::move(hurried), stretch).run();
+    Separation(tests, levels, found, result, std::move(coarse), stretch).run();
     for (const auto& faces : found)
         result.found += static_cast<std::size_t>(std::count(faces.begin(), faces.end(), 1));
 }

@@ -112,7 +112,7 @@ struct AvoidResult {
     std::size_t first_sheet = 0;
     int rounds = 0; ///< of lowering
     /// Places that were lowered in large steps, since the work was too much for small ones.
-    std::size_t hurried = 0;
+    std::size_t coarse = 0;
     std::size_t box_pairs = 0; ///< pairs of triangles with boxes that meet, looked at in all rounds
     /// Vertices by the share of their move: 1, 1/2 ... 1/256, 0.
     std::array<std::size_t, 10> shares{};
@@ -124,11 +124,11 @@ struct AvoidResult {
 /// takes the next lower share, all at once, until there are none. Before the first round, places take lower
 /// shares until no two corners of a face are drawn apart by more than eight times its longest edge: it would
 /// meet a great many others. Where a sample of the faces tells that more than an eighth of them would be
-/// found, half as much counts as too far, and so on (hurried). After eight rounds the places around those are
+/// found, half as much counts as too far, and so on (coarse). After eight rounds the places around those are
 /// lowered too, after sixteen twice as far around in each round, so that the rounds are at most some forty.
 /// Once 32 pairs of triangles with boxes that meet were looked at for each face, or three times as many as
 /// met before the move, shares fall to an eighth at once, and after three such rounds to 0, those around too
-/// (hurried). Shares only fall and places without a move are where they were, so it ends. Pairs that met
+/// (coarse). Shares only fall and places without a move are where they were, so it ends. Pairs that met
 /// before the move are exempt. Sharing is by place: unwelded copies of a vertex are one.
 ///
 /// Positions are rounded to float32 in part space, before and after: what is decided, exactly, is what files

@@ -8,14 +8,14 @@ inline constexpr const char* about = R"(Repairs a mesh step by step and leaves w
 inline constexpr const char* details =
     R"(The steps, each on or off, are: weld, degenerate, duplicates, t_junctions, stitch, non_manifold,
 self_intersections, holes, components, inner_components, isolated. They run in this order, and again
-until nothing changes, so cleaning a second time changes nothing. Steps that need no judgement are
-on by default. All decisions are exact: positions, lines and planes are compared without a tolerance
-unless a step is set to near.
+until nothing changes, so cleaning a second time changes nothing. Steps whose result needs no
+decision by the user are on by default. All decisions are exact: positions, lines and planes are
+compared without a tolerance unless a step is set to near.
 
 Faces that no step affects keep their corners, attributes and order. When faces without area are
 removed, the vertices on their line are inserted into the surrounding edges, so a closed surface
 stays closed. Duplicate faces of opposite orientation are removed when they form an inner wall or a
-fin on other faces; one of each pair is kept when they form a sheet of their own (both are kept
+fin on other faces; one of each pair is kept when they form a separate sheet (both are kept
 where they belong to a closed surface, which stays closed). Where more than two faces meet at an
 edge, the faces that enclose the inside between them stay connected.
 
@@ -29,20 +29,20 @@ makes faces intersect again, the union is repeated up to eight times, and new ve
 closer to others than 1e-15 of the size of the mesh (eight times as far in each repetition) are
 merged with them. If intersections remain after that, the mesh is left as it was. local replaces
 intersecting faces region by region, with up to four rings of faces around them if needed. A region
-is left as it was where the replacement would open the surface, change its topology, take half of a
-component or leave an intersection.
-The work is bounded: where the boxes of more than 32 pairs of triangles for each face meet, and of
-33 million more in all parts together, intersections are not looked for. After a million
-intersecting pairs of faces were processed without success, parts with more such pairs than faces
-are left as they are.
+is left as it was where the replacement would open the surface, change its topology, remove half of
+a component or leave an intersection.
+
+The work is bounded: if more than 32 pairs of bounding boxes per face plus 33 million in total
+overlap, intersections are not searched for. After a million intersecting pairs of faces have been
+processed without success, parts with more such pairs than faces are left as they are.
 
 Holes that touch at a vertex are filled separately. A hole is left open when its patch would not
 fit, when the patch would intersect other faces, or when the neighbouring faces are oriented
 inconsistently (use orient first). With self_intersections: union or all, a patch may intersect
-other faces, because the next union resolves that. Whatever is left undone is named in the report
-(W-CLEAN).
+other faces, because the next union resolves that. The report lists the repairs that could not be
+done (W-CLEAN).
 
-Attributes of what stays are kept. At new vertices they are interpolated, and patches copy the face
-attributes from across their boundary edges. The report counts what each step did.)";
+The attributes of remaining elements are kept. At new vertices they are interpolated, and patches
+copy the face attributes of the faces at their boundary edges. The report counts what each step did.)";
 
 } // namespace facetmill::help::clean

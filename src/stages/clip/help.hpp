@@ -9,15 +9,14 @@ inline constexpr const char* details =
     R"(Every vertex is classified once, by the exact sign of its distance, so neighbouring faces always
 agree, and a vertex on the plane is neither in front of it nor behind it. Each cut edge gets one new
 vertex, shared by all faces at that edge. Triangles, quads and larger faces, convex or concave, are
-cut directly.
-A closed part that is capped stays closed in every case: after several planes in a
+cut directly. A closed part that is capped stays closed in every case: after several planes in a
 row, when it is non-manifold, and when it intersects itself (where it covers a region twice, so does
 its cap). Points that a clip placed on a plane count as lying on it when the same plane is used
 again, in this stage or a later one, until a stage moves them.
 
 Planes are given in world space; parts with a node transform are cut where they stand. A face of a
 closed part that lies in the plane is kept only when it faces away from what is kept. A contour that
-is not closed cannot be capped: it is reported (W-CAP-OPEN), and the rest is capped. A plane that
+is not closed cannot be capped: it is reported (W-CAP-OPEN), and the others are capped. A plane that
 misses a part is reported (W-CLIP-ALL, W-CLIP-NOTHING); a part of which nothing is kept stays as an
 empty part.
 
@@ -29,7 +28,7 @@ New vertices and wedges are interpolated, once per edge and pair of wedges, so s
 new faces copy the attributes of the face they come from. Caps have a primitive and a material of
 their own, the normal of the plane, planar texture coordinates when the part has TEXCOORD_0, and
 zeros in other face attributes. The face attributes cut_id (the number of the plane; 0 elsewhere)
-and group tell caps apart.
+and group identify the caps.
 
 Source: P. Bourke, 'Clipping Polygonal Facets with an Arbitrary Plane' (1997).)";
 

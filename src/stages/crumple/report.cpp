@@ -41,8 +41,8 @@ void declare_avoided(DeclareFields<AvoidResult>& d) {
         "Faces that the displacements would make intersect others, lose their area, or draw out by more than "
         "eight times their longest edge, or less where most would intersect others.");
     d.field("rounds", &AvoidResult::rounds, "The number of rounds in which shares were lowered.");
-    d.field("hurried", &AvoidResult::hurried,
-            "Positions whose shares were lowered in large steps, to bound the work (W-CRUMPLE-HURRIED).");
+    d.field("coarse", &AvoidResult::coarse,
+            "Positions whose shares were lowered in large steps, to bound the work (W-CRUMPLE-COARSE).");
     const auto self = [](const AvoidResult& r) -> const AvoidResult& { return r; };
     d.object("vertices_by_share", self, "The number of vertices for each share of the displacement.",
              declare_shares);
@@ -84,13 +84,13 @@ void refuse_intersections(const AvoidResult& r, std::span<const CrumpledPart> pa
         "use self_intersections: avoid, or a smaller amplitude");
 }
 
-void warn_of_hurry(const AvoidResult& r, Context& context) {
-    if (r.hurried == 0) return;
+void warn_of_coarse_steps(const AvoidResult& r, Context& context) {
+    if (r.coarse == 0) return;
     context.warn(
-        "W-CRUMPLE-HURRIED",
+        "W-CRUMPLE-COARSE",
         fmt::format("crumple: so many faces would intersect that the shares of {} positions were lowered in "
-                    "large steps, to end in time: they move less than they could",
-                    r.hurried),
+                    "large steps to bound the work: they move less than necessary",
+                    r.coarse),
         "use a smaller amplitude, or a smaller grid, whose faces are larger");
 }
 

@@ -7,8 +7,8 @@ inline constexpr const char* about =
     R"(A contract: the given properties must hold at this point, or the run fails.)";
 
 inline constexpr const char* details =
-    R"(It takes the same assertions as the common key `ensure`, as a stage of its own, for the scene at
-this point of the pipeline. Use validate to get evidence, to check each part, or to warn only. The
-mesh passes on unchanged.)";
+    R"(It takes the same assertions as the common key `ensure`, but is a separate stage: it checks the
+scene at this point of the pipeline. Use validate to get evidence, to check each part, or to warn
+only. The mesh passes on unchanged.)";
 
 } // namespace facetmill::help::ensure

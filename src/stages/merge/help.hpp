@@ -6,11 +6,11 @@ namespace facetmill::help::merge {
 inline constexpr const char* about = R"(Joins parts into one.)";
 
 inline constexpr const char* details =
-    R"(The parts (all, or those that `only` names) become one mesh in world space, in the place of the
-first. Materials stay with their faces. Where an attribute exists only in some parts, the others get
-white (colours), the normal of the face, or zero; in glTF they are written without it. The face
-attribute `group` numbers the original parts, so `separate: group` separates them again. Nodes,
-skins and instances of the parts are dropped. Closedness is a property of a part: solids that only
-touch form one closed part, and with weld they share vertices.)";
+    R"(The parts (all parts, or those selected by the key `only`) become one mesh in world space, in the
+place of the first. Materials stay with their faces. Where an attribute exists only in some parts,
+the others get white (colours), the normal of the face, or zero; in glTF they are written without
+it. The face attribute `group` numbers the original parts, so `separate: group` separates them
+again. Nodes, skins and instances of the parts are dropped. Closedness is a property of a part:
+solids that only touch form one closed part, and with weld they share vertices.)";
 
 } // namespace facetmill::help::merge

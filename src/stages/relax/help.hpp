@@ -11,16 +11,16 @@ inline constexpr const char* details =
 neighbours Pj, for all vertices simultaneously; so neither their order nor the number of threads
 matters. A closed surface shrinks a little with every iteration of laplacian, cotangent and
 implicit; taubin and hc nearly keep its volume. The report gives area and volume before and after.
-With until and no method, hc is used (alpha 0.1), which comes to rest near the original surface; a
-method that shrinks is stopped before a third of the area is gone (W-RELAX-STOPPED), and not when only a point is left.
+With until and no method, hc is used (alpha 0.1), which converges near the original surface; a
+method that shrinks the surface is stopped before a third of the area is lost (W-RELAX-STOPPED).
 Open, non-manifold and degenerate input is accepted as it is: faces without area have no weight, and
 a vertex without neighbours stays in place.
 
 Faces, wedges and topology are kept, and with them the Euler number and closedness. Normals are
 recomputed, and tangents are made perpendicular to them. Morph targets of positions are relaxed
 together with the surface, each as the surface that it represents; all other attributes are kept.
-The report gives the number of vertices that moved and of those that were held, and the largest
-move, in world units.
+The report gives the number of vertices that moved and of those that were held in place, and the
+largest displacement, in world units.
 
 Sources: P. Bourke, 'Surface Relaxation and Smoothing' (1997); G. Taubin, 'A signal processing
 approach to fair surface design' (1995); U. Pinkall and K. Polthier, 'Computing discrete minimal

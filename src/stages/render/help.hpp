@@ -7,23 +7,23 @@ inline constexpr const char* about =
     R"(Renders a PNG image, with textures, by attribute, from several sides.)";
 
 inline constexpr const char* details =
-    R"(The selected parts (all, or those that `only` names) are drawn as large as possible, with four
-samples per pixel. Materials are drawn as glTF has them: base colour, normal, emissive and occlusion
-textures (PNG, JPEG, WebP) with wrap, filter and KHR_texture_transform, alpha by mask or blending,
-vertex colours, KHR_materials_unlit; colours are mixed in linear light. Metalness and roughness are
-not drawn, since nothing surrounds the scene. A texture that cannot be drawn (missing, broken, more
-than 2^26 pixels) leaves the plain colour, with a warning (W-TEXTURE).
+    R"(The selected parts (all parts, or those selected by the key `only`) are drawn as large as possible,
+with four samples per pixel. Materials are drawn as glTF has them: base colour, normal, emissive and
+occlusion textures (PNG, JPEG, WebP) with wrap, filter and KHR_texture_transform, alpha masks and
+blending, vertex colours, KHR_materials_unlit; colours are mixed in linear light. Metalness and
+roughness are ignored, because there is no environment map. Where a texture cannot be drawn
+(missing, broken, more than 2^26 pixels), the plain colour is drawn, with a warning (W-TEXTURE).
 
-The front is towards +z where y points up (glTF), towards -y where z does. If the file does not say
-which way is up, the scene stands on its flat base, or the longer one of y and z is up, and an open
-surface is seen from the side that its faces look to.
+The front is towards +z if y points up (glTF), and towards -y if z does. If the file does not say
+which axis is up, the scene stands on its flat base, if it has one; otherwise the longer of the y
+and z extents is taken as up. An open surface is then seen from the side that its faces face.
 
-The light comes from the upper left of the viewer. `shading: one-sided` takes the cosine of the angle
-between the normal of a face and the light, so faces with reversed vertex order are dark. `absolute`
-takes its absolute value, which hides that. `beside` shows both; where they differ, a face is
-reversed (use orient) or the surface needs two-sided. By default, inner sides are orange, so holes
-and reversed faces are easy to see. The scene passes on unchanged. The image is the same, byte for
-byte, on any number of threads and any processor.
+The light comes from the upper left of the viewer. `shading: one-sided` takes the cosine of the
+angle between the normal of a face and the light, so faces with reversed vertex order are dark.
+`absolute` uses its absolute value, which hides reversed faces. `beside` shows both images; where
+they differ, a face is reversed (use orient) or the surface needs the stage two-sided. By default,
+inner sides are orange, so holes and reversed faces are easy to see. The scene passes on unchanged.
+The image is the same, byte for byte, on any number of threads and any processor.
 
 Sources: P. Bourke, 'Facets, planes, normals, rendering' (1992); M. McGuire, M. Mara and D. Luebke,
 'Scalable Ambient Obscurance' (2012), for occlusion; S. van der Walt and N. Smith, 'viridis' (2015).)";

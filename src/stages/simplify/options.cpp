@@ -102,10 +102,11 @@ void declare_levels(Declare<LevelOptions>& d) {
 void declare_max_quadric_error(Declare<SimplifyOptions>& d) {
     Option& o =
         d.option("max_quadric_error", &SimplifyOptions::max_quadric_error,
-                 "Where ratio, faces, vertices or lods ask for so few triangles that the shape would be "
-                 "lost, the work stops: no collapse has a larger root mean square distance of the new "
-                 "vertex to the planes that it stands for. of part: the diagonal of the part's box in "
-                 "its own axes. off: no limit (with max_error, too). For quadric and quadric-endpoints.")
+                 "Keeps the shape when ratio, faces, vertices or lods ask for too few triangles: no collapse "
+                 "has a "
+                 "larger root mean square distance of the new vertex to the planes that it represents. "
+                 "of part: of the diagonal of the part's bounding box in its local space. off: no limit "
+                 "(also with max_error). For quadric and quadric-endpoints.")
             .above(0)
             .option();
     o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {

@@ -81,12 +81,12 @@ void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Con
                                 ? first + " stopped at"
                                 : fmt::format("{} parts, the first {}, stopped at", limited.size(), first);
     context.warn(
-        "W-SIMPLIFY-CEILING",
+        "W-SIMPLIFY-LIMIT",
         fmt::format("{} {} of {} triangles, above the target: any fewer would move the surface by more "
                     "than max_quadric_error ({})",
                     who, grouped(after), grouped(before), limit.text),
-        "max_quadric_error: off goes on to the target, whatever becomes of the shape; a larger one, "
-        "such as 5% of part, some of the way");
+        "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: off "
+        "simplifies to the target regardless of the error");
 }
 
 /// What was measured of a part, which holds wherever it is moved to.

@@ -10,8 +10,8 @@ inline constexpr const char* details =
 edge is one vertex shared by all faces at that edge, on open, closed and non-manifold meshes, so
 there are no cracks and no T-junctions, and a closed surface stays closed. The Euler number and
 manifoldness stay as well, except where two faces share two edges: new edges across such a corner
-coincide and have more than two faces (W-SPLIT-SHARED gives the count). varignon leaves such corners
-whole, and diagonal takes the other diagonal where it can. Seams stay seams: there is one new wedge
+coincide and have more than two faces (W-SPLIT-SHARED gives the count). varignon does not cut such
+corners, and diagonal uses the other diagonal where it can. Seams stay seams: there is one new wedge
 per edge and pair of wedges.
 
 Methods that cut to the centre of a face use the mean of its corners. In a concave face they use a
@@ -36,9 +36,9 @@ result of more than 2^31 corners (E-LIMIT), or one that does not fit into memory
 refused before anything is built. A split with a target ends after the given number of passes at the
 latest; the report says what stopped it (passes, max_edge, min_angle, max_faces or narrow), and
 W-SPLIT-STOPPED and W-SPLIT-NOTHING report targets that were not reached. Because a split only
-divides angles, min_angle makes narrow triangles smaller rather than fewer; a pass that would make
-more of them is not done, and the part stays as it was before it. The report gives the longest edge and the smallest angle
-before and after, in world units and degrees.
+divides angles, min_angle makes narrow triangles smaller rather than fewer; a pass that would
+increase their number is skipped, and the split of the part ends there. The report gives the longest
+edge and the smallest angle before and after, in world units and degrees.
 
 Sources: P. Bourke, 'Splitting facets' (1991); I. Rosenberg and F. Stenger, 'A lower bound on the
 angles of triangles constructed by bisecting the longest side' (1975); M.-C. Rivara, 'Algorithms for

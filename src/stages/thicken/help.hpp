@@ -10,18 +10,18 @@ inline constexpr const char* details =
     R"(A reversed copy of the surface is placed behind it, at the given thickness, and walls close the
 boundary edges. A closed surface becomes a hollow solid; a closed component into which no ball with
 the thickness as radius fits is filled instead. Every vertex moves so that the planes of its faces
-move by the thickness, as nearly as one point allows: flat walls keep their thickness up to their
-corners. miter_limit limits the move at sharp corners. The solid is closed only if the
+move by the thickness, as closely as a single position permits: flat walls keep their thickness up
+to their corners. miter_limit limits the move at sharp corners. The solid is closed only if the
 surface is oriented (W-THICKEN-OPEN; use orient). Sheets that meet at an edge with more than two
 faces, or only at a vertex, become separate solids.
 
-The result is searched for self-intersections, unless the thickness is larger than the part, for
-faces that the move turns over (those that shrink to nothing on the way) and for walls within other
-walls (W-THICKEN), and the wall thickness is measured from the vertices of the front to the faces of
-the back; the report gives all of them. Attributes are kept on both sides, with normals reversed on the back; walls
-take the attributes of their edge and have normals of their own.
+The result is checked for self-intersections (unless the thickness is larger than the part), for
+faces that are inverted by the offset, including faces that collapse, and for walls within other
+walls (W-THICKEN). The wall thickness is measured from the vertices of the front to the faces of the
+back. The report gives all of these. Attributes are kept on both sides, with normals reversed on the
+back; walls take the attributes of their edge and have normals of their own.
 
-Source: P. Bourke, 'Facets, planes, normals, rendering' (1992), which doubles a surface and makes
-cylinders of lines.)";
+Source: P. Bourke, 'Facets, planes, normals, rendering' (1992), which doubles a surface and replaces
+lines by cylinders.)";
 
 } // namespace facetmill::help::thicken

@@ -8,8 +8,8 @@ inline constexpr const char* about =
 
 inline constexpr const char* details =
     R"(A property is given with a bound: a value (euler: 2), true or false (closed: true), or a range
-(faces: {max: 5000}, min_angle: {min: 5deg}). `for` adds the assertions that a purpose needs, unless
-they are given. Without properties and purpose, the mesh must be closed, edge-manifold and
+(faces: {max: 5000}, min_angle: {min: 5deg}). `for` adds the assertions that a purpose needs, except
+those that are given. Without properties and purpose, the mesh must be closed, edge-manifold and
 vertex-manifold, oriented, free of degenerate faces and not empty. All assertions are checked, and
 all failures are listed with evidence: the first (or worst) faces and points at fault (for measures,
 only faces beyond the bound) and how many there are. Angles are in degrees. The mesh passes on
@@ -20,11 +20,11 @@ To introduce a check on existing assets, `baseline: known.json` with update_base
 are waived (known), and new ones fail. A failure is identified by its check, its part and its
 locations: edges, faces, pairs of faces and vertices by the exact coordinates of their vertices in
 the part's local space, whatever their numbers and order, and components by their lowest vertex (x
-first, then y, z). So a fault that replaces a fixed one fails, and so do faults on faces that moved.
-A failure without locations (counts, except the names of a limit) is waived while its value is no
-farther off. The run reports known failures that are gone. A baseline lists up to 50000 locations
-per check. Beyond that it stores a sample and one combined key, by which it still notices when as
-many locations remain but some of them are different.
+first, then y, z). So a new fault in place of a fixed one fails, and so do faults on faces that
+moved. A failure without locations (counts, except the names of a limit) is waived as long as the
+value has not moved farther from the bound. The run reports known failures that no longer occur. A
+baseline lists up to 50000 locations per check. Beyond that it stores a sample and one combined key,
+by which it still notices when as many locations remain but some of them are different.
 
 `self_intersections` and `touching` are separate counts. Faces intersect when they meet inside one
 of them or pass through each other at their edges; where they meet only at edges and corners, they

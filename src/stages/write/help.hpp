@@ -7,11 +7,11 @@ inline constexpr const char* about =
     R"(Writes the scene to a mesh file; the scene itself passes on unchanged.)";
 
 inline constexpr const char* details =
-    R"(Files are first written beside their targets and all replace them together when the run has
-succeeded; until then, existing files are untouched. Each file is decoded again and compared with
-the scene: the number of faces, and how far positions moved (float32, Draco, quantize). Units and the up axis
-are converted to the convention of the format; formats without nodes get all parts in world space.
-What the format cannot hold is listed under attribute_changes in the report. If the name ends in
-.gz, the file is compressed.)";
+    R"(Files are first written under temporary names beside their targets and are all renamed together when
+the run has succeeded; until then, existing files are unchanged. Each file is decoded again and
+compared with the scene: the number of faces, and how far positions moved (float32, Draco,
+quantize). Units and the up axis are converted to the convention of the format; formats without
+nodes get all parts in world space. Attributes that the format cannot hold are listed under
+attribute_changes in the report. If the name ends in .gz, the file is compressed.)";
 
 } // namespace facetmill::help::write

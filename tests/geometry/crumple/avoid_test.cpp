@@ -199,7 +199,7 @@ TEST_CASE("on a terrain with crossings the work is bounded, and no faces come to
         AvoidResult r;
         const Mesh after = apart(terrain, by(amplitude, 3), &r);
         CHECK(r.exempt >= before.size()); // in float32
-        CHECK(r.hurried > 0);
+        CHECK(r.coarse > 0);
         CHECK(r.box_pairs < 500 * terrain.face_count());
         CHECK(r.shares[0] < terrain.vertex_count());
         const auto old = pairs(apart(terrain, by(0))); // rounded to float32
@@ -208,7 +208,7 @@ TEST_CASE("on a terrain with crossings the work is bounded, and no faces come to
     }
     AvoidResult calm;
     apart(sponge(), by(0.01), &calm);
-    CHECK(calm.hurried == 0);
+    CHECK(calm.coarse == 0);
 }
 
 TEST_CASE("moves of many edges end after little work, whatever the number of faces", "[geometry]") {
@@ -227,14 +227,14 @@ TEST_CASE("where most faces would meet, a sample tells before all are looked at"
     const Mesh sheet = shapes::grid(200, 200);
     AvoidResult r;
     const Mesh after = apart(sheet, by(12), &r);
-    CHECK(r.hurried > 0);
+    CHECK(r.coarse > 0);
     CHECK(r.found > sheet.face_count() / 2);
     CHECK(r.box_pairs < 16 * sheet.face_count());
     CHECK(r.shares.back() < sheet.vertex_count() / 100);
     CHECK(find_self_intersections(after).count == 0);
     AvoidResult calm;
     apart(sheet, by(0.04), &calm);
-    CHECK(calm.hurried == 0);
+    CHECK(calm.coarse == 0);
 }
 
 TEST_CASE("faces that lie close are looked at, however many they are", "[geometry]") {
