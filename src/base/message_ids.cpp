@@ -10,8 +10,7 @@ const std::vector<MessageId>& message_ids() {
     static const std::vector<MessageId> all{
         {"E-ARGUMENT",
          {Kind::usage},
-         "The command line has an argument that the command does not take, or lacks one that it "
-         "needs.",
+         "The command line has an argument that the command does not take, or lacks one that it needs.",
          "`facetmill COMMAND --help` lists the arguments."},
         {"E-ATTRIBUTE",
          {Kind::stage},
@@ -19,36 +18,36 @@ const std::vector<MessageId>& message_ids() {
          "`facetmill info` lists the attributes of a file."},
         {"E-BASELINE",
          {Kind::usage, Kind::malformed},
-         "A baseline of validate is asked for where no stage has one, or the file is no baseline.",
+         "A baseline of validate is given but no stage uses one, or the file is not a baseline.",
          "Write the baseline anew with `--update-baseline`."},
         {"E-BOX",
          {Kind::usage},
-         "A box has no extent, or lacks a corner.",
+         "A box has no extent, or a corner is missing.",
          "Give min and max, or centre and size; max is greater than min along all three axes."},
         {"E-BUFFER",
          {Kind::malformed},
-         "A glTF buffer, buffer view or accessor reaches beyond the bytes that are there.",
-         "Export the file again; it is cut short, or its .bin is of another version."},
+         "A glTF buffer, buffer view or accessor extends beyond the data that it refers to.",
+         "Export the file again; it is truncated, or its .bin belongs to another version of it."},
         {"E-BUG",
          {Kind::bug},
-         "Something happened in facetmill that never should.",
+         "An internal error occurred in facetmill.",
          "Report this bug, with the pipeline and the input."},
         {"E-BUSY",
          {Kind::output},
-         "Another batch of this pipeline is at work in the output folder.",
-         "Wait for its end, or write elsewhere with `--output-dir`."},
+         "Another batch of this pipeline is running in the same output folder.",
+         "Wait until it has ended, or write elsewhere with `--output-dir`."},
         {"E-CHANGED",
          {Kind::malformed},
-         "A file was read twice in one run, and was another the second time.",
-         "Run it again, when nothing writes to the inputs."},
+         "A file was read twice in one run and had changed the second time.",
+         "Run it again while no other program writes to the inputs."},
         {"E-CHECK",
          {Kind::check},
          "A check of validate or ensure does not hold.",
-         "The message says what was expected and found; `clean` repairs much, and `severity: warn` "
+         "The message says what was expected and found; `clean` repairs many faults, and `severity: warn` "
          "makes it a warning."},
         {"E-CHOICE",
          {Kind::usage},
-         "The value of an option is none of its choices.",
+         "The value of an option is not one of its choices.",
          "The message lists the choices."},
         {"E-COMMAND",
          {Kind::usage},
@@ -56,18 +55,17 @@ const std::vector<MessageId>& message_ids() {
          "`facetmill --help` lists the commands."},
         {"E-CONFLICT",
          {Kind::usage},
-         "Options do not go together: one excludes the other, has no effect without it, or cannot "
-         "reach what the other asks for.",
-         "Leave out one of them; the message says which belong together."},
+         "Options conflict: one excludes the other, has no effect without it, or cannot achieve what "
+         "the other requires.",
+         "Remove one of them; the message says which can be used together."},
         {"E-CROP-CAP",
          {Kind::stage},
          "The cut along the outline cannot be closed with walls.",
          "Crop without cap, or move the outline a little."},
         {"E-CSV",
          {Kind::malformed},
-         "A table is malformed: a cell is no finite number, or a row has too few or too many "
-         "columns.",
-         "Mend the row that the message names."},
+         "A table is malformed: a cell is not a finite number, or a row has too few or too many columns.",
+         "Correct the row given in the message."},
         {"E-DEPFILE",
          {Kind::output},
          "A path holds characters that the syntax of a depfile cannot express.",
@@ -75,11 +73,11 @@ const std::vector<MessageId>& message_ids() {
         {"E-DIRECTION",
          {Kind::usage},
          "A direction has no length.",
-         "Give three numbers of which one is not 0."},
+         "Give three numbers that are not all 0."},
         {"E-DIRECTORY",
          {Kind::missing, Kind::output},
-         "A directory stands where a file is expected, or cannot be made.",
-         "Give the name of a file in it, or write elsewhere with `--output-dir`."},
+         "A path is a directory where a file is expected, or a directory cannot be created.",
+         "Give the path of a file in it, or write elsewhere with `--output-dir`."},
         {"E-DRACO",
          {Kind::malformed, Kind::stage, Kind::bug},
          "Draco data cannot be decoded, or a mesh cannot be encoded.",
@@ -96,8 +94,7 @@ const std::vector<MessageId>& message_ids() {
         {"E-DUPLICATE-OUTPUT",
          {Kind::usage, Kind::output},
          "Two stages, reports, pipelines or assets of a batch write the same file (names that differ only in "
-         "case count as the "
-         "same).",
+         "case count as equal).",
          "Give each file its own name; in a foreach, use the index of the variable: `${lod.index}`."},
         {"E-DXF",
          {Kind::malformed},
@@ -109,18 +106,17 @@ const std::vector<MessageId>& message_ids() {
          "Check what the previous stages kept; `when: {faces: {min: 1}}` skips a write."},
         {"E-EXISTS",
          {Kind::usage},
-         "A file that would be made anew is there already.",
-         "Name another one, or move the file away."},
+         "A file that would be created already exists.",
+         "Choose another name, or move the file away."},
         {"E-EXPANSION",
          {Kind::usage},
          "With its aliases expanded, a pipeline has too many values, or it is nested too deeply.",
          "Use fewer aliases, or a foreach."},
         {"E-EXPORT",
          {Kind::usage},
-         "A run writes no file that is known before it, or has one whose name the engine cannot work with, "
-         "so that a "
-         "workflow cannot hold it.",
-         "Give the pipeline a report, as `report: \"${input.stem}.json\"`, rename the file, or use "
+         "A run cannot be exported to a workflow: none of its outputs is known in advance, or the engine "
+         "cannot represent the name of one of its files.",
+         "Add a report to the pipeline, as in `report: \"${input.stem}.json\"`, rename the file, or use "
          "`facetmill batch`."},
         {"E-EXPRESSION",
          {Kind::usage},
@@ -133,7 +129,7 @@ const std::vector<MessageId>& message_ids() {
         {"E-FACE",
          {Kind::usage},
          "There is no face with this number.",
-         "Faces are numbered from 0; `facetmill info` gives their number."},
+         "Faces are numbered from 0; `facetmill info` prints how many there are."},
         {"E-FILE",
          {Kind::missing},
          "An input does not exist.",
@@ -145,7 +141,7 @@ const std::vector<MessageId>& message_ids() {
          "A footprint is a POLYGON or MULTIPOLYGON, or closed polylines of a DXF."},
         {"E-FOREACH",
          {Kind::usage},
-         "A foreach has no list of values, or too many of them.",
+         "A foreach has no list of values, or its lists have too many combinations.",
          "Give lists, as in `foreach: {lod: [50%, 25%]}`, with fewer values."},
         {"E-FORMAT",
          {Kind::usage},
@@ -181,8 +177,8 @@ const std::vector<MessageId>& message_ids() {
          "Choose a larger spacing."},
         {"E-INCLUDE",
          {Kind::usage},
-         "A file includes itself, by way of others or directly.",
-         "Take the include out of one of the files of the chain that is named."},
+         "A file includes itself, directly or through other files.",
+         "Remove the include from one of the files that the message names."},
         {"E-INDEX",
          {Kind::malformed},
          "An index in a glTF refers to an element that does not exist.",
@@ -202,11 +198,11 @@ const std::vector<MessageId>& message_ids() {
          "The message suggests the nearest name; `facetmill stages NAME` lists all."},
         {"E-LIMIT",
          {Kind::limit},
-         "The work or its result has more vertices, corners, faces or lines than are supported.",
+         "A scene, or the result of a stage, has more vertices, corners, faces or lines than are supported.",
          "Simplify first, use fewer parts, or request less."},
         {"E-LINES",
          {Kind::stage},
-         "Lines of a file cannot get the thickness that was asked for.",
+         "The lines of a file cannot be given the requested thickness.",
          "Give `lines` in scene units."},
         {"E-MANIFOLD",
          {Kind::stage},
@@ -223,8 +219,7 @@ const std::vector<MessageId>& message_ids() {
         {"E-MESHOPT",
          {Kind::malformed},
          "Data under EXT_meshopt_compression or KHR_meshopt_compression cannot be decoded: it is damaged, or "
-         "newer "
-         "than the library.",
+         "uses a newer version than the library supports.",
          "Export the input again without it, or with streams of version 0."},
         {"E-MISSING",
          {Kind::usage},
@@ -265,7 +260,7 @@ const std::vector<MessageId>& message_ids() {
          "Give the output another name, or write elsewhere with `--output-dir`."},
         {"E-PARAM",
          {Kind::usage},
-         "A param is not declared, has no value, or has an invalid declaration.",
+         "A param is not declared, has no value, or its declaration is invalid.",
          "Set it with `-D name=value`; `facetmill check` shows the declaration."},
         {"E-PART",
          {Kind::usage},
@@ -345,22 +340,22 @@ const std::vector<MessageId>& message_ids() {
          "Free some space, or write elsewhere with `--output-dir`."},
         {"E-STAGE",
          {Kind::usage},
-         "There is no stage with this name, or an item has none or two.",
-         "`facetmill stages` lists them; each item of a pipeline has one."},
+         "There is no stage with this name, or an item of the pipeline has no stage or several.",
+         "`facetmill stages` lists them; each item of a pipeline has exactly one."},
         {"E-STL", {Kind::malformed}, "An STL file is malformed or truncated.", "Export the file again."},
         {"E-STRICT",
          {Kind::usage, Kind::check},
-         "A warning fails because of `--strict`, or `--strict` is given an unknown id.",
+         "A warning counts as an error because of `--strict`, or the id given to `--strict` is unknown.",
          "Check the warning; `facetmill explain` lists the ids."},
         {"E-TABLE",
          {Kind::malformed},
          "A table of params for a batch cannot be read: a row has too few or too many cells, a quote is not "
-         "closed, or a column has no name or that of another.",
-         "Mend the place that the message names. CSV has a heading that names params; YAML is a list of "
+         "closed, or a column has no name or the same name as another.",
+         "Correct the row given in the message. CSV begins with a line of param names; YAML is a list of "
          "maps."},
         {"E-THICKEN",
          {Kind::stage},
-         "A part cannot get a thickness: its node flattens it, or the thickness is 0.",
+         "A part cannot be given a thickness: its node flattens it, or the thickness is 0.",
          "`transform: {bake: true}` makes it a flat mesh; give a length in scene units."},
         {"E-TILE",
          {Kind::limit, Kind::stage, Kind::usage},
@@ -418,7 +413,7 @@ const std::vector<MessageId>& message_ids() {
          "Use a smaller amplitude, or `self_intersections: avoid`."},
         {"W-ATTRIBUTE",
          {},
-         "An attribute has a type that meshes do not support, and is not read.",
+         "An attribute has an unsupported type and is not read.",
          "Export it as float, or ignore this."},
         {"W-BASELINE",
          {},
@@ -426,10 +421,9 @@ const std::vector<MessageId>& message_ids() {
          "The baseline may belong to another mesh; write it again with `--update-baseline`."},
         {"W-CACHE",
          {},
-         "The cache cannot be written, or an entry of it is not as it was written. The run goes on, with the "
-         "same "
-         "result; `--strict` does not count it.",
-         "Free some space there, name another folder by FACETMILL_CACHE, or use `--no-cache`."},
+         "The cache cannot be written, or one of its entries is damaged. The run goes on with the same "
+         "result; `--strict` ignores this warning.",
+         "Free some space on its disk, choose another folder with FACETMILL_CACHE, or use `--no-cache`."},
         {"W-CAP-OPEN",
          {},
          "clip cannot cap an open contour; it is reported, and the others are capped.",
@@ -440,7 +434,7 @@ const std::vector<MessageId>& message_ids() {
          "Examine the check; `severity: error` makes it fail."},
         {"W-CLEAN",
          {},
-         "clean could not do some repairs and left the mesh as it was there.",
+         "clean could not do some repairs, and left the mesh unchanged there.",
          "The message gives the positions; other options of clean may help."},
         {"W-CLIP-ALL",
          {},
@@ -454,19 +448,17 @@ const std::vector<MessageId>& message_ids() {
         {"W-CROP-NOTHING", {}, "crop keeps nothing.", "Check the outline and its axis, or keep the outside."},
         {"W-CRUMPLE-COARSE",
          {},
-         "To end in time, crumple with `self_intersections: avoid` lowered displacements in large steps, so "
-         "that "
-         "vertices move less than they could. No faces intersect that did not before.",
+         "To bound the work, crumple with `self_intersections: avoid` lowered displacements in large steps, "
+         "so vertices move less than necessary. No faces intersect that did not intersect before.",
          "Use a smaller amplitude or a smaller grid if the surface is too smooth."},
         {"W-CRUMPLE-PARTS",
          {},
-         "crumple keeps apart only faces of the same part, and parts are near each other.",
+         "crumple avoids intersections only between faces of the same part, and parts are near each other.",
          "`merge` them first."},
         {"W-CRUMPLE-ROUNDED",
          {},
-         "crumple rounds positions to float32 to keep faces apart, and far from the origin that moves "
-         "vertices "
-         "noticeably.",
+         "crumple rounds positions to float32 to avoid intersections, which moves vertices noticeably far "
+         "from the origin.",
          "Move the part to its origin first, or use `self_intersections: allow`."},
         {"W-EXTENSION",
          {},
@@ -478,8 +470,8 @@ const std::vector<MessageId>& message_ids() {
          "Nothing, unless this leaves holes in the surface."},
         {"W-FANS",
          {},
-         "Triangles stand for faces so that they may overlap: fans of faces without area or that intersect "
-         "themselves in no plane, and faces with neighbours that wind around points several times.",
+         "Faces were replaced by triangles that may overlap: faces without area, non-planar faces that "
+         "intersect themselves, and faces with neighbours that wind around some points several times.",
          "Check the faces given in the message."},
         {"W-FORMAT", {}, "The content of a file does not match its suffix.", "Rename it."},
         {"W-GROUPS",
@@ -488,13 +480,12 @@ const std::vector<MessageId>& message_ids() {
          "Use materials or objects if they are needed."},
         {"W-IMAGE",
          {},
-         "An image or texture that a file refers to is missing, outside of the file's directory, or of a "
-         "kind "
-         "that is not kept.",
+         "An image or texture that a file refers to is missing, outside the file's directory, or of an "
+         "unsupported kind.",
          "Put the image beside the file, as PNG or JPEG."},
         {"W-INCOMPLETE",
          {},
-         "Indices are left over after the last triangle of a glTF primitive.",
+         "A glTF primitive has extra indices after its last triangle.",
          "Nothing; the exporter has a bug."},
         {"W-INDEX",
          {},
@@ -506,20 +497,21 @@ const std::vector<MessageId>& message_ids() {
          "Use `orient` to reverse them."},
         {"W-INSTANCES",
          {},
-         "Instances of a glTF mesh differ now, so they get separate meshes.",
+         "Instances of a glTF mesh have become different, so they are written as separate meshes.",
          "Nothing, if the larger file is fine."},
         {"W-INSTANCING",
          {},
-         "A glTF node places many instances of its mesh (EXT_mesh_gpu_instancing), and stages see one of "
-         "them.",
-         "The instances stay in glTF that is written of the scene; make them nodes before to work on all."},
+         "A glTF node places many instances of its mesh (EXT_mesh_gpu_instancing), and stages process only "
+         "one of them.",
+         "The instances remain in glTF written from the scene; convert them to nodes first to process all of "
+         "them."},
         {"W-LINES",
          {},
-         "A file has no lines to make tubes of, or the tubes go through themselves at sharp corners.",
+         "A file has no lines from which to make tubes, or the tubes intersect themselves at sharp corners.",
          "Give a smaller thickness, or `clean: {self_intersections: union}`."},
         {"W-LODS",
          {},
-         "write should link levels of detail, but the scene has none.",
+         "write was asked to link levels of detail, but the scene has none.",
          "`simplify: {lods: [50%, 10%]}` creates them."},
         {"W-MANIFOLD",
          {},
@@ -532,7 +524,7 @@ const std::vector<MessageId>& message_ids() {
          "Write a separate file for each if animations or cameras are needed."},
         {"W-MESHOPT",
          {},
-         "The input is compressed by EXT_meshopt_compression or KHR_meshopt_compression, and the output is "
+         "The input is compressed with EXT_meshopt_compression or KHR_meshopt_compression, but the output is "
          "not.",
          "`write: {meshopt: true}` or `write: {draco: true}` makes the file smaller."},
         {"W-MORPH",
@@ -542,15 +534,15 @@ const std::vector<MessageId>& message_ids() {
         {"W-MTL",
          {},
          "A material library of an OBJ file is missing, in another directory, or contains statements that "
-         "glTF has no place for.",
-         "Put the library beside the OBJ file; the message names what is not kept."},
+         "glTF cannot represent.",
+         "Put the library beside the OBJ file; the message names the statements that are not kept."},
         {"W-NAN",
          {},
          "Values of an attribute are not finite numbers and are set to 0.",
          "Export the file again if the attribute is needed."},
         {"W-NO-ATTRIBUTE",
          {},
-         "render should colour by an attribute that no part has.",
+         "render was asked to colour by an attribute that no part has.",
          "`facetmill info` lists the attributes."},
         {"W-NODES",
          {},
@@ -558,7 +550,7 @@ const std::vector<MessageId>& message_ids() {
          "Export the file again."},
         {"W-NOTHING",
          {},
-         "A pipeline writes no file, checks nothing and has no report, so that nothing is left of it.",
+         "A pipeline writes no file, checks nothing and has no report, so running it has no effect.",
          "End it with write or validate, or give `--report`."},
         {"W-ONLY",
          {},
@@ -582,32 +574,33 @@ const std::vector<MessageId>& message_ids() {
          "Close it first with `clean`."},
         {"W-PRUNE",
          {},
-         "A batch with --prune left what it might have removed: assets failed or were not run, so that what "
-         "they would write is not known, or sources are out of reach.",
-         "Repair or leave out what fails, mount the disk that is missing, and run the batch again."},
+         "A batch with --prune kept outputs that it might have removed: assets failed or were not run, so "
+         "the "
+         "files that they would write are not known, or the inputs cannot be reached.",
+         "Repair or leave out the assets that fail, mount the disk that is missing, and run the batch "
+         "again."},
         {"W-RELAX-STOPPED",
          {},
          "relax did not converge: `until` was not reached within its iterations, or before a third of the "
-         "surface's area was gone.",
-         "Give more iterations, or a larger `until`; `method: hc` or `taubin` where the surface shrinks."},
+         "surface's area was lost.",
+         "Give more iterations or a larger `until`, or use `method: hc` or `taubin` if the surface shrinks."},
         {"W-ROUNDED",
          {},
          "A written file is less sound than the scene when it is read back, or its points have moved by more "
-         "than "
-         "a millionth of the diagonal, because of rounding or a limit of the format.",
-         "Use a format with more digits (`precision: full`), or more Draco bits; move what is far from the "
-         "origin near it (`transform: {centre: true}`)."},
+         "than a millionth of the diagonal, because of rounding or a limit of the format.",
+         "Use a format with more digits (`precision: full`), or more Draco bits; move distant parts to the "
+         "origin (`transform: {centre: true}`)."},
         {"W-SECTION-CROSSES",
          {},
-         "Contours of a section intersect themselves. What they wind around, either way, counts as inside.",
+         "Contours of a section intersect themselves. Every region that they wind around, in either "
+         "direction, counts as inside.",
          "Use `clean: {self_intersections: all}` first."},
         {"W-SIMPLIFY-LIMIT",
          {},
-         "simplify stopped above its target, because any fewer triangles would move the surface by more than "
+         "simplify stopped above its target, because fewer triangles would move the surface by more than "
          "`max_quadric_error`, which is 1 % of each part's diagonal unless it is given.",
-         "Ask for more triangles. `max_quadric_error: off` goes on to the target, whatever becomes of the "
-         "shape; a "
-         "larger one, such as `5% of part`, some of the way."},
+         "Ask for more triangles, or allow fewer with a larger `max_quadric_error`, such as `5% of part`. "
+         "`max_quadric_error: off` simplifies to the target regardless of the error."},
         {"W-SIMPLIFY-NOTHING",
          {},
          "simplify has nothing to do, because the target is not below the size of the mesh.",
@@ -622,20 +615,20 @@ const std::vector<MessageId>& message_ids() {
          "Use a higher target, or exclude the part with `only`."},
         {"W-SIZE",
          {},
-         "A part is so large or so small that products of its coordinates may be out of the range of "
-         "numbers.",
+         "A part is so large or so small that products of its coordinates may overflow or underflow.",
          "Use `transform: {scale: ...}` to bring it near 1."},
         {"W-SKIN",
          {},
-         "A part in bind pose loses its skin: it is joined with others, or has moved away from its skeleton.",
-         "Nothing, if it need not move; else treat all parts of a skeleton alike."},
+         "A part in bind pose loses its skin, because it was joined with others or moved away from its "
+         "skeleton.",
+         "Nothing, if it need not be animated; otherwise process all parts of a skeleton in the same way."},
         {"W-SKIPPED",
          {},
-         "Something in a file that a mesh cannot represent is skipped.",
+         "Data in a file that a mesh cannot represent is skipped.",
          "Nothing, if it is not needed; the message names it."},
         {"W-SPLIT-FOLDED",
          {},
-         "split made overlapping faces of concave faces; the message gives their number.",
+         "split made overlapping faces from concave faces; the message gives their number.",
          "Use `triangulate` first, or another method."},
         {"W-SPLIT-NOTHING",
          {},
@@ -644,42 +637,40 @@ const std::vector<MessageId>& message_ids() {
          "Use another target or method, if faces should be split."},
         {"W-SPLIT-SHARED",
          {},
-         "Faces that share two edges got new edges with more than two faces.",
+         "Where faces share two edges, split made edges with more than two faces.",
          "Use `clean` first."},
         {"W-SPLIT-STOPPED",
          {},
          "split stopped before max_edge or min_angle was reached.",
-         "Allow more passes or a longer max_edge; `relax` evens out narrow faces, which a split cannot."},
+         "Allow more passes or a longer max_edge; `relax` makes narrow faces more regular, which split "
+         "cannot do."},
         {"W-STATE",
          {},
-         "A batch cannot note in the output folder what is done, so that the next one will do it again.",
-         "Free some space there; the outputs themselves are whole."},
+         "A batch cannot record in the output folder which assets are done, so the next batch will process "
+         "them again.",
+         "Free some space on the disk; the outputs themselves are complete."},
         {"W-SURFACE-LOST",
          {},
-         "A stage left none of the faces of a part, or took more of its area than the stage is expected to: "
-         "a "
-         "tenth, or half for stages that change the shape (relax, split, simplify, clean with "
-         "self_intersections: "
-         "union). Stages that cut off, scale or replace the surface as asked may take any area.",
-         "Validate what entered the stage: folded, flat or doubled surfaces cancel. "
-         "`--strict=W-SURFACE-LOST` "
-         "makes it an error."},
+         "A stage removed all faces of a part, or more of its area than is expected of the stage: a tenth, "
+         "or half for stages that change the shape (relax, split, simplify, clean with self_intersections: "
+         "union). Stages that cut off, scale or replace the surface on request may remove any area.",
+         "Validate the input of the stage: folded, flat or doubled surfaces cancel each other. "
+         "`--strict=W-SURFACE-LOST` makes it an error."},
         {"W-TEXTURE",
          {},
-         "A picture does without a texture: its image is missing, broken, of more than 2^26 pixels, of a "
-         "kind that "
-         "is not read, or beyond 512 MiB of images in all.",
-         "Use PNG, JPEG or WebP of at most 8192 x 8192 pixels. The plain colour is drawn in its place."},
+         "A picture is drawn without a texture: its image is missing, broken, larger than 2^26 pixels, of an "
+         "unsupported kind, or beyond a total of 512 MiB of images.",
+         "Use PNG, JPEG or WebP of at most 8192 x 8192 pixels. The plain colour is drawn instead of the "
+         "texture."},
         {"W-TEXTURES",
          {},
-         "Textures are not written, because the format cannot hold them or facetmill does not write them "
-         "there.",
+         "Textures are not written, because the format cannot hold them or facetmill does not write them in "
+         "it.",
          "Write glTF to keep them."},
         {"W-THICKEN",
          {},
-         "The walls of a thickened part intersect, are turned over where they have no room, or lie within "
-         "each "
-         "other, or it is smaller than its thickness.",
+         "The walls of a thickened part intersect, are inverted where there is not enough room, or lie "
+         "within each other, or the part is smaller than its thickness.",
          "Give a smaller thickness, or `clean` the result."},
         {"W-THICKEN-OPEN",
          {},
@@ -687,11 +678,11 @@ const std::vector<MessageId>& message_ids() {
          "Use `orient` first."},
         {"W-THICKEN-THIN",
          {},
-         "A thickened wall is thinner in places than requested.",
+         "A wall is thinner than requested in some places.",
          "Split the faces there first, or accept it."},
         {"W-TILE-NOTHING",
          {},
-         "A part has no faces and gives no tile.",
+         "A part has no faces, so it gives no tile.",
          "Nothing, or exclude it with `only`."},
         {"W-TRAILING",
          {},
@@ -707,8 +698,8 @@ const std::vector<MessageId>& message_ids() {
          "Give the unit of the file: `load: {unit: mm}`."},
         {"W-UNORIENTED",
          {},
-         "Neighbouring faces are inconsistent, so nesting decides which contours are outlines and which are "
-         "holes.",
+         "Neighbouring faces are oriented inconsistently, so outlines and holes are distinguished by their "
+         "nesting.",
          "Use `orient` first."},
         {"W-UP",
          {},
@@ -753,7 +744,7 @@ std::string to_string(ErrorKind kind) {
         word = "an input is malformed";
         break;
     case ErrorKind::limit:
-        word = "a limit or memory";
+        word = "a limit or lack of memory";
         break;
     case ErrorKind::bug:
         word = "a bug in facetmill";

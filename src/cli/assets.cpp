@@ -7,12 +7,14 @@ void add_asset_options(Arguments& arguments, AssetOptions& options) {
     arguments.add("--input", &options.sources.patterns,
                   "A file, or a pattern in quotes; ** is any number of folders.");
     arguments.add("--inputs-from", &options.sources.lists,
-                  "A file of names, or -: one on each line, or each ended by a NUL.");
+                  "A file of names, or -: one per line, or each ended by a NUL.");
     arguments.add("--table", &options.sources.table,
-                  "CSV with a heading, or a YAML list of maps: a row an asset, a column a param.");
+                  "CSV with a header, or a YAML list of maps: one row per asset, one column per param.");
     arguments.add("--base", &options.sources.base,
-                  "The folder that is mirrored. Default: what stands before a wildcard.");
-    arguments.add("-o,--output-dir", &options.common.output_dir, "The folder that written paths start from.")
+                  "The folder that is mirrored. Default: the part of a pattern before its wildcards.");
+    arguments
+        .add("-o,--output-dir", &options.common.output_dir,
+             "The folder that the paths of outputs are relative to.")
         .required();
     add_param_options(arguments, options.common);
 }

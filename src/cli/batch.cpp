@@ -15,18 +15,20 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* batch_examples =
-    R"(Each input is a run of its own with the param `input`; each row of a table one with the params of its columns (a row
-goes before -D). The base of lists and tables is the working directory.
-Folders are mirrored: of 'scans/**/*.ply', scans/a/b.ply is written to OUT/a. The outputs of an asset appear
-together. What is done and has not changed since (inputs, options, outputs, this program) is left alone, also
-after a crash; OUT/.facetmill-batch.NAME-*.jsonl notes it. The exit code is the gravest that occurred, in this
-order: 70, 2, 4, 7, 5, 6, 3, 1.
+    R"(An asset is one run of the pipeline. With --input, each input is an asset, given to the pipeline as the param
+`input`. With --table, each row is an asset, whose columns are params; a row overrides -D.
+
+Folders are mirrored: with 'scans/**/*.ply', the outputs of scans/a/b.ply are written to OUT/a; with lists and
+tables, folders are mirrored from the working directory. The outputs of
+an asset appear together. Completed assets are recorded in OUT/.facetmill-batch.NAME-*.jsonl; the next batch
+skips those whose inputs, options, outputs and program are unchanged, also after a crash. The exit code is the
+most severe that occurred, in this order: 70, 2, 4, 7, 5, 6, 3, 1.
 
 Examples
   facetmill batch scan-to-web --input 'scans/**/*.ply' -D keep=10% --output-dir web
   find scans -name '*.ply' -print0 | facetmill batch scan.yaml --inputs-from - -o web --keep-going
   facetmill batch scan.yaml --table params.csv -o web --report index.html --report batch.json
-  facetmill batch scan.yaml --input 'scans/**/*.ply' -o web --prune      (removes what has no source any more)
+  facetmill batch scan.yaml --input 'scans/**/*.ply' -o web --prune      (removes outputs whose input no longer exists)
 )";
 
 struct BatchOptions : AssetOptions {
@@ -38,17 +40,20 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     add_asset_options(arguments, options);
     arguments
         .add("-j,--jobs", &options.common.threads,
-             "Assets at a time, and threads for all. Default: jobserver, FACETMILL_JOBS, cores.")
+             "Assets at the same time, and threads for all of them.\nDefault: jobserver, FACETMILL_JOBS, "
+             "cores.")
         .between(1, 4096);
     arguments.add("--memory", &options.memory,
-                  "For all assets at a time: 8G, 500MB, 50% of what there is. Default: 75%.");
+                  "The memory for all assets that run at the same time:\n8G, 500MB, 50% of what is "
+                  "available. Default: 75%.");
     arguments.add("-k,--keep-going", &options.keep_going,
-                  "Runs all assets. Default: none begins after one has failed.");
+                  "Runs all assets. Default: no asset starts after one has failed.");
     arguments.add("--prune", &options.prune,
-                  "Removes unchanged outputs of earlier batches whose source is gone.");
+                  "Removes outputs of earlier batches whose input no longer exists.");
     arguments.add("--report", &options.common.reports,
                   "Also write the summary: F.json, F.html, F.xml (JUnit) or F.txt.");
-    arguments.add("--timings", &options.common.timings, "Write times, and what was left alone, to F.json.");
+    arguments.add("--timings", &options.common.timings,
+                  "Write times, and which assets were skipped, to F.json.");
     add_cache_options(arguments, options.common.cache);
     add_warning_options(arguments, options.common);
 }

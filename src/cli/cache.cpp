@@ -13,13 +13,13 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* cache_examples =
-    R"(The cache holds results of stages for run, pipe and batch with --cache, or where FACETMILL_CACHE names its folder.
-FACETMILL_CACHE_SIZE is its limit (5G); what has not been used for longest goes first. It may be removed at any time.
-A result is found by the content of all that it depends on: inputs, options, the stages before, this program and its
-libraries. It is stored when that takes at most a tenth of the time of the stages that it saves.
+    R"(The cache stores results of stages for run, pipe and batch with --cache, or if FACETMILL_CACHE names its folder.
+FACETMILL_CACHE_SIZE limits its size (5G); the least recently used entries are removed first. It may be deleted at any
+time. The key of a result is made of everything that it depends on: inputs, options, the previous stages, this program
+and its libraries. A result is stored if that takes at most a tenth of the time of the stages that it saves.
 
-  stats   the folder, and how much is in it
-  gc      removes leftovers of runs that were killed, and what is beyond the limit
+  stats   shows the folder, and how much is in it
+  gc      removes leftovers of runs that were killed, and entries beyond the limit
   clear   removes everything
 
 Examples

@@ -9,8 +9,8 @@ namespace facetmill::cli {
 void add_cache_options(Arguments& arguments, CacheOptions& options) {
     arguments.add("--cache", &options.on,
                   "Takes results of stages from the cache and stores them: only what changed runs again.");
-    arguments.add("--no-cache", &options.off, "Use no cache, also where FACETMILL_CACHE names one.");
-    arguments.add("--cache-everything", &options.everything, "Stores what is cheap to compute, too.")
+    arguments.add("--no-cache", &options.off, "Uses no cache, even if FACETMILL_CACHE names one.");
+    arguments.add("--cache-everything", &options.everything, "Also stores results that are cheap to compute.")
         .hidden();
 }
 

@@ -7,9 +7,9 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* check_examples =
-    R"(All errors of all files are reported. Params without a value stand for any value unless -D gives one. Inputs that
-exist are looked into, as far as their headers go: format, unit; a pattern must match. Exit code 2 when a pipeline is
-wrong, 6 when only an input is malformed, 3 when only a pattern matches nothing.
+    R"(All errors of all files are reported. Params without a value are assumed to be valid, unless -D gives a value. Of
+inputs that exist, the headers are read (format, unit); a pattern must match a file. Exit code 2: a pipeline is wrong.
+6: only an input is malformed. 3: only a pattern matches nothing.
 
 Examples
   facetmill check pipelines/*.yaml

@@ -15,13 +15,13 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* diff_examples =
-    R"(Compares counts, topology, geometry, attributes, materials, parts and what glTF has beside meshes (document).
-The distance between the surfaces is measured both ways, from points spread over the area and from every vertex; of
-a file without faces, from and to each of its points. Limits are in units of A (0.2, 2mm) or in percent of A's
-diagonal (0.5%); without any, surfaces may be 0.0001% apart, which float32 coordinates need. When both files have a
-unit or an up axis, B is brought to A's first. Attributes are compared element by element, in the order of the files.
-Exit code 0 when they agree, 1 when they differ in anything that is not ignored, 3 or 6 when a file cannot be read.
-What cannot be compared (lines, values of attributes of other sizes) is named, and makes "complete" false in JSON.
+    R"(Compares counts, topology, geometry, attributes, materials, parts, and the other contents of glTF (document).
+The distance between the surfaces is measured in both directions, from samples of the area and from every vertex; if a
+file has no faces, from and to each of its points. Limits are in units of A (0.2, 2mm) or in percent of A's
+diagonal (0.5%); the default, 0.0001%, allows for the rounding of float32 coordinates. If both files have a
+unit or an up axis, B is first converted to A's. Attributes are compared element by element, in the order of the files.
+Exit code 0: the files agree. 1: they differ in a section that is not ignored. 3 or 6: a file cannot be read.
+What cannot be compared (lines, attributes of different sizes) is listed, and makes "complete" false in JSON.
 
 Examples
   facetmill diff scan.ply scan.glb

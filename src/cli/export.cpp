@@ -10,11 +10,11 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* export_examples =
-    R"(One job an asset, or a shard of several, with what it reads and writes, as far as it is known before it runs, its
-threads, and for Snakemake an estimate of its memory. The assets of a shard run one after the other; one that fails
-lets the others go on, and fails the job, with the exit code of the last that failed. Of the outputs of the others in
-a job that failed, Snakemake removes all; Make and Ninja leave them, and make the whole shard again. Paths are those
-that lead there from the working directory: run the workflow in it.
+    R"(One job per asset or shard (several assets), with the inputs and outputs that are known in advance, the number of
+threads and, for Snakemake, an estimate of the memory. The assets of a shard run one after the other. If one fails,
+the others still run, and the job fails with the exit code of the last asset that failed. Snakemake then removes all
+outputs of the job; Make and Ninja keep them and run the whole shard again. Paths are relative to the working
+directory: run the workflow in it.
 The outputs are those of `facetmill batch` with the same options, byte for byte.
 
 Examples
@@ -99,9 +99,11 @@ Command export_command() {
                 add_asset_options(arguments, *options);
                 arguments
                     .add("--shard", &options->shard,
-                         "Assets a job, so that what a job costs the engine is shared. Default: 1.")
+                         "Assets per job, which share the overhead of a job. Default: 1.")
                     .between(1, 100000);
-                arguments.add("-j,--threads", &options->common.threads, "Of each job. Default: 1.")
+                arguments
+                    .add("-j,--threads", &options->common.threads,
+                         "The number of threads of each job. Default: 1.")
                     .between(1, 4096);
                 add_warning_options(arguments, options->common);
                 add_message_options(arguments, console);

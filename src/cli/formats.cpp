@@ -12,7 +12,7 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* formats_examples =
-    R"(A file is read by its content where that is sure, else by its extension; .gz is inflated.
+    R"(The format of a file is determined from its content or, if that is not conclusive, from its suffix; .gz is decompressed.
 
 Examples
   facetmill formats

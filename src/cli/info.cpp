@@ -178,7 +178,7 @@ Command info_command() {
                 arguments.add("--self-intersections", &options->self_intersections,
                               "Also counts self-intersections, which takes time.");
                 arguments.add("--picture", &options->picture,
-                              "Also writes a PNG image; of several files beside each other.");
+                              "Also writes a PNG image; several files are shown side by side.");
                 arguments
                     .add("--format", &options->format,
                          "Reads the files as this format, whatever their content.")

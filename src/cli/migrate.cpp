@@ -8,9 +8,9 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* migrate_examples =
-    R"(Format 1 (facetmill: 1) is the only format so far, so no file is changed. What is not of format 1 is named, each with its
-place and a hint. Exit code 0: nothing is to be changed. 1, with --check: something would be. 2: a pipeline is wrong: of no
-format that this release knows, or with any other error that `facetmill check` finds in it. 3: there is no such file.
+    R"(Format 1 (facetmill: 1) is the only format so far, so no file is changed. Files that are not in format 1 are listed,
+each with the position and a hint. Exit code 0: nothing needs to be changed. 1, with --check: something does. 2: a pipeline
+is in a format that this release does not know, or has another error that `facetmill check` finds. 3: a file does not exist.
 
 Examples
   facetmill migrate --check pipelines/*.yaml
@@ -28,8 +28,8 @@ int migrate(const std::vector<std::string>& pipelines, bool check, const Command
 } // namespace
 
 Command migrate_command() {
-    return {"migrate", "Says what pipelines need to be of the present format.", migrate_examples, false,
-            [](Arguments& arguments, Console& console) {
+    return {"migrate", "Says what must be changed in pipelines for the current format.", migrate_examples,
+            false, [](Arguments& arguments, Console& console) {
                 auto pipelines = std::make_shared<std::vector<std::string>>();
                 auto check = std::make_shared<bool>(false);
                 arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines.").required();

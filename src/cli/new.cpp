@@ -21,13 +21,13 @@ constexpr const char* new_examples = R"(Examples
 constexpr const char* starter =
     R"(# A pipeline: stages that run in order. All of it is checked before the first stage begins.
 #
-#   facetmill check FILE                          all that is wrong, each with its place and a hint
-#   facetmill plan FILE -D input=scan.ply         what would run, everything resolved
+#   facetmill check FILE                          all errors, each with its position and a hint
+#   facetmill plan FILE -D input=scan.ply         shows everything resolved, without running it
 #   facetmill run FILE -D input=scan.ply --output-dir out
 #   facetmill batch FILE --input 'scans/**/*.ply' --output-dir out
 #
 # facetmill stages lists the stages, facetmill stages simplify the options of one.
-# facetmill schema pipeline prints a schema by which editors complete and check this file.
+# facetmill schema pipeline prints a schema with which editors complete and check this file.
 facetmill: 1
 about: A mesh becomes a checked file for the web.
 
@@ -37,11 +37,11 @@ params:                            # values come from -D keep=10%, or from a fil
   keep: {type: ratio, default: 25%, help: The share of the triangles to keep}
 
 stages:
-  - load: {path: "${input}", unit: "${unit}", up: y}    # paths in this file are relative to it; -D paths to where you are
-  - clean                          # welds what coincides, drops degenerate and duplicate faces
+  - load: {path: "${input}", unit: "${unit}", up: y}    # relative to this file; paths after -D to the working directory
+  - clean                          # merges coinciding vertices, drops degenerate and duplicate faces
   - simplify: "${keep}"
-    ensure: {deviation: 2%}        # a promise, checked right after the stage: exit code 1 if it does not hold
-  - write: "${input.stem}.glb"     # written when all is well, or not at all
+    ensure: {deviation: 2%}        # a contract, checked right after the stage: exit code 1 if it does not hold
+  - write: "${input.stem}.glb"     # written only if the whole run succeeds
 
 report: "${input.stem}.html"       # what was done, and whether the result is sound
 )";

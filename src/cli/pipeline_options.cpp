@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 void add_message_options(Arguments& arguments, Console& console) {
     arguments.add("-q,--quiet", &console.quiet, "Prints only warnings and errors.").under("Messages");
     arguments
-        .add("-v,--verbose", &console.verbose, "Also prints every stage as it starts, and what was resolved.")
+        .add("-v,--verbose", &console.verbose,
+             "Also prints every stage as it starts, and the resolved values.")
         .under("Messages");
     arguments
         .add(
@@ -34,7 +35,7 @@ void add_message_options(Arguments& arguments, Console& console) {
 void add_param_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("-D,--define", &options.defines, "A param of the pipeline: -D name=value.");
     arguments.add("-p,--preset", &options.presets,
-                  "A YAML file of params (keep: 10%), with paths relative to it. -D goes before it.");
+                  "A YAML file of params (keep: 10%), with paths relative to it. -D overrides it.");
     arguments.add("--set", &options.sets, "An option of a stage: --set simplify.ratio=10%.");
 }
 
@@ -46,8 +47,9 @@ void add_value_options(Arguments& arguments, PipelineOptions& options) {
 
 void add_warning_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--strict", &options.strict, "Make warnings fail: --strict for all, --strict=ID for one.");
-    arguments.add("--allow", &options.allowed,
-                  "A warning that is not told, by its id, and that --strict lets pass; also --quiet=ID.");
+    arguments.add(
+        "--allow", &options.allowed,
+        "The id of a warning that is not printed and does not fail under --strict; also --quiet=ID.");
     arguments.add("--check-invariants", &options.check_invariants, "Check every mesh after every stage.")
         .hidden();
 }
@@ -58,12 +60,11 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
              "The number of threads, which does not change the result. Default: all cores.")
         .between(1, 4096);
     arguments.add("-o,--output-dir", &options.output_dir,
-                  "The folder that written paths start from. Default: the working directory.");
+                  "The folder that the paths of outputs are relative to. Default: the working directory.");
     arguments.add("--report", &options.reports,
                   "Also write a report: F.json, F.html, F.xml (JUnit) or F.txt.");
-    arguments.add(
-        "--timings", &options.timings,
-        "Write times, memory and threads to F.json; no report has them, so that it is reproducible.");
+    arguments.add("--timings", &options.timings,
+                  "Write times, memory and threads to F.json; reports leave them out, to be reproducible.");
     arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");
     arguments.add("--depfile-target", &options.depfile_target,
                   "The target of that rule. Default: the first file that is written.");
@@ -71,7 +72,7 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
                   "Outputs and reports that stay the same keep their times, for Ninja's restat.");
     add_cache_options(arguments, options.cache);
     arguments.add("--explain", &options.explain,
-                  "Tells of each stage why it ran again, or that its result is from the cache.");
+                  "Says for each stage why it ran again, or that its result is from the cache.");
     add_warning_options(arguments, options);
 }
 

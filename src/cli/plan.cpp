@@ -55,10 +55,11 @@ Command plan_command() {
             arguments.add("PIPELINE", &options->pipeline, "A YAML file, - or a ready pipeline.").required();
             arguments.add("--inputs", &options->inputs, "Only the files it reads, one per line.");
             arguments.add("--outputs", &options->outputs,
-                          "Only the files it writes, one per line; with --inputs after an empty line.");
+                          "Only the files it writes, one per line; with --inputs, after an empty line.");
             arguments.add("--json", &options->json, "As JSON.");
-            arguments.add("-o,--output-dir", &options->common.output_dir,
-                          "The folder that written paths start from. Default: the working directory.");
+            arguments.add(
+                "-o,--output-dir", &options->common.output_dir,
+                "The folder that the paths of outputs are relative to. Default: the working directory.");
             add_value_options(arguments, options->common);
             add_message_options(arguments, console);
             return [=, &console](const Invocation& invocation) {

@@ -33,26 +33,37 @@ std::string version_text(bool json) {
 
 namespace {
 
+constexpr const char* help_begin =
+    R"(facetmill processes polygon meshes with declarative pipelines and writes checked glTF.
+
+Usage: facetmill COMMAND ...
+
+Commands
+)";
+
+constexpr const char* help_end = R"(
+  --help, --version, --version --json
+
+Examples
+  facetmill pipe load scan.ply ! simplify 25% ! write web.glb
+  facetmill run pipeline.yaml -D input=scan.ply --output-dir out
+  facetmill batch pipeline.yaml --input 'scans/**/*.ply' --output-dir out
+  facetmill info scan.ply
+  facetmill diff scan.ply web.glb --max 0.5%
+  facetmill stages simplify
+
+See also facetmill COMMAND --help and the manual pages facetmill(1), facetmill-pipeline(5),
+facetmill-stages(7) and facetmill-messages(7).
+
+Exit codes: 0 done, 1 a check did not hold, 2 the command line or the pipeline is wrong, 3 an input is
+missing, 4 an output cannot be written, 5 a stage cannot process its input, 6 an input is malformed, 7 a
+limit or lack of memory, 70 a bug in facetmill, 128+n ended by signal n.
+)";
+
 std::string help_text() {
-    std::string text =
-        "facetmill: a mill for facets. Declarative mesh pipelines that end in checked glTF.\n\n"
-        "Usage: facetmill COMMAND ...\n\nCommands\n";
+    std::string text = help_begin;
     for (const auto& c : commands()) text += fmt::format("  {:<11}  {}\n", c.name, c.about);
-    return text + "\n  --help, --version, --version --json\n\nExamples\n"
-                  "  facetmill pipe load scan.ply ! simplify 25% ! write web.glb\n"
-                  "  facetmill run pipeline.yaml -D input=scan.ply --output-dir out\n"
-                  "  facetmill batch pipeline.yaml --input 'scans/**/*.ply' --output-dir out\n"
-                  "  facetmill info scan.ply\n"
-                  "  facetmill diff scan.ply web.glb --max 0.5%\n"
-                  "  facetmill stages simplify\n\n"
-                  "See also facetmill COMMAND --help and the manual pages facetmill(1), "
-                  "facetmill-pipeline(5),\n"
-                  "facetmill-stages(7) and facetmill-messages(7).\n\n"
-                  "Exit codes: 0 done, 1 a check did not hold, 2 the command line or the pipeline is wrong, "
-                  "3 an input is\n"
-                  "missing, 4 an output cannot be written, 5 a stage cannot process its input, 6 an input is "
-                  "malformed, 7 a\n"
-                  "limit or memory, 70 a bug in facetmill, 128+n ended by signal n.\n";
+    return text + help_end;
 }
 
 const Command& command_named(const std::string& name, const CommandLine& line) {
