@@ -10,9 +10,10 @@
 namespace facetmill {
 
 /// A sum kept as an expansion: parts that do not overlap, smallest first, so that the sign of the last is the
-/// sign of all (Shewchuk 1997, Adaptive precision floating-point arithmetic). capacity: the most numbers that
-/// are ever added, a product counting as two; 0 for any number of them, at the cost of an allocation. Exact
-/// as long as nothing overflows and no product's last bit is below 1e-300.
+/// sign of all (J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+/// predicates", 1997). capacity: the most numbers that are ever added, a product counting as two; 0 for any
+/// number of them, at the cost of an allocation. Exact as long as nothing overflows and no product's last bit
+/// is below 1e-300.
 template <std::size_t capacity = 0>
 class ExactSum {
   public:

@@ -26,7 +26,8 @@ struct Reduced {
     unsigned quadrant;
 };
 
-/// pi / 2 in three parts of 33 bits, whose products with counts below 2^20 are exact (Cody and Waite 1980).
+/// pi / 2 in three parts of 33 bits, whose products with counts below 2^20 are exact (W. J. Cody and W.
+/// Waite, "Software manual for the elementary functions", 1980).
 Reduced reduce(double x) {
     constexpr double part1 = 0x1.921fb544p+0, part2 = 0x1.0b4611a6p-34, part3 = 0x1.3198a2e037073p-69;
     if (std::abs(x) > 1e6) x = std::fmod(x, 4 * (part1 + part2)); // exact, though the modulus is rounded
@@ -150,7 +151,8 @@ double arc_cosine(double x) {
 
 namespace {
 
-/// Acklam's rational approximations of the quantile for 0 < p <= 1/2; relative error 1.2e-9.
+/// Rational approximations of the quantile for 0 < p <= 1/2 with a relative error of 1.2e-9: P. J. Acklam,
+/// "An algorithm for computing the inverse normal cumulative distribution function" (2003).
 double rough_quantile(double p) {
     constexpr double a[] = {2.506628277459239e+00,  -3.066479806614716e+01, 1.383577518672690e+02,
                             -2.759285104469687e+02, 2.209460984245205e+02,  -3.969683028665376e+01};

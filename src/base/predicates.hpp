@@ -13,8 +13,9 @@ inline constexpr double orientation_error = 3.3306690738754716e-16;
 inline constexpr double orientation_smallest = 1e-290;
 
 /// The sign (-1, 0, 1) of the area of the triangle a, b, c in the plane: 1 when they turn left. Exact for
-/// finite coordinates of any size: a floating-point filter, then exact expansions (Shewchuk 1997, Adaptive
-/// precision floating-point arithmetic), and whole numbers where those would overflow or underflow.
+/// finite coordinates of any size: a floating-point filter, then exact expansions (J. R. Shewchuk, "Adaptive
+/// precision floating-point arithmetic and fast robust geometric predicates", 1997), and integers where those
+/// would overflow or underflow.
 int orientation_2d(double ax, double ay, double bx, double by, double cx, double cy);
 
 /// True when the three points lie on one line (or two coincide), exactly: all three of their axis projections

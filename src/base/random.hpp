@@ -6,8 +6,8 @@
 
 namespace facetmill {
 
-/// A well-mixed 64-bit value of the two (SplitMix64's finaliser, applied twice). Chain it to hash longer
-/// keys.
+/// A well-mixed 64-bit value of the two (the finaliser of SplitMix64, applied twice: G. L. Steele, D. Lea and
+/// C. H. Flood, "Fast splittable pseudorandom number generators", 2014). Chain it to hash longer keys.
 constexpr std::uint64_t hashed(std::uint64_t seed, std::uint64_t key) {
     std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (key + 1);
     for (int round = 0; round < 2; ++round) {

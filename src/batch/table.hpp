@@ -17,8 +17,8 @@ struct Cell {
 /// The cells that are not empty.
 using Row = std::vector<Cell>;
 
-/// Reads a table: YAML (.yaml, .yml) is a list of maps; anything else is CSV as RFC 4180 has it
-/// (Shafranovich: Common Format and MIME Type for Comma-Separated Values Files, 2005), with a heading,
+/// Reads a table: YAML (.yaml, .yml) is a list of maps; anything else is CSV as RFC 4180 has it (Y.
+/// Shafranovich, "Common format and MIME type for comma-separated values (CSV) files", 2005), with a heading,
 /// separated by the first of comma, semicolon and tab that the heading has. Throws malformed (E-TABLE),
 /// missing when there is no file.
 std::vector<Row> read_params_table(const std::filesystem::path& file);

@@ -19,10 +19,10 @@ constexpr const char* batch_examples =
 `input`. With --table, each row is an asset, whose columns are params; a row overrides -D.
 
 Folders are mirrored: with 'scans/**/*.ply', the outputs of scans/a/b.ply are written to OUT/a; with lists and
-tables, folders are mirrored from the working directory. The outputs of
-an asset appear together. Completed assets are recorded in OUT/.facetmill-batch.NAME-*.jsonl; the next batch
-skips those whose inputs, options, outputs and program are unchanged, also after a crash. The exit code is the
-most severe that occurred, in this order: 70, 2, 4, 7, 5, 6, 3, 1.
+tables, folders are mirrored from the working directory. The outputs of an asset appear together. Completed
+assets are recorded in OUT/.facetmill-batch.NAME-*.jsonl; the next batch skips those whose inputs, options,
+outputs and program are unchanged, also after a crash. The exit code is the most severe that occurred, in this
+order: 70, 2, 4, 7, 5, 6, 3, 1.
 
 Examples
   facetmill batch scan-to-web --input 'scans/**/*.ply' -D keep=10% --output-dir web

@@ -12,7 +12,8 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* formats_examples =
-    R"(The format of a file is determined from its content or, if that is not conclusive, from its suffix; .gz is decompressed.
+    R"(The format of a file is determined from its content or, if that is not conclusive, from its suffix; .gz files are
+decompressed.
 
 Examples
   facetmill formats

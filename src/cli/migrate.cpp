@@ -8,9 +8,10 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* migrate_examples =
-    R"(Format 1 (facetmill: 1) is the only format so far, so no file is changed. Files that are not in format 1 are listed,
-each with the position and a hint. Exit code 0: nothing needs to be changed. 1, with --check: something does. 2: a pipeline
-is in a format that this release does not know, or has another error that `facetmill check` finds. 3: a file does not exist.
+    R"(Format 1 (facetmill: 1) is the only format so far, so no file is changed. Files that are not in format 1 are
+listed, each with the position and a hint. Exit code 0: nothing needs to be changed. 1, with --check: something does.
+2: a pipeline is in a format that this release does not know, or has another error that `facetmill check` finds.
+3: a file does not exist.
 
 Examples
   facetmill migrate --check pipelines/*.yaml

@@ -16,11 +16,12 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* pipe_examples =
-    R"(The same language as a pipeline file. Options of facetmill pipe itself come first; then the stages, separated by ! or +.
-A stage is its name, a bare value for its primary option, and --key value, --key=value or --flag for the others.
-Nested keys are dotted (--plane.normal=0,0,1), and so are --ensure.closed and --when.closed; --name and --only as in
-a file. Lists are written with commas or by repeating the option; lists of paths, which may contain commas, by repeating it. An
-option with a plural form may also be repeated (--plane z=0 --plane x=0 for --planes). @{x} stands for ${x}, and 50pct for 50%.
+    R"(The same language as a pipeline file. Options of facetmill pipe itself come first, then the stages, separated by
+! or +. A stage is its name, a bare value for its primary option, and --key value, --key=value or --flag for the
+others. Nested keys are dotted (--plane.normal=0,0,1), and so are --ensure.closed and --when.closed; --name and
+--only are as in a file. Lists are written with commas or by repeating the option; lists of paths, which may contain
+commas, by repeating it. An option with a plural form may also be repeated (--plane z=0 --plane x=0 for --planes).
+@{x} stands for ${x}, and 50pct for 50%.
 
   foreach VARIABLE=VALUE,VALUE... [ STAGE ! STAGE ]
   branch NAME [ STAGE ! STAGE ] NAME [ STAGE ]

@@ -54,9 +54,9 @@ struct Comparison {
     bool complete() const;
 };
 
-/// The properties of section 7 of the design one by one; the deviation both ways, of the surfaces, or of the
-/// points where a scene has no faces; attributes by name, domain and type, and by value where both have as
-/// many elements; materials by name, look and the faces they are on; parts by name; of glTF documents what is
+/// The properties of property_table() one by one; the deviation both ways, of the surfaces, or of the points
+/// where a scene has no faces; attributes by name, domain and type, and by value where both have as many
+/// elements; materials by name, look and the faces they are on; parts by name; of glTF documents what is
 /// beside meshes. In world space, both scenes in the same convention.
 Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& settings = {});
 

@@ -1,6 +1,6 @@
 #pragma once
-// The stages as people read them: `facetmill stages`, its Markdown, and the manual page of section 7. All of
-// it comes from the declarations.
+// The stages as people read them: `facetmill stages`, its Markdown, and the manual page facetmill-stages(7).
+// All of it comes from the declarations.
 
 #include "stage/stage.hpp"
 

@@ -17,8 +17,9 @@ inline Index previous_corner(const Mesh& mesh, Index f, Index c) {
     return previous_corner(c, mesh.face_begin(f), mesh.face_end(f));
 }
 
-/// Twice the area of face f along its normal (Newell's sum, taken from the first corner), its corners being
-/// where place(corner) says.
+/// Twice the area of face f along its normal (Newell's sum, taken from the first corner: I. E. Sutherland, R.
+/// F. Sproull and R. A. Schumacker, "A characterization of ten hidden-surface algorithms", 1974), its corners
+/// being where place(corner) says.
 template <class Place>
 Vec3 area_vector_at(const Mesh& mesh, Index f, Place&& place) {
     Vec3 sum;

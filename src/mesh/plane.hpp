@@ -18,8 +18,9 @@ struct Plane {
 
 /// normal . (p - through) + offset: the sign is exact (0 means exactly on the plane), the magnitude good to a
 /// few units in the last place of its largest term, and never 0 for a point off the plane. A filter in plain
-/// doubles decides almost always; else the sum is evaluated as an expansion (Shewchuk, 1997), and in whole
-/// numbers where that would overflow or underflow. Finite numbers of any size.
+/// doubles decides almost always; else the sum is evaluated as an expansion (J. R. Shewchuk, "Adaptive
+/// precision floating-point arithmetic and fast robust geometric predicates", 1997), and in integers where
+/// that would overflow or underflow. Finite numbers of any size.
 double side(const Plane& plane, const Vec3& p);
 
 /// Whether they are one set of points, exactly: whatever the length and the sense of their normals, and

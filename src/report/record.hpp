@@ -83,7 +83,7 @@ struct RunRecord {
     double seconds = 0;
     std::size_t peak_memory = 0; ///< bytes
     int threads = 0;
-    Json final_properties; ///< of the scene at the end, all of section 7's
+    Json final_properties; ///< of the scene at the end, all of property_table()
 };
 
 } // namespace facetmill::report

@@ -9,8 +9,8 @@ namespace facetmill::report {
 /// One value by the property's kind; null where it does not apply or was not asked for.
 Json property_json(const Property& property, const Properties& properties);
 Json properties_json(
-    const Properties& properties); ///< numbers and truths of section 7, null where not applicable
-/// All of section 7 for a scene: properties_json plus unit, up, attributes, materials and parts.
+    const Properties& properties); ///< numbers and truths of property_table(), null where not applicable
+/// All properties of a scene: properties_json plus unit, up, attributes, materials and parts.
 Json scene_json(const Scene& scene, const Properties& properties);
 /// The components of a scene of these properties with most faces, the largest first: [{part, faces, euler,
 /// boundary_loops, closed, genus}].

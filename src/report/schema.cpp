@@ -39,8 +39,7 @@ Json value_schema(const Property& p) {
     return schema;
 }
 
-/// The properties of section 7 of a scene, named once in the table that info, validate, ensure and when
-/// share.
+/// The properties of a scene, named once in the table that info, validate, ensure and when share.
 Json scene_schema() {
     Json properties = Json::object();
     for (const auto& p : property_table()) {

@@ -69,7 +69,7 @@ for path in PIPELINES:
 
 
 class Figures(Golden):
-    """The figures of the notes: without a warning, each file one of its own, and a picture of it in the docs."""
+    """The figures after Bourke: without a warning, each file one of its own, and a picture of it in the docs."""
 
     def check_figure(self, path):
         # A figure of what does not hold, or of what stops with a warning, which it names.

@@ -6,7 +6,7 @@ using namespace facetmill;
 
 namespace {
 
-enum class Method { note, better };
+enum class Method { plain, better };
 
 struct Plane {
     Vec3 normal{0, 0, 1};
@@ -27,7 +27,7 @@ Declaration declared_options() {
     d.option("iterations", &Settings::iterations, "How many times.").at_least(1).primary();
     d.option("factor", &Settings::factor, "How far.").above(0).at_most(1);
     d.choice("method", &Settings::method,
-             {{"note", Method::note, "the note's"}, {"better", Method::better, "ours"}}, "Which.");
+             {{"plain", Method::plain, "the plain one"}, {"better", Method::better, "ours"}}, "Which.");
     d.option("ratio", &Settings::ratio, "Of the faces.").above(0).at_most(1);
     d.option("faces", &Settings::faces, "How many are left.").at_least(1);
     d.group("plane", &Settings::plane, "Where.",
@@ -83,7 +83,7 @@ TEST_CASE("every wrong option is reported at once", "[options]") {
                           {"name", Value::scalar("smooth")}})) ==
           "E-RANGE 'iterations' must be in the range x >= 1, found '0'\n"
           "E-KEY relax has no option 'factr' (did you mean 'factor'?)\n"
-          "E-CHOICE 'method' is one of note, better, found 'beter' (did you mean 'better'?)\n");
+          "E-CHOICE 'method' is one of plain, better, found 'beter' (did you mean 'better'?)\n");
 }
 
 TEST_CASE("options that exclude each other", "[options]") {
@@ -144,18 +144,19 @@ TEST_CASE("options of an embedded struct are options of the one around it", "[op
     };
     struct Around {
         bool on = false;
-        Algorithm settings{0.25, Method::note};
+        Algorithm settings{0.25, Method::plain};
     };
     Declare<Around> d;
     d.option("on", &Around::on, "Whether.");
     d.embed(&Around::settings, [](Declare<Algorithm>& inner) {
         inner.option("alpha", &Algorithm::alpha, "How far.").above(0);
         inner.choice("method", &Algorithm::method,
-                     {{"note", Method::note, "the note's"}, {"better", Method::better, "ours"}}, "Which.");
+                     {{"plain", Method::plain, "the plain one"}, {"better", Method::better, "ours"}},
+                     "Which.");
     });
     CHECK(d.declaration.names() == std::vector<std::string>{"on", "alpha", "method"});
     CHECK(d.declaration.find("alpha")->default_text == "0.25");
-    CHECK(d.declaration.find("method")->default_text == "note");
+    CHECK(d.declaration.find("method")->default_text == "plain");
 
     Problems problems;
     Around read;

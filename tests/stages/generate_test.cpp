@@ -9,7 +9,7 @@ using test::options;
 using test::problems_of;
 using test::run_stage;
 
-TEST_CASE("generate: a bare name is the shape, with the note's sphere as it is", "[stages]") {
+TEST_CASE("generate: a bare name is the shape, and a sphere has 4000 faces", "[stages]") {
     const auto r = run_stage("generate", Value::scalar("sphere"), {});
     CHECK(r.mesh().face_count() == 4000);
     CHECK(r.record.result["part"] == "sphere");

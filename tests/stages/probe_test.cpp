@@ -79,7 +79,7 @@ TEST_CASE("segments and rays have hits in order, with part and face", "[stages]"
     CHECK((ray["hit"] == 1 && ray["missed"] == 0));
 }
 
-TEST_CASE("a face alone tells the note's cases", "[stages]") {
+TEST_CASE("a face alone tells the cases of a segment and a facet", "[stages]") {
     const Json r =
         probed("{face: 0, segments: [[0.5, 0.5, -1, 0.5, 0.5, 1], [2, 2, -1, 2, 2, 1], [0, 0, 1, 1, 0, 1], "
                "[0.5, 0.5, 0.5, 0.5, 0.5, 2], [0, 0, 0, 1, 0, 0]]}",

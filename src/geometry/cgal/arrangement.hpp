@@ -22,9 +22,9 @@ struct TriangleSoup {
     std::vector<std::pair<Index, Index>> pairs;  ///< of those, that may meet elsewhere than in shared points
 };
 
-/// After Zhou, Grinspun, Zorin, Jacobson 2016, "Mesh arrangements for solid geometry". The nodes are the
-/// points, then those where triangles meet; all are kept exactly. Triangles of one plane that overlap are cut
-/// together, so that what they have in common is there once.
+/// After Q. Zhou, E. Grinspun, D. Zorin and A. Jacobson, "Mesh arrangements for solid geometry" (2016). The
+/// nodes are the points, then those where triangles meet; all are kept exactly. Triangles of one plane that
+/// overlap are cut together, so that what they have in common is there once.
 class Arrangement {
   public:
     /// A triangle that a piece is part of; sign is 1 when both turn the same way, else -1.

@@ -75,8 +75,8 @@ std::vector<double> max_of_corners(const Mesh& mesh, Value&& value) {
     });
 }
 
-/// Where the ray from p along d leaves through the triangle's front; negative when it does not (Moeller,
-/// Trumbore 1997).
+/// Where the ray from p along d leaves through the triangle's front; negative when it does not (T. Moeller
+/// and B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997).
 double leaves_at(const Vec3& p, const Vec3& d, const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 u = b - a, v = c - a, n = cross(u, v);
     const double facing = dot(n, d);

@@ -66,7 +66,7 @@ struct InspectSettings {
 Properties inspect(const Mesh& mesh, const InspectSettings& settings = {});
 /// Of a part in world space; its transform bears on area, volume and bounds.
 Properties inspect(const Part& part, const InspectSettings& settings = {});
-/// Of all parts in world space (closedness is per part, see the design's section 2).
+/// Of all parts in world space (closedness is a property of a part: docs/architecture.md, "What flows").
 Properties inspect(const Scene& scene, const InspectSettings& settings = {});
 
 /// Properties of the components of a mesh with most faces, in its own space, the largest first (of equal ones
@@ -147,7 +147,7 @@ struct Property {
     std::optional<double> get(const Properties& properties) const;
 };
 
-/// In the order of the design's section 7.
+/// In the order in which `info` and the report list them; see "The rooms" in docs/architecture.md.
 std::span<const Property> property_table();
 /// Null when there is none of that name.
 const Property* property_named(std::string_view name);

@@ -1,7 +1,7 @@
 // Separating lines of the triangles seen along an axis, then separating planes. The thresholds of signs are
-// those of J. R. Shewchuk, "Adaptive precision floating-point arithmetic" (1997) in the plane, and in space
-// the semi-static filter of A. Meyer and S. Pion, "FPG: a code generator for fast and certified geometric
-// predicates" (2008).
+// those of J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric
+// predicates" (1997) in the plane, and in space the semi-static filter of A. Meyer and S. Pion, "FPG: a code
+// generator for fast and certified geometric predicates" (2008).
 #include "geometry/intersect/disjoint_triangles.hpp"
 
 #include "base/predicates.hpp"

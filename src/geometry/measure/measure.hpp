@@ -1,7 +1,8 @@
 #pragma once
-// Areas, centroids, volume and inertia; edges, angles and curvature. After Bourke's notes "Area of a 3D
-// polygon" (2000) and "Centroid of a surface" (the area-weighted centroid of a shell); the solid after D.
-// Eberly, "Polyhedral mass properties (revisited)" (2002), by tetrahedra from the middle of the box.
+// Areas, centroids, volume and inertia; edges, angles and curvature. After P. Bourke, "Calculating the area
+// of a 3D polygon" (2000) and "Centroid of a 3D shell described by 3 vertex facets" (weighted by area); the
+// solid after D. Eberly, "Polyhedral mass properties (revisited)" (2002), by tetrahedra from the middle of
+// the box.
 
 #include "geometry/section/section.hpp"
 #include "geometry/triangulate/triangulate.hpp"
@@ -39,7 +40,8 @@ struct Eigen3 {
     std::array<double, 3> values{};
     std::array<Vec3, 3> vectors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
-/// By Jacobi's rotations.
+/// By rotations: C. G. J. Jacobi, "Ueber ein leichtes Verfahren, die in der Theorie der Saecularstoerungen
+/// vorkommenden Gleichungen numerisch aufzuloesen" (1846).
 Eigen3 eigen(const Symmetric& m);
 
 /// The inertia tensor of mass that is spread like that: the integral of |r|^2 I - r r^T.
@@ -93,11 +95,12 @@ struct EdgeSettings {
 };
 EdgeResult measure_edges(const Mesh& mesh, const EdgeSettings& settings = {});
 
-/// One polygon in space, as the notes measure polygons in the plane. Its frame is that of its plane
-/// (frame_of), the normal turned so that its longest component is positive: a polygon in a plane z = constant
-/// has the axes x and y, and is seen from above. A planar polygon that crosses itself is measured as a
-/// section measures such a contour: area, centroid and moments are of all that it winds around, each point
-/// counted once, and the signed area has the sign of the part that is larger.
+/// One polygon in space, measured as P. Bourke, "Calculating the area and centroid of a polygon" (1988),
+/// measures polygons in the plane. Its frame is that of its plane (frame_of), the normal turned so that its
+/// longest component is positive: a polygon in a plane z = constant has the axes x and y, and is seen from
+/// above. A planar polygon that crosses itself is measured as a section measures such a contour: area,
+/// centroid and moments are of all that it winds around, each point counted once, and the signed area has the
+/// sign of the part that is larger.
 struct PolygonResult {
     polygon::Kind kind = polygon::Kind::degenerate;
     bool planar = true;

@@ -66,7 +66,8 @@ double angle_sum(const Vec3& q, std::span<const Vec3> convex) {
     double sum = 0;
     for (std::size_t i = 0; i < convex.size(); ++i) {
         const Vec3 a = convex[i] - q, b = convex[i + 1 == convex.size() ? 0 : i + 1] - q;
-        // The note's arc cosine loses half the digits of small angles; this does not.
+        // The arc cosine of P. Bourke, "Determining if a point lies on the interior of a polygon" (1987),
+        // loses half the digits of small angles; this does not.
         sum += arc_tangent(length(cross(a, b)), dot(a, b));
     }
     return sum;

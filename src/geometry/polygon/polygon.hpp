@@ -1,9 +1,10 @@
 #pragma once
-// Polygon maths in the plane and in space, after P. Bourke's notes "Polygon types" (1993), "Clockwise or
-// counter-clockwise" (1998), "Clipping a line to a complex polygon" (1997), "Area of a 3D polygon" (2000),
-// "Inside a polygon" and "Area and centroid, second moment of a polygon" (1988). Signs that decide are exact
-// (base/predicates.hpp); sums are taken about a point of the polygon, so that polygons far from the origin
-// lose nothing.
+// Polygon maths in the plane and in space, after P. Bourke, "Polygon types" (1993), "Determining whether or
+// not a polygon (2D) has its vertices ordered clockwise or counter-clockwise" (1998), "Clipping a line
+// segment to a complex polygon" (1997), "Calculating the area of a 3D polygon" (2000), "Determining if a
+// point lies on the interior of a polygon" (1987) and "Calculating the area and centroid of a polygon"
+// (1988). Signs that decide are exact (base/predicates.hpp); sums are taken about a point of the polygon, so
+// that polygons far from the origin lose nothing.
 
 #include "base/vec.hpp"
 #include "mesh/mesh.hpp"
@@ -73,7 +74,8 @@ PrincipalAxes principal_axes(const SecondMoments& moments);
 // --- Polygons in space
 
 /// Half the sum of P_i x P_i+1 (Stokes): along the normal from which the corners run anticlockwise, as long
-/// as the area. The note's order, P_i x P_i-1, gives the negative. For any closed polygon, planar or not.
+/// as the area. The order P_i x P_i-1 of P. Bourke, "Calculating the area of a 3D polygon" (2000), gives the
+/// negative. For any closed polygon, planar or not.
 Vec3 area_vector(std::span<const Vec3> corners);
 
 /// |(P1 - P0) x (P2 - P0)| / 2 for a triangle, |(P2 - P0) x (P3 - P1)| / 2 for a quad (twice the
@@ -121,7 +123,8 @@ enum class Kind {
 inline constexpr int kinds = 7;
 const char* to_string(Kind kind);
 
-/// The note's types. Several rings (with holes by orientation) are complex or self-intersecting.
+/// The types of P. Bourke, "Polygon types" (1993). Several rings (with holes by orientation) are complex or
+/// self-intersecting.
 Kind classify(Rings rings);
 Kind classify(Ring ring);
 

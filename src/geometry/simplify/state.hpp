@@ -1,6 +1,6 @@
 #pragma once
-// The state of a simplification: flat arrays along a Morton curve. Private to this folder, as are all headers
-// here but simplify.hpp.
+// The state of a simplification: flat arrays along the curve of G. M. Morton, "A computer oriented geodetic
+// data base" (1966). Private to this folder, as are all headers here but simplify.hpp.
 //
 // There is no halfedge structure. Corner c = 3 f + k of face f stands for the edge from its vertex to that of
 // the next corner; the corners at a vertex form a list through `next`. A dead face has `none` as its first

@@ -46,7 +46,7 @@ int winding_beside(const FaceTree& tree, const Vec3& from, int winding_there, co
     return winding_there - left;
 }
 
-// The note's cases of one segment and one facet, of geometry/spatial/rays.hpp.
+// The cases of one segment and one facet, of geometry/spatial/rays.hpp.
 
 const char* to_string(Meeting meeting) {
     constexpr const char* names[] = {"hit", "parallel", "in plane", "outside segment", "outside facet"};

@@ -1,7 +1,7 @@
 #pragma once
-// Where segments and rays meet a surface, and what is inside it. After Bourke's notes "Intersection of a line
-// segment and a facet" (1999) and "Determining if a point lies on the interior of a polygon" (1987); whether
-// a line meets a triangle is decided by exact signs (base/predicates.hpp).
+// Where segments and rays meet a surface, and what is inside it. After P. Bourke, "Determining whether a line
+// segment intersects a 3 vertex facet" (1997) and "Determining if a point lies on the interior of a polygon"
+// (1987); whether a line meets a triangle is decided by exact signs (base/predicates.hpp).
 
 #include "geometry/spatial/face_tree.hpp"
 
@@ -69,7 +69,8 @@ int winding_beside(const FaceTree& tree, const Vec3& from, int winding_there, co
 /// Whether p lies exactly on a triangle, borders included.
 bool lies_on(const FaceTree& tree, const Vec3& p);
 
-/// The note's cases for one segment and one facet (a planar polygon).
+/// The cases of P. Bourke, "Determining whether a line segment intersects a 3 vertex facet" (1997), for one
+/// segment and one planar polygon.
 enum class Meeting { hit, parallel, in_plane, outside_segment, outside_facet };
 const char* to_string(Meeting meeting);
 struct SegmentFacet {

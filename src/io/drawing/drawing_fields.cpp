@@ -26,8 +26,8 @@ struct SectionContour {
     }
 };
 
-/// Second moments about a point: in the plane as the note has them, in the world the integrals of products of
-/// coordinates.
+/// Second moments about a point: in the plane those of P. Bourke, "Calculating the area and centroid of a
+/// polygon" (1988), in the world the integrals of products of coordinates.
 struct MomentsAbout {
     polygon::SecondMoments plane;
     std::array<double, 6> world{}; ///< xx, yy, zz, xy, xz, yz

@@ -37,9 +37,9 @@ Stored displacements(const Attribute& deltas, const PositionGrid& grid);
 std::optional<Stored> signed_fractions(const Attribute& a, int bits);
 /// Numbers from 0 to 1 in 2^bits - 1 steps, as normalised uint8 or uint16. None when one is beyond.
 std::optional<Stored> fractions(const Attribute& a, int bits);
-/// Unit vectors, and the sign of tangents, for meshopt's filter OCTAHEDRAL (Meyer et al., "On Floating-Point
-/// Normal Vectors", 2010): the coordinates on the octahedron have 2^(bits - 1) - 1 steps to either side.
-/// bits: 2 to 16.
+/// Unit vectors, and the sign of tangents, for meshopt's filter OCTAHEDRAL (Q. Meyer et al., "On
+/// Floating-Point Normal Vectors", 2010): the coordinates on the octahedron have 2^(bits - 1) - 1 steps to
+/// either side. bits: 2 to 16.
 Stored octahedral(const Attribute& a, int bits);
 /// Unit quaternions for meshopt's filter QUATERNION, in 16 bits. None when one is not of unit length within
 /// 1e-3.

@@ -24,8 +24,9 @@ bool is_physical(const Description& d) {
 }
 
 /// The roughness of a highlight with Phong's exponent Ns: the microfacet distributions of equal width have
-/// alpha^2 = 2 / (Ns + 2), and glTF's alpha is the square of the roughness. Walter, Marschner, Li, Torrance,
-/// "Microfacet Models for Refraction through Rough Surfaces", 2007, section 5.2.
+/// alpha^2 = 2 / (Ns + 2), and glTF's alpha is the square of the roughness. B. Walter, S. R. Marschner, H. Li
+/// and K. E. Torrance, "Microfacet models for refraction through rough surfaces" (2007), section 5.2; the
+/// exponent is that of B. T. Phong, "Illumination for computer generated pictures" (1975).
 double roughness_of(double exponent) { return std::sqrt(std::sqrt(2 / (std::max(exponent, 0.0) + 2))); }
 
 /// Whether there are highlights: illumination models 0 and 1 have none, nor has a black Ks.

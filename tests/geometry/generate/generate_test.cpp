@@ -72,7 +72,7 @@ TEST_CASE("bands of a sphere: the nearest number that well-shaped ones give, by 
     CHECK(std::abs(made(700000000) - 700000000) < 1000);
 }
 
-TEST_CASE("a sphere of the note's 4000 faces", "[geometry]") {
+TEST_CASE("a sphere of 4000 faces", "[geometry]") {
     CHECK(sphere_bands(4000).segments == 80);
     CHECK(sphere_bands(4000).rings == 26);
     GenerateSettings s = of(Shape::sphere);

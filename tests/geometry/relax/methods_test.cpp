@@ -1,4 +1,4 @@
-// The methods of relax beyond the note's, features, masks, targets.
+// The methods of relax other than laplacian, features, masks, targets.
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/edit/mask.hpp"
 #include "geometry/edit/moved.hpp"

@@ -148,7 +148,8 @@ TEST_CASE("the boundary of an open sheet keeps its shape", "[geometry]") {
     CHECK(count(r.mesh).euler == 1);
     CHECK(count(r.mesh).crowded == 0);
     CHECK(test::area(r.mesh) == Approx(256).epsilon(1e-6));
-    // The note's method knows no shape: it moves along the boundary's edges, and cuts corners.
+    // The method of P. Bourke, "Surface (polygonal) Simplification" (1997), knows no shape: it moves along
+    // the boundary's edges, and cuts corners.
     const auto note = simplify(m, {.method = Method::shortest_edge, .ratio = 0.25});
     CHECK(count(note.mesh).euler == 1);
     CHECK(test::area(note.mesh) > 0.95 * 256);

@@ -225,7 +225,7 @@ TEST_CASE("lines from far away and of any length meet the same", "[geometry]") {
     }
 }
 
-TEST_CASE("the note's cases of a segment and a facet", "[geometry]") {
+TEST_CASE("the cases of a segment and a facet", "[geometry]") {
     const std::vector<Vec3> square{{0, 0, 0}, {0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}; // a corner doubled
     const auto case_of = [&](const Vec3& from, const Vec3& to) { return meet({from, to}, square).meeting; };
     CHECK(case_of({1, 1, -1}, {1, 1, 3}) == Meeting::hit);

@@ -39,7 +39,7 @@ std::size_t faces_of(const Mesh& mesh, SplitMethod method, int n = 2) {
 
 } // namespace
 
-TEST_CASE("a triangle becomes as many faces as the note says", "[geometry]") {
+TEST_CASE("a triangle becomes as many faces as Bourke's Splitting facets says", "[geometry]") {
     CHECK(faces_of(triangle(), SplitMethod::midpoint) == 4);
     CHECK(faces_of(triangle(), SplitMethod::bisect) == 2);
     CHECK(faces_of(triangle(), SplitMethod::centroid) == 3);
@@ -56,7 +56,7 @@ TEST_CASE("a triangle becomes as many faces as the note says", "[geometry]") {
         CHECK(faces_of(triangle(), SplitMethod::grid, n) == static_cast<std::size_t>(n * n));
 }
 
-TEST_CASE("a quad becomes as many faces as the note says", "[geometry]") {
+TEST_CASE("a quad becomes as many faces as Bourke's Splitting facets says", "[geometry]") {
     CHECK(faces_of(square(), SplitMethod::midpoint) == 4);
     CHECK(faces_of(square(), SplitMethod::varignon) == 5);
     CHECK(faces_of(square(), SplitMethod::centroid) == 4);

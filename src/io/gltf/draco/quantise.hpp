@@ -33,7 +33,7 @@ void settle(std::vector<float>& numbers, const DracoGrid& grid);
 /// step * range / (2^bits - 1), rounded after each operation.
 void put_on_grid(std::vector<float>& decoded, const DracoGrid& grid);
 
-/// Normals, three numbers each, whose octahedral coordinates (Meyer et al., "On Floating-Point Normal
+/// Normals, three numbers each, whose octahedral coordinates (Q. Meyer et al., "On Floating-Point Normal
 /// Vectors", 2010) are the same with and without fused multiply-add; those that were not are the integers on
 /// the octahedron. bits: 2 to 30.
 void settle_normals(std::vector<float>& normals, int bits);
