@@ -29,6 +29,16 @@ Error& Error::at(const Mark& where) {
     return *this;
 }
 
+Error out_of_memory(std::string message, std::string hint, Mark where) {
+    Diagnostic why{Severity::error, "E-MEMORY", std::move(message), std::move(where), std::move(hint)};
+    why.out_of_memory = true;
+    return {ErrorKind::limit, std::vector{std::move(why)}};
+}
+
+bool is_allowed(const Diagnostic& warning, const std::vector<std::string>& ids) {
+    return std::find(ids.begin(), ids.end(), warning.id) != ids.end();
+}
+
 void Problems::add_once(Diagnostic one) {
     const std::string text = fmt::format("{}\n{}\n{}\n{}", static_cast<int>(one.severity), one.id,
                                          to_string(one.where), one.message);

@@ -31,6 +31,8 @@ struct Diagnostic {
     std::string message; ///< one sentence without a full stop: what was expected and what was found
     Mark where;          ///< may be unknown
     std::string hint;    ///< what to do about it, or empty
+    /// It failed for want of memory, and may succeed while less runs beside it.
+    bool out_of_memory = false;
 };
 
 /// One or more diagnostics and whose fault they are.
@@ -56,6 +58,12 @@ class Error : public std::exception {
     std::vector<Diagnostic> diagnostics_;
     std::string text_;
 };
+
+/// Of kind limit (E-MEMORY), with out_of_memory set.
+Error out_of_memory(std::string message, std::string hint = {}, Mark where = {});
+
+/// Whether --allow names the warning: the ids are those that users gave.
+bool is_allowed(const Diagnostic& warning, const std::vector<std::string>& ids);
 
 /// Collects diagnostics, so that all of them can be reported at once.
 class Problems {

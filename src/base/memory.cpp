@@ -72,10 +72,9 @@ void require_memory(double bytes, const std::string& what, const std::string& hi
     const auto there = available_memory();
     if (!there || bytes <= static_cast<double>(*there)) return;
     constexpr double gib = 1 << 30;
-    throw Error(ErrorKind::limit, "E-MEMORY",
-                fmt::format("{} needs about {:.3g} GiB of memory, {:.3g} GiB are available", what,
-                            bytes / gib, static_cast<double>(*there) / gib),
-                hint);
+    throw out_of_memory(fmt::format("{} needs about {:.3g} GiB of memory, {:.3g} GiB are available", what,
+                                    bytes / gib, static_cast<double>(*there) / gib),
+                        hint);
 }
 
 } // namespace facetmill

@@ -65,11 +65,12 @@ Outcome outcome_of(const Asset& asset, report::RunRecord& record) {
     return out;
 }
 
-Outcome failure(ErrorKind kind, std::string id, std::string message, std::string hint = {}) {
+Outcome failure(const Error& error) {
     Outcome out;
     out.verdict = Verdict::failed;
-    out.exit_code = static_cast<int>(kind);
-    out.errors.push_back({Severity::error, std::move(id), std::move(message), {}, std::move(hint)});
+    out.exit_code = static_cast<int>(error.kind());
+    out.errors.push_back(error.diagnostics().front());
+    out.errors.back().where = {};
     return out;
 }
 
@@ -167,17 +168,16 @@ class BatchRun {
         try {
             out = run_asset(works_[job.index], done);
         } catch (const std::bad_alloc&) {
-            out = failure(ErrorKind::limit, "E-MEMORY", "not enough memory");
+            out = failure(out_of_memory("not enough memory"));
         } catch (const Error& e) {
-            out = failure(e.kind(), e.diagnostics().front().id, e.diagnostics().front().message,
-                          e.diagnostics().front().hint);
+            out = failure(e);
         } catch (const std::exception& e) {
-            out = failure(ErrorKind::bug, "E-BUG", e.what(),
-                          "please report it, with the pipeline and the input");
+            out = failure(Error(ErrorKind::bug, "E-BUG", e.what(),
+                                "please report it, with the pipeline and the input"));
         }
-        const bool out_of_memory = std::any_of(out.errors.begin(), out.errors.end(),
-                                               [](const Diagnostic& d) { return d.id == "E-MEMORY"; });
-        if (out_of_memory && !job.alone && beside_others()) return Next::again_alone;
+        const bool for_memory = std::any_of(out.errors.begin(), out.errors.end(),
+                                            [](const Diagnostic& d) { return d.out_of_memory; });
+        if (for_memory && !job.alone && beside_others()) return Next::again_alone;
         out.seconds = elapsed(start);
         const bool failed = out.verdict == Verdict::failed;
         finish(job.index, std::move(out), done ? &*done : nullptr);
@@ -287,8 +287,7 @@ class BatchRun {
 
     /// A warning of the batch itself, under the guard.
     void warn(std::optional<Diagnostic> warning) {
-        const auto& allowed = settings_.allowed;
-        if (!warning || std::find(allowed.begin(), allowed.end(), warning->id) != allowed.end()) return;
+        if (!warning || is_allowed(*warning, settings_.allowed)) return;
         if (auto error = pipeline::strict_failure(*warning, settings_.strict)) {
             summary_.exit_code = graver(summary_.exit_code, static_cast<int>(ErrorKind::check));
             summary_.errors.push_back(std::move(*error));

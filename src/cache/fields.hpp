@@ -40,9 +40,9 @@ FACETMILL_STORED(report::FileRecord, path, bytes, sha256, read_back)
 template <>
 struct Members<Diagnostic> {
     static void each(auto& record, auto&& take) {
-        auto& [severity, id, message, where, hint] = record;
+        auto& [severity, id, message, where, hint, out_of_memory] = record;
         static_cast<void>(where);
-        take(severity, id, message, hint);
+        take(severity, id, message, hint, out_of_memory);
     }
 };
 

@@ -2,8 +2,6 @@
 
 #include "cache/place.hpp"
 
-#include <algorithm>
-
 namespace facetmill::cli {
 
 void add_cache_options(Arguments& arguments, CacheOptions& options) {
@@ -24,8 +22,9 @@ std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache finds no folder for it",
                     "FACETMILL_CACHE names one (and is not off), or HOME");
     if (!folder) return nullptr;
-    std::function<void(const Diagnostic&)> tell = [&console](const Diagnostic& d) { console.diagnostic(d); };
-    if (std::find(allowed.begin(), allowed.end(), "W-CACHE") != allowed.end()) tell = nullptr;
+    std::function<void(const Diagnostic&)> tell = [&console, allowed](const Diagnostic& d) {
+        if (!is_allowed(d, allowed)) console.diagnostic(d);
+    };
     return std::make_unique<cache::Store>(
         cache::StoreSettings{*folder, cache::size_limit(), options.everything, std::move(tell)});
 }

@@ -29,7 +29,9 @@ int entry(int argc, char** argv) {
         console.diagnostics(e);
         return static_cast<int>(e.kind());
     } catch (const std::bad_alloc&) {
-        return fail(console, ErrorKind::limit, "E-MEMORY", "not enough memory");
+        const Error error = out_of_memory("not enough memory");
+        console.diagnostics(error);
+        return static_cast<int>(error.kind());
     } catch (const std::exception& e) {
         return fail(console, ErrorKind::bug, "E-BUG", e.what(), "this is a bug in facetmill");
     }

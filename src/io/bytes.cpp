@@ -115,8 +115,7 @@ std::shared_ptr<const void> map_file(int fd, std::size_t size) {
 struct Inflater {
     z_stream stream{};
     Inflater() {
-        if (::inflateInit2(&stream, 15 + 16) != Z_OK)
-            throw Error(ErrorKind::limit, "E-MEMORY", "no memory to inflate a file");
+        if (::inflateInit2(&stream, 15 + 16) != Z_OK) throw out_of_memory("no memory to inflate a file");
     }
     ~Inflater() { ::inflateEnd(&stream); }
 };
@@ -253,7 +252,7 @@ bool is_gzip(Span bytes) {
 Bytes gzipped(Span bytes) {
     z_stream z{};
     if (::deflateInit2(&z, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)
-        throw Error(ErrorKind::limit, "E-MEMORY", "no memory to compress a file");
+        throw out_of_memory("no memory to compress a file");
     Bytes out;
     std::size_t at = 0, size = 0;
     for (int state = Z_OK; state == Z_OK;) {

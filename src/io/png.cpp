@@ -45,7 +45,7 @@ Bytes deflated(const Bytes& bytes) {
     Bytes out(size);
     if (::compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
                     bytes.size(), 6) != Z_OK)
-        throw Error(ErrorKind::limit, "E-MEMORY", "no memory to compress an image");
+        throw out_of_memory("no memory to compress an image");
     out.resize(size);
     return out;
 }

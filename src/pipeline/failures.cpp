@@ -17,23 +17,17 @@ void Failures::add(const Error& error) {
     for (const auto& d : error.diagnostics()) add(error.kind(), {d});
 }
 
-namespace {
-
-bool holds(const std::vector<std::string>& ids, const std::string& id) {
-    return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
-} // namespace
-
 std::optional<Diagnostic> strict_failure(const Diagnostic& warning, const std::vector<std::string>& strict) {
-    if (!holds(strict, "*") && !holds(strict, warning.id)) return {};
+    const bool fails = std::any_of(strict.begin(), strict.end(),
+                                   [&](const std::string& id) { return id == "*" || id == warning.id; });
+    if (!fails) return {};
     return Diagnostic{Severity::error, "E-STRICT",
                       fmt::format("--strict makes {} fail: {}", warning.id, warning.message), warning.where,
                       warning.hint};
 }
 
 void Failures::warn(const Diagnostic& warning) {
-    if (holds(allowed_, warning.id)) return;
+    if (is_allowed(warning, allowed_)) return;
     if (settings_.on_warning) settings_.on_warning(warning);
     if (auto error = strict_failure(warning, settings_.strict)) add(ErrorKind::check, {std::move(*error)});
 }

@@ -38,9 +38,8 @@ class Failures {
         } catch (Error& e) {
             add(e.at(where));
         } catch (const std::bad_alloc&) {
-            add(ErrorKind::limit,
-                {{Severity::error, "E-MEMORY", fmt::format("not enough memory for {}", what), where,
-                  "simplify earlier, or use a machine with more memory"}});
+            add(out_of_memory(fmt::format("not enough memory for {}", what),
+                              "simplify earlier, or use a machine with more memory", where));
         } catch (const std::exception& e) {
             add(ErrorKind::bug, {{Severity::error, "E-BUG",
                                   fmt::format("{} failed in a way it never should: {}", what, e.what()),

@@ -21,6 +21,16 @@ TEST_CASE("a diagnostic without a place says who speaks", "[base]") {
           "facetmill: warning[W-UNITS]: unknown unit");
 }
 
+TEST_CASE("a want of memory is known by its field, and a warning that is allowed by its id", "[base]") {
+    const Error error = out_of_memory("no memory for it", "take less");
+    CHECK(error.kind() == ErrorKind::limit);
+    CHECK(error.diagnostics().front().out_of_memory);
+    CHECK_FALSE(Error(ErrorKind::limit, "E-LIMIT", "too many").diagnostics().front().out_of_memory);
+    const Diagnostic warning{Severity::warning, "W-UNITS", "unknown unit", {}, {}};
+    CHECK(is_allowed(warning, {"W-ONLY", "W-UNITS"}));
+    CHECK_FALSE(is_allowed(warning, {"W-UNIT"}));
+}
+
 TEST_CASE("nearest names", "[base]") {
     CHECK(nearest("clop", {"clip", "crop", "split"}) == "clip");
     CHECK(nearest("simpilfy", {"clip", "simplify"}) == "simplify");

@@ -153,8 +153,9 @@ std::size_t draco_block(Merge& merge, const Place& primitive, const Place& draco
     try {
         decoded = decode_draco(merge.source.view(draco.at("bufferView")));
     } catch (const Error& e) {
-        throw Error(e.kind(), e.diagnostics().front().id,
-                    draco.path() + ": " + e.diagnostics().front().message);
+        Diagnostic why = e.diagnostics().front();
+        why.message = draco.path() + ": " + why.message;
+        throw Error(e.kind(), std::vector{std::move(why)});
     }
     Block block;
     block.count = decoded.points;
