@@ -187,13 +187,11 @@ std::vector<Error> unmatched_patterns(const Plan& plan) {
 
 namespace {
 
-/// Whether a step judges the scene, or may write: stages that tell something of the scene, on the terminal or
-/// in a file, have a path, too.
+/// Whether something is left of a step beside the scene.
 bool has_effect(const Steps& steps) {
     return std::any_of(steps.begin(), steps.end(), [](const Step& step) {
         if (step.ensure) return true;
-        if (step.stage)
-            return step.stage->checks || (!step.stage->loads && step.stage->options->find("path"));
+        if (step.stage) return step.stage->checks || step.stage->tells;
         return std::any_of(step.arms.begin(), step.arms.end(),
                            [](const Arm& arm) { return has_effect(*arm.steps); });
     });
@@ -203,11 +201,12 @@ bool has_effect(const Steps& steps) {
 
 std::optional<Diagnostic> without_effect(const Plan& plan) {
     if (plan.steps.empty() || !plan.reports.empty() || has_effect(plan.steps)) return {};
-    if (std::find(plan.allowed.begin(), plan.allowed.end(), "W-NOTHING") != plan.allowed.end()) return {};
-    return Diagnostic{Severity::warning, "W-NOTHING",
-                      "the pipeline writes nothing and checks nothing, so nothing is left of what it does",
-                      plan.steps.back().where,
-                      "end it with write: FILE, or with validate, or ask for a --report"};
+    Diagnostic warning{Severity::warning, "W-NOTHING",
+                       "the pipeline writes nothing and checks nothing, so nothing is left of what it does",
+                       plan.steps.back().where,
+                       "end it with write: FILE, or with validate, or ask for a --report"};
+    if (is_allowed(warning, plan.allowed)) return {};
+    return warning;
 }
 
 Diagnostic about_input(const std::vector<fs::path>& inputs, Diagnostic diagnostic) {

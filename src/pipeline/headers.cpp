@@ -61,6 +61,11 @@ void find_physical(const Option& option, const Value& value, Lengths& found) {
         add_physical(option.name, value, found);
 }
 
+/// The value of the option in the pipeline; null when it is not given, or has no name.
+const Value* given_option(const Step& step, const std::string& name) {
+    return !name.empty() && step.given.is_map() ? step.given.find(name) : nullptr;
+}
+
 class Walk {
   public:
     explicit Walk(const Places& places) : places_(places) {}
@@ -80,8 +85,7 @@ class Walk {
             else if (unit)
                 resolve_lengths(step, *unit);
             // A stage that says what the numbers mean ends what is known here.
-            const bool says = !step.stage->header && !step.stage->checks;
-            if (says && step.given.is_map() && step.given.find("unit")) unit.reset();
+            if (given_option(step, step.stage->roles.sets_unit)) unit.reset();
             if (step.ensure && unit == Unit::unknown) contract(*step.ensure);
         }
     }
@@ -141,10 +145,8 @@ class Walk {
 
     /// Of a scene without a unit, whatever needs one.
     void refuse_units(const Step& step) {
-        const auto files = planned_files({step}, places_);
-        const bool writes = std::any_of(files.begin(), files.end(), [](const auto& f) { return f.written; });
-        const Value* wanted = step.given.is_map() ? step.given.find("unit") : nullptr;
-        if (writes && wanted && wanted->is_scalar() &&
+        const Value* wanted = given_option(step, step.stage->roles.writes_in_unit);
+        if (wanted && wanted->is_scalar() &&
             unit_named(wanted->text).value_or(Unit::unknown) != Unit::unknown)
             headers.errors.push_back(
                 Error(ErrorKind::usage, "E-UNIT",

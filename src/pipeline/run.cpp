@@ -66,8 +66,10 @@ bool compares_with_load(const Steps& steps) {
         if (step.ensure && step.ensure->deviation &&
             step.ensure->deviation->from == DeviationLimits::From::load)
             return true;
-        if (step.kind == Step::Kind::stage) // the stage ensure always does
-            return step.stage->name == "ensure" && step.given.find("deviation") != nullptr;
+        if (step.kind == Step::Kind::stage) {
+            const std::string& option = step.stage->roles.compares_with_load;
+            return !option.empty() && step.given.find(option) != nullptr;
+        }
         return std::any_of(step.arms.begin(), step.arms.end(),
                            [](const Arm& arm) { return compares_with_load(*arm.steps); });
     });

@@ -40,19 +40,23 @@ void no_such_stage(const std::string& name, const Mark& where, Problems& problem
                          : did_you_mean(name, all_stage_names(), "facetmill stages lists them all"));
 }
 
+/// A common key that is a stage of its own when it is alone.
+bool is_key_and_stage(std::string_view key) { return is_common_key(key) && stage_named(key); }
+
 /// Which entry of the item is its stage; null after a problem.
 const Value::Entry* stage_entry(const Value& item, Problems& problems) {
     const Value::Entry* stage = nullptr;
     for (const auto& entry : item.entries)
         if (!stage && is_stage(entry.key) && !is_common_key(entry.key)) stage = &entry;
-    if (!stage) stage = item.find_entry("ensure"); // a stage of its own when it is alone
-    bool good = true, known = true;                // known: all that is wrong is words that mean nothing
+    for (const auto& entry : item.entries)
+        if (!stage && is_key_and_stage(entry.key)) stage = &entry;
+    bool good = true, known = true; // known: all that is wrong is words that mean nothing
     for (const auto& entry : item.entries) {
         if (&entry == stage || (stage && belongs(entry.key, stage->key)) ||
             (!stage && is_common_key(entry.key)))
             continue;
         good = false;
-        if (!stage || stage->key == "ensure") {
+        if (!stage || is_common_key(stage->key)) {
             no_such_stage(entry.key, entry.key_mark, problems);
             return nullptr;
         }

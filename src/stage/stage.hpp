@@ -31,6 +31,13 @@ struct StageFiles {
     std::optional<PathText> images{};    ///< the output that images of the scene are copied beside
 };
 
+/// Options of a stage that the pipeline has to know of, by their names; empty: it has none such.
+struct OptionRoles {
+    std::string sets_unit = {};          ///< says what the numbers of the scene mean afterwards
+    std::string writes_in_unit = {};     ///< the unit of the numbers in the file that it writes
+    std::string compares_with_load = {}; ///< compares with the scene as loaded, when it is given
+};
+
 struct StageInfo {
     std::string name;  ///< the verb users write
     std::string about; ///< one line
@@ -38,11 +45,13 @@ struct StageInfo {
     const char* details = "";
     std::vector<std::string> examples; ///< as list items of a pipeline, without the dash: "relax: 3"
     bool checks = false; ///< it only judges: several in a row all run before a failure ends the branch
+    bool tells = false;  ///< something is left of it beside the scene: a file, or lines on the terminal
     bool loads = false;  ///< it adds to the scene rather than working on it (may come first)
     MayLose may_lose = MayLose::tenth; ///< of the surface, unless its options say otherwise
     /// What is done about faces that cross themselves before it runs, unless its options say otherwise: the
     /// most that any of them ask for.
     CrossingFacePolicy crossing_faces = CrossingFacePolicy::keep;
+    OptionRoles roles = {};
 
     // Filled by make_stage. Declarations are made when they are first asked for.
     Lazy<Declaration> options = {};

@@ -73,6 +73,28 @@ TEST_CASE("lengths with a unit are resolved where the scene's is known", "[pipel
           std::string::npos);
 }
 
+TEST_CASE("the unit of an attribute is not that of the scene", "[pipeline]") {
+    Folder ground;
+    const std::string render = "  - render: {path: a.png, attribute: thickness, unit: mm}\n";
+    CHECK(ground.errors("  - load: good.off\n" + render).empty());
+    const auto plan =
+        ground.plan("  - load: {path: good.off, unit: mm}\n" + render + "  - crumple: {amplitude: 0.1in}\n");
+    CHECK(describe(plan, read_headers(plan)).find("0.1in is 2.54 mm") != std::string::npos);
+}
+
+TEST_CASE("stages name options of their own to the pipeline", "[pipeline]") {
+    std::size_t named = 0;
+    for (const auto& stage : stages())
+        for (const auto* role :
+             {&stage.roles.sets_unit, &stage.roles.writes_in_unit, &stage.roles.compares_with_load}) {
+            if (role->empty()) continue;
+            CAPTURE(stage.name, *role);
+            CHECK(stage.options->find(*role));
+            ++named;
+        }
+    CHECK(named == 4);
+}
+
 TEST_CASE("inputs that no stage could load are found before anything runs", "[pipeline]") {
     Folder ground;
     const auto errors = ground.errors("  - load: [broken.ply, noise.xyz, good.off]\n");

@@ -42,7 +42,8 @@ const RegisterStage registered{make_stage<EnsureOptions>(
      .details = help::ensure::details,
      .examples = {"ensure: {closed: true}", "ensure: {faces: {max: 5000}, components: 1}",
                   "ensure: {deviation: 0.5%}", "ensure: {unit: mm, bounds: {max: [20cm, 20cm, 5cm]}}"},
-     .checks = true},
+     .checks = true,
+     .roles = {.compares_with_load = "deviation"}},
     declare, run, StageHooks<EnsureOptions>{.files = {}, .verify = verify})};
 
 } // namespace

@@ -110,7 +110,8 @@ const RegisterStage registered = make_stage<GenerateOptions>(
      .examples = {"generate: sphere", "generate: {shape: menger, subdivisions: 3, quads: true}",
                   "generate: {shape: gaussian, cells: 60, noise: 0.3%, seed: 4}",
                   "generate: {shape: cylinder, radius: 5mm, height: 20mm, unit: mm}"},
-     .loads = true},
+     .loads = true,
+     .roles = {.sets_unit = "unit"}},
     declare_generate, declare_report, run, {.verify = verify_generate});
 
 } // namespace

@@ -80,6 +80,7 @@ const RegisterStage registered = make_stage<MeasureOptions>(
      .details = help::measure::details,
      .examples = {"measure", "measure: {density: 7.85, path: part.json}",
                   "measure: {curvature: true, path: [all.json, faces.csv]}"},
+     .tells = true,
      .crossing_faces = CrossingFacePolicy::name},
     declare_measure, declare_measure_report, run, {.files = files_of_measure, .verify = verify_measure});
 

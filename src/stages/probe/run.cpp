@@ -210,6 +210,7 @@ const RegisterStage registered = make_stage<ProbeOptions>(
      .examples = {"probe: [0, 0, 1]", "probe: {points: probes.csv, path: answers.csv}",
                   "probe: {rays: [0, 0, 9, 0, 0, -1], hits: first}",
                   "probe: {along: NORMAL, reverse: true, path: walls.csv}"},
+     .tells = true,
      .crossing_faces = CrossingFacePolicy::name},
     declare_probe, declare_probe_report, run, {.files = probe_files, .verify = verify_probe});
 

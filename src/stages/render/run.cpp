@@ -98,6 +98,7 @@ const RegisterStage registered{make_stage<RenderOptions>(
                   "render: {path: around.png, views: turntable, width: 400, height: 400, background: light}",
                   "render: {path: failed.png, attribute: failed}",
                   "render: {path: curvature.png, attribute: mean_curvature, unit: 1/mm, range: [-1, 1]}"},
+     .tells = true,
      .crossing_faces = CrossingFacePolicy::name},
     declare_render, declare_report, run,
     StageHooks<RenderOptions>{.files =

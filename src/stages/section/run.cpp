@@ -91,7 +91,8 @@ const RegisterStage registered{make_stage<SectionOptions>(
      .examples = {"section: z=50%",
                   "section: {plane: {normal: [1, 0, 1], through: centre}, path: cut.svg, hatch: 2%}",
                   "section: {plane: z=0, spacing: 2mm, path: [layers.svg, layers.dxf, layers.json]}",
-                  "section: {count: 20}"}},
+                  "section: {count: 20}"},
+     .tells = true},
     declare_section, declare_section_report, run,
     StageHooks<SectionOptions>{.files =
                                    [](const SectionOptions& o) {

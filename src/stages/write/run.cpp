@@ -91,7 +91,9 @@ const RegisterStage registered = make_stage<WriteOptions>(
      .examples = {"write: part.glb", "write: {path: part.glb, draco: true}",
                   "write: {path: part.glb, quantize: true}", "write: {path: print.stl, unit: mm, up: z}",
                   "write: {path: web.glb, normals: smooth, feature_angle: 40deg}"},
-     .crossing_faces = CrossingFacePolicy::name},
+     .tells = true,
+     .crossing_faces = CrossingFacePolicy::name,
+     .roles = {.writes_in_unit = "unit"}},
     declare_write, declare_report, run,
     {.files = files_of_write, .verify = verify_write, .crossing_faces = crossing_faces});
 
