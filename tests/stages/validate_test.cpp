@@ -388,13 +388,3 @@ TEST_CASE("validate warns instead, when asked", "[stages]") {
     const auto run = run_stage("validate", "{closed: true, severity: warn}", scene_of(shapes::grid(1, 1)));
     CHECK(run.state->record.checks.at(0).severity == Severity::warning);
 }
-
-TEST_CASE("ensure checks what it is given", "[stages]") {
-    const auto run = run_stage("ensure", "{closed: true, faces: {max: 5}, min_angle: {min: 60deg}}",
-                               scene_of(shapes::cube()));
-    CHECK(failures(run).substr(0, 29) == "faces: at most 5, found 12\nmi");
-    CHECK(failure([] { run_stage("ensure", "{}", scene_of({})); }).substr(0, 47) ==
-          "usage [E-MISSING] test.yaml:1:1: ensure needs a");
-    CHECK(failure([] { run_stage("ensure", "{closd: true}", scene_of({})); }).find("closed") !=
-          std::string::npos);
-}

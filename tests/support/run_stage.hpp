@@ -1,6 +1,7 @@
 #pragma once
 // One stage on a scene, as the pipeline would run it; its options written as in a pipeline, or as a value.
 
+#include "mesh/shapes.hpp"
 #include "pipeline/document.hpp"
 #include "stage/stage.hpp"
 #include "support/failure.hpp"
@@ -78,6 +79,16 @@ inline Scene scene_of(Mesh mesh, Unit unit = Unit::unknown) {
     scene.parts.emplace_back();
     scene.parts[0].name = "part";
     scene.parts[0].mesh = std::move(mesh);
+    return scene;
+}
+
+/// A cube with a skin's joints and weights.
+inline Scene skinned_cube() {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts[0].skinned = true;
+    scene.parts[0].mesh.attributes = {
+        {"JOINTS_0", Domain::wedge, Role::joints, 4, false, std::vector<std::uint8_t>(32, 0)},
+        {"WEIGHTS_0", Domain::wedge, Role::weights, 4, false, std::vector<float>(32, 0.25F)}};
     return scene;
 }
 

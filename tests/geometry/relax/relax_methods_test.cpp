@@ -1,6 +1,5 @@
 // The methods of relax other than laplacian, features, masks, targets.
 #include "geometry/crumple/crumple.hpp"
-#include "geometry/edit/mask.hpp"
 #include "geometry/edit/moved.hpp"
 #include "geometry/generate/generate.hpp"
 #include "geometry/relax/relax.hpp"
@@ -218,46 +217,6 @@ TEST_CASE("relax: factors that a method cannot take are refused", "[geometry]") 
           "usage [E-RANGE] relax: lambda is 0 < x <= 1, not 1.5");
     s.method = Method::implicit;
     CHECK_NOTHROW(relax(shapes::cube(), s));
-}
-
-TEST_CASE("area and volume in the world, mirrored or not", "[geometry]") {
-    Transform t;
-    t.m[0][0] = -2;
-    t.m[1][1] = 3;
-    t.m[2][3] = 5;
-    const SurfaceSize size = surface_size(shapes::quad_cube(), t);
-    CHECK(size.area == Approx(2 * (2 * 3 + 3 + 2)));
-    CHECK(*size.volume == Approx(6));
-    CHECK_FALSE(surface_size(shapes::grid(2, 2)).volume);
-    CHECK_FALSE(surface_size(shapes::fan3()).volume);
-    CHECK_FALSE(surface_size(Mesh{}).volume);
-}
-
-TEST_CASE("a mask by material, group and attribute", "[geometry]") {
-    Scene scene;
-    scene.materials.resize(2);
-    scene.materials[0].name = "skin";
-    scene.materials[1].name = "hair";
-    Part part;
-    part.name = "head";
-    part.mesh = shapes::grid(2, 1); // faces 0, 1 left, 2, 3 right
-    part.mesh.primitives.resize(2);
-    part.mesh.primitives[0].material = 0;
-    part.mesh.primitives[1].material = 1;
-    const std::vector<std::uint32_t> halves{0, 0, 1, 1};
-    part.mesh.attributes.push_back({"primitive", Domain::face, Role::index, 1, false, halves});
-    part.mesh.attributes.push_back({"group", Domain::face, Role::index, 1, false, halves});
-    part.mesh.attributes.push_back(
-        {"heat", Domain::vertex, Role::generic, 1, false, std::vector<float>{-1, 0.5F, 2, 0, 1, NAN}});
-    using Shares = std::vector<double>;
-    CHECK(vertex_mask(part, scene, {}).empty());
-    CHECK(vertex_mask(part, scene, {.material = "sk*"}) == Shares{1, 0, 0, 1, 0, 0});
-    CHECK(vertex_mask(part, scene, {.group = 1}) == Shares{0, 0, 1, 0, 0, 1});
-    CHECK(vertex_mask(part, scene, {.attribute = "heat"}) == Shares{0, 0.5, 1, 0, 1, 0});
-    CHECK(vertex_mask(part, scene, {.attribute = "heat", .invert = true}) == Shares{1, 0.5, 0, 1, 0, 1});
-    CHECK(vertex_mask(part, scene, {.attribute = "group"}) == Shares{0, 0, 1, 0, 0, 1});
-    CHECK(test::failure([&] { vertex_mask(part, scene, {.attribute = "cold"}); }) ==
-          "stage [E-MASK] mask: part 'head' has no attribute 'cold' | it has primitive, group, heat");
 }
 
 TEST_CASE("slide rounds the corners of the outline, and feature_angle holds them", "[geometry]") {

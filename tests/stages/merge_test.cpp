@@ -1,0 +1,65 @@
+#include "support/catch.hpp"
+#include "support/meshes.hpp"
+#include "support/run_stage.hpp"
+
+#include "geometry/inspect/inspect.hpp"
+#include "mesh/shapes.hpp"
+
+using namespace facetmill;
+using test::run_stage;
+using test::scene_of;
+
+TEST_CASE("merge joins parts in the world, separate takes them apart again", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].name = "other";
+    scene.parts[1].transform.m[0][3] = 5;
+    auto run = run_stage("merge", "{name: both}", scene);
+    REQUIRE(run.scene.parts.size() == 1);
+    CHECK(run.scene.parts[0].name == "both");
+    CHECK(run.scene.parts[0].mesh.face_count() == 24);
+    CHECK(run.scene.bounds().min == Vec3{0, 0, 0});
+    CHECK(run.scene.bounds().max == Vec3{6, 1, 1});
+    for (const std::string by : {"group", "component"}) {
+        const auto apart = run_stage("separate", by, run.scene);
+        REQUIRE(apart.scene.parts.size() == 2);
+        CHECK(apart.scene.parts[1].name == "both.1");
+        CHECK(apart.scene.parts[0].mesh.vertex_count() == 8);
+        CHECK(apart.scene.parts[1].mesh.bounds().min == Vec3{5, 0, 0});
+        CHECK(inspect(apart.scene).closed);
+    }
+}
+
+TEST_CASE("merge welds coincident vertices", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    scene.parts.push_back(scene.parts[0]);
+    scene.parts[1].transform.m[0][3] = 1;
+    const auto run = run_stage("merge", "{weld: true}", scene);
+    CHECK(run.record.result["welded_vertices"] == 4);
+    CHECK(run.scene.parts[0].mesh.vertex_count() == 12);
+}
+
+TEST_CASE("merge gives no part the name of another", "[stages]") {
+    Scene scene = scene_of(shapes::cube());
+    for (const char* name : {"arm", "leg"}) {
+        scene.parts.push_back(scene.parts[0]);
+        scene.parts.back().name = name;
+    }
+    const StageInfo& merge = test::stage_for_test("merge");
+    Problems problems;
+    const auto options = test::options_of(merge, Value::scalar("leg"), problems);
+    test::StageRun run;
+    const PartFilter some{{"part", "arm"}};
+    Context context(*run.state, run.record, some, scene.bounds(), {});
+    const Scene merged = merge.run(std::move(scene), options.get(), context);
+    REQUIRE(merged.parts.size() == 2);
+    CHECK(merged.parts[0].name == "leg_2");
+}
+
+TEST_CASE("merge leaves no joints without a skin", "[stages]") {
+    const auto merged = run_stage("merge", "", test::skinned_cube());
+    CHECK_FALSE(merged.scene.parts[0].skinned);
+    CHECK(merged.warnings() == std::vector<std::string>{"W-SKIN"});
+    CHECK(merged.scene.parts[0].mesh.find("JOINTS_0", Domain::wedge) == nullptr);
+    CHECK(merged.scene.parts[0].mesh.find("WEIGHTS_0", Domain::wedge) == nullptr);
+}

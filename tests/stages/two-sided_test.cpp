@@ -1,0 +1,17 @@
+#include "support/catch.hpp"
+#include "support/run_stage.hpp"
+
+#include "mesh/shapes.hpp"
+
+using namespace facetmill;
+using test::run_stage;
+using test::scene_of;
+
+TEST_CASE("two-sided marks materials", "[stages]") {
+    const auto run = run_stage("two-sided", "material", scene_of(shapes::grid(1, 1)));
+    REQUIRE(run.scene.materials.size() == 1);
+    CHECK(run.scene.materials[0].double_sided);
+    CHECK(run.scene.parts[0].mesh.primitives[0].material == 0);
+    CHECK(run.scene.parts[0].mesh.face_count() == 2);
+    CHECK(run_stage("two-sided", "", scene_of(shapes::grid(1, 1))).scene.parts[0].mesh.face_count() == 4);
+}
