@@ -1,5 +1,5 @@
 #pragma once
-// Doubles as whole numbers: + - * of them know neither rounding nor overflow. Slow; for the few cases that
+// Doubles as integers: + - * of them know neither rounding nor overflow. Slow; for the few cases that
 // sums of doubles (base/exact_sum.hpp) cannot hold.
 
 #include <gmpxx.h>

@@ -44,14 +44,14 @@ bool doubles_hold_products(std::initializer_list<Axis> axes) {
 
 /// Whole numbers, for what no expansion of doubles can hold: coordinates of very different sizes along an
 /// axis.
-int whole_orientation_2d(double ax, double ay, double bx, double by, double cx, double cy) {
+int integer_orientation_2d(double ax, double ay, double bx, double by, double cx, double cy) {
     const mpz_class x = exact_integer(cx), y = exact_integer(cy);
     const mpz_class left = (exact_integer(ax) - x) * (exact_integer(by) - y),
                     right = (exact_integer(ay) - y) * (exact_integer(bx) - x);
     return sgn(mpz_class(left - right));
 }
 
-int whole_orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+int integer_orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     std::array<mpz_class, 3> u, v, w;
     for (std::size_t i = 0; i < 3; ++i) {
         const mpz_class from = exact_integer(a[i]);
@@ -90,7 +90,7 @@ void add_product(Expansion& sum, const Difference& a, const Difference& b, const
 
 int exact_orientation_3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
     const Axis x{a.x, b.x, c.x, d.x}, y{a.y, b.y, c.y, d.y}, z{a.z, b.z, c.z, d.z};
-    if (!doubles_hold_products({x, y, z})) return whole_orientation_3d(a, b, c, d);
+    if (!doubles_hold_products({x, y, z})) return integer_orientation_3d(a, b, c, d);
     for (Vec3* p : {&a, &b, &c, &d}) {
         p->x *= x.scale;
         p->y *= y.scale;
@@ -116,7 +116,7 @@ int orientation_2d(double ax, double ay, double bx, double by, double cx, double
         std::abs(det) > orientation_smallest)
         return sign_of(det);
     const Axis x{ax, bx, cx}, y{ay, by, cy};
-    if (!doubles_hold_products({x, y})) return whole_orientation_2d(ax, ay, bx, by, cx, cy);
+    if (!doubles_hold_products({x, y})) return integer_orientation_2d(ax, ay, bx, by, cx, cy);
     ax *= x.scale;
     bx *= x.scale;
     cx *= x.scale;

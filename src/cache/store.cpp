@@ -217,7 +217,7 @@ struct PartFile {
 
     explicit PartFile(const fs::path& folder) {
         static std::atomic<std::uint64_t> number{0}; // stores of one process may share a folder
-        constexpr int most_attempts = 1000;          // leftovers of a process of the same id
+        constexpr int max_attempts = 1000;           // leftovers of a process of the same id
         for (int attempt = 0;; ++attempt) {
             path = folder / fmt::format(".{}-{}{}", ::getpid(), number++, temporary);
             clean_up = io::clean_up_file(path);
@@ -225,7 +225,7 @@ struct PartFile {
             if (fd >= 0) return;
             const int why = errno;
             io::keep(clean_up);
-            if (why != EEXIST || attempt >= most_attempts) io::cannot_write(path, why);
+            if (why != EEXIST || attempt >= max_attempts) io::cannot_write(path, why);
         }
     }
     PartFile(const PartFile&) = delete;

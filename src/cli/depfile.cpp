@@ -8,7 +8,7 @@
 
 namespace facetmill::cli {
 
-std::string make_spelling(const std::string& path, bool target) {
+std::string make_escaped(const std::string& path, bool target) {
     std::string text;
     std::size_t backslashes = 0;
     for (const char c : path) {
@@ -27,12 +27,12 @@ std::string make_spelling(const std::string& path, bool target) {
 }
 
 std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs) {
-    std::string text = make_spelling(target, true) + ":";
-    for (const auto& input : inputs) text += " \\\n  " + make_spelling(input, false);
+    std::string text = make_escaped(target, true) + ":";
+    for (const auto& input : inputs) text += " \\\n  " + make_escaped(input, false);
     text += "\n";
     for (const auto& input : inputs)
         // With a % it would be a pattern for Make, and escaped it would be another file for Ninja.
-        if (input.find('%') == input.npos) text += make_spelling(input, true) + ":\n";
+        if (input.find('%') == input.npos) text += make_escaped(input, true) + ":\n";
     return text;
 }
 

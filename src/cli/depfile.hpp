@@ -7,7 +7,7 @@ namespace facetmill::cli {
 
 /// The name as Make reads it: blanks, #, $, colons, in a target %, and backslashes before them escaped.
 /// Throws output (E-DEPFILE) for a line break, which Make cannot spell.
-std::string make_spelling(const std::string& path, bool target);
+std::string make_escaped(const std::string& path, bool target);
 
 /// "target: inputs", and an empty rule for each input, so that Make does not stop when one is deleted.
 std::string depfile_text(const std::string& target, const std::vector<std::string>& inputs);

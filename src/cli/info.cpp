@@ -114,8 +114,8 @@ std::string as_text(const std::string& name, const Json& info) {
 
 /// The picture that reports show, larger; of several files beside each other.
 void write_picture(const std::vector<Picture>& pictures, const std::string& path) {
-    constexpr std::size_t most_in_a_row = 4;
-    const Picture sheet = sheet_of(pictures, std::min(pictures.size(), most_in_a_row));
+    constexpr std::size_t max_in_a_row = 4;
+    const Picture sheet = sheet_of(pictures, std::min(pictures.size(), max_in_a_row));
     io::write_now(path, io::png(sheet));
 }
 

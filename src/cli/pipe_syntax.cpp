@@ -68,7 +68,7 @@ bool short_list(const Declaration& group) {
     return any;
 }
 
-/// Whether commas part the values of the option.
+/// Whether commas separate the values of the option.
 bool comma_list(const Option& option) {
     if (option.type == "vector") return true;
     if (option.fields && short_list(*option.fields)) return true;
@@ -337,7 +337,7 @@ class Parser {
             item.entries[0].value = Value::map({}, where);
         }
         if (!common && stage) {
-            key = spelled_out(item.entries[0].value, key, *stage->options);
+            key = nested_key(item.entries[0].value, key, *stage->options);
             known = gathered(item.entries[0].value, key, value, known, *stage->options);
         }
         add(common ? item : item.entries[0].value, key, std::move(value), key_mark, known);
@@ -385,7 +385,7 @@ class Parser {
 
     /// A group takes a bare value and options beside it, in either order: --holes planar --holes.edges 9.
     /// Gives the bare value that is there its name, or returns the key by its.
-    static std::string spelled_out(Value& map, const std::string& key, const Declaration& declaration) {
+    static std::string nested_key(Value& map, const std::string& key, const Declaration& declaration) {
         const auto dot = key.find('.');
         const std::string head = key.substr(0, dot);
         const Option* group = declaration.find(head);

@@ -117,9 +117,9 @@ void refuse_extras(const Command& command, const Arguments& arguments, const std
 
 /// --strict alone means all warnings; else the next argument would be taken for its value. --quiet with a
 /// value is --allow.
-std::vector<std::string> spelled_out(std::vector<std::string> words, bool takes_the_rest,
-                                     const CommandLine& line) {
-    const auto refuse_id_apart = [&](std::size_t i) {
+std::vector<std::string> expanded(std::vector<std::string> words, bool takes_the_rest,
+                                  const CommandLine& line) {
+    const auto refuse_separate_id = [&](std::size_t i) {
         if (i + 1 >= words.size() || !words[i + 1].starts_with("W-")) return;
         throw Error(ErrorKind::usage, "E-ARGUMENT",
                     fmt::format("{0} and a warning's id are one argument: {0}={1}", words[i], words[i + 1]),
@@ -128,7 +128,7 @@ std::vector<std::string> spelled_out(std::vector<std::string> words, bool takes_
     for (std::size_t i = 0; i < words.size(); ++i) {
         std::string& word = words[i];
         if (takes_the_rest && !word.starts_with("-")) break;
-        if (word == "--strict" || word == "--quiet") refuse_id_apart(i);
+        if (word == "--strict" || word == "--quiet") refuse_separate_id(i);
         if (word == "--strict") word = "--strict=*";
         if (word.starts_with("--quiet=")) word = "--allow=" + word.substr(8);
     }
@@ -152,7 +152,7 @@ int execute(const Command& command, const CommandLine& line, Console& console) {
     Arguments arguments;
     const auto work = command.declare(arguments, console);
     std::vector<std::string> words(line.arguments().begin() + 1, line.arguments().end());
-    words = spelled_out(std::move(words), command.takes_the_rest, line);
+    words = expanded(std::move(words), command.takes_the_rest, line);
     Invocation invocation{line, 0};
     if (command.takes_the_rest) {
         const auto count = leading_options(arguments, words);

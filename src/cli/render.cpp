@@ -77,9 +77,10 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
                         : "render needs -o FILE.png",
                     "for example facetmill render part.stl -o part.png", invocation.line.mark(0));
     // The one-liner that it stands for, which messages then show.
-    std::vector<std::string> spelled{"pipe", "load", words.front(), "!", "render", "--path", options.output};
-    spelled.insert(spelled.end(), words.begin() + 1, words.end());
-    const CommandLine line(std::move(spelled));
+    std::vector<std::string> words_of_pipe{"pipe",   "load",   words.front(), "!",
+                                           "render", "--path", options.output};
+    words_of_pipe.insert(words_of_pipe.end(), words.begin() + 1, words.end());
+    const CommandLine line(std::move(words_of_pipe));
     Problems problems;
     auto settings = plan_settings(options.run, line, problems);
     settings.name = "render";

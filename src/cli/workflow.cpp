@@ -146,8 +146,8 @@ std::string joined(const std::vector<std::string>& paths, std::string (*spelled)
     return text;
 }
 
-std::string make_target(const std::string& path) { return make_spelling(path, true); }
-std::string make_input(const std::string& path) { return make_spelling(path, false); }
+std::string make_target(const std::string& path) { return make_escaped(path, true); }
+std::string make_input(const std::string& path) { return make_escaped(path, false); }
 
 /// JSON has names in UTF-8 only.
 std::string as_json(const Json& all) {

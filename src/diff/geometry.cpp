@@ -23,7 +23,7 @@ void compare_frames(const Comparing& with) {
 struct Shape {
     Surface surface, points; ///< its faces, and the vertices that none of them uses
     explicit Shape(const Scene& scene)
-        : surface(surface_of(scene, filled_surface)), points(unreferenced_points_of(scene)) {}
+        : surface(surface_of(scene, filled_surface)), points(isolated_vertices_of(scene)) {}
     bool has_faces() const { return surface.size() > 0; }
     /// The faces, or the points of a cloud.
     const Surface& main() const { return has_faces() ? surface : points; }
@@ -69,19 +69,19 @@ void compare_fans(const Comparing& with) {
 }
 
 /// Points beside faces: from each of them to the nearest point of all that the other scene holds.
-void compare_loose(const Comparing& with, const Shape& a, const Shape& b, const Distances& distances) {
-    const auto loose = [](const Shape& s) { return s.has_faces() ? s.points.size() : 0; };
-    if (loose(a) + loose(b) == 0) return;
+void compare_isolated(const Comparing& with, const Shape& a, const Shape& b, const Distances& distances) {
+    const auto isolated = [](const Shape& s) { return s.has_faces() ? s.points.size() : 0; };
+    if (isolated(a) + isolated(b) == 0) return;
     const auto farthest = [&](const Shape& from, const Shape& to) {
-        return loose(from) == 0 ? DirectedDeviation{}
-                                : deviation_to(from.points, FaceTree(joined(to.surface, to.points)));
+        return isolated(from) == 0 ? DirectedDeviation{}
+                                   : deviation_to(from.points, FaceTree(joined(to.surface, to.points)));
     };
     const DirectedDeviation f = farthest(a, b), g = farthest(b, a);
     const auto& worst = f.maximum >= g.maximum ? f : g;
-    std::string more = fmt::format(", {} and {} vertices without faces", loose(a), loose(b));
+    std::string more = fmt::format(", {} and {} vertices without faces", isolated(a), isolated(b));
     if (worst.maximum > 0 && std::isfinite(worst.maximum))
         more += fmt::format(", farthest {:.6g} {:.6g} {:.6g}", worst.from.x, worst.from.y, worst.from.z);
-    distances.line("loose points maximum", f.maximum, g.maximum, maximum_of(with.settings), more);
+    distances.line("isolated vertices maximum", f.maximum, g.maximum, maximum_of(with.settings), more);
 }
 
 } // namespace
@@ -106,7 +106,7 @@ void compare_geometry(const Comparing& with) {
     distances.line("deviation rms", f.rms, g.rms, settings.rms);
     distances.line("deviation mean", f.mean, g.mean, settings.mean);
     if (f.bound && g.bound) distances.line("deviation bound", *f.bound, *g.bound, settings.maximum);
-    compare_loose(with, a, b, distances);
+    compare_isolated(with, a, b, distances);
 }
 
 } // namespace facetmill::report

@@ -85,7 +85,7 @@ std::size_t zero_what_is_not_finite(std::vector<T>& values) {
 
 } // namespace
 
-void mend_attributes(Part& part, const std::string& file, ReadLog& log) {
+void fix_attributes(Part& part, const std::string& file, ReadLog& log) {
     for (auto& attribute : part.mesh.attributes) {
         const std::size_t found =
             std::visit([](auto& values) { return zero_what_is_not_finite(values); }, attribute.data);

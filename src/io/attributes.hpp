@@ -28,7 +28,7 @@ Attribute selected(const Attribute& attribute, std::span<const Index> kept);
 
 /// Replaces attribute values that are not finite by 0, since no format and no stage can use them, and warns
 /// (W-NAN).
-void mend_attributes(Part& part, const std::string& file, ReadLog& log);
+void fix_attributes(Part& part, const std::string& file, ReadLog& log);
 
 /// Drops faces of fewer than three corners (face attributes follow) and warns (W-FACES).
 void drop_short_faces(Mesh& mesh, const std::string& file, ReadLog& log);

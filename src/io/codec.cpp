@@ -183,7 +183,7 @@ Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
         check_finite(part, input.name());
         warn_of_size(part, log);
         if (settings.weld == Weld::exact) weld_exact(part.mesh);
-        mend_attributes(part, input.name(), log);
+        fix_attributes(part, input.name(), log);
         any |= part.mesh.vertex_count() > 0;
     }
     for (Lines& lines : log.lines) {

@@ -198,7 +198,7 @@ std::vector<std::string> names_of_writers();
 Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
                  const Codec* forced = nullptr);
 
-/// Recognises a file and reads its header. Throws as read_scene, for what the header shows.
+/// Sniffs a file and reads its header. Throws as read_scene, for what the header shows.
 FileHeader file_header(const Input& input, const ReadSettings& settings, const Codec* forced = nullptr);
 
 } // namespace facetmill::io

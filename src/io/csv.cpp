@@ -13,10 +13,10 @@ namespace facetmill::io {
 
 namespace {
 
-bool parts(char c) { return c == ',' || c == ';' || c == '\t' || c == ' ' || c == '"'; }
+bool is_separator(char c) { return c == ',' || c == ';' || c == '\t' || c == ' ' || c == '"'; }
 
 std::string_view skip_parting(std::string_view line) {
-    while (!line.empty() && parts(line.front())) line.remove_prefix(1);
+    while (!line.empty() && is_separator(line.front())) line.remove_prefix(1);
     return line;
 }
 
@@ -25,7 +25,7 @@ bool take_number(std::string_view& line, double& value) {
     const std::string_view rest = skip_parting(line);
     const char *at = rest.data(), *end = rest.data() + rest.size();
     if (!scan_real(at, end, value)) return false;
-    if (at != end && !parts(*at)) return false;
+    if (at != end && !is_separator(*at)) return false;
     line = {at, static_cast<std::size_t>(end - at)};
     return true;
 }
@@ -38,8 +38,8 @@ char delimiter_of(std::string_view heading) {
 }
 
 std::string_view trimmed(std::string_view cell) {
-    while (!cell.empty() && parts(cell.front())) cell.remove_prefix(1);
-    while (!cell.empty() && parts(cell.back())) cell.remove_suffix(1);
+    while (!cell.empty() && is_separator(cell.front())) cell.remove_prefix(1);
+    while (!cell.empty() && is_separator(cell.back())) cell.remove_suffix(1);
     return cell;
 }
 

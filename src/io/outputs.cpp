@@ -54,7 +54,7 @@ Outputs::~Outputs() { discard(); }
 
 void Outputs::make_directory(const fs::path& directory) {
     std::error_code error;
-    constexpr int most_attempts = 1000;
+    constexpr int max_attempts = 1000;
     for (int attempt = 0; !directory.empty() && !fs::is_directory(directory, error); ++attempt) {
         make_directory(directory.parent_path());
         if (::mkdir(directory.c_str(), 0777) == 0) {
@@ -66,7 +66,7 @@ void Outputs::make_directory(const fs::path& directory) {
         // Another run that failed may have removed this folder or one above, which it had made.
         const bool vanished =
             why == ENOENT || (why == EEXIST && !fs::exists(fs::symlink_status(directory, error)));
-        if (vanished && attempt < most_attempts) continue;
+        if (vanished && attempt < max_attempts) continue;
         throw Error(ErrorKind::output, why == ENOSPC ? "E-SPACE" : "E-DIRECTORY",
                     fmt::format("the directory '{}' cannot be made: {}", directory.string(),
                                 why == EEXIST ? "a file has its name" : std::strerror(why)),
@@ -104,7 +104,7 @@ void Outputs::remove_stale(const fs::path& directory) {
 
 void Outputs::stage(File& file, Span bytes) {
     const fs::path directory = file.resolved.parent_path();
-    constexpr int most_attempts = 1000;
+    constexpr int max_attempts = 1000;
     for (int attempt = 0;; ++attempt) {
         file.temporary = directory / temporary_name(file.resolved, attempt);
         file.clean_up = clean_up_file(file.temporary);
@@ -112,7 +112,7 @@ void Outputs::stage(File& file, Span bytes) {
         if (file.lock >= 0) break;
         const int why = errno;
         keep(file.clean_up);
-        if (attempt >= most_attempts || (why != EEXIST && why != ENOENT)) cannot_write(file, why);
+        if (attempt >= max_attempts || (why != EEXIST && why != ENOENT)) cannot_write(file, why);
         if (why == ENOENT) make_directory(directory); // another run that failed had made it, and removed it
     }
     try {

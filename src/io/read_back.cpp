@@ -31,14 +31,14 @@ void add_used(const Part& part, bool in_world_space, Points& points) {
     }
 }
 
-std::size_t count_places(Points& points) {
+std::size_t count_positions(Points& points) {
     std::sort(points.begin(), points.end());
     return static_cast<std::size_t>(std::unique(points.begin(), points.end()) - points.begin());
 }
 
 void add(VertexChanges& sum, Points before, Points after) {
     const std::size_t were = before.size(), are = after.size();
-    const std::size_t places = count_places(before), left = count_places(after);
+    const std::size_t places = count_positions(before), left = count_positions(after);
     const std::size_t rounded = places > left ? places - left : 0;
     sum.rounded += rounded;
     if (are > were) sum.added += are - were;

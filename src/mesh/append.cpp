@@ -86,18 +86,18 @@ std::vector<std::string> wedge_attribute_names(const Mesh& mesh) {
 }
 
 /// Never empty, since that would stand for all there are: every wedge has a position.
-std::vector<std::string> spelled_out(const Mesh& mesh) {
+std::vector<std::string> attribute_names(const Mesh& mesh) {
     auto names = wedge_attribute_names(mesh);
     if (names.empty()) names.emplace_back("POSITION");
     return names;
 }
 
 /// The table of primitives with every "all attributes" spelled out.
-std::vector<Primitive> primitives_of(const Mesh& mesh, bool spell_out) {
+std::vector<Primitive> primitives_of(const Mesh& mesh, bool explicit_names) {
     auto table = mesh.primitives.empty() ? std::vector<Primitive>(1) : mesh.primitives;
-    if (spell_out)
+    if (explicit_names)
         for (auto& p : table)
-            if (p.attributes.empty()) p.attributes = spelled_out(mesh);
+            if (p.attributes.empty()) p.attributes = attribute_names(mesh);
     return table;
 }
 
@@ -138,14 +138,14 @@ void append_shifted(std::vector<T>& to, const std::vector<T>& from, std::size_t 
     parallel_for(from.size(), [&](std::size_t i) { to[before + i] = from[i] + static_cast<T>(shift); });
 }
 
-std::vector<Index> spelled_offsets(const Mesh& mesh) {
+std::vector<Index> explicit_offsets(const Mesh& mesh) {
     if (!mesh.face_offsets.empty()) return mesh.face_offsets;
     std::vector<Index> offsets(mesh.face_count() + 1);
     for (std::size_t f = 0; f < offsets.size(); ++f) offsets[f] = static_cast<Index>(3 * f);
     return offsets;
 }
 
-std::vector<Index> spelled_wedges(const Mesh& mesh) {
+std::vector<Index> explicit_wedges(const Mesh& mesh) {
     if (mesh.has_seams()) return mesh.wedge_vertex;
     std::vector<Index> wedges(mesh.wedge_count());
     for (std::size_t w = 0; w < wedges.size(); ++w) wedges[w] = static_cast<Index>(w);
@@ -155,13 +155,13 @@ std::vector<Index> spelled_wedges(const Mesh& mesh) {
 void append_arrays(Mesh& a, const Mesh& b) {
     const std::size_t vertices = a.vertex_count(), wedges = a.wedge_count(), corners = a.corner_count();
     if (a.has_seams() || b.has_seams()) {
-        a.wedge_vertex = spelled_wedges(a);
-        append_shifted(a.wedge_vertex, spelled_wedges(b), vertices);
+        a.wedge_vertex = explicit_wedges(a);
+        append_shifted(a.wedge_vertex, explicit_wedges(b), vertices);
     }
     if (!a.all_triangles() || !b.all_triangles()) {
-        a.face_offsets = spelled_offsets(a);
+        a.face_offsets = explicit_offsets(a);
         a.face_offsets.pop_back();
-        append_shifted(a.face_offsets, spelled_offsets(b), corners);
+        append_shifted(a.face_offsets, explicit_offsets(b), corners);
     }
     append_shifted(a.corners, b.corners, wedges);
     a.positions.insert(a.positions.end(), b.positions.begin(), b.positions.end());

@@ -101,7 +101,7 @@ void require_numbers(std::size_t corners) {
 
 } // namespace
 
-Surface unreferenced_points_of(const Scene& scene) {
+Surface isolated_vertices_of(const Scene& scene) {
     Surface points;
     for (const Part& part : scene.parts) {
         std::vector<std::uint8_t> used(part.mesh.vertex_count());
@@ -117,7 +117,7 @@ Surface unreferenced_points_of(const Scene& scene) {
 }
 
 Surface surface_or_points_of(const Scene& scene, SurfaceOfMesh of_mesh) {
-    return scene.face_count() > 0 ? surface_of(scene, of_mesh) : unreferenced_points_of(scene);
+    return scene.face_count() > 0 ? surface_of(scene, of_mesh) : isolated_vertices_of(scene);
 }
 
 Surface joined(Surface a, const Surface& b) {

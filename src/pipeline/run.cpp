@@ -265,7 +265,7 @@ class Runner {
         constexpr std::size_t max_bytes = 4 << 20;
         if (picture_bytes_ > max_bytes) return;
         failures_.guarded({}, "a picture", [&] {
-            const std::vector<Vec3> places = failing_places_of(stage);
+            const std::vector<Vec3> places = failing_locations_of(stage);
             std::string picture =
                 places.empty() ? picture_for_page(scene, {}) : picture_of_failures(scene, places);
             if (picture == last_picture_) return;
@@ -275,11 +275,11 @@ class Runner {
     }
 
     /// What the stage's checks have just found.
-    std::vector<Vec3> failing_places_of(const report::StageRecord& stage) {
+    std::vector<Vec3> failing_locations_of(const report::StageRecord& stage) {
         std::vector<Vec3> places;
         for (const auto& check : record().checks) {
             if (check.stage != stage.name) continue;
-            const std::vector<Vec3> more = report::failing_places(check);
+            const std::vector<Vec3> more = report::failing_locations(check);
             places.insert(places.end(), more.begin(), more.end());
         }
         return places;

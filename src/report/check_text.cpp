@@ -92,7 +92,7 @@ std::string locations_text(const Check& check) {
     return text + location_text(first);
 }
 
-std::vector<Vec3> failing_places(const Check& check) {
+std::vector<Vec3> failing_locations(const Check& check) {
     std::vector<Vec3> places;
     if (check.passed || !check.evidence.is_array()) return places;
     for (const Json& entry : check.evidence) {

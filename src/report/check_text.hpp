@@ -14,6 +14,6 @@ std::string found_text(const Check& check);
 /// when there is no evidence.
 std::string locations_text(const Check& check);
 /// The places in the world that speak against a check that did not hold; empty when it held or is about none.
-std::vector<Vec3> failing_places(const Check& check);
+std::vector<Vec3> failing_locations(const Check& check);
 
 } // namespace facetmill::report

@@ -45,7 +45,7 @@ std::string stage_rows(const RunRecord& record) {
 std::string shown_failures(const RunRecord& record, const StageRecord& stage) {
     std::string names;
     for (const auto& c : record.checks)
-        if (c.stage == stage.name && !failing_places(c).empty())
+        if (c.stage == stage.name && !failing_locations(c).empty())
             names += fmt::format("{}'{}'", names.empty() ? "" : ", ", c.name);
     return names;
 }

@@ -39,17 +39,17 @@ std::string expectation(const Property& property, const Assertion& a) {
     if (property.kind == PropertyKind::word)
         return std::string(property.words()[static_cast<std::size_t>(a.bound.min.value_or(0))]);
     if (property.kind == PropertyKind::box) {
-        std::string text = a.least.empty() ? "" : "at least " + told(a.least, numbers(a.within.min));
-        if (!a.most.empty())
-            text += (text.empty() ? "at most " : ", at most ") + told(a.most, numbers(a.within.max));
+        std::string text = a.min.empty() ? "" : "at least " + told(a.min, numbers(a.within.min));
+        if (!a.max.empty())
+            text += (text.empty() ? "at most " : ", at most ") + told(a.max, numbers(a.within.max));
         return text;
     }
-    if (a.least.empty() && a.most.empty()) return expectation(a.bound);
-    const auto least = [&] { return told(a.least, {a.bound.min.value_or(0)}); };
-    const auto most = [&] { return told(a.most, {a.bound.max.value_or(0)}); };
-    if (same(a.least, a.most)) return least();
-    if (a.least.empty()) return "at most " + most();
-    return a.most.empty() ? "at least " + least() : least() + " to " + most();
+    if (a.min.empty() && a.max.empty()) return expectation(a.bound);
+    const auto least = [&] { return told(a.min, {a.bound.min.value_or(0)}); };
+    const auto most = [&] { return told(a.max, {a.bound.max.value_or(0)}); };
+    if (same(a.min, a.max)) return least();
+    if (a.min.empty()) return "at most " + most();
+    return a.max.empty() ? "at least " + least() : least() + " to " + most();
 }
 
 bool lies_within(const Box& inner, const Box& outer) {
@@ -76,10 +76,10 @@ bool holds(const Bound& bound, double value) {
 std::string to_string(const Assertion& a) {
     const Property& property = *property_named(a.property);
     if (property.kind == PropertyKind::word) return a.bound.min ? expectation(property, a) : "";
-    if (a.least.empty() && a.most.empty()) return OptionType<Bound>::print(a.bound);
-    if (same(a.least, a.most)) return written(a.least);
-    std::string text = a.least.empty() ? "" : "min: " + written(a.least);
-    if (!a.most.empty()) text += (text.empty() ? "max: " : ", max: ") + written(a.most);
+    if (a.min.empty() && a.max.empty()) return OptionType<Bound>::print(a.bound);
+    if (same(a.min, a.max)) return written(a.min);
+    std::string text = a.min.empty() ? "" : "min: " + written(a.min);
+    if (!a.max.empty()) text += (text.empty() ? "max: " : ", max: ") + written(a.max);
     return "{" + text + "}";
 }
 
@@ -92,7 +92,7 @@ InspectSettings Assertions::settings() const {
 std::vector<std::pair<const Assertion*, const Length*>> Assertions::physical() const {
     std::vector<std::pair<const Assertion*, const Length*>> found;
     for (const auto& a : all)
-        for (const auto* lengths : {&a.least, &a.most})
+        for (const auto* lengths : {&a.min, &a.max})
             for (const Length& l : *lengths)
                 if (l.kind == Length::Kind::physical) found.emplace_back(&a, &l);
     return found;
@@ -103,12 +103,12 @@ Assertions resolved(Assertions assertions, const Scene& scene, Context& context)
         const auto number = [&](const Length& l) { return context.resolve(l, scene, a.property); };
         if (property_named(a.property)->kind == PropertyKind::box) {
             a.within = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
-            for (std::size_t i = 0; i < a.least.size(); ++i) a.within.min[i] = number(a.least[i]);
-            for (std::size_t i = 0; i < a.most.size(); ++i) a.within.max[i] = number(a.most[i]);
+            for (std::size_t i = 0; i < a.min.size(); ++i) a.within.min[i] = number(a.min[i]);
+            for (std::size_t i = 0; i < a.max.size(); ++i) a.within.max[i] = number(a.max[i]);
             continue;
         }
-        if (!a.least.empty()) a.bound.min = number(a.least[0]);
-        if (!a.most.empty()) a.bound.max = number(a.most[0]);
+        if (!a.min.empty()) a.bound.min = number(a.min[0]);
+        if (!a.max.empty()) a.bound.max = number(a.max[0]);
     }
     return assertions;
 }

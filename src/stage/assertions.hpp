@@ -16,7 +16,7 @@ struct Assertion {
     Mark where{};
     bool if_applies = false; ///< holds where the property does not apply
     /// Lengths as written: one for a property that is a length, three for a corner of a box, or none.
-    std::vector<Length> least{}, most{};
+    std::vector<Length> min{}, max{};
     Box within{}; ///< of a box, once resolved; infinite where nothing was asked
 };
 

@@ -107,17 +107,16 @@ bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& ou
 
 /// Whether some number is at least min and at most max, as far as that is known without a scene.
 bool may_hold(const Assertion& a) {
-    for (std::size_t i = 0; i < std::min(a.least.size(), a.most.size()); ++i)
-        if (a.least[i].kind == a.most[i].kind && a.least[i].of == a.most[i].of &&
-            a.least[i].amount > a.most[i].amount)
+    for (std::size_t i = 0; i < std::min(a.min.size(), a.max.size()); ++i)
+        if (a.min[i].kind == a.max[i].kind && a.min[i].of == a.max[i].of && a.min[i].amount > a.max[i].amount)
             return false;
     return true;
 }
 
 bool verify_length(const Property& property, const Value& value, const Assertion& a, Problems& problems) {
-    if (a.most.empty() || a.most[0].amount >= 0) return true;
+    if (a.max.empty() || a.max[0].amount >= 0) return true;
     problems.add(value.mark, "E-RANGE",
-                 fmt::format("no mesh has a '{}' of at most {}", property.name, a.most[0].text),
+                 fmt::format("no mesh has a '{}' of at most {}", property.name, a.max[0].text),
                  "the lowest is 0");
     return false;
 }
@@ -127,8 +126,8 @@ bool read_length_range(const Property& property, const Value& value, Assertion& 
     if (value.deferred) return true;
     if (!value.is_map()) {
         if (count == 3 || !value.is_scalar() || value.as_bool()) return wrong_kind(property, value, problems);
-        const bool good = read_lengths(value, 1, out.least, problems);
-        out.most = out.least;
+        const bool good = read_lengths(value, 1, out.min, problems);
+        out.max = out.min;
         return good && verify_length(property, value, out, problems);
     }
     bool good = true;
@@ -138,7 +137,7 @@ bool read_length_range(const Property& property, const Value& value, Assertion& 
                          "expected min or max");
             good = false;
         } else if (!e.value.deferred)
-            good &= read_lengths(e.value, count, e.key == "min" ? out.least : out.most, problems);
+            good &= read_lengths(e.value, count, e.key == "min" ? out.min : out.max, problems);
     }
     if (good && value.entries.empty()) return wrong_kind(property, value, problems);
     if (good && count == 1 && !verify_length(property, value, out, problems)) return false;

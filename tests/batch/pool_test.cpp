@@ -16,13 +16,13 @@ namespace {
 struct Trace {
     std::mutex guard;
     std::vector<std::size_t> begun;
-    int running = 0, most = 0;
-    std::uint64_t memory = 0, most_memory = 0;
+    int running = 0, max = 0;
+    std::uint64_t memory = 0, max_memory = 0;
     int wanted = 1; ///< a job waits until so many have run at a time, for some seconds
 
     bool is_met() {
         const std::lock_guard lock(guard);
-        return most >= wanted;
+        return max >= wanted;
     }
 
     Pool::DoJob work(Next next = Next::go_on) {
@@ -30,8 +30,8 @@ struct Trace {
             {
                 const std::lock_guard lock(guard);
                 begun.push_back(job.index);
-                most = std::max(most, ++running);
-                most_memory = std::max(most_memory, memory += job.memory);
+                max = std::max(max, ++running);
+                max_memory = std::max(max_memory, memory += job.memory);
             }
             for (int tick = 0; tick < 1 || (tick < 2000 && !is_met()); ++tick)
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -63,8 +63,8 @@ TEST_CASE("jobs run as many at a time as allowed", "[batch]") {
     trace.wanted = 2;
     Pool({3, 100, nullptr}, jobs_of({1, 1, 1, 1, 1, 1, 1, 1, 1}), trace.work()).run();
     CHECK(trace.begun.size() == 9);
-    CHECK(trace.most > 1);
-    CHECK(trace.most <= 3);
+    CHECK(trace.max > 1);
+    CHECK(trace.max <= 3);
 }
 
 TEST_CASE("jobs wait for memory, and one that exceeds it runs alone", "[batch]") {
@@ -73,10 +73,10 @@ TEST_CASE("jobs wait for memory, and one that exceeds it runs alone", "[batch]")
     Pool({4, 100, nullptr}, jobs_of({60, 60, 500, 40, 60, 10}), trace.work()).run();
     std::sort(trace.begun.begin(), trace.begun.end()); // two that run at a time come here in either order
     CHECK(trace.begun == std::vector<std::size_t>{0, 1, 2, 3, 4, 5});
-    CHECK(trace.most_memory == 500);
+    CHECK(trace.max_memory == 500);
     Trace small;
     Pool({4, 100, nullptr}, jobs_of({60, 60, 40, 60, 10}), small.work()).run();
-    CHECK(small.most_memory <= 100);
+    CHECK(small.max_memory <= 100);
 }
 
 TEST_CASE("after a stop nothing begins", "[batch]") {

@@ -11,13 +11,13 @@ TEST_CASE("a depfile names one target and the inputs, and each input alone", "[c
 
 TEST_CASE("names in a depfile are escaped as Make wants it", "[cli]") {
     for (const bool target : {false, true}) {
-        CHECK(make_spelling("a b.stl", target) == "a\\ b.stl");
-        CHECK(make_spelling("cost$.stl", target) == "cost$$.stl");
-        CHECK(make_spelling("no#1.stl", target) == "no\\#1.stl");
-        CHECK(make_spelling("c:x.stl", target) == "c\\:x.stl");
-        CHECK(make_spelling("back\\slash.stl", target) == "back\\slash.stl");
-        CHECK(make_spelling("back\\ blank", target) == "back\\\\\\ blank");
-        CHECK_THROWS_AS(make_spelling("two\nlines", target), Error);
+        CHECK(make_escaped("a b.stl", target) == "a\\ b.stl");
+        CHECK(make_escaped("cost$.stl", target) == "cost$$.stl");
+        CHECK(make_escaped("no#1.stl", target) == "no\\#1.stl");
+        CHECK(make_escaped("c:x.stl", target) == "c\\:x.stl");
+        CHECK(make_escaped("back\\slash.stl", target) == "back\\slash.stl");
+        CHECK(make_escaped("back\\ blank", target) == "back\\\\\\ blank");
+        CHECK_THROWS_AS(make_escaped("two\nlines", target), Error);
     }
 }
 

@@ -182,12 +182,12 @@ TEST_CASE("points beside a surface are measured to all of the other scene", "[re
     ComparisonSettings settings;
     settings.ignored = {"counts", "topology"};
     CHECK(different(report::compare(scene_of(with_one), scene_of(with_another))) ==
-          "geometry: loose points maximum");
-    CHECK(line(report::compare(scene_of(with_one), scene_of(with_another)), "loose points maximum")->a ==
+          "geometry: isolated vertices maximum");
+    CHECK(line(report::compare(scene_of(with_one), scene_of(with_another)), "isolated vertices maximum")->a ==
           0.5);
     const Comparison lost = report::compare(scene_of(with_one), scene_of(shapes::grid(4, 3)), settings);
-    CHECK(line(lost, "loose points maximum")->a == 2);
-    CHECK(line(lost, "loose points maximum")->b == 0);
+    CHECK(line(lost, "isolated vertices maximum")->a == 2);
+    CHECK(line(lost, "isolated vertices maximum")->b == 0);
     CHECK(lost.deviation->maximum() < 1e-15);
     CHECK_FALSE(report::compare(scene_of(with_one), scene_of(with_one), settings).differs());
 }

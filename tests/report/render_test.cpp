@@ -240,10 +240,10 @@ TEST_CASE("the picture of a stage whose checks failed says what it shows", "[rep
     check.name = "closed";
     check.stage = "validate";
     check.evidence = Json::parse(R"([{"part": "a", "at": [1, 2.5, -3]}, {"part": "b", "amount": 2}])");
-    CHECK(failing_places(check).empty());
+    CHECK(failing_locations(check).empty());
     CHECK(to_html(record).find("did not hold") == std::string::npos);
     check.passed = false;
-    CHECK(failing_places(check) == std::vector<Vec3>{{1, 2.5, -3}});
+    CHECK(failing_locations(check) == std::vector<Vec3>{{1, 2.5, -3}});
     CHECK(to_html(record).find("validate: where &#39;closed&#39; did not hold; on the right") !=
           std::string::npos);
 }

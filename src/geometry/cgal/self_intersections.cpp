@@ -128,9 +128,9 @@ class SelfIntersectionSearch::Search {
 
     SelfIntersections run(const SelfIntersectionSettings& settings) const {
         const std::size_t most = settings.max_box_pairs;
-        if (most == SIZE_MAX) return run(settings.limit, settings.apart);
+        if (most == SIZE_MAX) return run(settings.limit, settings.separate_touching);
         const std::size_t count = pairs_.for_each(most, [](std::size_t, std::size_t) {});
-        if (count <= most) return run(settings.limit, settings.apart);
+        if (count <= most) return run(settings.limit, settings.separate_touching);
         SelfIntersections none_looked_at;
         none_looked_at.box_pairs = count;
         none_looked_at.too_many = true;
@@ -141,7 +141,7 @@ class SelfIntersectionSearch::Search {
         // Two polygons may meet in several of their triangles: all pairs are needed to count each once.
         const bool polygons = !surface_.faces.empty();
         const std::size_t kept = polygons ? SIZE_MAX : limit;
-        const Touching touching(surface_);
+        const TouchTest touching(surface_);
         Kinds all = pairs_.reduce(
             Kinds{},
             [&](Kinds& found, std::size_t i, std::size_t j) {
@@ -250,7 +250,7 @@ class SelfIntersectionSearch::Search {
         const int shared = share(u, v);
         if (shared == 3) return passes() ? -1 : shared;
         const Corners a = corners(u), b = corners(v);
-        return !surely_apart(a, b, shared) && !passes() && meet(a, b, shared) ? shared : -1;
+        return !surely_disjoint(a, b, shared) && !passes() && meet(a, b, shared) ? shared : -1;
     }
 
     std::size_t face_count_;

@@ -12,7 +12,7 @@ namespace facetmill {
 
 enum class Nearness { off, exact, near };
 enum class HoleFill {
-    minimal, ///< triangles between the outline's vertices, of least bend and area (span_outline)
+    minimal, ///< triangles between the outline's vertices, of least dihedral angle and area (span_outline)
     planar,  ///< the outline as a polygon, where it lies in a plane to the rounding of 32 bits
     smooth,  ///< as minimal, then refined to the density around it and faired (fair_patch)
 };
@@ -51,10 +51,12 @@ struct UntangleBudget {
 
 /// Every step on or off. Lengths are in mesh units.
 struct CleanSettings {
-    Nearness weld = Nearness::exact; ///< vertices at one place become one; near: ends of open edges too
-    Nearness stitch = Nearness::off; ///< open edges that run along each other become one, so do their ends
-    Nearness t_junctions = Nearness::exact; ///< open edges get the vertices of other open edges along them
-    bool degenerate = true;                 ///< faces of exactly zero area, and repeated corners, go
+    Nearness weld = Nearness::exact; ///< vertices at one place become one; near: ends of boundary edges too
+    Nearness stitch =
+        Nearness::off; ///< boundary edges that run along each other become one, so do their ends
+    Nearness t_junctions =
+        Nearness::exact;      ///< boundary edges get the vertices of other boundary edges along them
+    bool degenerate = true;   ///< faces of exactly zero area, and repeated corners, go
     bool duplicates = true;   ///< one face of each set with the same vertices stays, none of an inner wall
     bool non_manifold = true; ///< edges of more than two faces and vertices of several fans come apart
     bool isolated = true;     ///< vertices that no face uses go

@@ -55,8 +55,9 @@ class Untangler {
   public:
     Untangler(Work& work, SelfIntersections found)
         : work_(work), mesh_(work.mesh), found_(std::move(found)), place_(lowest_at_place(work.mesh)),
-          open_(boundary_of(work.mesh)), pieces_(face_components(work.mesh, false)), areas_(pieces_.count) {
-        for (Index f = 0; f < mesh_.face_count(); ++f) areas_[pieces_.of_face[f]] += area(f);
+          open_(boundary_of(work.mesh)), components_(face_components(work.mesh, false)),
+          areas_(components_.count) {
+        for (Index f = 0; f < mesh_.face_count(); ++f) areas_[components_.of_face[f]] += area(f);
         find_knots();
     }
 
@@ -175,7 +176,7 @@ class Untangler {
     bool give_up_large(const std::vector<std::uint8_t>& region, const std::vector<Index>& groups) {
         std::map<std::pair<Index, Index>, double> going; // of each group from each component
         for (Index f = 0; f < region.size(); ++f)
-            if (region[f]) going[{groups[f], pieces_.of_face[f]}] += area(f);
+            if (region[f]) going[{groups[f], components_.of_face[f]}] += area(f);
         std::set<Index> large;
         for (const auto& [key, sum] : going)
             if (!(sum < areas_[key.second] / 2)) large.insert(key.first);
@@ -252,7 +253,7 @@ class Untangler {
     SelfIntersections found_;
     std::vector<Index> place_;
     EdgeList open_;
-    Components pieces_;
+    Components components_;
     std::vector<double> areas_; ///< of the components
     std::vector<Knot> knots_;
     int attempts_ = 0;

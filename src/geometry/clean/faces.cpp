@@ -126,7 +126,7 @@ struct Doubles {
 };
 
 /// Whether all that is left of each set after cancelling stays, rather than one face: where the faces around
-/// are there as often and one alone would leave open edges. Decided for patches of such sets as a whole.
+/// are there as often and one alone would leave boundary edges. Decided for patches of such sets as a whole.
 std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, const std::vector<int>& balance,
                                     const std::vector<Doubles>& all) {
     DisjointSets patches(all.size());
@@ -143,7 +143,7 @@ std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, co
             at->second.second += mesh.vertex(c) == edges.edges[e].low ? more : -more;
         }
     }
-    std::vector<int> better(all.size(), 0); // of patches: open edges with one alone, less those with all
+    std::vector<int> better(all.size(), 0); // of patches: boundary edges with one alone, less those with all
     for (const auto& [e, x] : excess)
         better[patches.find(static_cast<Index>(x.first))] += (balance[e] != x.second) - (balance[e] != 0);
     std::vector<std::uint8_t> many(all.size());

@@ -33,8 +33,9 @@ class Outlines {
     explicit Outlines(const Mesh& mesh)
         : mesh_(mesh), edges_(build_edges(mesh)), faces_(corner_faces(mesh)), done_(mesh.corner_count(), 0) {}
 
-    /// Calls body(outline) for each loop of open edges, and broken(corner) for those that do not come round.
-    /// A walk that comes to a vertex again goes around several holes that touch there: each is an outline.
+    /// Calls body(outline) for each loop of boundary edges, and broken(corner) for those that do not come
+    /// round. A walk that comes to a vertex again goes around several holes that touch there: each is an
+    /// outline.
     template <class Body, class Broken>
     void each(Body&& body, Broken&& broken) {
         for (Index c = 0; c < mesh_.corner_count(); ++c) {
@@ -76,7 +77,7 @@ class Outlines {
     }
     Index next(Index c) const { return next_corner(mesh_, faces_[c], c); }
 
-    /// The open edge that follows c's around the vertex at c's end, or none.
+    /// The boundary edge that follows c's around the vertex at c's end, or none.
     Index follow(Index c) const {
         Index at = next(c); // leaves the vertex
         for (std::size_t turns = 0; turns <= mesh_.corner_count(); ++turns) {

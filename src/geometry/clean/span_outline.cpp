@@ -16,14 +16,16 @@ constexpr std::size_t max_searched = 400; // some 10 million candidates
 Vec3 twice_area(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); }
 
 /// How much two faces are bent: 0 for flat, 2 for folded onto each other; 0 next to one without area.
-double bend(const Vec3& a, const Vec3& b) {
+double dihedral(const Vec3& a, const Vec3& b) {
     const double lengths = std::sqrt(dot(a, a) * dot(b, b));
     return lengths > 0 ? 1 - dot(a, b) / lengths : 0;
 }
 
 struct Cost {
-    double bend = 0, area = 0;
-    bool operator<(const Cost& b) const { return bend != b.bend ? bend < b.bend : area < b.area; }
+    double dihedral = 0, area = 0;
+    bool operator<(const Cost& b) const {
+        return dihedral != b.dihedral ? dihedral < b.dihedral : area < b.area;
+    }
 };
 
 /// Costs of the best triangles over the points i .. k, and the corner that the edge i, k goes to.
@@ -57,11 +59,12 @@ class Search {
         for (std::size_t m = i + 1; m < k; ++m) {
             const Vec3 normal = twice_area(p_[i], p_[m], p_[k]);
             const Cost &left = cost_[i * n_ + m], &right = cost_[m * n_ + k];
-            Cost cost{std::max({left.bend, right.bend, bend_over(i, m, normal), bend_over(m, k, normal)}),
+            Cost cost{std::max({left.dihedral, right.dihedral, dihedral_over(i, m, normal),
+                                dihedral_over(m, k, normal)}),
                       left.area + right.area + length(normal)};
-            if (flat(i, m, k, normal)) cost.bend = 3; // only when nothing else is left
+            if (flat(i, m, k, normal)) cost.dihedral = 3; // only when nothing else is left
             if (i == 0 && k + 1 == n_ && !across_.empty())
-                cost.bend = std::max(cost.bend, bend(across_[k], normal));
+                cost.dihedral = std::max(cost.dihedral, dihedral(across_[k], normal));
             if (at == none || cost < best) {
                 best = cost;
                 at = static_cast<Index>(m);
@@ -77,9 +80,9 @@ class Search {
         return !(dot(normal, normal) > 1e-20 * dot(u, u) * dot(v, v)) && collinear(p_[i], p_[m], p_[k]);
     }
     /// Between a triangle over the edge i, k with this normal and what is chosen beyond.
-    double bend_over(std::size_t i, std::size_t k, const Vec3& normal) const {
-        if (k - i == 1) return across_.empty() ? 0 : bend(across_[i], normal);
-        return bend(twice_area(p_[i], p_[apex_[i * n_ + k]], p_[k]), normal);
+    double dihedral_over(std::size_t i, std::size_t k, const Vec3& normal) const {
+        if (k - i == 1) return across_.empty() ? 0 : dihedral(across_[i], normal);
+        return dihedral(twice_area(p_[i], p_[apex_[i * n_ + k]], p_[k]), normal);
     }
 
     const std::vector<Vec3>& p_;

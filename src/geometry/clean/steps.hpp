@@ -35,11 +35,11 @@ struct Work {
 /// Vertices at one place become the lowest of them. Where the faces that meet there would only come apart
 /// again (non_manifold, see split_non_manifold), they are left as they are.
 bool weld_equal(Work& work, bool comes_apart);
-/// In index order each end of an open edge becomes the nearest one kept so far within tolerance. Vertices of
-/// one face are never merged, so that no face loses its area; vertices inside the surface are left alone.
+/// In index order each end of a boundary edge becomes the nearest one kept so far within tolerance. Vertices
+/// of one face are never merged, so that no face loses its area; vertices inside the surface are left alone.
 bool weld_near(Work& work, double tolerance);
-/// Open edges that run against each other and whose ends are within tolerance become one, the nearest pairs
-/// first; their ends become the lower vertices.
+/// Boundary edges that run against each other and whose ends are within tolerance become one, the nearest
+/// pairs first; their ends become the lower vertices.
 bool stitch(Work& work, double tolerance);
 /// Corners that repeat the vertex before them go, then faces without area (exact). Where that opens the
 /// surface, the vertices on the line are put on the edges that face it, so that what was closed stays closed.
@@ -50,14 +50,14 @@ bool remove_degenerate(Work& work);
 /// a closed surface also when they touch it with a corner), and one of each stays when they are a sheet of
 /// their own.
 bool remove_duplicates(Work& work);
-/// A vertex on (near: within tolerance of) an open edge of another face, with an open edge of its own along
-/// that one, is put on it.
+/// A vertex on (near: within tolerance of) a boundary edge of another face, with a boundary edge of its own
+/// along that one, is put on it.
 bool resolve_t_junctions(Work& work, double tolerance);
 /// See split_non_manifold.
 bool take_apart_non_manifold(Work& work);
 /// Edges as (low vertex, high vertex), ascending.
 using EdgeList = std::vector<std::pair<Index, Index>>;
-/// Fills the loops of open edges as the settings say; holes that touch at a vertex each for itself. Loops
+/// Fills the loops of boundary edges as the settings say; holes that touch at a vertex each for itself. Loops
 /// with an edge of other_than stay, and so do those whose patch would run into other faces, unless it may,
 /// or lie on the faces beside it (but for the rounding of 32 bits): where a flat sheet ends is no hole.
 bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross);
@@ -83,7 +83,7 @@ std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
 bool unite_solids(Work& work, SelfIntersections found, const std::vector<std::pair<Index, Index>>& overlaps,
                   const CleanSettings& settings);
 /// Place by place: removes the faces that intersect others, if need be with up to four rings around them, and
-/// fills what that opens. A place is left as it was when that would leave an intersection or an open edge
+/// fills what that opens. A place is left as it was when that would leave an intersection or a boundary edge
 /// that was not there, change the topology, take half of a component along, or use up the budget. Faces that
 /// touch only where vertices of theirs are at one place do not count.
 bool resolve_self_intersections(Work& work, SelfIntersections found);

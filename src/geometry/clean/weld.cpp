@@ -12,13 +12,13 @@ namespace facetmill::clean_steps {
 namespace {
 
 /// Clears the merges of places whose faces would come apart again just as they are.
-void spare_apart(const Mesh& mesh, std::vector<Index>& target) {
+void spare_disjoint(const Mesh& mesh, std::vector<Index>& target) {
     Mesh merged;
     merged.positions = mesh.positions;
     merged.face_offsets = mesh.face_offsets;
     merged.corners.resize(mesh.corner_count());
     for (Index c = 0; c < mesh.corner_count(); ++c) merged.corners[c] = target[mesh.vertex(c)];
-    const Fans fans = fans_apart(merged);
+    const Fans fans = disjoint_fans(merged);
     // The parts are the same when old and new vertices of the corners at a place match one to one.
     std::vector<Index> new_of_old(mesh.vertex_count(), none),
         old_of_new(mesh.vertex_count() + fans.copies.size(), none);
@@ -75,7 +75,7 @@ bool weld_equal(Work& work, bool comes_apart) {
     bool any = false;
     for (Index v = 0; v < target.size() && !any; ++v) any = target[v] != v;
     if (!any) return false;
-    if (comes_apart) spare_apart(work.mesh, target);
+    if (comes_apart) spare_disjoint(work.mesh, target);
     return merge(work, target, &CleanCounts::welded_vertices);
 }
 

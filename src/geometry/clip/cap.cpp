@@ -129,7 +129,7 @@ class Capper {
         cap_.open = drop_open_contours(section_, cut_);
         if (section_.edges.empty()) return std::move(cap_);
         make_contours();
-        filling_ = fill_apart(contours_);
+        filling_ = fill_disjoint(contours_);
         add_points();
         insert_into_walls();
         for (const auto& t : filling_.triangles)

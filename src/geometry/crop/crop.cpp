@@ -86,7 +86,7 @@ class Cropper {
     }
     OutlineMeeting meeting_of(Index f, std::vector<Vec2>& face) const {
         view_.gather(mesh_, f, face);
-        OutlineMeeting most = OutlineMeeting::apart;
+        OutlineMeeting most = OutlineMeeting::disjoint;
         view_.meetings(face, [&](Index, OutlineMeeting meets) {
             most = std::max(most, meets);
             return most != OutlineMeeting::crossing;
@@ -112,7 +112,8 @@ class Cropper {
             all &= on || view_.kept(place);
         }
         if (settings_.by == CropBy::whole && (!all || meets_[f] == OutlineMeeting::crossing)) return false;
-        if (settings_.by == CropBy::touching && (any || meets_[f] == OutlineMeeting::crossing)) return true;
+        if (settings_.by == CropBy::overlapping && (any || meets_[f] == OutlineMeeting::crossing))
+            return true;
         return any || (all && view_.kept(view_.middle(mesh_, f)));
     }
 

@@ -7,10 +7,10 @@
 namespace facetmill {
 
 enum class CropBy {
-    cut,      ///< faces are cut at the outline
-    whole,    ///< faces that lie wholly on the kept side stay
-    centre,   ///< faces whose corners' mean lies there
-    touching, ///< faces of which any part lies there
+    cut,         ///< faces are cut at the outline
+    whole,       ///< faces that lie wholly on the kept side stay
+    centre,      ///< faces whose corners' mean lies there
+    overlapping, ///< faces of which any part lies there
 };
 
 /// How it is found whether a point is inside; all agree, off the outline.

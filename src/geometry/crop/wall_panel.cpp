@@ -69,7 +69,7 @@ bool WallPanel::complete(const PostView& view) {
     for (const Index post : posts) add_upright(view, post);
     if (!balanced_) return false;
     make_contours(view);
-    filling_ = fill_apart(contours_);
+    filling_ = fill_disjoint(contours_);
     return check_upright();
 }
 

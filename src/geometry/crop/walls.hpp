@@ -35,9 +35,9 @@ struct WalledCrop {
 /// Closes the kept faces of a mesh that was cut along the footprint. Each edge of their boundary goes to the
 /// segment that it is nearest to; where the boundary passes from one segment to another, upright edges at the
 /// corner of the outline complete both, so that the boundary on every segment is closed. It is filled there
-/// as clip fills its caps (fill_apart), so whatever covers a place twice has its wall twice. So the result is
-/// closed, by counting edges and not by their places. Points that the filling needs on edges are put into the
-/// kept faces too, so a triangle may become several. The same edges the other way round give the same
+/// as clip fills its caps (fill_disjoint), so whatever covers a place twice has its wall twice. So the result
+/// is closed, by counting edges and not by their places. Points that the filling needs on edges are put into
+/// the kept faces too, so a triangle may become several. The same edges the other way round give the same
 /// triangles, turned, but for those without area between points at one place.
 ///
 /// Attributes: walls have their own as caps of clip have. Of a mesh that was open, only edges on the outline

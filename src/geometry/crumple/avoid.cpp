@@ -222,7 +222,7 @@ void hold_together(std::span<CrumpleSheet> sheets) {
 
 double move_apart_memory(double triangles) { return 300 * triangles; }
 
-AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look, std::size_t max_pairs) {
+AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look, std::size_t max_pairs) {
     AvoidResult result;
     const CrumplePlaces places(sheets);
     std::vector<std::uint8_t> levels(places.count);

@@ -138,10 +138,10 @@ struct AvoidResult {
 ///
 /// Only faces of one sheet are kept apart. Throws limit (E-LIMIT) when more than max_pairs pairs of a sheet
 /// meet before: they could not all be exempt.
-AvoidResult move_apart(std::span<CrumpleSheet> sheets, bool only_look = false,
-                       std::size_t max_pairs = std::size_t{8} << 20);
+AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look = false,
+                                std::size_t max_pairs = std::size_t{8} << 20);
 
-/// About the bytes that move_apart takes for a mesh of so many triangles, besides the mesh.
+/// About the bytes that avoid_intersections takes for a mesh of so many triangles, besides the mesh.
 double move_apart_memory(double triangles);
 
 } // namespace facetmill

@@ -63,7 +63,7 @@ void stitch(const CountedEdge& e, Filling& filling) {
 
 } // namespace
 
-Filling fill_apart(const Contours& contours) {
+Filling fill_disjoint(const Contours& contours) {
     Filling filling = fill(contours);
     bool apart = false;
     for (Index i = 0; i < filling.same.size(); ++i) apart |= filling.same[i] != i;

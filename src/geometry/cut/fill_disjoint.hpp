@@ -7,6 +7,6 @@ namespace facetmill {
 
 /// fill, with triangles without area between points at one place where they are needed: the boundary of all
 /// triangles is exactly the edges along their paths, every point counted as one of its own.
-Filling fill_apart(const Contours& contours);
+Filling fill_disjoint(const Contours& contours);
 
 } // namespace facetmill

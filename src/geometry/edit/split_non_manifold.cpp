@@ -94,7 +94,7 @@ bool divide_crowded_edges(NonManifoldSplit& work) {
 
 } // namespace
 
-Fans fans_apart(const Mesh& mesh) {
+Fans disjoint_fans(const Mesh& mesh) {
     const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
     const Joints joints(mesh, edges, faces);
@@ -129,7 +129,7 @@ Fans fans_apart(const Mesh& mesh) {
 
 NonManifoldSplit split_non_manifold(Mesh mesh) {
     NonManifoldSplit result{std::move(mesh), {}, 0, 0};
-    const Fans fans = fans_apart(result.mesh);
+    const Fans fans = disjoint_fans(result.mesh);
     if (!fans.copies.empty()) {
         result.split_vertices = fans.copies.size();
         result.mesh = part_corners(result.mesh, fans.vertex_of_corner, fans.copies);

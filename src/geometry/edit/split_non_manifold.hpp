@@ -12,7 +12,7 @@ struct Fans {
 };
 /// At an edge of more than two faces those stay together that have the inside of the surface between them, by
 /// the exact order around the edge; each fan of faces around a vertex gets a vertex of its own.
-Fans fans_apart(const Mesh& mesh);
+Fans disjoint_fans(const Mesh& mesh);
 
 struct NonManifoldSplit {
     Mesh mesh;
@@ -20,7 +20,7 @@ struct NonManifoldSplit {
     std::size_t split_vertices = 0, split_edges = 0;
     bool changed() const { return split_vertices + split_edges > 0; }
 };
-/// The mesh with each fan of fans_apart on its own vertices. Where both ends of an edge of more than two
+/// The mesh with each fan of disjoint_fans on its own vertices. Where both ends of an edge of more than two
 /// faces are held together by other faces, every pair but the first gets a point in the middle of the edge;
 /// attributes are interpolated there.
 NonManifoldSplit split_non_manifold(Mesh mesh);

@@ -18,7 +18,7 @@ bool has_wedge_attributes(const Mesh& mesh) {
                        [](const Attribute& a) { return a.domain == Domain::wedge; });
 }
 
-std::vector<Index> spelled_wedges(const Mesh& mesh) {
+std::vector<Index> explicit_wedges(const Mesh& mesh) {
     if (mesh.has_seams()) return mesh.wedge_vertex;
     std::vector<Index> wedges(mesh.wedge_count());
     for (Index w = 0; w < wedges.size(); ++w) wedges[w] = w;
@@ -138,7 +138,7 @@ std::size_t merge_vertices(Mesh& mesh, const std::vector<Index>& target) {
     const Numbering numbering(stays);
     if (numbering.old.size() == before) return 0;
     const auto moved = [&](Index v) { return numbering.renumbered[target[v]]; };
-    auto wedges = spelled_wedges(mesh);
+    auto wedges = explicit_wedges(mesh);
     for (auto& v : wedges) v = moved(v);
     if (has_wedge_attributes(mesh)) {
         mesh.wedge_vertex = std::move(wedges);
@@ -200,7 +200,7 @@ class Inserter {
   public:
     Inserter(const Mesh& mesh, std::vector<Insertion> insertions, const std::vector<Lineage::Edge>& added)
         : mesh_(mesh), insertions_(std::move(insertions)), added_(added),
-          plain_(!mesh.has_seams() && !has_wedge_attributes(mesh)), wedges_(spelled_wedges(mesh)) {
+          plain_(!mesh.has_seams() && !has_wedge_attributes(mesh)), wedges_(explicit_wedges(mesh)) {
         std::sort(insertions_.begin(), insertions_.end(), [](const Insertion& a, const Insertion& b) {
             return std::tie(a.corner, a.t, a.vertex) < std::tie(b.corner, b.t, b.vertex);
         });

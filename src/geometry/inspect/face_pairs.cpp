@@ -75,7 +75,7 @@ Pairs folded_faces(const Mesh& mesh) {
 Pairs coplanar_overlaps(const Mesh& mesh) {
     Pairs list;
     for (const auto& [f, g] :
-         find_self_intersections(mesh, {.limit = std::size_t{1} << 24, .apart = true}).pairs) {
+         find_self_intersections(mesh, {.limit = std::size_t{1} << 24, .separate_touching = true}).pairs) {
         const Index begin = mesh.face_begin(f);
         bool flat = true;
         for (Index c = mesh.face_begin(g); c < mesh.face_end(g); ++c)

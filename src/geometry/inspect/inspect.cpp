@@ -128,7 +128,7 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     if (p.closed) p.volume = (mirrored ? -sums.volume : sums.volume) / 6;
     if (p.closed && p.edge_manifold && p.vertex_manifold && p.oriented) p.genus = p.components - p.euler / 2;
     if (settings.self_intersections) {
-        const auto found = find_self_intersections(mesh, {.limit = 0, .apart = true});
+        const auto found = find_self_intersections(mesh, {.limit = 0, .separate_touching = true});
         p.self_intersections = static_cast<std::int64_t>(found.count);
         p.touching = static_cast<std::int64_t>(found.touching);
     }

@@ -269,7 +269,7 @@ std::vector<Location> isolated_vertices(const Mesh& mesh, const LocationQuery& q
     return locations_of_vertices(mesh, query.limit, [](Index fans) { return fans == 0; });
 }
 
-std::vector<Location> non_manifold_places(const Mesh& mesh, const LocationQuery& query) {
+std::vector<Location> non_manifold_locations(const Mesh& mesh, const LocationQuery& query) {
     auto found = crowded_edges(mesh, query);
     const auto more = vertices_of_several_fans(mesh, {query.limit - found.size()});
     found.insert(found.end(), more.begin(), more.end());
@@ -305,12 +305,12 @@ std::vector<Location> components(const Mesh& mesh, const LocationQuery& query) {
 }
 
 std::vector<Location> intersecting_pairs(const Mesh& mesh, const LocationQuery& query) {
-    const auto found = find_self_intersections(mesh, {.limit = query.limit, .apart = true});
+    const auto found = find_self_intersections(mesh, {.limit = query.limit, .separate_touching = true});
     return locations_of_pairs(mesh, found.pairs, query.limit);
 }
 
 std::vector<Location> touching_pairs(const Mesh& mesh, const LocationQuery& query) {
-    const auto found = find_self_intersections(mesh, {.limit = query.limit, .apart = true});
+    const auto found = find_self_intersections(mesh, {.limit = query.limit, .separate_touching = true});
     return locations_of_pairs(mesh, found.touching_pairs, query.limit);
 }
 

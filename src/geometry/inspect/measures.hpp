@@ -41,7 +41,7 @@ std::vector<Location> crowded_edges(const Mesh& mesh, const LocationQuery& query
 std::vector<Location> disagreeing_edges(const Mesh& mesh, const LocationQuery& query);
 std::vector<Location> vertices_of_several_fans(const Mesh& mesh, const LocationQuery& query);
 /// Edges of more than two faces, then vertices of several fans.
-std::vector<Location> non_manifold_places(const Mesh& mesh, const LocationQuery& query);
+std::vector<Location> non_manifold_locations(const Mesh& mesh, const LocationQuery& query);
 std::vector<Location> isolated_vertices(const Mesh& mesh, const LocationQuery& query);
 std::vector<Location> faces_without_area(const Mesh& mesh, const LocationQuery& query);
 std::vector<Location> repeated_faces(const Mesh& mesh, const LocationQuery& query);

@@ -138,7 +138,7 @@ bool parts(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& o, const Vec
 
 } // namespace
 
-bool Touching::only_touch(Index s, Index t) const {
+bool TouchTest::only_touch(Index s, Index t) const {
     const Corners a{surface_.point(s, 0), surface_.point(s, 1), surface_.point(s, 2)};
     const Corners b{surface_.point(t, 0), surface_.point(t, 1), surface_.point(t, 2)};
     const Sides of_a = sides_of(a, b), of_b = sides_of(b, a);
@@ -153,7 +153,7 @@ bool Touching::only_touch(Index s, Index t) const {
     return !pass_through(s, t);
 }
 
-bool Touching::pass_through(Index s, Index t) const {
+bool TouchTest::pass_through(Index s, Index t) const {
     for (Index i = 0; i < 3; ++i)
         for (Index j = 0; j < 3; ++j) {
             const Vec3 &u = surface_.point(s, i), &v = surface_.point(s, (i + 1) % 3);
@@ -168,7 +168,7 @@ bool Touching::pass_through(Index s, Index t) const {
     return false;
 }
 
-Touching::Beyond Touching::beyond(Index triangle, Index corner) const {
+TouchTest::Beyond TouchTest::beyond(Index triangle, Index corner) const {
     std::call_once(once_, [&] {
         triangles_.positions = surface_.positions;
         triangles_.corners = surface_.corners;

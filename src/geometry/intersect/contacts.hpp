@@ -16,9 +16,9 @@ namespace facetmill {
 /// passes through itself: around a common point of edges it would do so along a direction, which lies inside
 /// a triangle of some pair, or along edges of two. Where a triangle beyond an edge has no area or is not
 /// finite, the pair does not touch. Decided exactly.
-class Touching {
+class TouchTest {
   public:
-    explicit Touching(const Surface& surface) : surface_(surface) {}
+    explicit TouchTest(const Surface& surface) : surface_(surface) {}
 
     /// Of two triangles with area that meet and share at most one vertex. From any thread.
     bool only_touch(Index s, Index t) const;

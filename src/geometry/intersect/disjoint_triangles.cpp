@@ -55,7 +55,7 @@ bool beyond_an_edge(const double (&s)[3][2], const double (&t)[3][2]) {
 
 /// Whether the corners of two triangles at their common first point are apart but for that point: no side of
 /// one is within the other.
-bool corners_apart(const View& view) {
+bool corners_disjoint(const View& view) {
     const auto& a = view.a;
     const auto& b = view.b;
     const int way_a = side(a[0], a[1], a[2]), way_b = side(a[0], b[1], b[2]);
@@ -97,7 +97,7 @@ std::size_t longest_axis(const Vec3& v) {
 
 } // namespace
 
-bool surely_apart(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, int shared) {
+bool surely_disjoint(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, int shared) {
     const Vec3 normal = cross(a[1] - a[0], a[2] - a[0]);
     const View view(a, b, longest_axis(normal));
     if (shared == 2) { // they meet elsewhere only when folded flat onto each other
@@ -105,7 +105,8 @@ bool surely_apart(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, in
                   way_b = side(view.a[0], view.a[1], view.b[2]);
         return way_a * way_b < 0 || beside_the_plane(a, normal, b, 2);
     }
-    if (shared == 1 ? corners_apart(view) : beyond_an_edge(view.a, view.b) || beyond_an_edge(view.b, view.a))
+    if (shared == 1 ? corners_disjoint(view)
+                    : beyond_an_edge(view.a, view.b) || beyond_an_edge(view.b, view.a))
         return true;
     const auto first = static_cast<std::size_t>(shared);
     return beside_the_plane(a, normal, b, first) ||

@@ -15,7 +15,7 @@ namespace facetmill {
 struct SelfIntersectionSettings {
     std::size_t limit = 10;               ///< how many pairs are listed; all are counted
     std::vector<std::uint8_t> among = {}; ///< [faces] only pairs with a face that is set; empty: all pairs
-    bool apart = false;                   ///< pairs that only touch are counted and listed apart
+    bool separate_touching = false;       ///< pairs that only touch are counted and listed separately
     /// When the boxes of more pairs of triangles meet, nothing is looked at. They are counted first.
     std::size_t max_box_pairs = std::size_t(-1);
 };
@@ -23,8 +23,9 @@ struct SelfIntersectionSettings {
 struct SelfIntersections {
     std::size_t count = 0; ///< pairs of faces
     std::vector<std::pair<Index, Index>>
-        pairs;                ///< the first by (lower, higher face), as many as the limit allows
-    std::size_t touching = 0; ///< with `apart`: pairs that only touch, which `count` and `pairs` leave out
+        pairs; ///< the first by (lower, higher face), as many as the limit allows
+    std::size_t touching =
+        0; ///< with `separate_touching`: pairs that only touch, which `count` and `pairs` leave out
     std::vector<std::pair<Index, Index>> touching_pairs; ///< the first of them, likewise
     /// Pairs of triangles whose boxes meet: what the work is, the same for any number of threads.
     std::size_t box_pairs = 0;
@@ -34,7 +35,7 @@ struct SelfIntersections {
 /// Finds the pairs of faces that meet elsewhere than in the vertices and edges they share, decided exactly
 /// (CGAL's exact predicates) on the positions as they are. Sharing is by vertex index: faces that touch at
 /// equal positions of different vertices do meet elsewhere; on request pairs that only touch there
-/// (geometry/intersect/contacts.hpp) are told apart. Neighbours that fold over each other in one plane
+/// (geometry/intersect/contacts.hpp) are distinguished. Neighbours that fold over each other in one plane
 /// count. Faces without area take no part (Properties::degenerate_faces counts them), nor do those with
 /// coordinates that are not finite. Polygons stand for their triangles (mesh/triangulated), which do not
 /// count among themselves. A tree of boxes is walked against itself: O(n log n) and the pairs there

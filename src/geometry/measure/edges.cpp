@@ -127,7 +127,7 @@ CurvatureResult curvature_of(const Mesh& given) {
     const std::vector<Vec3> areas = area_vectors(mesh);
     const Turns t = turns_of(mesh, areas);
     const VertexLists corners = corners_at_vertices(mesh);
-    std::vector<double> bends(mesh.vertex_count()), missing(mesh.vertex_count());
+    std::vector<double> turns(mesh.vertex_count()), missing(mesh.vertex_count());
     std::vector<std::uint8_t> open(mesh.vertex_count());
     for (std::size_t e = 0; e < t.edges.size(); ++e) {
         const auto [low, high] = t.edges.edges[e];
@@ -143,9 +143,9 @@ CurvatureResult curvature_of(const Mesh& given) {
             open[high] |= 2;
             continue;
         }
-        const double bend = length_of(mesh, t.edges.edges[e]) * t.turn[e];
-        bends[low] += bend;
-        bends[high] += bend;
+        const double turn = length_of(mesh, t.edges.edges[e]) * t.turn[e];
+        turns[low] += turn;
+        turns[high] += turn;
     }
     CurvatureResult r;
     r.gaussian.assign(mesh.vertex_count(), none_there);
@@ -164,7 +164,7 @@ CurvatureResult curvature_of(const Mesh& given) {
         missing[v] = ((open[v] & 1) ? pi : 2 * pi) - angle;
         if (open[v] || !(area > 0)) return;
         r.gaussian[v] = missing[v] / (area / 3);
-        r.mean[v] = bends[v] / 4 / (area / 3);
+        r.mean[v] = turns[v] / 4 / (area / 3);
     });
     for (const double m : missing) r.total += m;
     r.gaussian.resize(given.vertex_count());

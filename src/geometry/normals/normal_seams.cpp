@@ -151,7 +151,7 @@ class Fan {
     }
 
     void join_across_edges(std::span<const Index> corners) {
-        spokes_.pairs(mesh_, face_of_, corners, [&](Index c, Index d, bool) {
+        ring_.pairs(mesh_, face_of_, corners, [&](Index c, Index d, bool) {
             if (!smooth(c, d)) return;
             const std::size_t a = root(place(mesh_.corners[c])), b = root(place(mesh_.corners[d]));
             wedges_[std::max(a, b)].root = std::min(a, b);
@@ -205,7 +205,7 @@ class Fan {
     const Others& others_;
     double least_cosine_;
     std::vector<Member> wedges_;
-    OneRing spokes_;
+    OneRing ring_;
     std::vector<std::size_t> firsts_;
 };
 

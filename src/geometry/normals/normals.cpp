@@ -73,7 +73,7 @@ class SmoothFan {
             return static_cast<std::size_t>(std::lower_bound(corners.begin(), corners.end(), c) -
                                             corners.begin());
         };
-        spokes_.pairs(mesh_, face_of_, corners, [&](Index c, Index d, bool agree) {
+        ring_.pairs(mesh_, face_of_, corners, [&](Index c, Index d, bool agree) {
             if (!agree ||
                 exceeds_feature_angle(dot(normals_[face_of_[c]], normals_[face_of_[d]]), least_cosine_))
                 return;
@@ -86,7 +86,7 @@ class SmoothFan {
     const std::vector<Index>& face_of_;
     const std::vector<Vec3>& normals_;
     double least_cosine_;
-    OneRing spokes_;
+    OneRing ring_;
     std::vector<std::size_t> roots_; ///< by place among the vertex' corners
     std::vector<Key> keys_;
 };

@@ -16,30 +16,29 @@ class OneRing {
     template <class Pair>
     void pairs(const Mesh& mesh, const std::vector<Index>& face_of, std::span<const Index> corners,
                Pair&& pair) {
-        spokes_.clear();
+        edges_.clear();
         for (const Index c : corners) {
             const Index f = face_of[c], begin = mesh.face_begin(f), end = mesh.face_end(f);
-            spokes_.push_back({mesh.vertex(next_corner(c, begin, end)), c, true});
-            spokes_.push_back({mesh.vertex(previous_corner(c, begin, end)), c, false});
+            edges_.push_back({mesh.vertex(next_corner(c, begin, end)), c, true});
+            edges_.push_back({mesh.vertex(previous_corner(c, begin, end)), c, false});
         }
-        std::sort(spokes_.begin(), spokes_.end(), [](const Spoke& a, const Spoke& b) {
+        std::sort(edges_.begin(), edges_.end(), [](const RingEdge& a, const RingEdge& b) {
             return a.other != b.other ? a.other < b.other : a.corner < b.corner;
         });
-        for (std::size_t i = 0; i < spokes_.size();) {
+        for (std::size_t i = 0; i < edges_.size();) {
             std::size_t j = i + 1;
-            while (j < spokes_.size() && spokes_[j].other == spokes_[i].other) ++j;
-            if (j - i == 2)
-                pair(spokes_[i].corner, spokes_[i + 1].corner, spokes_[i].out != spokes_[i + 1].out);
+            while (j < edges_.size() && edges_[j].other == edges_[i].other) ++j;
+            if (j - i == 2) pair(edges_[i].corner, edges_[i + 1].corner, edges_[i].out != edges_[i + 1].out);
             i = j;
         }
     }
 
   private:
-    struct Spoke {
+    struct RingEdge {
         Index other, corner;
         bool out; ///< the face runs from the vertex to the other
     };
-    std::vector<Spoke> spokes_;
+    std::vector<RingEdge> edges_;
 };
 
 } // namespace facetmill

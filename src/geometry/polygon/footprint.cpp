@@ -121,7 +121,7 @@ OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b)
         const int s = turn(a, b, p);
         (s > 0 ? left : s < 0 ? right : on) = true;
     }
-    if (!box.meets(stretch) || (!on && left != right)) return OutlineMeeting::apart;
+    if (!box.meets(stretch) || (!on && left != right)) return OutlineMeeting::disjoint;
     OutlineMeeting most = left && right ? OutlineMeeting::crossing : OutlineMeeting::touching;
     if (!polygon::is_convex(face)) return most;
     const int way = polygon::orientation(face);
@@ -129,7 +129,7 @@ OutlineMeeting meeting(std::span<const Vec2> face, const Vec2& a, const Vec2& b)
         const Vec2 &p = face[i], &q = face[i + 1 == face.size() ? 0 : i + 1];
         const int sa = turn(p, q, a) * way, sb = turn(p, q, b) * way;
         if (p == q) continue;
-        if (sa < 0 && sb < 0) return OutlineMeeting::apart;
+        if (sa < 0 && sb < 0) return OutlineMeeting::disjoint;
         if (sa <= 0 && sb <= 0) most = OutlineMeeting::touching;
     }
     return most;

@@ -7,7 +7,7 @@ namespace facetmill {
 
 /// How a face and a stretch of the outline lie to each other, both seen along the axis.
 enum class OutlineMeeting {
-    apart,
+    disjoint,
     touching, ///< they share points, but the stretch does not enter the face
     crossing, ///< it does; also said of concave faces and of faces seen edge-on whenever it may
 };

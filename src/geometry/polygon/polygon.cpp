@@ -31,7 +31,7 @@ struct Integrals {
 const Vec2& following(Ring ring, std::size_t i) { return ring[i + 1 == ring.size() ? 0 : i + 1]; }
 
 /// For numbers whose products doubles cannot hold.
-int whole_orientation(Ring ring) {
+int integer_orientation(Ring ring) {
     mpz_class twice;
     for (std::size_t i = 0; i < ring.size(); ++i) {
         const Vec2 &a = ring[i], &b = following(ring, i);
@@ -66,7 +66,7 @@ int orientation(Ring ring) {
         exact.add_product(a.x, b.y);
         exact.add_product(-b.x, a.y);
     }
-    return exact.holds() ? exact.sign() : whole_orientation(ring);
+    return exact.holds() ? exact.sign() : integer_orientation(ring);
 }
 
 PrincipalAxes principal_axes(const SecondMoments& m) {
@@ -206,8 +206,8 @@ Kind classify(Rings rings) {
     if (how == Contact::none && rings.size() == 1) return Kind::concave;
     if (how == Contact::crossing) return Kind::self_intersecting;
     const WindingRange range = winding_range(rings);
-    if (range.least == 0 && range.most == 0) return Kind::degenerate;
-    return range.most - range.least == 1 ? Kind::complex : Kind::self_intersecting;
+    if (range.min == 0 && range.max == 0) return Kind::degenerate;
+    return range.max - range.min == 1 ? Kind::complex : Kind::self_intersecting;
 }
 
 } // namespace facetmill::polygon

@@ -63,8 +63,8 @@ Triangulation triangulate_rings(Rings rings) {
 WindingRange winding_range(Rings rings) {
     WindingRange range;
     for (const int w : triangulate_rings(rings).winding) {
-        range.least = std::min(range.least, w);
-        range.most = std::max(range.most, w);
+        range.min = std::min(range.min, w);
+        range.max = std::max(range.max, w);
     }
     return range;
 }

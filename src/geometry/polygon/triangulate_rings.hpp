@@ -33,7 +33,7 @@ Triangulation triangulate_rings(Rings rings);
 /// The least and the largest winding number of any point that is not on the rings; 0 is always among them.
 /// Exact.
 struct WindingRange {
-    int least = 0, most = 0;
+    int min = 0, max = 0;
 };
 WindingRange winding_range(Rings rings);
 

@@ -45,8 +45,8 @@ ValueRange value_range(const Scene& scene, const std::string& attribute, const C
     if (values.empty()) return range;
     range.known = true;
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    range.least = range.low = *least;
-    range.most = range.high = *most;
+    range.min = range.low = *least;
+    range.max = range.high = *most;
     if (wanted.kind == Kind::given) {
         range.low = wanted.min;
         range.high = wanted.max;
@@ -54,7 +54,7 @@ ValueRange value_range(const Scene& scene, const std::string& attribute, const C
     if (wanted.kind != Kind::automatic && wanted.kind != Kind::percentile) return range;
     const double low = percentile_of(values, 1), high = percentile_of(values, 99);
     // Halves, because the span of all doubles is none.
-    const bool outliers = high / 2 - low / 2 < (range.most / 2 - range.least / 2) / 4;
+    const bool outliers = high / 2 - low / 2 < (range.max / 2 - range.min / 2) / 4;
     if (low < high && (wanted.kind == Kind::percentile || outliers)) {
         range.low = low;
         range.high = high;

@@ -21,11 +21,11 @@ struct ColourRange {
 };
 
 struct ValueRange {
-    bool known = false;         ///< there are numbers at all
-    double low = 0, high = 0;   ///< the first and the last colour
-    double least = 0, most = 0; ///< of all numbers
-    bool percentiles = false;   ///< low and high are the 1st and 99th percentile
-    bool beyond() const { return least < low || most > high; } ///< some numbers lie outside
+    bool known = false;                                     ///< there are numbers at all
+    double low = 0, high = 0;                               ///< the first and the last colour
+    double min = 0, max = 0;                                ///< of all numbers
+    bool percentiles = false;                               ///< low and high are the 1st and 99th percentile
+    bool beyond() const { return min < low || max > high; } ///< some numbers lie outside
 };
 
 /// The attribute of that name that has numbers at all: of faces, else of wedges, else of vertices; or null.

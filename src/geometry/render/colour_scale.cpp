@@ -4,7 +4,7 @@
 
 namespace facetmill {
 
-Colour told_apart(std::uint64_t number) {
+Colour distinct_colour(std::uint64_t number) {
     static constexpr std::array<Colour, 10> colours{{{0.15f, 0.33f, 0.72f},
                                                      {0.85f, 0.30f, 0.05f},
                                                      {0.14f, 0.52f, 0.16f},

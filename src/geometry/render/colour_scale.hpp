@@ -6,7 +6,7 @@
 namespace facetmill {
 
 /// Colours that are told apart; the number of an identifier chooses one.
-Colour told_apart(std::uint64_t number);
+Colour distinct_colour(std::uint64_t number);
 
 /// The map "viridis" (S. van der Walt and N. Smith, 2015), whose steps look equal, for 0 to 1, by M. Zucker's
 /// polynomials; what lies beyond has the colour of the end. Grey for what is not a number.

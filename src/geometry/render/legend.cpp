@@ -52,8 +52,8 @@ std::vector<std::string> footnotes(const ValueRange& range) {
     std::vector<std::string> lines;
     if (range.percentiles) lines.push_back("1st to 99th pct");
     if (range.beyond()) {
-        lines.push_back("all: " + number_text(range.least));
-        lines.push_back("  to " + number_text(range.most));
+        lines.push_back("all: " + number_text(range.min));
+        lines.push_back("  to " + number_text(range.max));
     }
     return lines;
 }

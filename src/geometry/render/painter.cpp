@@ -33,7 +33,7 @@ Painter::Painter(const Mesh& mesh, const Scene& scene, const PictureSettings& se
     const bool as_is = settings.paint == Paint::material && settings.attribute.empty();
     if (as_is) colours_ = colours_of(mesh);
     by_normal_ = settings.paint == Paint::normal && !values_;
-    const Colour plain = settings.paint == Paint::part ? told_apart(number)
+    const Colour plain = settings.paint == Paint::part ? distinct_colour(number)
                          : colours_                    ? Colour{1, 1, 1}
                                                        : plain_grey;
     const MaterialLooks* looks = as_is ? settings.looks.get() : nullptr;
@@ -65,7 +65,7 @@ Texel Painter::of_value(const FacePlace& place) const {
     };
     Colour colour{};
     if (values_->role == Role::index) { // identifiers are never mixed
-        colour = told_apart(static_cast<std::uint64_t>(std::max(0.0, value(nearest))));
+        colour = distinct_colour(static_cast<std::uint64_t>(std::max(0.0, value(nearest))));
     } else {
         double t = 0;
         for (std::size_t k = 0; k < 3; ++k)

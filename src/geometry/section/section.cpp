@@ -132,7 +132,7 @@ bool is_collapsed(polygon::Ring ring) {
     if (ring.size() < 3) return true;
     if (polygon::orientation(ring) != 0) return false;
     const polygon::WindingRange range = polygon::winding_range(polygon::Rings(&ring, 1));
-    return range.least == 0 && range.most == 0;
+    return range.min == 0 && range.max == 0;
 }
 
 /// Straightens all contours; those that shrank to a point or a line are dropped and counted.

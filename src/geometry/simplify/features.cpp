@@ -176,14 +176,14 @@ class Classifier {
     std::vector<Index> ins_, features_;
 };
 
-/// An open edge by the places of its ends, the lower first.
+/// A boundary edge by the places of its ends, the lower first.
 struct OpenEdge {
     Index low, high; ///< places, numbered
     Index from, to;  ///< the vertices there
     bool along(const OpenEdge& o) const { return low == o.low && high == o.high; }
 };
 
-/// The vertices of the mesh at both ends of every open edge of finite length.
+/// The vertices of the mesh at both ends of every boundary edge of finite length.
 std::vector<std::array<Index, 2>> open_edges(const State& s, const Mesh& mesh) {
     std::vector<std::array<Index, 2>> ends;
     for (Index c = 0; c < s.flags.size(); ++c) {
@@ -194,7 +194,7 @@ std::vector<std::array<Index, 2>> open_edges(const State& s, const Mesh& mesh) {
     return ends;
 }
 
-/// Open edges by place; what lies in one place is side by side.
+/// Boundary edges by place; what lies in one place is side by side.
 std::vector<OpenEdge> by_place(const State& s, const Mesh& mesh) {
     const auto ends = open_edges(s, mesh);
     const auto less = [&](Index a, Index b) {

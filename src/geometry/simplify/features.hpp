@@ -18,8 +18,8 @@ std::vector<std::uint8_t> feature_corners(const State& s);
 /// the two sides of a seam do.
 class CoincidentBorders {
   public:
-    /// For each vertex of the mesh the lowest one that it is to be joined with: the ends of open edges whose
-    /// ends are at exactly the same places. Empty when there are none. The state must be classified.
+    /// For each vertex of the mesh the lowest one that it is to be joined with: the ends of boundary edges
+    /// whose ends are at exactly the same places. Empty when there are none. The state must be classified.
     static std::vector<Index> find(const State& s, const Mesh& mesh);
     /// Joins vertices as `find` says; each wedge stays, so the borders become seams. Vertices that lost their
     /// wedges stay unused. Vertex attributes go to the wedges.

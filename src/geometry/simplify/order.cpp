@@ -226,7 +226,7 @@ class Passes {
         if (count > remaining() || last_steps())
             collapse_in_order(found, totals);
         else
-            collapse_apart(found, totals);
+            collapse_disjoint(found, totals);
         for (std::size_t m = 0; m < members_.size(); ++m) {
             changed_[m] = totals[m].collapses > 0;
             members_[m].done.collapses += totals[m].collapses;
@@ -238,7 +238,8 @@ class Passes {
     }
 
     /// Each state by itself.
-    void collapse_apart(const std::vector<std::vector<Candidate>>& found, std::vector<PassTotals>& totals) {
+    void collapse_disjoint(const std::vector<std::vector<Candidate>>& found,
+                           std::vector<PassTotals>& totals) {
         for_members([&](std::size_t m) {
             const auto lists =
                 std::span(found).subspan(first_block_[m], first_block_[m + 1] - first_block_[m]);

@@ -204,7 +204,7 @@ struct PlacedMesh {
     Transform to_world;
 };
 
-/// Open edges of different meshes whose ends are at exactly the same places in the world.
+/// Boundary edges of different meshes whose ends are at exactly the same places in the world.
 struct Contacts {
     /// Sets of meshes that hang together by such edges, two or more each; ascending, by the first.
     std::vector<std::vector<std::size_t>> sets;

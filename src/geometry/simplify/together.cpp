@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view member_attribute = "simplify_member"; // of the faces of the joined mesh
 
-/// An open edge by its ends in the world, the lower first.
+/// A boundary edge by its ends in the world, the lower first.
 struct PlacedEdge {
     Vec3 low, high;
     Index from, to; ///< the vertices there
@@ -44,7 +44,7 @@ void add_open_edges(const PlacedMesh& placed, std::size_t number, std::vector<Pl
     }
 }
 
-/// The open edges of all meshes that may touch another.
+/// The boundary edges of all meshes that may touch another.
 std::vector<PlacedEdge> open_edges(std::span<const PlacedMesh> meshes) {
     std::vector<Box> boxes(meshes.size());
     for (std::size_t i = 0; i < meshes.size(); ++i)

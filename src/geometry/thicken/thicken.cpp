@@ -34,7 +34,7 @@ struct Doubled {
     Descent descent; ///< complete but for what is added later
 };
 
-std::vector<Index> spelled_wedges(const Mesh& mesh) {
+std::vector<Index> explicit_wedges(const Mesh& mesh) {
     if (mesh.has_seams()) return mesh.wedge_vertex;
     std::vector<Index> wedges(mesh.wedge_count());
     for (Index w = 0; w < wedges.size(); ++w) wedges[w] = w;
@@ -46,7 +46,7 @@ std::vector<Index> spelled_wedges(const Mesh& mesh) {
 Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,
                 const std::vector<Index>& back_copies) {
     Doubled d;
-    const auto wedges = spelled_wedges(mesh);
+    const auto wedges = explicit_wedges(mesh);
     const auto count = static_cast<Index>(wedges.size());
     d.mesh.positions = mesh.positions;
     for (const Index v : back_copies) d.mesh.positions.push_back(mesh.positions[v]);

@@ -24,7 +24,7 @@ struct ThickenSettings {
 struct ThickenResult {
     Mesh mesh;
     AttributeChanges changes;
-    std::size_t wall_faces = 0; ///< along open edges
+    std::size_t wall_faces = 0; ///< along boundary edges
     std::size_t limited = 0;    ///< vertices that miter_limit held back
     std::size_t still = 0;      ///< vertices without a normal (or of no face): they did not move
     /// Distances in world from vertices and middles of faces of the front to the back.
@@ -45,15 +45,15 @@ struct ThickenResult {
 };
 
 /// Makes a solid of the surface: the front as it is (moved outward by the thickness, or half of it), a copy
-/// of it turned round at the thickness behind, and walls along open edges. A closed surface becomes a hollow
-/// solid with a cavity; where no ball of that radius fits into a closed component there is no cavity, and the
-/// solid is what the other side bounds. A vertex moves so that the planes of its faces move by the distance
-/// each, as nearly as one point allows (least squares, weighted by the angles of the faces at the vertex);
-/// where that goes farther than miter_limit it is held back. A side that folds over is left as it is: the
-/// solid is right where turned, self_intersections and buried are 0, and thin where the wall is. Wedges of
-/// the back have normals turned; walls have their own when the mesh has normals. Requires a consistently
-/// oriented surface to be closed afterwards. Sheets that meet at an edge of more than two faces, or only at a
-/// vertex, are taken apart first, as clean does: each becomes a solid of its own. O(n log n).
+/// of it turned round at the thickness behind, and walls along boundary edges. A closed surface becomes a
+/// hollow solid with a cavity; where no ball of that radius fits into a closed component there is no cavity,
+/// and the solid is what the other side bounds. A vertex moves so that the planes of its faces move by the
+/// distance each, as nearly as one point allows (least squares, weighted by the angles of the faces at the
+/// vertex); where that goes farther than miter_limit it is held back. A side that folds over is left as it
+/// is: the solid is right where turned, self_intersections and buried are 0, and thin where the wall is.
+/// Wedges of the back have normals turned; walls have their own when the mesh has normals. Requires a
+/// consistently oriented surface to be closed afterwards. Sheets that meet at an edge of more than two faces,
+/// or only at a vertex, are taken apart first, as clean does: each becomes a solid of its own. O(n log n).
 ThickenResult thicken(const Mesh& mesh, const ThickenSettings& settings);
 
 struct WiresSettings {
@@ -80,7 +80,7 @@ struct TwoSidedResult {
 /// The faces once more, in reversed order, after the others, but for those that have a back at the same
 /// places already: so the second time changes nothing. The back has its own vertices, but for those on open
 /// edges, which both sides share: an open surface becomes a closed one of no volume (an inner edge between
-/// two vertices on open edges then has four faces). Wedges of the back have their own attributes, with
+/// two vertices on boundary edges then has four faces). Wedges of the back have their own attributes, with
 /// normals turned; face attributes are copied.
 TwoSidedResult two_sided(const Mesh& mesh);
 

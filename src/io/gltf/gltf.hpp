@@ -27,6 +27,6 @@ std::vector<bool> animated_parts(const Scene& scene);
 
 /// The fewest bits of position, from `min_bits` to 24, at which vertices of the mesh that are at different
 /// places (in float32) stay at different places of its grid; none when 24 are not enough.
-std::optional<int> bits_that_keep_apart(const Mesh& mesh, int min_bits);
+std::optional<int> bits_that_keep_distinct(const Mesh& mesh, int min_bits);
 
 } // namespace facetmill::io

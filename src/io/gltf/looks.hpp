@@ -16,12 +16,12 @@ namespace facetmill::io {
 /// decoded once however many pictures there are of a scene as it goes from stage to stage.
 class LookReader {
   public:
-    /// most_bytes: of decoded images.
-    explicit LookReader(std::size_t most_bytes = std::size_t{512} << 20) : most_(most_bytes) {}
+    /// max_bytes: of decoded images.
+    explicit LookReader(std::size_t max_bytes = std::size_t{512} << 20) : most_(max_bytes) {}
 
     /// By the index of the scene's materials. One that blends with an alpha of 0 is opaque. An image that is
     /// missing, broken, of a kind that is not read, or of more than 2^26 pixels is left out, and so is what
-    /// goes beyond most_bytes of decoded images in all: a warning (W-TEXTURE), once for each image. Levels of
+    /// goes beyond max_bytes of decoded images in all: a warning (W-TEXTURE), once for each image. Levels of
     /// more than 4096 pixels a side are not kept.
     std::shared_ptr<const MaterialLooks> looks(const Scene& scene, std::vector<Diagnostic>& warnings);
 

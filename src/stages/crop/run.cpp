@@ -60,7 +60,8 @@ void declare(Declare<CropOptions>& d) {
          {"whole", CropBy::whole, "faces that lie entirely on the kept side are kept whole"},
          {"centre", CropBy::centre,
           "faces whose centroid (the mean of their corners) lies on the kept side are kept whole"},
-         {"touching", CropBy::touching, "faces of which any part lies on the kept side are kept whole"}},
+         {"overlapping", CropBy::overlapping,
+          "faces of which any part lies on the kept side are kept whole"}},
         "What is done with faces at the outline.");
     d.choice<CropKeep>("keep", &CropOptions::keep,
                        {{"inside", CropKeep::inside, "what lies in the polygon and not in its holes"},

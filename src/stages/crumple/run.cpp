@@ -49,7 +49,7 @@ void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, c
     hold_together(sheets);
     if (o.self_intersections != Intersections::allow) {
         const bool forbid = o.self_intersections == Intersections::forbid;
-        const AvoidResult r = move_apart(sheets, forbid);
+        const AvoidResult r = avoid_intersections(sheets, forbid);
         if (r.left > 0) refuse_intersections(r, works, o.grid);
         warn_of_hurry(r, context);
         report.self_intersections = r;

@@ -31,11 +31,11 @@ struct RenderReport {
     ValueRange values{};
 
     std::optional<std::array<double, 2>> painted() const { return pair(values.low, values.high); }
-    std::optional<std::array<double, 2>> all() const { return pair(values.least, values.most); }
+    std::optional<std::array<double, 2>> all() const { return pair(values.min, values.max); }
 
   private:
     std::optional<std::array<double, 2>> pair(double a, double b) const {
-        return values.known && values.least < values.most ? std::optional(std::array{a, b}) : std::nullopt;
+        return values.known && values.min < values.max ? std::optional(std::array{a, b}) : std::nullopt;
     }
 
   public:
@@ -61,8 +61,8 @@ void declare_report(DeclareFields<RenderReport>& d) {
             line += fmt::format(", {} from {:.6g} (blue) to {:.6g} (yellow)", r.attribute, (*range)[0],
                                 (*range)[1]);
         if (r.percentiles)
-            line += fmt::format(", the 1st and 99th percentile of {:.6g} to {:.6g}", r.values.least,
-                                r.values.most);
+            line +=
+                fmt::format(", the 1st and 99th percentile of {:.6g} to {:.6g}", r.values.min, r.values.max);
         return std::vector<std::string>{line};
     });
 }

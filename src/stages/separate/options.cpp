@@ -13,8 +13,8 @@ namespace {
 using By = SeparateOptions::By;
 
 template <class Key, class Name>
-PieceLabels labelled(std::size_t faces, Key&& key_of, Name&& name_of) {
-    PieceLabels labels;
+FaceLabels labelled(std::size_t faces, Key&& key_of, Name&& name_of) {
+    FaceLabels labels;
     std::map<std::int64_t, Index> numbers;
     for (Index f = 0; f < faces; ++f) {
         const std::int64_t key = key_of(f);
@@ -25,7 +25,7 @@ PieceLabels labelled(std::size_t faces, Key&& key_of, Name&& name_of) {
     return labels;
 }
 
-PieceLabels by_material(const Part& part, const Scene& scene) {
+FaceLabels by_material(const Part& part, const Scene& scene) {
     const Mesh& mesh = part.mesh;
     const auto material_of = [&](Index f) {
         const Index p = mesh.primitive_of(f);
@@ -41,7 +41,7 @@ PieceLabels by_material(const Part& part, const Scene& scene) {
     });
 }
 
-PieceLabels by_group(const Part& part, const std::string& attribute) {
+FaceLabels by_group(const Part& part, const std::string& attribute) {
     const Attribute* a = part.mesh.find(attribute, Domain::face);
     if (!a)
         throw Error(ErrorKind::stage, "E-GROUP",
@@ -86,7 +86,7 @@ void verify_separate(const SeparateOptions& o, const Value& given, Problems& pro
         problems.add(given.mark, "E-CONFLICT", "separate: 'cavities' goes with by: component");
 }
 
-PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {
+FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {
     const Mesh& mesh = part.mesh;
     if (o.by == By::material) return by_material(part, scene);
     if (o.by == By::group) return by_group(part, o.attribute);

@@ -20,13 +20,13 @@ void verify_separate(const SeparateOptions& o, const Value& given, Problems& pro
 
 /// What a part is taken apart into: a label for each face, and a name for each label, in the order of their
 /// first faces.
-struct PieceLabels {
+struct FaceLabels {
     std::vector<Index> of_face;
     std::vector<std::string> names;
 };
 
 /// The pieces of the part. Throws stage (E-GROUP) when it has no such attribute, or one
 /// whose values are not all whole numbers.
-PieceLabels piece_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
+FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o);
 
 } // namespace facetmill::separate_stage

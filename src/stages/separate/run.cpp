@@ -44,7 +44,7 @@ void require_few(std::size_t parts, std::int64_t max_parts) {
 }
 
 /// The first piece keeps the part's node, the others stand beside it; all keep its skin and its animation.
-Part piece_of(const Part& part, Mesh mesh, std::string name) {
+Part part_of(const Part& part, Mesh mesh, std::string name) {
     Part piece;
     piece.name = std::move(name);
     piece.mesh = std::move(mesh);
@@ -63,8 +63,7 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateRepor
     for (const Part& part : scene.parts)
         if (!context.selects(part, scene)) taken.insert(part.name);
     for (Part& part : scene.parts) {
-        const PieceLabels labels =
-            context.selects(part, scene) ? piece_labels(part, scene, o) : PieceLabels{};
+        const FaceLabels labels = context.selects(part, scene) ? face_labels(part, scene, o) : FaceLabels{};
         if (labels.names.size() < 2) {
             if (context.selects(part, scene)) part.name = unique_name(part.name, taken);
             parts.push_back(std::move(part));
@@ -75,7 +74,7 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateRepor
         context.attribute_changes(part, kept_changes(part.mesh.attributes));
         report.separated.push_back({part.name, labels.names.size()});
         for (std::size_t i = 0; i < pieces.size(); ++i)
-            parts.push_back(piece_of(part, std::move(pieces[i]), unique_name(labels.names[i], taken)));
+            parts.push_back(part_of(part, std::move(pieces[i]), unique_name(labels.names[i], taken)));
     }
     scene.parts = std::move(parts);
     report.parts = scene.parts.size();

@@ -93,7 +93,7 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
         const int usual = bits;
         std::optional<int> most = usual;
         const auto look = [&](const Mesh& mesh) {
-            if (most) most = io::bits_that_keep_apart(mesh, *most);
+            if (most) most = io::bits_that_keep_distinct(mesh, *most);
         };
         if (!codec.can.transforms)
             look(in_one(scene));

@@ -127,10 +127,10 @@ TEST_CASE("by whole faces, their middles, or whatever touches", "[geometry]") {
     };
     CHECK(faces(CropBy::whole) == 4);
     CHECK(faces(CropBy::centre) == 9);
-    CHECK(faces(CropBy::touching) == 15); // one of the 16 is met at a point only
+    CHECK(faces(CropBy::overlapping) == 15); // one of the 16 is met at a point only
     CHECK(faces(CropBy::whole, polygon::Keep::outside) == 48 - 15);
     CHECK(faces(CropBy::centre, polygon::Keep::outside) == 48 - 9);
-    CHECK(faces(CropBy::touching, polygon::Keep::outside) == 48 - 4);
+    CHECK(faces(CropBy::overlapping, polygon::Keep::outside) == 48 - 4);
 }
 
 TEST_CASE("all rules for points inside crop the same", "[geometry]") {

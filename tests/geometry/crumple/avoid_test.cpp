@@ -27,7 +27,7 @@ CrumpleSettings by(double amplitude, std::uint64_t seed = 1) {
 
 Mesh apart(Mesh mesh, const CrumpleSettings& s, AvoidResult* result = nullptr, bool only_look = false) {
     std::vector<CrumpleSheet> sheets{{&mesh, crumple_moves(mesh, s)}};
-    const AvoidResult r = move_apart(sheets, only_look);
+    const AvoidResult r = avoid_intersections(sheets, only_look);
     if (result) *result = r;
     return mesh;
 }
@@ -76,7 +76,7 @@ TEST_CASE("however few pairs are listed, the same comes out", "[geometry]") {
     Mesh mesh = sponge(), listed = mesh;
     std::vector<CrumpleSheet> sheets{{&mesh, crumple_moves(mesh, by(0.04))}};
     std::vector<CrumpleSheet> with_list{{&listed, sheets[0].moves}};
-    const AvoidResult r = move_apart(sheets, false, 7), all = move_apart(with_list);
+    const AvoidResult r = avoid_intersections(sheets, false, 7), all = avoid_intersections(with_list);
     CHECK(r.found == all.found);
     CHECK(r.rounds == all.rounds);
     CHECK(r.shares == all.shares);
@@ -86,12 +86,12 @@ TEST_CASE("however few pairs are listed, the same comes out", "[geometry]") {
     Mesh crossing = grid_split(shapes::crossing(), 3).mesh;
     const std::size_t before = find_self_intersections(crossing).count;
     std::vector<CrumpleSheet> crossed{{&crossing, crumple_moves(crossing, by(0.4))}};
-    move_apart(crossed, false, before);
+    avoid_intersections(crossed, false, before);
     CHECK(find_self_intersections(crossing).count <= before);
     Mesh again = grid_split(shapes::crossing(), 3).mesh;
     std::vector<CrumpleSheet> refused{{&again, crumple_moves(again, by(0.4))}};
     CHECK(test::failure([&] {
-              move_apart(refused, false, before - 1);
+              avoid_intersections(refused, false, before - 1);
           }).starts_with("limit [E-LIMIT] crumple: "));
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("a flat sheet does not fold over itself", "[geometry]") {
     Mesh mesh = shapes::grid(12, 12);
     std::vector<CrumpleSheet> sheets{{&mesh, crumple_moves(mesh, by(0.6))}};
     for (auto& m : sheets[0].moves.moves) m.z = 0; // in its own plane
-    const AvoidResult r = move_apart(sheets);
+    const AvoidResult r = avoid_intersections(sheets);
     CHECK(r.found > 0);
     for (Index f = 0; f < mesh.face_count(); ++f) {
         const Vec3 n =
@@ -156,7 +156,7 @@ TEST_CASE("places that sheets share keep their share in all of them", "[geometry
     const std::vector<Vec3> start_a = a.positions, start_b = b.positions;
     const CrumpleSettings s = by(0.15);
     std::vector<CrumpleSheet> sheets{{&a, crumple_moves(a, s)}, {&b, crumple_moves(b, s)}};
-    CHECK(move_apart(sheets).rounds > 0);
+    CHECK(avoid_intersections(sheets).rounds > 0);
     int met = 0;
     for (std::size_t i = 0; i < start_a.size(); ++i)
         for (std::size_t j = 0; j < start_b.size(); ++j)
@@ -262,7 +262,7 @@ TEST_CASE("faces at short edges may be drawn out, as long as they do not meet", 
     std::vector<CrumpleSheet> sheets{{&mesh, crumple_moves(mesh, by(0.01))}};
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
         sheets[0].moves.moves[v] = {0, 0, mesh.positions[v].x > mesh.positions[11].x ? 0.5 : 0.0};
-    CHECK(move_apart(sheets).shares[0] == mesh.vertex_count());
+    CHECK(avoid_intersections(sheets).shares[0] == mesh.vertex_count());
 }
 
 TEST_CASE("keeping apart gives the same for any number of threads", "[geometry]") {

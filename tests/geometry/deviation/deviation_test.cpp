@@ -112,7 +112,7 @@ TEST_CASE("points are measured as points: all of them, to the nearest, by any nu
                                                      uniform(hashed(seed, 3 * i + 1)),
                                                      uniform(hashed(seed, 3 * i + 2))});
         }
-        return unreferenced_points_of(scene);
+        return isolated_vertices_of(scene);
     };
     const Surface a = cloud(1, 400), b = cloud(2, 300);
     const auto nearest = [](const Surface& from, const Surface& to) {
@@ -148,14 +148,14 @@ TEST_CASE("points are measured as points: all of them, to the nearest, by any nu
     CHECK(alone.backward.rms == d.backward.rms);
 }
 
-TEST_CASE("loose points are the vertices without faces, in the world", "[geometry]") {
+TEST_CASE("isolated vertices are those without faces, in the world", "[geometry]") {
     Scene scene;
     scene.parts.resize(2);
     scene.parts[0].mesh = shapes::cube();
     scene.parts[0].mesh.positions.push_back({1, 2, 3});
     scene.parts[0].transform.m[0][3] = 10;
     scene.parts[1].mesh.positions = {{5, 5, 5}};
-    const Surface points = unreferenced_points_of(scene);
+    const Surface points = isolated_vertices_of(scene);
     REQUIRE(points.positions == std::vector<Vec3>{{11, 2, 3}, {5, 5, 5}});
     CHECK(points.size() == 2);
     const Surface all = joined(surface_of(scene.parts[0]), points);

@@ -13,7 +13,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<Index, Index>>;
 constexpr SelfIntersectionSettings all{.limit = SIZE_MAX},
-    apart{.limit = SIZE_MAX, .among = {}, .apart = true};
+    apart{.limit = SIZE_MAX, .among = {}, .separate_touching = true};
 
 void add_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
     for (const Vec3& p : {a, b, c}) {

@@ -140,11 +140,11 @@ TEST_CASE("a ring that touches itself is complex, one that crosses at a corner i
 
 TEST_CASE("windings of rings", "[geometry]") {
     const auto range = winding_range(rings_of({pentagram()}));
-    CHECK(range.least == 0);
-    CHECK(range.most == 2);
+    CHECK(range.min == 0);
+    CHECK(range.max == 2);
     const auto eight = winding_range(rings_of({figure_eight()}));
-    CHECK(eight.least == -1);
-    CHECK(eight.most == 1);
+    CHECK(eight.min == -1);
+    CHECK(eight.max == 1);
 }
 
 TEST_CASE("triangles cover a keyhole polygon once, and add no point", "[geometry]") {

@@ -346,7 +346,7 @@ TEST_CASE("outliers do not eat the range of colours", "[geometry]") {
     CHECK(robust.percentiles);
     CHECK(robust.low == 9);
     CHECK(robust.high == 989);
-    CHECK(robust.most == 1e6);
+    CHECK(robust.max == 1e6);
     CHECK(robust.beyond());
     CHECK(range(ColourRange::Kind::all).high == 1e6);
     CHECK(range(ColourRange::Kind::given).low == 3);
@@ -385,7 +385,7 @@ TEST_CASE("a legend that does not fit is left out", "[geometry]") {
     s.legend = true;
     ValueRange range;
     range.known = true;
-    range.high = range.most = 10;
+    range.high = range.max = 10;
     const auto width = [&](int wide, int high) {
         s.width = wide;
         s.height = high;
@@ -398,7 +398,7 @@ TEST_CASE("a legend that does not fit is left out", "[geometry]") {
     CHECK(width(300, 69) == 0);
     s.unit = "mm";
     range.percentiles = true;
-    range.most = 20; // three lines below, one more above
+    range.max = 20; // three lines below, one more above
     CHECK(width(300, 100) == 0);
     CHECK(width(300, 110) == 102);
     Scene scene = square();

@@ -84,19 +84,19 @@ TEST_CASE("pairs of boxes among some", "[geometry]") {
 TEST_CASE("triangles are surely apart only when they are", "[geometry]") {
     using Corners = std::array<Vec3, 3>;
     const Corners a{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
-    CHECK(surely_apart(a, {{{5, 5, -1}, {6, 5, 1}, {5, 6, 1}}}, 0));  // seen along z
-    CHECK(surely_apart(a, {{{1, 1, 1}, {2, 1, 1}, {1, 2, 1.5}}}, 0)); // above the plane
-    CHECK_FALSE(surely_apart(a, {{{1, 1, -1}, {1, 1, 1}, {9, 9, 0}}}, 0));
-    CHECK_FALSE(surely_apart(a, {{{1, 1, 0}, {2, 1, 5}, {1, 2, 5}}}, 0)); // touches
-    CHECK(surely_apart(a, {{{0, 0, 0}, {-4, -1, 0}, {-1, -4, 1}}}, 1));   // beside each other
-    CHECK(surely_apart(a, {{{0, 0, 0}, {4, 1, 1}, {1, 4, 1}}}, 1));       // over each other, rising
-    CHECK_FALSE(surely_apart(a, {{{0, 0, 0}, {4, 1, 1}, {1, 4, -1}}}, 1));
-    CHECK_FALSE(surely_apart(a, {{{0, 0, 0}, {1, 1, 0}, {-4, 1, 0}}}, 1));
-    CHECK(surely_apart(a, {{{0, 0, 0}, {4, 0, 0}, {0, -4, 0}}}, 2));
-    CHECK(surely_apart(a, {{{0, 0, 0}, {4, 0, 0}, {1, 1, 1}}}, 2));
-    CHECK_FALSE(surely_apart(a, {{{0, 0, 0}, {4, 0, 0}, {1, 1, 0}}}, 2)); // folded flat
+    CHECK(surely_disjoint(a, {{{5, 5, -1}, {6, 5, 1}, {5, 6, 1}}}, 0));  // seen along z
+    CHECK(surely_disjoint(a, {{{1, 1, 1}, {2, 1, 1}, {1, 2, 1.5}}}, 0)); // above the plane
+    CHECK_FALSE(surely_disjoint(a, {{{1, 1, -1}, {1, 1, 1}, {9, 9, 0}}}, 0));
+    CHECK_FALSE(surely_disjoint(a, {{{1, 1, 0}, {2, 1, 5}, {1, 2, 5}}}, 0)); // touches
+    CHECK(surely_disjoint(a, {{{0, 0, 0}, {-4, -1, 0}, {-1, -4, 1}}}, 1));   // beside each other
+    CHECK(surely_disjoint(a, {{{0, 0, 0}, {4, 1, 1}, {1, 4, 1}}}, 1));       // over each other, rising
+    CHECK_FALSE(surely_disjoint(a, {{{0, 0, 0}, {4, 1, 1}, {1, 4, -1}}}, 1));
+    CHECK_FALSE(surely_disjoint(a, {{{0, 0, 0}, {1, 1, 0}, {-4, 1, 0}}}, 1));
+    CHECK(surely_disjoint(a, {{{0, 0, 0}, {4, 0, 0}, {0, -4, 0}}}, 2));
+    CHECK(surely_disjoint(a, {{{0, 0, 0}, {4, 0, 0}, {1, 1, 1}}}, 2));
+    CHECK_FALSE(surely_disjoint(a, {{{0, 0, 0}, {4, 0, 0}, {1, 1, 0}}}, 2)); // folded flat
     const Corners tiny{{{0, 0, 0}, {1e-120, 0, 0}, {0, 1e-120, 0}}};
-    CHECK_FALSE(surely_apart(tiny, {{{0, 0, 1e-120}, {1e-120, 0, 1e-120}, {0, 1e-120, 1e-120}}}, 0));
+    CHECK_FALSE(surely_disjoint(tiny, {{{0, 0, 1e-120}, {1e-120, 0, 1e-120}, {0, 1e-120, 1e-120}}}, 0));
 }
 
 TEST_CASE("pairs of boxes are counted up to a limit", "[geometry]") {

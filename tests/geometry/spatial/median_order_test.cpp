@@ -56,7 +56,7 @@ TEST_CASE("runs of 2^k items are separated from the next by a plane", "[geometry
     }
 }
 
-TEST_CASE("halving gives one order, whatever the order before and the number of threads", "[geometry]") {
+TEST_CASE("the median order is one, whatever the order before and the number of threads", "[geometry]") {
     auto items = random_items(30000), reversed = items;
     std::reverse(reversed.begin(), reversed.end());
     sort_in_median_order(items);

@@ -379,7 +379,7 @@ namespace {
 using Place = std::array<std::uint32_t, 3>;
 
 /// The number of different places.
-std::size_t count_places(std::vector<Place>& places) {
+std::size_t count_positions(std::vector<Place>& places) {
     for (const std::size_t i : {0u, 1u, 2u})
         radix_sort(
             places, [i](const Place& p) { return p[i]; }, 32);
@@ -408,14 +408,14 @@ std::vector<Place> places_of(const Mesh& mesh, const DracoInput& grid, std::opti
 
 } // namespace
 
-std::optional<int> bits_that_keep_apart(const Mesh& mesh, int min_bits) {
+std::optional<int> bits_that_keep_distinct(const Mesh& mesh, int min_bits) {
     DracoInput grid;
     set_draco_grid(mesh, grid);
     std::vector<Place> places = places_of(mesh, grid, {});
-    const std::size_t given = count_places(places);
+    const std::size_t given = count_positions(places);
     for (int bits = min_bits; bits <= 24; ++bits) {
         places = places_of(mesh, grid, bits);
-        if (count_places(places) == given) return bits;
+        if (count_positions(places) == given) return bits;
     }
     return {};
 }
