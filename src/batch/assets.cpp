@@ -73,7 +73,7 @@ class AssetFinder {
     void add_nothing(const std::string& pattern) {
         std::string hint =
             is_glob(pattern)
-                ? "** stands for any number of folders; the shell must not expand the pattern: quote it"
+                ? "** matches any number of folders; the shell must not expand the pattern: quote it"
                 : "";
         if (was_there(pattern)) {
             const fs::path fixed = fixed_prefix(pattern);

@@ -239,7 +239,7 @@ std::optional<Diagnostic> Journal::add(Done done) {
     try {
         line = done_json(done).dump() + "\n";
     } catch (const Json::exception&) {
-        return {}; // a name that is no UTF-8: it will be done again
+        return {}; // a name that is not UTF-8: it will be done again
     }
     const ssize_t n = ::write(fd_, line.data(), line.size());
     const int error = n < 0 ? errno : ENOSPC;

@@ -38,14 +38,14 @@ Json summary_schema() {
          {"tool", closed_object({{"name", {{"const", "facetmill"}}}, {"version", typed("string")}})},
          {"pipeline", typed("string")},
          {"passed", typed("boolean", "All assets are ok, and so is the batch")},
-         {"exit_code", typed("integer", "The gravest of all")},
+         {"exit_code", typed("integer", "The most severe of all assets")},
          {"counts", closed_object({{"assets", count_schema()},
                                    {"ok", count_schema()},
                                    {"failed", count_schema()},
                                    {"interrupted", count_schema()},
                                    {"not_run", count_schema()}})},
          {"errors", list_of(report::reference("diagnostic"), "Of the batch as a whole")},
-         {"assets", list_of(asset_schema(), "The gravest failures first")}});
+         {"assets", list_of(asset_schema(), "The most severe failures first")}});
     out["$schema"] = report::schema_dialect;
     out["title"] = "facetmill batch";
     out["$defs"] = {{"diagnostic", report::diagnostic_schema()}};

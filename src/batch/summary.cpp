@@ -126,7 +126,7 @@ std::string to_terminal(const Summary& summary, bool colour, bool all) {
         text += line_of(summary.assets[i], out, BatchForm::terminal, colour);
     }
     if (good > most && !all)
-        text += fmt::format("  ... and {} more (-v or --report tells all)\n", good - most);
+        text += fmt::format("  ... and {} more (-v or --report lists all)\n", good - most);
     for (const auto& path : summary.pruned) text += fmt::format("removed {}\n", one_line(path));
     text += totals(summary, BatchForm::terminal);
     text += fmt::format("; {}, {} at a time", timed(summary.seconds), summary.jobs);

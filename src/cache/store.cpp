@@ -199,12 +199,12 @@ void Store::cannot_write(const std::string& why) {
         if (std::exchange(known_->broken, true)) return;
     }
     if (settings_.tell)
-        settings_.tell(
-            {Severity::warning,
-             "W-CACHE",
-             fmt::format("the cache cannot be written: {}", why),
-             {},
-             "the run goes on without; FACETMILL_CACHE names another folder, --no-cache uses none"});
+        settings_.tell({Severity::warning,
+                        "W-CACHE",
+                        fmt::format("the cache cannot be written: {}", why),
+                        {},
+                        "the run goes on without the cache; FACETMILL_CACHE names another folder, --no-cache "
+                        "uses none"});
 }
 
 namespace {

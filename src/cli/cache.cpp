@@ -47,7 +47,7 @@ void tell_contents(const cache::Store& store, bool json) {
 int cache_work(const std::string& action, bool json) {
     const auto folder = cache::folder(true);
     if (!folder)
-        throw Error(ErrorKind::usage, "E-ARGUMENT", "there is no folder for a cache",
+        throw Error(ErrorKind::usage, "E-ARGUMENT", "no folder for a cache is known",
                     "FACETMILL_CACHE names one (and is not off), or HOME");
     cache::Store store({*folder, cache::size_limit()});
     if (action == "stats") {

@@ -114,7 +114,7 @@ Command diff_command() {
                 arguments.add("--mean", &options->mean, "The largest mean distance over the area allowed.");
                 arguments
                     .add("--values", &settings.attribute_limit,
-                         "How far attribute values may be apart. Default: 1e-6.")
+                         "The largest allowed difference of attribute values. Default: 1e-6.")
                     .not_negative();
                 arguments
                     .add("--ignore", &options->ignored,

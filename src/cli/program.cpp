@@ -76,7 +76,7 @@ const Command& command_named(const std::string& name, const CommandLine& line) {
         throw Error(
             ErrorKind::usage, "E-COMMAND", fmt::format("'{}' is a stage, not a command", name),
             stage_named(name)
-                ? fmt::format("facetmill pipe load IN ! {0} ... ! write OUT; facetmill stages {0} tells its "
+                ? fmt::format("facetmill pipe load IN ! {0} ... ! write OUT; facetmill stages {0} lists its "
                               "options",
                               name)
                 : "facetmill pipe --help",

@@ -155,7 +155,7 @@ std::string as_json(const Json& all) {
         return all.dump(1);
     } catch (const Json::exception&) {
         throw Error(ErrorKind::usage, "E-EXPORT",
-                    "a name of a file is no UTF-8, which a Snakefile cannot hold",
+                    "the name of a file is not UTF-8, which a Snakefile requires",
                     "use --to ninja or make, or rename the file");
     }
 }

@@ -164,7 +164,7 @@ Json pipeline_schema() {
           {"stages", ref("stages")},
           {"allow",
            {{"anyOf", one_or_more},
-            {"description", "Warnings that are neither told nor made to fail, by their ids."}}},
+            {"description", "The ids of warnings that are not printed and do not fail under --strict."}}},
           {"report",
            {{"anyOf", one_or_more}, {"description", "Reports: .json, .html, .xml (JUnit), .txt."}}}}},
         {"patternProperties", {{"^x-", true}}},

@@ -88,7 +88,7 @@ class Builder : public YAML::EventHandler {
         const Mark where = alias_mark(source_, offset(mark));
         const auto found = anchors_.find(anchor);
         if (found == anchors_.end()) {
-            problems_.add(where, "E-YAML", "an alias inside the content that it stands for");
+            problems_.add(where, "E-YAML", "an alias inside its own content");
             throw Stop{};
         }
         grow(found->second.size, where);

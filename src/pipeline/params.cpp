@@ -216,7 +216,7 @@ class Params {
         if (!options.is_list() && entry.value.is_map() && entry.value.find("of"))
             refuse("of", fmt::format("'{}' is one value, so it is not of others", entry.key), "type: list");
         if (!options.choices.empty() && single != Type::choice)
-            refuse("choices", fmt::format("'{}' has choices, but is no choice", entry.key),
+            refuse("choices", fmt::format("'{}' has choices, but its type is not choice", entry.key),
                    options.is_list() ? "of: choice" : "type: choice");
         const bool limited = single != Type::text && single != Type::path && single != Type::boolean &&
                              single != Type::choice && single != Type::list;

@@ -71,7 +71,7 @@ const Value::Entry* stage_entry(const Value& item, Problems& problems) {
         const StageInfo* info = stage_named(stage->key);
         const bool is_option = info && info->options->find(entry.key);
         known &= !is_option;
-        problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is no key of an item", entry.key),
+        problems.add(entry.key_mark, "E-KEY", fmt::format("'{}' is not a key of an item", entry.key),
                      is_option
                          ? fmt::format("it is an option of {}: write {}: {{{}: ...}}, or indent it more",
                                        stage->key, stage->key, entry.key)

@@ -51,7 +51,7 @@ bool check_text(const SourceIndex& source, Problems& problems) {
             const auto byte = static_cast<unsigned>(static_cast<unsigned char>(text[i]));
             problems.add(source.mark(i), "E-YAML",
                          length == 0
-                             ? fmt::format("the byte 0x{:02x} is no UTF-8", byte)
+                             ? fmt::format("the byte 0x{:02x} is not UTF-8", byte)
                              : fmt::format("the control character 0x{:02x} may not be in a pipeline", byte),
                          "a pipeline is a text in UTF-8");
             return false;

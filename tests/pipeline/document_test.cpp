@@ -155,7 +155,7 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
         {"? [a, b]\n: 1\n", "p.yaml:1:3: error[E-YAML]: a key must be a text, found a list of 2\n"
                             "  ? [a, b]\n"
                             "    ^"},
-        {"a: &x [*x]\n", "p.yaml:1:8: error[E-YAML]: an alias inside the content that it stands for\n"
+        {"a: &x [*x]\n", "p.yaml:1:8: error[E-YAML]: an alias inside its own content\n"
                          "  a: &x [*x]\n"
                          "         ^~"},
         {"a: {b: 1\nc: 2\n", "p.yaml:2:2: error[E-YAML]: expected ',' or '}' here\n"
@@ -174,7 +174,7 @@ TEST_CASE("what is wrong with a text is said with its place and a hint", "[pipel
         {std::string("a: \0", 4),
          "p.yaml:1:4: error[E-YAML]: the control character 0x00 may not be in a pipeline\n"
          "  hint: a pipeline is a text in UTF-8"},
-        {"a: b\xFFz\n", "p.yaml:1:5: error[E-YAML]: the byte 0xff is no UTF-8\n"
+        {"a: b\xFFz\n", "p.yaml:1:5: error[E-YAML]: the byte 0xff is not UTF-8\n"
                         "  hint: a pipeline is a text in UTF-8"},
     };
     for (const auto& c : cases) {

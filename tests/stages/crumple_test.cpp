@@ -74,7 +74,7 @@ TEST_CASE("crumple: avoid keeps faces apart, forbid refuses", "[stages]") {
     CHECK(test::failure([&] {
               run_stage("crumple", with("forbid"), scene_of(shapes::quad_cube()));
           }).starts_with("stage [E-INTERSECTS] crumple: "));
-    CHECK(report["kept_apart"] == "faces of the same part");
+    CHECK(report["scope"] == "faces of the same part");
     CHECK(find_self_intersections(run_stage("crumple", with("allow"), scene_of(shapes::quad_cube())).mesh())
               .count > 0);
 }

@@ -292,10 +292,10 @@ TEST_CASE("what is no baseline is refused", "[stages]") {
               R"(,"locations":-1,"known":["0123456789abcdef"]}]})"}) {
         CAPTURE(text);
         gate.put(text);
-        CHECK(reason() == no + "is no baseline of validate" + hint);
+        CHECK(reason() == no + "is not a baseline of validate" + hint);
     }
     gate.put(R"({"failures":[{"check":"closed","part":"","expected":"true","found":false,"locations":8}]})");
-    CHECK(reason() == no + "is no baseline of validate" + hint);
+    CHECK(reason() == no + "is not a baseline of validate" + hint);
     gate.put(R"({"facetmill_baseline":2,"failures":[]})");
     CHECK(reason() == no + "is a baseline of a version that this facetmill does not read" + hint);
 }

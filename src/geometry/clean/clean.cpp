@@ -46,11 +46,12 @@ SelfIntersections affordable_crossings(Work& work) {
     const std::size_t beyond = found.box_pairs - std::min(free, found.box_pairs);
     work.budget.box_pairs -= std::min(found.too_many ? beyond / 16 : beyond, work.budget.box_pairs);
     if (found.too_many)
-        tell_of_crossings(work,
-                          fmt::format("not looked for, because the boxes of more than {} pairs of its {} "
-                                      "faces meet; clean smaller parts, or thinner walls and tubes",
-                                      found.box_pairs - 1, work.mesh.face_count()),
-                          corner_mean(work.mesh, 0));
+        tell_of_crossings(
+            work,
+            fmt::format("not searched for, because the bounding boxes of more than {} pairs of its {} "
+                        "faces meet; clean smaller parts, or thinner walls and tubes",
+                        found.box_pairs - 1, work.mesh.face_count()),
+            corner_mean(work.mesh, 0));
     return found;
 }
 

@@ -164,7 +164,7 @@ class GeoJson {
         try {
             json = parse_json(text);
         } catch (const Json::exception& e) {
-            malformed(name_, 0, "E-GEOJSON", fmt::format("this is no JSON: {}", e.what()));
+            malformed(name_, 0, "E-GEOJSON", fmt::format("this is not JSON: {}", e.what()));
         }
         geometry(json, 0);
         return std::move(rings_);

@@ -34,7 +34,8 @@ void declare_shares(DeclareFields<AvoidResult>& d) {
 
 void declare_avoided(DeclareFields<AvoidResult>& d) {
     d.field(
-        "kept_apart", [](const AvoidResult&) { return "faces of the same part"; }, "What was kept apart.");
+        "scope", [](const AvoidResult&) { return "faces of the same part"; },
+        "The faces between which intersections were avoided.");
     d.field("before", &AvoidResult::exempt, "Pairs of faces that intersected before.");
     d.field(
         "found", &AvoidResult::found,
@@ -126,7 +127,7 @@ void warn_of_rounding(const CrumpledPart& part, const CrumpleMoves& moves, doubl
     if (!(amplitude > 0 && farthest > amplitude / 100)) return;
     context.warn(
         "W-CRUMPLE-ROUNDED",
-        fmt::format("crumple: to keep faces apart, positions of part '{}' are rounded to float32, which "
+        fmt::format("crumple: to avoid intersections, positions of part '{}' are rounded to float32, which "
                     "moves a vertex by {:.3g}, more than 1 % of the amplitude {:.3g}",
                     part.part->name, farthest, amplitude),
         "move the part to its origin first, or use self_intersections: allow");
@@ -146,7 +147,7 @@ void warn_of_parts(const Scene& scene, Context& context) {
             if (!overlap(boxes[i], boxes[j])) continue;
             if (!context.selects(a, scene) && !context.selects(b, scene)) continue;
             return context.warn("W-CRUMPLE-PARTS",
-                                fmt::format("crumple keeps apart only faces of the same part; the boxes of "
+                                fmt::format("crumple avoids intersections only within a part; the boxes of "
                                             "the parts '{}' and '{}' overlap, so their faces may intersect",
                                             a.name, b.name),
                                 "use merge first to make them one part");

@@ -39,7 +39,7 @@ void require_room(const Scene& scene, const CrumpleOptions& o, const Context& co
             triangles += static_cast<double>(part.mesh.corner_count()) - 2.0 * part.mesh.face_count();
     triangles *= static_cast<double>(o.grid) * static_cast<double>(o.grid);
     require_memory(move_apart_memory(triangles),
-                   fmt::format("crumple: keeping {:.3g} triangles apart", triangles),
+                   fmt::format("crumple: avoiding intersections of {:.3g} triangles", triangles),
                    "use a smaller grid, or self_intersections: allow");
 }
 

@@ -57,7 +57,7 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
     };
     d.field("self_intersections", pairs, "Pairs of faces that intersect.")
         .only_when("self_intersections is on and the part has faces")
-        .null_when("the part is smaller than its thickness, so they were not looked for");
+        .null_when("the part is smaller than its thickness, so they were not searched for");
     constexpr const char* edges = "edges became cylinders";
     d.field("cylinders", where_it_is(&ThickenedEdges::cylinders), "Edges that became cylinders.")
         .only_when(edges);

@@ -126,7 +126,7 @@ KnownFailures KnownFailures::read(const std::filesystem::path& path) {
     const auto bytes = input.bytes();
     const Json json =
         parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, Broken::discarded);
-    const auto refuse = [&](const char* what = "is no baseline of validate") {
+    const auto refuse = [&](const char* what = "is not a baseline of validate") {
         return Error(ErrorKind::malformed, "E-BASELINE", fmt::format("'{}' {}", path.string(), what),
                      "write one with update_baseline: true");
     };

@@ -33,7 +33,7 @@ void declare(Declare<ValidateOptions>& d) {
         "per", &ValidateOptions::per,
         {{"scene", Per::scene,
           "the scene: counts are summed over the parts, and true or false must hold for all parts"},
-         {"part", Per::part, "each part by itself"},
+         {"part", Per::part, "each part separately"},
          {"component", Per::component, "each component of each part, connected through edges, for itself"}},
         "What the assertions apply to.");
     d.option("baseline", &ValidateOptions::baseline,
@@ -64,8 +64,8 @@ void declare_report(DeclareFields<ValidateReport>& d) {
     d.field("waived", &ValidateReport::waived, "Failures that are known, and waived.").only_when(given);
     d.field("waived_locations", &ValidateReport::waived_locations, "Locations that are known, and waived.")
         .only_when(given);
-    d.field("fixed", &ValidateReport::fixed, "Known failures that are no longer there.").only_when(given);
-    d.field("fixed_locations", &ValidateReport::fixed_locations, "Known locations that are no longer there.")
+    d.field("fixed", &ValidateReport::fixed, "Known failures that no longer occur.").only_when(given);
+    d.field("fixed_locations", &ValidateReport::fixed_locations, "Known locations that no longer occur.")
         .only_when(given);
     d.tell(lines_of);
 }

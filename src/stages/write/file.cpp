@@ -101,8 +101,8 @@ void choose_bits(io::WriteSettings& s, const WriteOptions& o, const io::Codec& c
             for (const Part& part : scene.parts) look(part.mesh);
         const bool enough = most && *most <= limit;
         bits = enough ? *most : usual;
-        why = enough ? fmt::format("the fewest from {} on that keep vertices apart", usual)
-                     : fmt::format("{} would not keep all vertices apart", limit);
+        why = enough ? fmt::format("the smallest number from {} on that keeps vertices distinct", usual)
+                     : fmt::format("{} would not keep all vertices distinct", limit);
     }
     (s.draco.on ? report.draco : report.quantize) = WriteReport::Bits{bits, why};
 }
