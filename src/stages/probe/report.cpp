@@ -57,8 +57,8 @@ ProbedLine answer_of(const LineAnswers& answers, std::size_t i, const FaceNames&
 // --- fields
 
 constexpr const char* points = "points are queried";
-constexpr const char* lines = "segments or rays are asked about";
-constexpr const char* one_face = "they are held against one face";
+constexpr const char* lines = "segments or rays are queried";
+constexpr const char* one_face = "they are tested against one face";
 constexpr const char* no_face = "the surface has no face";
 
 void declare_hit(DeclareFields<ProbedHit>& d) {
@@ -113,7 +113,7 @@ void declare_answer(DeclareFields<ProbeAnswer>& d) {
         return line ? line->to : std::nullopt;
     };
     d.field("direction", direction, "The direction of a ray.").only_when("rays are queried");
-    d.field("to", to, "The end of a segment.").only_when("segments are asked about");
+    d.field("to", to, "The end of a segment.").only_when("segments are queried");
     d.list("hits", where_it_is(&ProbedLine::hits), "The faces that it hits, in order.", declare_hit)
         .only_when(lines);
     const auto meeting = [](const ProbeAnswer& a) {
@@ -126,7 +126,7 @@ void declare_answer(DeclareFields<ProbeAnswer>& d) {
         return line ? line->plane : std::nullopt;
     };
     d.object("plane", plane, "Where it intersects the plane of the face.", declare_in_plane)
-        .only_when("they are held against one face, and neither parallel to its plane nor in it");
+        .only_when("they are tested against one face, and neither parallel to its plane nor in it");
 }
 
 // --- lines for the terminal

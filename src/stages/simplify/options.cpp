@@ -126,13 +126,14 @@ void declare_share(Declare<SimplifyOptions>& d) {
           "triangles stay where they are needed: edges are collapsed in one order of cost over all parts, "
           "until "
           "all together meet the target"},
-         {"equal", Share::equal, "each part meets the ratio, or its share of faces and vertices, by itself"}},
+         {"equal", Share::equal,
+          "each part meets the ratio, or its share of faces and vertices, separately"}},
         "How several parts share a target; cluster and constrained always share it equally.");
 }
 
 void declare_targets(Declare<SimplifyOptions>& d) {
     d.option("ratio", &SimplifyOptions::ratio,
-             "The ratio of the triangles that remains, of all parts together: 25%, or 0.25.")
+             "The ratio of the triangles that remain, for all parts together: 25%, or 0.25.")
         .above(0)
         .at_most(1)
         .primary();
@@ -143,7 +144,7 @@ void declare_targets(Declare<SimplifyOptions>& d) {
              "The maximum number of vertices that remain (a count), of all parts together.")
         .at_least(1);
     d.option("max_error", &SimplifyOptions::max_error,
-             "The largest deviation from the input, measured both ways.")
+             "The largest deviation from the input, measured in both directions.")
         .above(0);
     declare_share(d);
     declare_max_quadric_error(d);
@@ -180,7 +181,7 @@ void declare_settings(Declare<SimplifySettings>& d) {
          {"count", Intersections::count, "intersecting pairs of faces are counted before and after"},
          {"avoid", Intersections::avoid,
           "new intersections are avoided: where faces would intersect, fewer are removed"}},
-        "What is done about faces that come to intersect.");
+        "What is done about faces that would intersect.");
 }
 
 /// Adds a problem for an option that another method, or none of the sort, has use for.
@@ -245,13 +246,14 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
         .between(0, 180);
     d.group("constraints", &SimplifyOptions::constraints,
             "For the method constrained: limits that no collapse may exceed.", declare_constraints);
-    d.group("lods", &SimplifyOptions::lods,
-            "Levels of detail instead of one target: each is made from the one before, and all become parts "
-            "of the scene: NAME, NAME.lod1, NAME.lod2, ... (write: {lods: true} puts them into one glTF as "
-            "MSFT_lod).",
-            declare_levels);
+    d.group(
+        "lods", &SimplifyOptions::lods,
+        "Levels of detail instead of one target: each is made from the previous one, and all become parts of "
+        "the scene: NAME, NAME.lod1, NAME.lod2, ... (write: {lods: true} puts them into one glTF as "
+        "MSFT_lod).",
+        declare_levels);
     d.option("measure", &SimplifyOptions::measure,
-             "Measures the deviation from the input, both ways, and reports it.");
+             "Measures the deviation from the input in both directions, and reports it.");
     d.option("certify", &SimplifyOptions::certify,
              "Also finds a guaranteed upper bound of the deviation (this takes time).");
     d.at_least_one({"ratio", "faces", "vertices", "max_error", "lods"});

@@ -65,7 +65,7 @@ void declare_blocked(DeclareFields<SimplifyResult::Blocked>& d) {
     using Blocked = SimplifyResult::Blocked;
     d.field("borders", &Blocked::borders, "At boundaries and locks.");
     d.field("seams", &Blocked::seams, "At seams, and at borders of materials and groups.");
-    d.field("non_manifold", &Blocked::non_manifold, "At vertices that are not manifold.");
+    d.field("non_manifold", &Blocked::non_manifold, "At non-manifold vertices.");
     d.field("topology", &Blocked::topology,
             "Their collapse would change the genus, close a hole, or make a component vanish.");
     d.field("flips", &Blocked::flips, "Their collapse would flip or flatten a face.");
@@ -77,9 +77,11 @@ void declare_intersections(DeclareFields<SimplifyResult>& d) {
     const auto count = [](std::optional<std::size_t> SimplifyResult::*member) {
         return [member](const SimplifyResult& r) { return (r.*member).value_or(0); };
     };
-    d.field("before", count(&SimplifyResult::intersections_before), "Pairs of faces that met before.");
-    d.field("after", count(&SimplifyResult::intersections_after), "Pairs of faces that meet now.");
-    d.field("held_vertices", &SimplifyResult::held, "Vertices that were allowed less error, to avoid them.");
+    d.field("before", count(&SimplifyResult::intersections_before),
+            "Pairs of faces that intersected before.");
+    d.field("after", count(&SimplifyResult::intersections_after), "Pairs of faces that intersect now.");
+    d.field("held_vertices", &SimplifyResult::held,
+            "Vertices that were allowed less error, to avoid intersections.");
 }
 
 void declare_topology(DeclareFields<Properties>& d) {
@@ -111,25 +113,26 @@ void declare_sizes(DeclareFields<SimplifiedPart::Sizes>& d) {
 }
 
 void declare_counts(DeclareFields<SimplifiedPart>& d) {
-    d.field("triangles_before", of_result(&SimplifyResult::faces_before), "Triangles that entered.");
-    d.field("triangles_after", of_result(&SimplifyResult::faces_after), "Triangles that left.");
+    d.field("triangles_before", of_result(&SimplifyResult::faces_before), "Triangles of the input.");
+    d.field("triangles_after", of_result(&SimplifyResult::faces_after), "Triangles of the result.");
     d.field("vertices_before", of_result(&SimplifyResult::vertices_before),
-            "Vertices of faces that entered.");
-    d.field("vertices_after", of_result(&SimplifyResult::vertices_after), "Vertices that left.");
+            "Vertices of the input that faces use.");
+    d.field("vertices_after", of_result(&SimplifyResult::vertices_after), "Vertices of the result.");
     const auto ratio = [](const SimplifiedPart& p) {
         const double before = double(p.result.faces_before), after = double(p.result.faces_after);
         return before > 0 ? std::optional(after / before) : std::nullopt;
     };
-    d.field("ratio", ratio, "Of the triangles, after to before.").null_when("there were no triangles");
+    d.field("ratio", ratio, "The ratio of the triangles after to those before.")
+        .null_when("there were no triangles");
     d.choice("stopped_by", of_result(&SimplifyResult::stop),
              {{"nothing to do", Stop::nothing, "the part was at or below every target"},
               {"ratio", Stop::ratio, "met"},
               {"faces", Stop::faces, "met"},
               {"vertices", Stop::vertices, "met"},
-              {"max_error", Stop::max_error, "any more would deviate too far"},
-              {"max_quadric_error", Stop::max_quadric_error, "any more would have a larger error"},
+              {"max_error", Stop::max_error, "further collapses would exceed the deviation"},
+              {"max_quadric_error", Stop::max_quadric_error, "further collapses would exceed the error"},
               {"stuck", Stop::stuck, "no collapse was left that keeps the guarantees"}},
-             "What ended the work.");
+             "What ended the simplification.");
 }
 
 /// Counts of the work, and what it left.
@@ -142,9 +145,9 @@ void declare_work(DeclareFields<SimplifiedPart>& d) {
         .unit("scene units")
         .null_when("there was none");
     d.field("collapses", of_result(&SimplifyResult::collapses), "Collapses that led to the result.");
-    d.object("blocked_edges", of_result(&SimplifyResult::blocked), "What holds the edges that are left.",
-             declare_blocked);
-    d.field("cell", of_length(&SimplifyResult::cell), "The edge of the cells.")
+    d.object("blocked_edges", of_result(&SimplifyResult::blocked),
+             "What keeps the remaining edges from collapsing.", declare_blocked);
+    d.field("cell", of_length(&SimplifyResult::cell), "The edge length of the cells.")
         .unit("scene units")
         .only_when("the method is cluster");
     const auto measured = [](std::size_t SimplifyResult::*member) {
@@ -152,7 +155,7 @@ void declare_work(DeclareFields<SimplifiedPart>& d) {
             return p.result.measured ? std::optional(p.result.*member) : std::nullopt;
         };
     };
-    d.field("rolled_back", measured(&SimplifyResult::rolled_back), "Collapses that were taken back.")
+    d.field("rolled_back", measured(&SimplifyResult::rolled_back), "Collapses that were undone.")
         .only_when("max_error is given");
     d.field("measurements", measured(&SimplifyResult::measurements),
             "How many times the deviation was measured.")
@@ -166,31 +169,32 @@ void declare_work(DeclareFields<SimplifiedPart>& d) {
         counts->held = p.result.held;
         return counts;
     };
-    d.object("self_intersections", counted, "Pairs of faces that run into each other.", declare_intersections)
+    d.object("self_intersections", counted, "Pairs of faces that intersect.", declare_intersections)
         .only_when("they are counted or avoided");
 }
 
 void declare_part(DeclareFields<SimplifiedPart>& d) {
     d.choice("normals", of_result(&SimplifyResult::shading),
-             {{"seams merged", Shading::smoothed, "seams of normals only, where faces meet at little angle"},
+             {{"seams merged", Shading::smoothed, "such seams were merged where faces meet at a small angle"},
               {"flat shading kept", Shading::faceted, "faces get normals of their own"},
               {"as given", Shading::as_given, "nothing was done"}},
-             "What was done about seams of normals.");
-    d.field("merged_wedges", of_result(&SimplifyResult::merged_wedges), "Wedges that this made one.");
+             "What was done with seams that exist only in the normals.");
+    d.field("merged_wedges", of_result(&SimplifyResult::merged_wedges), "Wedges that were merged.");
     const auto turned = [](const SimplifiedPart& p) {
         return p.result.turned > 0 ? std::optional(p.result.turned) : std::nullopt;
     };
     d.field("turned_faces", turned,
-            "Faces that were turned round for the work, so that neighbours agree; they face as they did.")
+            "Faces that were reversed during simplification, to be consistent with their neighbours; in the "
+            "result they have their orientation.")
         .only_when("there are such");
     declare_counts(d);
     declare_work(d);
     d.field("part", &SimplifiedPart::part, "Its name.");
-    d.field("together_with", &SimplifiedPart::together_with, "The parts that it was simplified with as one.")
+    d.field("together_with", &SimplifiedPart::together_with, "The parts with which it was simplified as one.")
         .only_when("there are such");
-    d.object("topology", &SimplifiedPart::topology, "What topology was and is.", declare_topologies)
+    d.object("topology", &SimplifiedPart::topology, "The topology before and after.", declare_topologies)
         .only_when("the method may change it");
-    d.object("size", &SimplifiedPart::sizes, "What the surface measured and measures.", declare_sizes)
+    d.object("size", &SimplifiedPart::sizes, "The area and the volume before and after.", declare_sizes)
         .only_when("measure or certify is on");
     d.object("deviation", &SimplifiedPart::deviation, "From the part that entered.", declare_deviation_fields)
         .only_when("measure or certify is on");

@@ -41,15 +41,15 @@ void declare_part(DeclareFields<ThickenedPart>& d) {
             "Edges at which the solid is not closed because the surface is not oriented there.")
         .only_when(surface);
     d.field("filled_components", of_surface(&ThickenResult::filled),
-            "Closed components that have no room for a cavity: they became solid.")
+            "Closed components without enough room for a cavity, which became solid.")
         .only_when(surface);
     d.field("turned_faces", of_surface(&ThickenResult::turned),
-            "Faces of the front and the back that the move turned over: the wall folds there.")
+            "Faces of the front and the back that were inverted by the offset: the wall folds there.")
         .only_when(surface);
     d.field("buried_components", of_surface(&ThickenResult::buried),
             "Closed components of the solid within the walls of others.")
         .only_when(surface);
-    d.object("wall_thickness", wall_of, "From the front to the back.", declare_wall)
+    d.object("wall_thickness", wall_of, "The wall thickness from the front to the back.", declare_wall)
         .only_when("a surface got a thickness and is not filled");
     const auto pairs = [](const ThickenedPart& p) {
         const auto* s = std::get_if<ThickenedSurface>(&p);
