@@ -5,9 +5,9 @@
 
 namespace facetmill {
 
-const std::vector<MessageId>& message_ids() {
+std::span<const MessageId> message_ids() {
     using Kind = ErrorKind;
-    static const std::vector<MessageId> all{
+    static constexpr MessageId all[] = {
         {"E-ARGUMENT",
          {Kind::usage},
          "The command line has an argument that the command does not take, or lacks one that it needs.",
@@ -710,7 +710,7 @@ const std::vector<MessageId>& message_ids() {
 }
 
 const MessageId* message_id(std::string_view id) {
-    const auto& all = message_ids();
+    const auto all = message_ids();
     const auto at = std::find_if(all.begin(), all.end(), [&](const auto& known) { return known.id == id; });
     return at == all.end() ? nullptr : &*at;
 }
