@@ -5,7 +5,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/facetmillTargets.cmake")
 #[[
 facetmill_add_assets(TARGET
                      PIPELINE pipeline            a YAML file, or the name of a ready pipeline
-                     INPUTS file...               each is run through the pipeline by itself
+                     INPUTS file...               the pipeline is run for each of them
                      [INPUT_PARAM name]           the param that takes the input (default: input)
                      [PARAMS name=value...]       other params, the same for all inputs; paths absolute
                      [OUTPUT_DIR folder]          default: the current binary directory
@@ -13,15 +13,15 @@ facetmill_add_assets(TARGET
                      [THREADS count]              of each run (default: all cores)
                      [DESTINATION folder])        where `install` puts the outputs
 
-Adds the target TARGET, part of `all`, that brings the outputs of all inputs up to date. What a run writes is asked of
-`facetmill plan` when CMake configures, and again when the pipeline file changes; what it reads beside its input
-(textures, buffers, baselines) is known after its first run, by a depfile. The executable is a dependency, too: another
-release makes the assets anew. A pipeline that writes nothing, a check, counts as made when it passes; a file that makes
-it so stands for it. The outputs of all inputs are in the variable TARGET_OUTPUTS afterwards.
+Adds the target TARGET, part of `all`, that brings the outputs of all inputs up to date. `facetmill plan` lists the
+outputs of a run when CMake configures, and again when the pipeline file changes; the files that a run reads besides its
+input (textures, buffers, baselines) are known from a depfile after the first run. The executable is also a dependency:
+another release processes the assets again. For a pipeline that writes nothing (a check), a stamp file is written when it
+passes. The outputs of all inputs are in the variable TARGET_OUTPUTS afterwards.
 
-Names of files: with ; [ ] " \ | : or $( CMake or Make cannot work, so they are refused. With # $ & ' * ? < > ^ ` or % a
-file that makes it so stands for the outputs, and dependencies are what `facetmill plan --inputs` names when CMake
-configures.
+File names with ; [ ] " \ | : or $( are refused, because CMake or Make cannot handle them. For names with
+# $ & ' * ? < > ^ ` or %, a stamp file takes the place of the outputs, and the dependencies are those that
+`facetmill plan --inputs` lists when CMake configures.
 ]]
 function(facetmill_add_assets target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "PIPELINE;INPUT_PARAM;OUTPUT_DIR;BASE;THREADS;DESTINATION" "INPUTS;PARAMS")
@@ -116,7 +116,7 @@ function(facetmill_add_assets target)
       ${stamp}
       DEPENDS "${input}" ${depends}
       ${depfile}
-      COMMENT "Milling ${given}"
+      COMMENT "Processing ${given}"
       VERBATIM)
     if(arg_DESTINATION AND outputs)
       install(FILES ${outputs} DESTINATION "${arg_DESTINATION}/${folder}")

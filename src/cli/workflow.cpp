@@ -239,7 +239,7 @@ for job in JOBS:
         name: job["name"]
         input: job["inputs"]
         output: job["outputs"]
-        message: "Milling " + job["asset"].replace("{{", "{{{{").replace("}}", "}}}}")
+        message: "Processing " + job["asset"].replace("{{", "{{{{").replace("}}", "}}}}")
         params: command="s=0;" + "".join(f" {{FACETMILL}}{{run}} || s=$?;" for run in job["runs"]) + " exit $s"
         threads: {}
         resources: mem_mb=job["megabytes"]

@@ -1,5 +1,5 @@
 #pragma once
-// Runs of many assets as a workflow of another engine: a job an asset, or several, with what it reads, writes
+// Runs of many assets as a workflow of another engine: a job for each asset or for several, with what it reads, writes
 // and needs.
 
 #include <cstdint>

@@ -290,7 +290,7 @@ message(STATUS "outputs: ${models_OUTPUTS}")
     def build(self, *arguments, expect=0):
         """How often facetmill ran."""
         self.said = self.cmake("--build", "b", *arguments, expect=expect)
-        return self.said.count("Milling")
+        return self.said.count("Processing")
 
     def touch(self, path):
         time.sleep(0.02)

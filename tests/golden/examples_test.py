@@ -70,14 +70,14 @@ class Examples(Case):
         prefix = self.installed()
         for generator, nothing in (("Ninja", "no work to do"), ("Unix Makefiles", "")):
             self.run_in("cmake", "cmake", "-G", generator, "-B", generator, f"-DCMAKE_PREFIX_PATH={prefix}")
-            self.assertIn("Milling", self.run_in("cmake", "cmake", "--build", generator))
+            self.assertIn("Processing", self.run_in("cmake", "cmake", "--build", generator))
             self.assertLessEqual({"nefertiti.glb", "nefertiti.json"}, self.made(f"cmake/{generator}"))
             again = self.run_in("cmake", "cmake", "--build", generator)
             self.assertIn(nothing, again)
-            self.assertNotIn("Milling", again)
+            self.assertNotIn("Processing", again)
         self.touch_scan()
         for generator in ("Ninja", "Unix Makefiles"):
-            self.assertIn("Milling", self.run_in("cmake", "cmake", "--build", generator))
+            self.assertIn("Processing", self.run_in("cmake", "cmake", "--build", generator))
 
     def test_ninja(self):
         self.run_in("ninja", "ninja")
