@@ -1,6 +1,6 @@
 #pragma once
-// Runs of many assets as a workflow of another engine: a job for each asset or for several, with what it reads, writes
-// and needs.
+// Runs of many assets as a workflow of another engine: a job for each asset or for several, with what it
+// reads, writes and needs.
 
 #include <cstdint>
 #include <string>
