@@ -575,8 +575,7 @@ std::span<const MessageId> message_ids() {
         {"W-PRUNE",
          {},
          "A batch with --prune kept outputs that it might have removed: assets failed or were not run, so "
-         "the "
-         "files that they would write are not known, or the inputs cannot be reached.",
+         "the files that they would write are not known, or the inputs cannot be reached.",
          "Repair or leave out the assets that fail, mount the disk that is missing, and run the batch "
          "again."},
         {"W-RELAX-STOPPED",

@@ -82,10 +82,8 @@ std::string spelling_help(Dimension dimension) {
     switch (dimension) {
     case Dimension::length:
         return "A length is a number in scene units, has a physical unit (2mm, 0.1in), or is a percentage of "
-               "the "
-               "bounding-box diagonal of the scene entering the stage (0.5%; '0.5% of part' and '0.5% of "
-               "load' say "
-               "otherwise).";
+               "the diagonal of a bounding box: of the scene that enters the stage (0.5%), of the part "
+               "(0.5% of part), or of the scene as last loaded (0.5% of load).";
     case Dimension::angle:
         return "An angle is in degrees (30, 30deg) or radians (0.5rad).";
     case Dimension::ratio:

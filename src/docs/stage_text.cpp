@@ -48,16 +48,14 @@ std::string details_of(const StageInfo& stage) {
         text += text.empty() ? sentences : std::string("\n\n") + sentences;
     };
     if (stage.crossing_faces == CrossingFacePolicy::fill)
-        add(stage.crossing_faces_with ? "Where faces are cut or moved, planar ones that intersect themselves "
-                                        "become triangles first, as in "
-                                        "triangulate; the others are named (W-FANS)."
-                                      : "Planar faces that intersect themselves become triangles first, as "
-                                        "in triangulate; the others are "
-                                        "named (W-FANS).");
+        add(stage.crossing_faces_with
+                ? "Where faces are cut or moved, planar ones that intersect themselves become triangles "
+                  "first, as in triangulate; the others are named (W-FANS)."
+                : "Planar faces that intersect themselves become triangles first, as in triangulate; the "
+                  "others are named (W-FANS).");
     if (stage.crossing_faces == CrossingFacePolicy::name)
         add("Planar faces that intersect themselves count for what triangulate would make of them; the "
-            "others are named "
-            "(W-FANS).");
+            "others are named (W-FANS).");
     return text;
 }
 

@@ -66,8 +66,7 @@ void declare_shell(DeclareFields<ShellMass>& d) {
     const auto of_shell = [](const ShellMass& s) { return principal(inertia_of(s.spread), s.area, 1); };
     d.object("principal", of_shell,
              "Principal moments and axes of the surface. Of a planar polygon: its smallest and its largest "
-             "second "
-             "moment of area, and their sum, the polar one, about the normal.",
+             "second moment of area, and their sum, the polar one, about the normal.",
              declare_principal)
         .null_when(out_of_range);
 }
@@ -104,8 +103,7 @@ void declare_faces(DeclareFields<FaceResult>& d) {
              statistics_fields());
     d.field("signed_area", &FaceResult::signed_area,
             "The sums of the signed areas of their projections along x, y and z: positive where they run "
-            "anticlockwise, "
-            "seen from the positive side of that axis. Zero for a closed surface.")
+            "anticlockwise, seen from the positive side of that axis. Zero for a closed surface.")
         .unit("square scene units");
     d.counts("kinds", kinds_of, names, "The number of each kind that occurs.");
     d.field(

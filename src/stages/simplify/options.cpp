@@ -103,8 +103,7 @@ void declare_max_quadric_error(Declare<SimplifyOptions>& d) {
     Option& o =
         d.option("max_quadric_error", &SimplifyOptions::max_quadric_error,
                  "Keeps the shape when ratio, faces, vertices or lods ask for too few triangles: no collapse "
-                 "has a "
-                 "larger root mean square distance of the new vertex to the planes that it represents. "
+                 "has a larger root mean square distance of the new vertex to the planes that it represents. "
                  "of part: of the diagonal of the part's bounding box in its local space. off: no limit "
                  "(also with max_error). For quadric and quadric-endpoints.")
             .above(0)
@@ -120,15 +119,13 @@ void declare_max_quadric_error(Declare<SimplifyOptions>& d) {
 
 void declare_share(Declare<SimplifyOptions>& d) {
     using Share = SimplifyOptions::Share;
-    d.choice<Share>(
-        "share", &SimplifyOptions::share,
-        {{"error", Share::error,
-          "triangles stay where they are needed: edges are collapsed in one order of cost over all parts, "
-          "until "
-          "all together meet the target"},
-         {"equal", Share::equal,
-          "each part meets the ratio, or its share of faces and vertices, separately"}},
-        "How several parts share a target; cluster and constrained always share it equally.");
+    d.choice<Share>("share", &SimplifyOptions::share,
+                    {{"error", Share::error,
+                      "triangles stay where they are needed: edges are collapsed in one order of cost over "
+                      "all parts, until all together meet the target"},
+                     {"equal", Share::equal,
+                      "each part meets the ratio, or its share of faces and vertices, separately"}},
+                    "How several parts share a target; cluster and constrained always share it equally.");
 }
 
 void declare_targets(Declare<SimplifyOptions>& d) {
