@@ -92,7 +92,7 @@ TEST_CASE("a surface turned inside out differs, closed or open", "[report]") {
     }
 }
 
-TEST_CASE("one piece or part turned inside out is enough to differ", "[report]") {
+TEST_CASE("one component or part turned inside out is enough to differ", "[report]") {
     Scene a = scene_of(shapes::icosphere(1));
     for (Vec3& p : a.parts[0].mesh.positions) p = p * 3;
     append(a.parts[0].mesh, shapes::cube());

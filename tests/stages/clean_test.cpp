@@ -32,7 +32,7 @@ TEST_CASE("clean reports what each step did", "[stages]") {
     CHECK(run.record.warnings.empty());
 }
 
-TEST_CASE("a bare clean leaves holes and small pieces", "[stages]") {
+TEST_CASE("a bare clean leaves holes and small components", "[stages]") {
     const auto run = run_stage("clean", "", scene_of(holed_cube()));
     CHECK(run.record.result["parts"][0]["changed"] == false);
     CHECK(run.scene.parts[0].mesh.face_count() == 11);

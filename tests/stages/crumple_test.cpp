@@ -60,7 +60,7 @@ TEST_CASE("crumple: parts that meet stay together", "[stages]") {
     CHECK(met == 4);
 }
 
-TEST_CASE("crumple: avoid keeps faces apart, forbid refuses", "[stages]") {
+TEST_CASE("crumple: avoid keeps faces disjoint, forbid refuses", "[stages]") {
     const auto with = [](const char* what) {
         return options({{"amplitude", "0.2"}, {"grid", "3"}, {"self_intersections", what}});
     };

@@ -76,7 +76,7 @@ TEST_CASE("a bare validate passes a sound solid and lists all that an open one l
     CHECK(judged("", Mesh{}) == "faces: at least 1, found 0");
 }
 
-TEST_CASE("closed means Euler number 2 only for genus 0 in one piece", "[stages]") {
+TEST_CASE("closed means Euler number 2 only for genus 0 with one component", "[stages]") {
     CHECK(judged("{closed: true, euler: 2, genus: 0}", shapes::icosphere(2)) == "");
     CHECK(judged("{closed: true, euler: 0, genus: 1}", shapes::torus(9, 7)) == "");
     CHECK(judged("{closed: true, euler: 0, genus: 1}", block_with_holes(1)) == "");
@@ -299,7 +299,7 @@ TEST_CASE("validate says which parts have most of what is too much", "[stages]")
     CHECK(run.state->record.checks.at(2).found.is_null());
 }
 
-TEST_CASE("an edge of four faces that clean took apart is fit for printing", "[stages]") {
+TEST_CASE("an edge of four faces that clean separated is fit for printing", "[stages]") {
     Mesh mesh = shapes::cube();
     Mesh other = shapes::cube();
     for (Vec3& p : other.positions) p += Vec3{1, 1, 0};
@@ -357,7 +357,7 @@ TEST_CASE("validate numbers faces as the part has them, also by component", "[st
     CHECK(check.locations == 4);
 }
 
-TEST_CASE("validate shows where Euler's number and the pieces come from", "[stages]") {
+TEST_CASE("validate shows where Euler's number and the components come from", "[stages]") {
     Mesh mesh = shapes::hourglass();
     append(mesh, shapes::tetrahedron());
     const auto run = run_stage("validate", "{euler: 2, components: 1}", scene_of(mesh));

@@ -40,7 +40,7 @@ TEST_CASE("write stages a file, reads it back, and passes the scene on as it was
     CHECK(again.scene.bounds().max == Vec3{3000, 1000, 0});
 }
 
-TEST_CASE("write takes as many Draco bits as keep vertices apart", "[stages]") {
+TEST_CASE("write takes as many Draco bits as keep vertices distinct", "[stages]") {
     Bench b;
     b.scene.unit = Unit::m;
     b.scene.up = UpAxis::y;

@@ -340,7 +340,8 @@ TEST_CASE("clean takes an empty mesh and one of points", "[geometry]") {
     CHECK(cleaned(points, s).mesh.vertex_count() == 0);
 }
 
-TEST_CASE("clean drops shells inside others, and keeps those that touch or stand beside", "[geometry]") {
+TEST_CASE("clean drops closed components inside others, and keeps those that touch or stand beside",
+          "[geometry]") {
     Mesh mesh = shapes::icosphere(2);
     const auto add = [&](double scale, const Vec3& offset) {
         Mesh other = shapes::icosphere(1);

@@ -37,7 +37,7 @@ TEST_CASE("a cavity belongs to the innermost solid around it", "[geometry]") {
     CHECK(solid_components(mesh).count == 3);
 }
 
-TEST_CASE("what lies in no solid, looks outward or is open is a piece of its own", "[geometry]") {
+TEST_CASE("what lies in no solid, faces outward or is open is a component of its own", "[geometry]") {
     Mesh mesh = cube(9, {0, 0, 0}, false);
     append(mesh, cube(1, {0, 0, 0}, false));
     append(mesh, cube(1, {20, 0, 0}, true));

@@ -90,7 +90,7 @@ TEST_CASE("clean unites boxes that overlap, share faces or touch", "[geometry]")
     CHECK(test::euler(mesh) == c.euler);
 }
 
-TEST_CASE("clean counts the edges where united solids touch, unless it takes them apart", "[geometry]") {
+TEST_CASE("clean counts the edges where united solids touch, unless it separates them", "[geometry]") {
     const Mesh mesh = together({box({0, 0, 0}, {2, 2, 2}), box({2, 2, 1}, {4, 4, 3})});
     CleanSettings s = uniting();
     CHECK(clean(mesh, s).counts.touching_edges == 0);

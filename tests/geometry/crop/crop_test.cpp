@@ -120,7 +120,7 @@ TEST_CASE("seams and attributes survive a crop", "[geometry]") {
     CHECK(interpolated);
 }
 
-TEST_CASE("by whole faces, their middles, or whatever touches", "[geometry]") {
+TEST_CASE("by whole faces, their centroids, or whatever overlaps", "[geometry]") {
     const Mesh sheet = shapes::grid(6, 4);
     const auto faces = [&](CropBy by, polygon::Keep keep = polygon::Keep::inside) {
         return cropped(sheet, {{{0.5, 0.5}, {3.5, 0.5}, {3.5, 2}, {0.5, 2}}}, by, keep).mesh.face_count();

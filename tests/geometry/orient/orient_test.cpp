@@ -75,7 +75,7 @@ TEST_CASE("orient turns normals that point against their faces, and no others", 
     CHECK(oriented(wrong).mesh.find("NORMAL", Domain::wedge)->data == before.data);
 }
 
-TEST_CASE("orient makes nested shells solids and cavities in turn", "[geometry]") {
+TEST_CASE("orient makes nested components solids and cavities in turn", "[geometry]") {
     Mesh mesh = shapes::icosphere(1);
     append(mesh, scaled(shapes::icosphere(1), 0.5));
     append(mesh, scaled(shapes::cube(), 0.1, {0.05, 0.05, 0.05}));

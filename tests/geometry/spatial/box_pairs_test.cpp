@@ -81,7 +81,7 @@ TEST_CASE("pairs of boxes among some", "[geometry]") {
     }
 }
 
-TEST_CASE("triangles are surely apart only when they are", "[geometry]") {
+TEST_CASE("triangles are surely disjoint only when they are", "[geometry]") {
     using Corners = std::array<Vec3, 3>;
     const Corners a{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}};
     CHECK(surely_disjoint(a, {{{5, 5, -1}, {6, 5, 1}, {5, 6, 1}}}, 0));  // seen along z
