@@ -35,9 +35,10 @@ void warn_of_fans(const FanCounts& faces, Context& context) {
     if (faces.fans > 0)
         context.warn(
             "W-FANS",
-            fmt::format("faces without area, or that intersect themselves in no plane, count as fans of "
-                        "triangles, which may overlap: {}",
-                        faces.fans));
+            fmt::format(
+                "faces without area, and non-planar faces that intersect themselves, count as fans of "
+                "triangles, which may overlap: {}",
+                faces.fans));
     if (faces.overlapping > 0)
         context.warn("W-FANS",
                      fmt::format("{} {} around points several times, and the triangles overlap there: faces "

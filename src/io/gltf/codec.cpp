@@ -277,7 +277,7 @@ void warn_of_losses(Patch& patch) {
             patch.warn("W-MERGED",
                        fmt::format("of '{}' only the meshes and materials are written, without its {}",
                                    patch.scene.documents[d]->name, fmt::join(lost, ", ")),
-                       "write each file's parts by themselves to keep them");
+                       "write the parts of each file separately to keep them");
     }
 }
 

@@ -89,7 +89,7 @@ class LookBuilder {
         auto image = place.find("source");
         if (const auto webp = extension(place, "EXT_texture_webp")) image = webp->find("source");
         if (!image) {
-            warn(place.path(), "its image is of a kind that is not read");
+            warn(place.path(), "its image is of an unsupported kind");
             return {};
         }
         out.image = decoded(image->index(count_of(json_, "images"), "image"), srgb);

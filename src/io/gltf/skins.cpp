@@ -97,7 +97,7 @@ Scene in_bind_pose(Scene scene, int base, std::map<std::size_t, Transform>& skin
                  fmt::format("part '{}' {} and loses its skin", part.name,
                              elsewhere ? "has moved away from others of its skeleton" : "has been flattened"),
                  {},
-                 "move all parts of a skeleton alike"});
+                 "move all parts of a skeleton in the same way"});
             continue;
         }
         for (const std::size_t root : roots) root_moves[root] = move;

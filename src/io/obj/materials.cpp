@@ -84,12 +84,11 @@ MaterialMaker::Image* MaterialMaker::image_of(const std::string& material, const
         if (type == "image/png" || type == "image/jpeg")
             at->second = Image{*std::move(bytes), {}};
         else if (bytes)
-            log_.warnings.push_back(
-                {Severity::warning, "W-IMAGE",
-                 fmt::format("{}: \"{}\" is neither PNG nor JPEG, which glTF asks for, and "
-                             "is not kept",
-                             where, map.file),
-                 file_mark(input_.name()), ""});
+            log_.warnings.push_back({Severity::warning, "W-IMAGE",
+                                     fmt::format("{}: \"{}\" is neither PNG nor JPEG, as glTF requires, and "
+                                                 "is not kept",
+                                                 where, map.file),
+                                     file_mark(input_.name()), ""});
     }
     return at->second ? &*at->second : nullptr;
 }
@@ -146,9 +145,10 @@ void MaterialMaker::add_opacity_map(Json& json, const std::string& name, const D
     Json& pbr = json["pbrMetallicRoughness"];
     const bool coloured = pbr.contains("baseColorTexture");
     if (coloured && !colour->second.lies_as(map->second))
-        return warn(name,
-                    fmt::format("the opacity of map_d \"{}\" is not kept: it lies otherwise than map_Kd",
-                                map->second.file));
+        return warn(
+            name,
+            fmt::format("the opacity of map_d \"{}\" is not kept: its placement differs from that of map_Kd",
+                        map->second.file));
     if (!coloured || !alpha || colour->second.relative != map->second.relative) {
         const Pixels* opacity = pixels_of(name, "map_d", map->second);
         const Pixels* base = coloured ? pixels_of(name, "map_Kd", colour->second) : nullptr;
@@ -177,7 +177,8 @@ std::optional<Json> MaterialMaker::surface_texture(const std::string& name, cons
     if (pr != none && (packed || (pm == none && d.metalness.value_or(0) == 0)))
         return texture(name, "map_Pr", pr->second);
     if (pr != none && pm != none && !pr->second.lies_as(pm->second)) {
-        warn(name, fmt::format("map_Pm \"{}\" is not kept: it lies otherwise than map_Pr", pm->second.file));
+        warn(name, fmt::format("map_Pm \"{}\" is not kept: its placement differs from that of map_Pr",
+                               pm->second.file));
         return texture(name, "map_Pr", pr->second);
     }
     const Pixels* rough = pr == none ? nullptr : pixels_of(name, "map_Pr", pr->second);

@@ -502,7 +502,7 @@ std::optional<Material> Builder::material_of(MaterialDocument& document, const s
     if (bytes)
         log_.warnings.push_back(
             {Severity::warning, "W-IMAGE",
-             fmt::format("the texture '{}' is neither PNG nor JPEG, which glTF asks for, and is not kept",
+             fmt::format("the texture '{}' is neither PNG nor JPEG, as glTF requires, and is not kept",
                          texture),
              file_mark(input_.name()), ""});
     return {};

@@ -73,7 +73,7 @@ void add_tubes(Scene& scene, const std::vector<Lines>& all, const Length& thickn
     if (sharp > 0)
         context.warn(
             "W-LINES",
-            fmt::format("the tubes go through themselves at {} too sharp, or with too short sides, for "
+            fmt::format("the tubes intersect themselves at {} too sharp, or with too short sides, for "
                         "their thickness",
                         counted(sharp, "corner")),
             "clean: {self_intersections: union} makes one solid of them");

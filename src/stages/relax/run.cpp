@@ -72,8 +72,8 @@ Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& rep
         if (r.shrank)
             context.warn(
                 "W-RELAX-STOPPED",
-                fmt::format("part '{}' shrinks on and on: stopped after {} iterations, before a third of its "
-                            "area was gone; the next would have moved a vertex by {:.4g}, more than until "
+                fmt::format("part '{}' keeps shrinking: stopped after {} iterations, before a third of its "
+                            "area was lost; the next would have moved a vertex by {:.4g}, more than until "
                             "{:.4g}",
                             part.name, r.iterations, r.last_move, settings.until),
                 "use method: hc or taubin, which keep the volume, or give iterations without until");

@@ -82,7 +82,7 @@ void warn(const SectionReport& report, Context& context) {
                      fmt::format("{} {} around counts as inside", counted(crossed, "contour"),
                                  crossed == 1 ? "intersects itself; all that it winds"
                                               : "intersect themselves; all that they wind"),
-                     "use clean: {self_intersections: all} first, to unite what overlaps");
+                     "use clean: {self_intersections: all} first, to unite overlapping bodies");
 }
 
 // --- fields

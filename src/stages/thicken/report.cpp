@@ -121,7 +121,7 @@ void warn_of_walls(const Part& part, const ThickenResult& r, double thickness, b
     if (r.turned > 0)
         context.warn(
             "W-THICKEN",
-            fmt::format("thicken: {} faces of the walls of part '{}' are turned over, the first at "
+            fmt::format("thicken: {} faces of the walls of part '{}' are inverted, the first at "
                         "{:.6g} {:.6g} {:.6g}: there is no room for {:.6g}",
                         r.turned, part.name, r.first_turned->x, r.first_turned->y, r.first_turned->z,
                         thickness),
