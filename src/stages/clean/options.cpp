@@ -57,7 +57,7 @@ void declare_self_intersections(Declare<CleanOptions>& d) {
               {"union", Untangle::unite,
                "closed components that pass through each other or themselves become one solid, exactly"},
               {"all", Untangle::all, "union, then local for what remains (also: true)"}},
-             "What is done about intersecting faces.")
+             "What is done with intersecting faces.")
             .option();
     o.parse = [plain = o.parse](const Option& self, const Value& v, void* target, Problems& problems) {
         const auto yes = v.is_scalar() && !v.deferred ? v.as_bool() : std::nullopt;
@@ -79,9 +79,9 @@ void declare_clean(Declare<CleanOptions>& d) {
         "Merges vertices; their attributes stay separate, so seams stay seams.");
     d.option("degenerate", &CleanOptions::degenerate,
              "Removes faces of exactly zero area and repeated corners, and closes the gaps that this opens.");
-    d.option(
-        "duplicates", &CleanOptions::duplicates,
-        "Keeps one of several faces with the same vertices, and removes inner walls of two opposite faces.");
+    d.option("duplicates", &CleanOptions::duplicates,
+             "Keeps one of several faces with the same vertices, and removes inner walls made of two "
+             "opposite faces.");
     d.choice<Nearness>("t_junctions", &CleanOptions::t_junctions,
                        nearness("where a vertex lies exactly on a boundary edge",
                                 "also where it lies within `tolerance` of it"),

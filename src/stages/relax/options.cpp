@@ -23,7 +23,7 @@ void declare_methods(Declare<RelaxOptions>& d) {
          {"cotangent", Method::cotangent, "neighbours weighted by cotangents: faces keep their shapes"},
          {"implicit", Method::implicit, "one linear system per iteration: stable for any lambda"},
          {"hc", Method::hc, "to the mean and partly back: nearly keeps the volume"}},
-        "How vertices move: laplacian unless given, but with until hc, which settles at a smooth surface of "
+        "How vertices move: laplacian unless given, or with until hc, which converges to a smooth surface of "
         "nearly the same volume.");
     d.option("lambda", &RelaxOptions::lambda,
              "How far each vertex moves towards the mean of its neighbours; 1 is all the way (a ratio, "
@@ -68,13 +68,11 @@ void declare_limits(Declare<RelaxOptions>& d) {
              "end, meet or turn by more than this angle; with slide the boundary is such a line. Edges with "
              "three or more faces are features as well.")
         .between(0, 180);
-    d.option(
-         "until", &RelaxOptions::until,
-         "Stops when no vertex has moved farther than this in an iteration (a length, such as 0.01%); "
-         "iterations is then the maximum, 1000 unless given. A warning says when that was not enough, or "
-         "when the work ended before because the surface shrank on and on: laplacian, cotangent and "
-         "implicit have no end before a closed surface is a point, so they stop before a third of its area "
-         "is gone.")
+    d.option("until", &RelaxOptions::until,
+             "Stops when no vertex has moved farther than this in an iteration (a length, such as 0.01%); "
+             "iterations is then the maximum, 1000 unless given. A warning says when that was not enough, or "
+             "when relaxation stopped early: laplacian, cotangent and implicit would shrink a closed surface "
+             "to a point, so they stop before a third of its area is lost.")
         .above(0);
     d.group("mask", &RelaxOptions::mask, mask_help, declare_mask);
 }

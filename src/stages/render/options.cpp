@@ -120,14 +120,15 @@ void declare_render(Declare<RenderOptions>& d) {
     d.choice<Viewpoint>("view", &RenderOptions::view, viewpoints(), "Where the scene is seen from.");
     d.option("views", &RenderOptions::views,
              "Several views in one image, four in a row, at one scale; turntable is eight around the scene. "
-             "Width and height are those of one view.");
+             "width and height apply to one view.");
     d.option("from", &RenderOptions::from,
              "The direction towards the viewer in world space, instead of view.");
     d.option("perspective", &RenderOptions::perspective,
              "The angle of view over the scene. Default: parallel projection.")
         .between(1, 120);
-    d.option("at", &RenderOptions::at, "The place in world space that is in the middle, magnified.");
-    d.option("zoom", &RenderOptions::zoom, "How many times the middle is magnified. Default with at: 4.")
+    d.option("at", &RenderOptions::at,
+             "The position in world space at the centre of the image, which is magnified.");
+    d.option("zoom", &RenderOptions::zoom, "The magnification of the centre. Default with at: 4.")
         .between(1, 10000);
     d.option("width", &RenderOptions::width, "Pixels (a count).").between(1, 8192);
     d.option("height", &RenderOptions::height, "Pixels (a count).").between(1, 8192);
@@ -146,7 +147,7 @@ void declare_render(Declare<RenderOptions>& d) {
           "those of the mesh, else new ones, with edges where faces meet at more than 40 degrees"}},
         "Which normals are used.");
     d.option("occlusion", &RenderOptions::occlusion,
-             "Whether folds and corners, which see less of the sky, are darker.");
+             "Whether folds and corners, which receive less ambient light, are darker.");
     d.option("silhouettes", &RenderOptions::silhouettes, "Whether outlines are drawn.");
     d.choice<Paint>(
         "colours", &RenderOptions::colours,
@@ -160,11 +161,10 @@ void declare_render(Declare<RenderOptions>& d) {
     d.option("attribute", &RenderOptions::attribute,
              "Colours by this attribute where a part has it: identifiers (group, failed, cut_id) get "
              "distinct colours, other numbers a scale from dark blue over green to yellow (viridis).");
-    d.option(
-        "range", &RenderOptions::range,
-        "Which numbers are at the ends of the scale: auto (the smallest and largest, or, if few outliers "
-        "take up more than three quarters of that, the 1st and 99th percentile), percentile, all (the "
-        "smallest and largest), or two numbers.");
+    d.option("range", &RenderOptions::range,
+             "The numbers at the ends of the scale: auto (the smallest and largest, or, if few outliers "
+             "take up more than three quarters of that, the 1st and 99th percentile), percentile, all (the "
+             "smallest and largest), or two numbers.");
     d.option(
         "legend", &RenderOptions::legend,
         "Whether the scale is drawn beside the scene, with numbers. It is left out where it would take more "

@@ -13,8 +13,8 @@ using Method = std::optional<SplitMethod>;
 
 const std::vector<NamedChoice<Method>> methods = {
     {"midpoint", SplitMethod::midpoint,
-     "at the midpoints of edges: a triangle becomes 4 triangles, a quad 4 quads, an n-gon n quads; angles "
-     "get no smaller in triangles"},
+     "at the midpoints of edges: a triangle becomes 4 triangles, a quad 4 quads, an n-gon n quads; the "
+     "angles of triangles do not become smaller"},
     {"bisect", SplitMethod::bisect,
      "triangles into 2 at their longest edge, into 3 or 4 where neighbours cut the other edges; see cut"},
     {"notch", SplitMethod::notch,
@@ -58,17 +58,18 @@ void declare_split(Declare<SplitOptions>& d) {
                   {{"longest-edge", Cut::longest_edge, "in the middle of the longest edge"},
                    {"widest-angle", Cut::widest_angle,
                     "where the bisector of the widest angle meets the opposite edge; not with a target, "
-                    "which such cuts may never reach"}},
+                    "which such cuts might never reach"}},
                   "Where bisect cuts a triangle.");
     d.option("max_edge", &SplitOptions::max_edge,
              "Split until no edge is longer than this (a length): with bisect only where needed; with "
              "midpoint, quads, loop, butterfly and catmull-clark everywhere.")
         .above(0);
-    d.option("min_angle", &SplitOptions::min_angle,
-             "Split only triangles that have a smaller angle than this (an angle), by bisect or notch, and "
-             "the neighbours that must follow. A split makes such triangles smaller, not fewer: another pass "
-             "is done only if it does not make more of them, and a warning gives the number that is left. "
-             "With bisect no angle becomes smaller than half the smallest original one.")
+    d.option(
+         "min_angle", &SplitOptions::min_angle,
+         "Split only triangles that have a smaller angle than this (an angle), by bisect or notch, and "
+         "the neighbours that must follow. A split makes such triangles smaller, not fewer: another pass is "
+         "done only if it does not increase their number, and a warning gives the number that remains. "
+         "With bisect no angle becomes smaller than half the smallest original one.")
         .above(0)
         .at_most(60);
     d.option("max_faces", &SplitOptions::max_faces,

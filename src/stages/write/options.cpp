@@ -30,8 +30,9 @@ void declare_draco(Declare<DracoOptions>& d) {
         "degenerate_faces", &DracoOptions::degenerate_faces,
         {{"drop", DracoOptions::Degenerate::drop, "they are left out, with a warning"},
          {"keep", DracoOptions::Degenerate::keep,
-          "in a primitive of their own, without the connectivity that makes Draco small"}},
-        "Faces that name a vertex twice, which Draco's compression of connectivity cannot hold.");
+          "in a separate primitive, without the connectivity that makes Draco files small"}},
+        "What is done with faces that use a vertex twice, which Draco's compression of connectivity cannot "
+        "represent.");
     d.shorthand("true or false", {{"type", "boolean"}},
                 [](const Value& v, DracoOptions& out, Problems& problems) {
                     return OptionType<bool>::parse(v, out.on, problems);
@@ -65,12 +66,12 @@ void declare_meshopt(Declare<MeshoptOptions>& d) {
         "extension", &MeshoptOptions::extension,
         {{"EXT", Extension::ext, "EXT_meshopt_compression, which readers have known since 2020"},
          {"KHR", Extension::khr, "KHR_meshopt_compression, with the same streams (version 0)"}},
-        "The name under which the compressed data stands.");
-    d.option(
-        "filters", &MeshoptOptions::filters,
-        "Codes normals and tangents on an octahedron, rotations of animations and instances in 16 bits, and "
-        "what stays float32 as multiples of a power of two: positions within quantize's bits, translations "
-        "and scales within 2^-16 of their extent. Without filters, these are compressed as they are.");
+        "The name of the extension under which the compressed data is stored.");
+    d.option("filters", &MeshoptOptions::filters,
+             "Encodes normals and tangents on an octahedron, rotations of animations and instances in 16 "
+             "bits, and values that stay float32 as multiples of a power of two: positions within quantize's "
+             "bits, translations and scales within 2^-16 of their extent. Without filters, the values are "
+             "compressed unchanged.");
     d.shorthand("true or false", {{"type", "boolean"}},
                 [](const Value& v, MeshoptOptions& out, Problems& problems) {
                     return OptionType<bool>::parse(v, out.on, problems);
@@ -164,11 +165,10 @@ void declare_write(Declare<WriteOptions>& d) {
         .above(0);
     d.group("draco", &WriteOptions::draco,
             "Writes glTF with KHR_draco_mesh_compression: true, or its settings.", declare_draco);
-    d.group(
-        "quantize", &WriteOptions::quantize,
-        "Writes glTF with KHR_mesh_quantization, that is attributes as small integers: true, or its bits. "
-        "meshopt does so, too, unless this is false.",
-        declare_quantize);
+    d.group("quantize", &WriteOptions::quantize,
+            "Writes glTF with KHR_mesh_quantization, which stores attributes as small integers: true, or the "
+            "numbers of bits. meshopt also quantises unless this is false.",
+            declare_quantize);
     d.group("meshopt", &WriteOptions::meshopt,
             "Writes glTF with EXT_meshopt_compression: true, or its settings.", declare_meshopt);
     d.option("mesh_manifold", &WriteOptions::mesh_manifold,
@@ -176,11 +176,10 @@ void declare_write(Declare<WriteOptions>& d) {
     d.choice<io::Textures>(
         "textures", &WriteOptions::textures,
         {{"auto", io::Textures::automatic, "embed for .glb, copy for .gltf"},
-         {"embed", io::Textures::embed, "among the bytes of the .glb or the .bin"},
+         {"embed", io::Textures::embed, "in the .glb or the .bin"},
          {"copy", io::Textures::copy, "beside the file, under names that begin with its stem"},
-         {"reference", io::Textures::reference,
-          "not at all: the file names the images where the input has them"}},
-        "Where glTF's images go that the input has as files of their own.");
+         {"reference", io::Textures::reference, "not at all: the file refers to the images of the input"}},
+        "Where the images of glTF are stored that the input has as separate files.");
     d.option("lods", &WriteOptions::lods,
              "Writes glTF with MSFT_lod: the parts X.lod1, X.lod2, ... become levels of detail of X rather "
              "than nodes beside it.");
