@@ -108,7 +108,7 @@ TEST_CASE("simplify: borders of parts that touch stay matched", "[stages]") {
         }
     }
     const Json parts = run_stage("simplify", "10%", halves()).record.result["parts"];
-    CHECK(parts[0]["together_with"] == Json{"upper"});
+    CHECK(parts[0]["joint_with"] == Json{"upper"});
     CHECK(parts[0]["triangles_before"].get<int>() + parts[1]["triangles_before"].get<int>() == 5120);
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("simplify: where only one of two parts that touch is simplified, the b
     only.parts[1].transform.m[0][3] = 0x1p-60; // another node, at the same place as far as doubles tell
     const auto apart = run_stage("simplify", "10%", only);
     CHECK(welded(apart.scene).open == 0);
-    CHECK_FALSE(apart.record.result["parts"][0].contains("together_with"));
+    CHECK_FALSE(apart.record.result["parts"][0].contains("joint_with"));
     scene.parts[1].mesh.attributes.push_back({"extra", Domain::face, Role::generic, 1, false,
                                               std::vector<double>(scene.parts[1].mesh.face_count())});
     const auto other = run_stage("simplify", "10%", scene); // attributes that do not fit together
@@ -463,7 +463,7 @@ TEST_CASE("simplify: borders of parts stay matched where others share the target
     Scene ball = r.scene;
     ball.parts.pop_back();
     CHECK(welded(ball).open == 0);
-    CHECK(r.record.result["parts"][0]["together_with"] == Json{"upper"});
+    CHECK(r.record.result["parts"][0]["joint_with"] == Json{"upper"});
 }
 
 // --- the limit on the error

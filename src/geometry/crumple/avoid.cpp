@@ -200,7 +200,7 @@ void avoid(std::span<const CrumpleSheet> sheets, std::vector<TestSheet>& tests,
 
 } // namespace
 
-void hold_together(std::span<CrumpleSheet> sheets) {
+void hold_joint_vertices(std::span<CrumpleSheet> sheets) {
     if (std::all_of(sheets.begin(), sheets.end(), [](const auto& s) { return s.moves.shares.empty(); }))
         return;
     const CrumplePlaces places(sheets);

@@ -191,7 +191,7 @@ CrumpleResult crumple_settled(Mesh mesh, const std::vector<Vec3>& before, const 
 
 CrumpleResult crumple(Mesh mesh, const Settings& settings) {
     CrumpleSheet sheet{&mesh, crumple_moves(mesh, settings)};
-    hold_together({&sheet, 1});
+    hold_joint_vertices({&sheet, 1});
     const std::vector<Vec3> before = mesh.positions;
     parallel_for(before.size(), [&](std::size_t v) { mesh.positions[v] += sheet.moves.moves[v]; });
     CrumpleResult result = crumple_settled(std::move(mesh), before, settings.to_world);

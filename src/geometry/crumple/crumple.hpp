@@ -98,7 +98,7 @@ struct CrumpleSheet {
 
 /// Takes the shares into the moves: each place, over all sheets, takes the least that its vertices allow. To
 /// be called once, before anything moves.
-void hold_together(std::span<CrumpleSheet> sheets);
+void hold_joint_vertices(std::span<CrumpleSheet> sheets);
 
 struct AvoidResult {
     std::size_t exempt = 0; ///< pairs of faces that met before

@@ -47,11 +47,11 @@ FollowedPoints follow_points(const State& s) {
     return f;
 }
 
-/// Calls body(spoke) for the faces around the edge.
+/// Calls body(corner) for the faces around the edge.
 template <class Body>
 void for_faces(const Around& r, Body&& body) {
-    for (const Spoke& k : r.at_a) body(k);
-    for (const Spoke& k : r.at_b)
+    for (const RingCorner& k : r.at_a) body(k);
+    for (const RingCorner& k : r.at_b)
         if (!k.has(r.a)) body(k);
 }
 
@@ -60,7 +60,7 @@ bool keeps_points(const State& s, Around& r, const Vec3& to) {
     r.points.clear();
     r.taken_by.clear();
     r.staying.clear();
-    for_faces(r, [&](const Spoke& k) {
+    for_faces(r, [&](const RingCorner& k) {
         if (!k.has(r.a) && !k.has(r.b)) r.staying.push_back(k);
         const Index f = k.corner / 3;
         for (Index p = followed.first[f]; p != none; p = followed.next[p]) r.points.push_back(p);
@@ -87,7 +87,7 @@ bool keeps_points(const State& s, Around& r, const Vec3& to) {
 bool is_near(const State& s, Around& r, const Vec3& to) {
     const FollowedPoints& followed = *s.followed;
     r.places.assign(1, to);
-    for (const Spoke& k : r.staying) {
+    for (const RingCorner& k : r.staying) {
         const Vec3 &x = s.at[k.next], &y = s.at[k.before];
         for (const auto& [a, b] : places_on_face) r.places.push_back(to * (1 - a - b) + x * a + y * b);
     }
@@ -227,7 +227,7 @@ bool points_stay_near(const State& s, Around& around, const Vec3& to) {
 
 void hand_over_points(State& s, const Around& around) {
     FollowedPoints& followed = *s.followed;
-    for_faces(around, [&](const Spoke& k) { followed.first[k.corner / 3] = none; });
+    for_faces(around, [&](const RingCorner& k) { followed.first[k.corner / 3] = none; });
     for (std::size_t i = 0; i < around.points.size(); ++i) {
         const Index face = around.staying[around.taken_by[i]].corner / 3;
         followed.next[around.points[i]] = std::exchange(followed.first[face], around.points[i]);

@@ -19,8 +19,8 @@ bool gather(const State& s, Index v, Ring& ring) {
     for (Index c = s.first[v]; c != none; c = s.next[c]) {
         const Index* t = &s.tri[c - c % 3];
         if (t[0] == none) continue;
-        if (size == Ring::most) return false;
-        ring.spokes[size++] = {c, s.tri[after(c)], s.tri[before(c)]};
+        if (size == Ring::max_size) return false;
+        ring.corners[size++] = {c, s.tri[after(c)], s.tri[before(c)]};
     }
     ring.size = size;
     return true;
@@ -30,11 +30,11 @@ bool gather(const State& s, Index v, Ring& ring) {
 class Vertices {
   public:
     explicit Vertices(const Ring& ring) : ring_(ring) {
-        for (const Spoke& k : ring) hints_ |= hint(k.next) | hint(k.before);
+        for (const RingCorner& k : ring) hints_ |= hint(k.next) | hint(k.before);
     }
     bool has(Index v) const {
         if (!(hints_ & hint(v))) return false;
-        return std::any_of(ring_.begin(), ring_.end(), [&](const Spoke& k) { return k.has(v); });
+        return std::any_of(ring_.begin(), ring_.end(), [&](const RingCorner& k) { return k.has(v); });
     }
 
   private:
@@ -116,9 +116,9 @@ void unflag_closed(State& s, Index a, Index x) {
 /// take a corner's last one, or leave points with nowhere to go.
 bool find_cancelled(const State& s, Around& r) {
     r.cancellations = 0;
-    for (const Spoke& k : r.at_b) {
+    for (const RingCorner& k : r.at_b) {
         if (k.has(r.a)) continue;
-        for (const Spoke& other : r.at_a) {
+        for (const RingCorner& other : r.at_a) {
             if (other.next == k.next && other.before == k.before) return false;
             if (other.next != k.before || other.before != k.next) continue;
             if (r.cancellations == Around::max_sides || s.followed) return false;
@@ -204,7 +204,7 @@ class Collapse {
             r_.at_b.size = 0;
         }
         const auto price_ring = [&](const Ring& ring, Index gone) {
-            for (const Spoke& k : ring) {
+            for (const RingCorner& k : ring) {
                 if (k.has(gone)) continue;
                 s_.dirty[k.next] = s_.dirty[k.before] = s_.pass;
                 pricer(k.corner, r_.a, k.next);
@@ -223,14 +223,14 @@ class Collapse {
 
     bool is_inside() const {
         const Territory& mine = r_.territory;
-        const auto inside = [&](const Spoke& k) { return mine.has(k.next) && mine.has(k.before); };
+        const auto inside = [&](const RingCorner& k) { return mine.has(k.next) && mine.has(k.before); };
         return std::all_of(r_.at_a.begin(), r_.at_a.end(), inside) &&
                std::all_of(r_.at_b.begin(), r_.at_b.end(), inside);
     }
 
     void find_sides() {
         r_.sides = 0;
-        for (const Spoke& k : r_.at_a) {
+        for (const RingCorner& k : r_.at_a) {
             if (!k.has(r_.b)) continue;
             if (r_.sides < Around::max_sides)
                 r_.side[static_cast<std::size_t>(r_.sides)] = k.next == r_.b
@@ -245,7 +245,7 @@ class Collapse {
         const Vertices near_a(r_.at_a);
         std::array<Index, 8> seen;
         std::size_t count = 0;
-        for (const Spoke& k : r_.at_b)
+        for (const RingCorner& k : r_.at_b)
             for (const Index v : {k.next, k.before}) {
                 if (v == r_.a || !near_a.has(v)) continue;
                 const auto end = seen.begin() + static_cast<std::ptrdiff_t>(count);
@@ -275,7 +275,7 @@ class Collapse {
     /// Whether a face of the ring has both opposite vertices.
     bool joined(const Ring& ring) const {
         const Index x = r_.side[0].opposite, y = r_.side[1].opposite;
-        return std::any_of(ring.begin(), ring.end(), [&](const Spoke& k) {
+        return std::any_of(ring.begin(), ring.end(), [&](const RingCorner& k) {
             return (k.next == x && k.before == y) || (k.next == y && k.before == x);
         });
     }
@@ -308,7 +308,7 @@ class Collapse {
             ++pairs_;
         }
         return std::all_of(r_.at_b.begin(), r_.at_b.end(),
-                           [&](const Spoke& k) { return taker(s_.wedge[k.corner]) != none; });
+                           [&](const RingCorner& k) { return taker(s_.wedge[k.corner]) != none; });
     }
 
     Index taker(Index wedge) const {
@@ -320,7 +320,7 @@ class Collapse {
     /// Whether the faces of the ring that stay keep their side when v moves.
     bool keeps_facing(Index v, const Ring& ring, Index other, const Vec3& to) const {
         const Vec3& from = s_.at[v];
-        for (const Spoke& k : ring) {
+        for (const RingCorner& k : ring) {
             if (k.has(other)) continue;
             const Vec3 &x = s_.at[k.next], &y = s_.at[k.before], along = y - x;
             const Vec3 old = cross(x - from, along), now = cross(x - to, along);
@@ -350,7 +350,7 @@ class Collapse {
 
     /// A face that was flat has no side to keep: when it gets an area, it is to face as its neighbour across
     /// the edge that does not move, if that one has a side.
-    bool faces_as_across(const Spoke& k, const Vec3& now) const {
+    bool faces_as_across(const RingCorner& k, const Vec3& now) const {
         for (Index c = s_.first[k.before]; c != none; c = s_.next[c]) {
             if (!s_.live(c / 3) || s_.tri[after(c)] != k.next) continue;
             const Vec3 &x = s_.at[k.before], &y = s_.at[k.next],
@@ -368,7 +368,7 @@ class Collapse {
                 if (s_.log) log.wedges.push_back({pair_[i][0], pair_[i][1]});
                 if (s_.attributes) join(*s_.attributes, pair_[i][0], pair_[i][1]);
             }
-        for (const Spoke& k : r_.at_b) s_.wedge[k.corner] = taker(s_.wedge[k.corner]);
+        for (const RingCorner& k : r_.at_b) s_.wedge[k.corner] = taker(s_.wedge[k.corner]);
     }
 
     /// a's list becomes the corners that stay, b's becomes empty.
@@ -378,9 +378,9 @@ class Collapse {
             *link = c;
             link = &s_.next[c];
         };
-        for (const Spoke& k : r_.at_a)
+        for (const RingCorner& k : r_.at_a)
             if (!k.has(r_.b)) add(k.corner);
-        for (const Spoke& k : r_.at_b) {
+        for (const RingCorner& k : r_.at_b) {
             if (k.has(r_.a)) continue;
             add(k.corner);
             s_.tri[k.corner] = r_.a;

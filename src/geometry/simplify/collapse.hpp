@@ -6,19 +6,20 @@
 namespace facetmill::simplification {
 
 /// A corner at a vertex, and where its face leads on to and comes from.
-struct Spoke {
+struct RingCorner {
     Index corner, next, before;
     bool has(Index v) const { return next == v || before == v; }
 };
 
 /// The live faces at a vertex.
 struct Ring {
-    static constexpr std::size_t most = 256; ///< vertices with more wait until others have thinned them out
-    std::array<Spoke, most> spokes;
+    /// Vertices with more wait until others have thinned them out.
+    static constexpr std::size_t max_size = 256;
+    std::array<RingCorner, max_size> corners;
     std::size_t size = 0;
 
-    const Spoke* begin() const { return spokes.data(); }
-    const Spoke* end() const { return spokes.data() + size; }
+    const RingCorner* begin() const { return corners.data(); }
+    const RingCorner* end() const { return corners.data() + size; }
 };
 
 /// A face on the edge: its corners at the two ends, and the vertex across.
@@ -56,11 +57,11 @@ struct Around {
     int cancellations = 0;
 
     // Only for max_error, see bounds.cpp.
-    std::vector<Spoke> staying;     ///< at a or b, of each face around that stays
-    std::vector<Index> points;      ///< of the faces around the edge
-    std::vector<Index> taken_by;    ///< [points] which of staying takes it
-    std::vector<Vec3> places;       ///< the new vertex, and some on the faces that stay
-    std::vector<std::uint8_t> near; ///< [places] known to be near the surface that came in
+    std::vector<RingCorner> staying; ///< at a or b, of each face around that stays
+    std::vector<Index> points;       ///< of the faces around the edge
+    std::vector<Index> taken_by;     ///< [points] which of staying takes it
+    std::vector<Vec3> places;        ///< the new vertex, and some on the faces that stay
+    std::vector<std::uint8_t> near;  ///< [places] known to be near the surface that came in
 };
 
 /// Collapses that one worker makes; joined into the state's totals afterwards.

@@ -1,6 +1,6 @@
 // Meshes that share one target: their states go to it together, see order.cpp.
 
-#include "geometry/simplify/together.hpp"
+#include "geometry/simplify/joint.hpp"
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"

@@ -215,18 +215,18 @@ struct Contacts {
 Contacts find_contacts(std::span<const PlacedMesh> meshes);
 
 /// Whether meshes of one space can be simplified as one: the same attributes, and shading of one kind.
-bool fit_together(std::span<const Mesh* const> meshes, const SimplifySettings& settings);
+bool can_simplify_jointly(std::span<const Mesh* const> meshes, const SimplifySettings& settings);
 
-/// As simplify, or simplify_levels when settings has levels, of meshes for which fit_together holds: they are
-/// worked on as one, so that borders where they touch collapse on both sides alike. [levels][meshes]; without
-/// levels there is one. Targets are those of all together; a mesh has its own counts and the errors, reasons
-/// and changes of all.
-std::vector<std::vector<SimplifyResult>> simplify_together(std::span<const Mesh* const> meshes,
-                                                           const SimplifySettings& settings);
+/// As simplify, or simplify_levels when settings has levels, of meshes for which can_simplify_jointly holds:
+/// they are worked on as one, so that borders where they touch collapse on both sides alike.
+/// [levels][meshes]; without levels there is one. Targets are those of all together; a mesh has its own
+/// counts and the errors, reasons and changes of all.
+std::vector<std::vector<SimplifyResult>> simplify_jointly(std::span<const Mesh* const> meshes,
+                                                          const SimplifySettings& settings);
 
 // Meshes that share one target: triangles stay where they are needed.
 
-/// A mesh, or several for which fit_together holds and which are worked on as one.
+/// A mesh, or several for which can_simplify_jointly holds and which are worked on as one.
 struct SharingMeshes {
     std::vector<Mesh> meshes;
     SimplifyLocks lock{};                      ///< in place of that of the settings

@@ -52,8 +52,8 @@ void hand_on(Share& share, const Candidate& edge, const Around& around) {
     Index other = home;
     bool farther = mine.second != mine.first;
     for (const Ring* ring : {&around.at_a, &around.at_b})
-        for (const Spoke& spoke : *ring)
-            for (const Index v : {spoke.next, spoke.before}) {
+        for (const RingCorner& corner : *ring)
+            for (const Index v : {corner.next, corner.before}) {
                 if (stretch(v) == home || stretch(v) == other) continue;
                 farther |= other != home;
                 other = stretch(v);

@@ -57,17 +57,17 @@ bool may_fold(const Vec3& w, const Vec3& mean) {
 }
 
 /// A face at a vertex: it runs from the neighbour `in` through the vertex to the neighbour `out`.
-struct FoldSpoke {
+struct FoldCorner {
     Index in, out, corner;
 };
 
 /// The face that follows at the edge to `out`, those without area passed over; none at a boundary.
-const FoldSpoke* next_with_area(const std::vector<FoldSpoke>& spokes, Index out,
-                                const std::vector<Vec3>& normals) {
-    for (std::size_t steps = 0; steps < spokes.size(); ++steps) {
-        const auto at = std::lower_bound(spokes.begin(), spokes.end(), out,
-                                         [](const FoldSpoke& k, Index in) { return k.in < in; });
-        if (at == spokes.end() || at->in != out) return nullptr;
+const FoldCorner* next_with_area(const std::vector<FoldCorner>& corners, Index out,
+                                 const std::vector<Vec3>& normals) {
+    for (std::size_t steps = 0; steps < corners.size(); ++steps) {
+        const auto at = std::lower_bound(corners.begin(), corners.end(), out,
+                                         [](const FoldCorner& k, Index in) { return k.in < in; });
+        if (at == corners.end() || at->in != out) return nullptr;
         const Vec3& w = normals[at->corner / 3];
         if (dot(w, w) > 0) return &*at;
         out = at->out;
@@ -79,17 +79,17 @@ const FoldSpoke* next_with_area(const std::vector<FoldSpoke>& spokes, Index out,
 /// not at all), though the surface ends there. It is held as the boundary of a sheet then, by as much as the
 /// planes leave free: the cosine of the angle between the faces.
 void add_folds(Quadric& q, const State& s, Index v, const std::vector<Vec3>& normals) {
-    std::vector<FoldSpoke> spokes;
+    std::vector<FoldCorner> corners;
     for (Index c = s.first[v]; c != none; c = s.next[c])
-        spokes.push_back({s.tri[before(c)], s.tri[after(c)], c});
-    std::sort(spokes.begin(), spokes.end(), [](const FoldSpoke& a, const FoldSpoke& b) {
+        corners.push_back({s.tri[before(c)], s.tri[after(c)], c});
+    std::sort(corners.begin(), corners.end(), [](const FoldCorner& a, const FoldCorner& b) {
         return a.in != b.in ? a.in < b.in : a.corner < b.corner;
     });
-    for (const FoldSpoke& k : spokes) {
+    for (const FoldCorner& k : corners) {
         const Vec3& w = normals[k.corner / 3];
         const double size = dot(w, w);
         if (!(size > 0)) continue;
-        const FoldSpoke* then = next_with_area(spokes, k.out, normals);
+        const FoldCorner* then = next_with_area(corners, k.out, normals);
         if (!then) continue;
         const Vec3& other = normals[then->corner / 3];
         const double turn = dot(w, other);

@@ -46,7 +46,7 @@ void require_room(const Scene& scene, const CrumpleOptions& o, const Context& co
 /// Moves all vertices, as far as self_intersections lets them.
 void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, const CrumpleOptions& o,
           CrumpleReport& report, Context& context) {
-    hold_together(sheets);
+    hold_joint_vertices(sheets);
     if (o.self_intersections != Intersections::allow) {
         const bool forbid = o.self_intersections == Intersections::forbid;
         const AvoidResult r = avoid_intersections(sheets, forbid);

@@ -200,7 +200,7 @@ class Simplifier {
             if (part.transform != scene_.parts[set.front()].transform) return false;
             meshes.push_back(&part.mesh);
         }
-        return fit_together(meshes, simplify_settings(o_, {}, {}));
+        return can_simplify_jointly(meshes, simplify_settings(o_, {}, {}));
     }
 
     Set set_of(std::size_t part) const {
@@ -357,7 +357,7 @@ class Simplifier {
         if (set.size() > 1) {
             std::vector<const Mesh*> meshes;
             for (const std::size_t p : set) meshes.push_back(&scene_.parts[p].mesh);
-            for (auto& level : simplify_together(meshes, settings))
+            for (auto& level : simplify_jointly(meshes, settings))
                 for (std::size_t i = 0; i < set.size(); ++i) results_[set[i]].push_back(std::move(level[i]));
         } else if (o_.lods) {
             results_[set.front()] = simplify_levels(std::move(scene_.parts[set.front()].mesh), settings);
@@ -412,8 +412,8 @@ class Simplifier {
         if (const Set set = set_of(number); set.size() > 1)
             for (const std::size_t p : set) {
                 if (p == number) continue;
-                if (!entry.together_with) entry.together_with.emplace();
-                entry.together_with->push_back(scene_.parts[p].name);
+                if (!entry.joint_with) entry.joint_with.emplace();
+                entry.joint_with->push_back(scene_.parts[p].name);
             }
         if (changes_topology()) entry.topology = {before_[number].properties, inspect(part)};
         if (measures()) {

@@ -190,7 +190,7 @@ void declare_part(DeclareFields<SimplifiedPart>& d) {
     declare_counts(d);
     declare_work(d);
     d.field("part", &SimplifiedPart::part, "Its name.");
-    d.field("together_with", &SimplifiedPart::together_with, "The parts with which it was simplified as one.")
+    d.field("joint_with", &SimplifiedPart::joint_with, "The parts with which it was simplified as one.")
         .only_when("there are such");
     d.object("topology", &SimplifiedPart::topology, "The topology before and after.", declare_topologies)
         .only_when("the method may change it");

@@ -30,7 +30,7 @@ struct SimplifiedPart {
     double scale = 1;                          ///< takes lengths from the part's space to the scene's
     std::optional<double> max_quadric_error{}; ///< that held, in scene units
     std::string part;
-    std::optional<std::vector<std::string>> together_with;
+    std::optional<std::vector<std::string>> joint_with;
     std::optional<Topology> topology; ///< of methods that may change it
     std::optional<Sizes> sizes;       ///< when measured
     std::optional<DeviationResult> deviation;

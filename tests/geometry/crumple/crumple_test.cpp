@@ -124,7 +124,7 @@ TEST_CASE("sheets that meet are held together", "[geometry]") {
     std::vector<CrumpleSheet> sheets{{&b, crumple_moves(b, s)}};
     s.mask.assign(a.vertex_count(), 0);
     sheets.push_back({&a, crumple_moves(a, s)});
-    hold_together(sheets);
+    hold_joint_vertices(sheets);
     std::size_t met = 0;
     for (std::size_t v = 0; v < b.vertex_count(); ++v) {
         const bool shared = b.positions[v].x == 2;

@@ -1,4 +1,4 @@
-#include "geometry/simplify/together.hpp"
+#include "geometry/simplify/joint.hpp"
 
 #include "geometry/edit/surgery.hpp"
 #include "mesh/topology.hpp"
@@ -156,7 +156,7 @@ Contacts find_contacts(std::span<const PlacedMesh> meshes) {
     return contacts;
 }
 
-bool fit_together(std::span<const Mesh* const> meshes, const SimplifySettings& settings) {
+bool can_simplify_jointly(std::span<const Mesh* const> meshes, const SimplifySettings& settings) {
     return std::all_of(meshes.begin(), meshes.end(), [&](const Mesh* mesh) {
         return same_attributes(*meshes.front(), *mesh) &&
                shading_of(*meshes.front(), settings.feature_angle) ==
@@ -164,8 +164,8 @@ bool fit_together(std::span<const Mesh* const> meshes, const SimplifySettings& s
     });
 }
 
-std::vector<std::vector<SimplifyResult>> simplify_together(std::span<const Mesh* const> meshes,
-                                                           const SimplifySettings& settings) {
+std::vector<std::vector<SimplifyResult>> simplify_jointly(std::span<const Mesh* const> meshes,
+                                                          const SimplifySettings& settings) {
     std::vector<SimplifyResult> all;
     if (settings.levels.empty())
         all.push_back(simplify(simplification::joined(meshes), settings));
