@@ -518,6 +518,14 @@ class Process(Case):
         self.assertEqual(planned, ["beside/o.gltf", "beside/o.bin", "beside/o.tex.png"])
         self.mill("run", "q.yaml", "-o", "beside")
         self.assertEqual(sorted(self.files(self.dir / "beside")), ["o.bin", "o.gltf", "o.tex.png"])
+        # Textures of PLY and of the libraries of OBJ, there or not; nothing from elsewhere.
+        self.write("t.ply", "ply\nformat ascii 1.0\ncomment TextureFile tex.png\ncomment TextureFile ../no.png\nelement vertex 0\n"
+                            "property float x\nproperty float y\nproperty float z\nend_header\n")
+        self.write("t.obj", "mtllib more/t.mtl\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n")
+        self.write("more/t.mtl", "newmtl a\nmap_Kd -s 2 2 a.png\nmap_Bump ..\\\\tex.png\nnewmtl b\nmap_Kd a.png\nmap_Ks ../../no.png\n")
+        for mesh, inputs in (("t.ply", ["t.ply", "tex.png"]), ("t.obj", ["t.obj", "more/t.mtl", "none.mtl", "tex.png", "more/a.png"])):
+            self.write("q.yaml", f"facetmill: 1\nstages: [{{load: {mesh}}}, {{write: o.glb}}]\n")
+            self.assertEqual(sorted(self.mill("plan", "q.yaml", "--inputs").stdout.split()), sorted(inputs))
 
     def test_warnings_name_their_input_and_can_be_allowed(self):
         self.write("t.off", TRIANGLE)

@@ -1,3 +1,4 @@
+#include "base/once_each.hpp"
 #include "base/parallel.hpp"
 #include "base/words.hpp"
 #include "io/attributes.hpp"
@@ -399,18 +400,33 @@ int sniff(Span bytes) {
     return 0;
 }
 
+/// The images that libraries name, there or not, used or not.
+void add_images(const Input& input, const std::vector<Event>& libraries, FileHeader& header) {
+    ReadLog ignored; // reading the file will tell
+    OnceEach<std::filesystem::path> images;
+    for (const auto& [name, description] : read_libraries(input, libraries, ignored))
+        for (const auto& [word, map] : description.maps)
+            if (const auto path = map.relative.empty() ? std::nullopt : path_below(input, map.relative))
+                images.add(*path);
+    header.files.insert(header.files.end(), images.all().begin(), images.all().end());
+}
+
 /// Libraries are named near the beginning. The parts are known only when all is read.
 void peek(const Input& input, FileHeader& header) {
+    std::vector<Event> libraries;
     Text text(as_text(input.bytes().first(std::min<std::size_t>(input.bytes().size(), 1 << 20))),
               input.name(), "E-OBJ", '#');
     do {
         const std::string_view word = text.word_on_line();
         header.has_materials |= word == "usemtl";
         if (word != "mtllib") continue;
-        if (const auto path =
-                input.path().empty() ? std::nullopt : path_inside(std::string(text.rest_of_line())))
+        std::string name(text.rest_of_line());
+        if (const auto path = input.path().empty() ? std::nullopt : path_inside(name)) {
             header.files.push_back(input.path_beside(*path));
+            libraries.push_back({.kind = Event::Kind::library, .text = std::move(name)});
+        }
     } while (text.next_line());
+    add_images(input, libraries, header);
 }
 
 const RegisterCodec codec({

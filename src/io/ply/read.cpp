@@ -582,7 +582,9 @@ const RegisterCodec codec({
     .write = write,
     .peek =
         [](const Input& input, FileHeader& header) {
-            read_header(input);
+            for (const auto& texture : read_header(input).textures)
+                if (const auto relative = path_inside(texture))
+                    if (const auto path = path_below(input, *relative)) header.files.push_back(*path);
             header.parts = {""};
         },
 });
