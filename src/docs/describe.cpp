@@ -88,9 +88,12 @@ std::string spelling_help(Dimension dimension) {
         return "An angle is in degrees (30, 30deg) or radians (0.5rad).";
     case Dimension::ratio:
         return "A ratio is a percentage (25%) or a number with a point (0.25).";
-    default:
-        return {};
+    case Dimension::none:
+    case Dimension::count:
+    case Dimension::bytes:
+        break;
     }
+    return {};
 }
 
 std::vector<std::string> spelling_helps(const std::vector<OptionRow>& all) {

@@ -21,9 +21,10 @@ const char* to_string(AttributeChange::Kind kind) {
         return "interpolated";
     case AttributeChange::Kind::recomputed:
         return "recomputed";
-    default:
-        return "dropped";
+    case AttributeChange::Kind::dropped:
+        break;
     }
+    return "dropped";
 }
 
 AttributeChanges kept_changes(const std::vector<Attribute>& attributes) {

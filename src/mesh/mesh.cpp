@@ -15,9 +15,10 @@ std::size_t Mesh::count(Domain domain) const {
         return vertex_count();
     case Domain::wedge:
         return wedge_count();
-    default:
-        return face_count();
+    case Domain::face:
+        break;
     }
+    return face_count();
 }
 
 const Attribute* Mesh::find(std::string_view name, Domain domain) const {

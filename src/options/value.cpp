@@ -106,10 +106,10 @@ std::string Value::described() const {
         return fmt::format("a list of {}", items.size());
     case Kind::map:
         return "a map";
-    default:
-        return quoted ? fmt::format("the text \"{}\"", shortened(text))
-                      : fmt::format("'{}'", shortened(text));
+    case Kind::scalar:
+        break;
     }
+    return quoted ? fmt::format("the text \"{}\"", shortened(text)) : fmt::format("'{}'", shortened(text));
 }
 
 bool same_content(const Value& a, const Value& b) {

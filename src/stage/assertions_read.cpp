@@ -28,9 +28,14 @@ const char* wanted(PropertyKind kind) {
         return "an angle (30deg) or a range ({min: 5deg, max: 0.5rad})";
     case PropertyKind::box:
         return "a box ({min: [0, 0, 0], max: [20cm, 20cm, 5cm]})";
-    default:
-        return "a number (2) or a range ({min: 1, max: 5})";
+    case PropertyKind::count:
+    case PropertyKind::number:
+    case PropertyKind::area:
+    case PropertyKind::volume:
+    case PropertyKind::word:
+        break;
     }
+    return "a number (2) or a range ({min: 1, max: 5})";
 }
 
 bool wrong_kind(const Property& property, const Value& value, Problems& problems) {
@@ -159,9 +164,14 @@ bool read(const Property& property, const Value& value, Assertion& out, Problems
     case PropertyKind::length:
     case PropertyKind::box:
         return read_length_range(property, value, out, problems);
-    default:
-        return read_number(property, value, out, problems);
+    case PropertyKind::count:
+    case PropertyKind::number:
+    case PropertyKind::angle:
+    case PropertyKind::area:
+    case PropertyKind::volume:
+        break;
     }
+    return read_number(property, value, out, problems);
 }
 
 Json range_schema(const Json& limit) {
@@ -184,9 +194,13 @@ Json schema_of(const Property& property) {
         return range_schema({{"type", "array"}, {"items", length}, {"minItems", 3}, {"maxItems", 3}});
     case PropertyKind::angle:
         return OptionType<AngleBound>::schema();
-    default:
-        return OptionType<Bound>::schema();
+    case PropertyKind::count:
+    case PropertyKind::number:
+    case PropertyKind::area:
+    case PropertyKind::volume:
+        break;
     }
+    return OptionType<Bound>::schema();
 }
 
 } // namespace

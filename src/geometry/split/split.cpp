@@ -10,32 +10,54 @@
 #include "geometry/split/spots.hpp"
 #include "mesh/topology.hpp"
 
+#include <array>
 #include <fmt/format.h>
 
 namespace facetmill {
 
 namespace {
 
-/// The most corners of a face that the method knows; 0: any.
-Index max_corners(SplitMethod method) {
-    switch (method) {
-    case SplitMethod::grid:
-    case SplitMethod::halve:
-    case SplitMethod::diagonal:
-        return 4;
-    case SplitMethod::bisect:
-    case SplitMethod::notch:
-    case SplitMethod::loop:
-    case SplitMethod::sqrt3:
-    case SplitMethod::butterfly:
-        return 3;
-    default:
-        return 0;
-    }
+/// What is known of a method beside how it splits.
+struct MethodRow {
+    SplitMethod method;
+    const char* name;  ///< as users write it
+    Index max_corners; ///< of the faces that it takes; 0: any
+    bool halves_edges; ///< every face becomes as many as it has corners, or four, and all edges are cut
+    bool smooth;       ///< it moves the surface
+};
+
+constexpr auto method_rows = [] {
+    using enum SplitMethod;
+    return std::to_array<MethodRow>({
+        {midpoint, "midpoint", 0, true, false},
+        {bisect, "bisect", 3, false, false},
+        {notch, "notch", 3, false, false},
+        {centroid, "centroid", 0, false, false},
+        {grid, "grid", 4, false, false},
+        {quads, "quads", 0, true, false},
+        {halve, "halve", 4, false, false},
+        {fan, "fan", 0, false, false},
+        {varignon, "varignon", 0, false, false},
+        {core, "core", 0, false, false},
+        {diagonal, "diagonal", 4, false, false},
+        {loop, "loop", 3, true, true},
+        {sqrt3, "sqrt3", 3, false, true},
+        {butterfly, "butterfly", 3, true, true},
+        {catmull_clark, "catmull-clark", 0, true, true},
+    });
+}();
+
+constexpr bool rows_are_in_order() {
+    for (std::size_t i = 0; i < method_rows.size(); ++i)
+        if (method_rows[i].method != static_cast<SplitMethod>(i)) return false;
+    return method_rows.size() == static_cast<std::size_t>(SplitMethod::catmull_clark) + 1;
 }
+static_assert(rows_are_in_order(), "a row for each method, in the order of the enumeration");
+
+const MethodRow& row_of(SplitMethod method) { return method_rows[static_cast<std::size_t>(method)]; }
 
 void check_polygons(const Mesh& mesh, SplitMethod method) {
-    const Index most = max_corners(method);
+    const Index most = row_of(method).max_corners;
     if (most == 0 || mesh.all_triangles()) return;
     for (Index f = 0; f < mesh.face_count(); ++f)
         if (mesh.face_size(f) > most)
@@ -44,12 +66,6 @@ void check_polygons(const Mesh& mesh, SplitMethod method) {
                                     to_string(method), most, f, mesh.face_size(f)),
                         most == 4 ? "use 'split: quads' first to make quads of every face"
                                   : "use triangulate first to make triangles of every face");
-}
-
-/// Whether every face becomes as many as it has corners, or four, and all edges are cut.
-bool halves_edges(SplitMethod m) {
-    return m == SplitMethod::midpoint || m == SplitMethod::quads || m == SplitMethod::loop ||
-           m == SplitMethod::butterfly || m == SplitMethod::catmull_clark;
 }
 
 /// One pass; what it did to attributes and where it could not keep its promises goes to the result. Without
@@ -92,9 +108,13 @@ Mesh split_once(const Mesh& mesh, const SplitSettings& settings, SplitResult& so
     case SplitMethod::notch:
     case SplitMethod::halve:
         return split_marked(mesh, settings, so_far).value_or(Mesh{});
-    default:
-        return split_smooth(mesh, settings, so_far.passes, changes);
+    case SplitMethod::loop:
+    case SplitMethod::sqrt3:
+    case SplitMethod::butterfly:
+    case SplitMethod::catmull_clark:
+        break;
     }
+    return split_smooth(mesh, settings, so_far.passes, changes);
 }
 
 /// Whether the mesh is as the target wants it; false without a target that can be looked for.
@@ -153,14 +173,9 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
 
 } // namespace
 
-bool is_smooth(SplitMethod method) { return method >= SplitMethod::loop; }
+bool is_smooth(SplitMethod method) { return row_of(method).smooth; }
 
-const char* to_string(SplitMethod method) {
-    constexpr const char* names[] = {"midpoint", "bisect", "notch", "centroid",  "grid",
-                                     "quads",    "halve",  "fan",   "varignon",  "core",
-                                     "diagonal", "loop",   "sqrt3", "butterfly", "catmull-clark"};
-    return names[static_cast<std::size_t>(method)];
-}
+const char* to_string(SplitMethod method) { return row_of(method).name; }
 
 void check_split_targets(const SplitSettings& s) {
     const auto refuse = [&](const char* target, const char* knows) {
@@ -168,7 +183,7 @@ void check_split_targets(const SplitSettings& s) {
                     fmt::format("split: {} cannot reach the target {}", to_string(s.method), target),
                     fmt::format("use {}", knows));
     };
-    if (s.max_edge > 0 && s.method != SplitMethod::bisect && !halves_edges(s.method))
+    if (s.max_edge > 0 && s.method != SplitMethod::bisect && !row_of(s.method).halves_edges)
         refuse("max_edge", "bisect, midpoint, quads, loop, butterfly or catmull-clark");
     if (s.min_angle > 0 && s.method != SplitMethod::bisect && s.method != SplitMethod::notch)
         refuse("min_angle", "bisect or notch");

@@ -23,9 +23,10 @@ int insunits(Unit unit) {
         return 7;
     case Unit::um:
         return 13;
-    default:
-        return 0;
+    case Unit::unknown:
+        break;
     }
+    return 0;
 }
 
 class Writer {

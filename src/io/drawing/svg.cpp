@@ -26,9 +26,13 @@ Scale scale_of(Unit unit) {
         return {"in", 1};
     case Unit::unknown:
         return {"mm", 1}; // a drawing has a size: one unit is shown as one millimetre
-    default:
-        return {"mm", metres(unit) * 1000};
+    case Unit::um:
+    case Unit::m:
+    case Unit::km:
+    case Unit::foot:
+        break;
     }
+    return {"mm", metres(unit) * 1000};
 }
 
 Box bounds_of(const Drawing& drawing) {

@@ -94,9 +94,10 @@ AttributeData array_of(Type type) {
         return std::vector<std::int16_t>{};
     case Type::uint32:
         return std::vector<std::uint32_t>{};
-    default:
-        return std::vector<std::int32_t>{};
+    case Type::int32:
+        break;
     }
+    return std::vector<std::int32_t>{};
 }
 
 Header read_header(const Input& input) {

@@ -232,9 +232,10 @@ std::string stop_text(Stop stop) {
         return ", stopped by max_error";
     case Stop::max_quadric_error:
         return ", stopped by max_quadric_error";
-    default:
-        return ", stopped above the target";
+    case Stop::stuck:
+        break;
     }
+    return ", stopped above the target";
 }
 
 bool is_measured(const SimplifiedPart& part) {

@@ -12,33 +12,39 @@ using Cut = SplitSettings::Cut;
 using Method = std::optional<SplitMethod>;
 
 const std::vector<NamedChoice<Method>> methods = {
-    {"midpoint", SplitMethod::midpoint,
+    {to_string(SplitMethod::midpoint), SplitMethod::midpoint,
      "at the midpoints of edges: a triangle becomes 4 triangles, a quad 4 quads, an n-gon n quads; the "
      "angles of triangles do not become smaller"},
-    {"bisect", SplitMethod::bisect,
+    {to_string(SplitMethod::bisect), SplitMethod::bisect,
      "triangles into 2 at their longest edge, into 3 or 4 where neighbours cut the other edges; see cut"},
-    {"notch", SplitMethod::notch,
+    {to_string(SplitMethod::notch), SplitMethod::notch,
      "triangles between the midpoints of their two longest edges, into a triangle and a quad; into 4 "
      "triangles where the third edge is cut as well"},
-    {"centroid", SplitMethod::centroid,
+    {to_string(SplitMethod::centroid), SplitMethod::centroid,
      "into triangles from every edge to the centroid: a triangle becomes 3, a quad 4"},
-    {"core", SplitMethod::core,
+    {to_string(SplitMethod::core), SplitMethod::core,
      "into the same shape at half size and a quad along every edge: a triangle becomes 4 faces"},
-    {"quads", SplitMethod::quads, "into quads around the centroid: a triangle becomes 3, a quad 4"},
-    {"halve", SplitMethod::halve,
+    {to_string(SplitMethod::quads), SplitMethod::quads,
+     "into quads around the centroid: a triangle becomes 3, a quad 4"},
+    {to_string(SplitMethod::halve), SplitMethod::halve,
      "quads into 2 between the midpoints of their longer opposite edges; neighbours at those edges are cut "
      "as well"},
-    {"varignon", SplitMethod::varignon,
+    {to_string(SplitMethod::varignon), SplitMethod::varignon,
      "into the polygon of the edges' midpoints and a triangle at every corner: a quad becomes 5 faces"},
-    {"diagonal", SplitMethod::diagonal,
+    {to_string(SplitMethod::diagonal), SplitMethod::diagonal,
      "quads into 2 triangles along their shorter diagonal, concave quads along the inner one"},
-    {"fan", SplitMethod::fan, "quads and larger faces into triangles to the centroid: a quad becomes 4"},
-    {"grid", SplitMethod::grid, "triangles into n * n triangles, quads into n x n quads; see grid"},
-    {"loop", SplitMethod::loop, "smooth: triangles into 4; the surface approaches a box spline"},
-    {"sqrt3", SplitMethod::sqrt3,
+    {to_string(SplitMethod::fan), SplitMethod::fan,
+     "quads and larger faces into triangles to the centroid: a quad becomes 4"},
+    {to_string(SplitMethod::grid), SplitMethod::grid,
+     "triangles into n * n triangles, quads into n x n quads; see grid"},
+    {to_string(SplitMethod::loop), SplitMethod::loop,
+     "smooth: triangles into 4; the surface approaches a box spline"},
+    {to_string(SplitMethod::sqrt3), SplitMethod::sqrt3,
      "smooth: triangles into 3, with edges flipped; two passes make nine times as many"},
-    {"butterfly", SplitMethod::butterfly, "smooth, interpolating the existing vertices: triangles into 4"},
-    {"catmull-clark", SplitMethod::catmull_clark, "smooth: every face into quads; a quad becomes 4"}};
+    {to_string(SplitMethod::butterfly), SplitMethod::butterfly,
+     "smooth, interpolating the existing vertices: triangles into 4"},
+    {to_string(SplitMethod::catmull_clark), SplitMethod::catmull_clark,
+     "smooth: every face into quads; a quad becomes 4"}};
 
 } // namespace
 

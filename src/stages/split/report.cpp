@@ -76,9 +76,21 @@ const char* only_splits(SplitMethod method) {
     case SplitMethod::halve:
     case SplitMethod::diagonal:
         return "quads";
-    default:
-        return nullptr;
+    case SplitMethod::midpoint:
+    case SplitMethod::bisect:
+    case SplitMethod::notch:
+    case SplitMethod::centroid:
+    case SplitMethod::grid:
+    case SplitMethod::quads:
+    case SplitMethod::varignon:
+    case SplitMethod::core:
+    case SplitMethod::loop:
+    case SplitMethod::sqrt3:
+    case SplitMethod::butterfly:
+    case SplitMethod::catmull_clark:
+        break;
     }
+    return nullptr;
 }
 
 void warn_of_narrow_faces(const Part& part, const SplitResult& r, const SplitSettings& s, Context& context) {

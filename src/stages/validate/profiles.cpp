@@ -21,7 +21,6 @@ Rows rows_of(Profile profile) {
                         {"oriented", yes},
                         {"degenerate_faces", no_more_than_none},
                         {"faces", some}};
-    Rows rows;
     switch (profile) {
     case Profile::none:
         return sound;
@@ -33,12 +32,15 @@ Rows rows_of(Profile profile) {
                 {"duplicate_faces", no_more_than_none},
                 {"isolated_vertices", no_more_than_none},
                 {"faces", some}};
-    default:
-        add(rows, sound);
-        add(rows, {{"outward_oriented", yes},
-                   {"duplicate_faces", no_more_than_none},
-                   {"folded_faces", no_more_than_none}});
+    case Profile::solid:
+    case Profile::printing:
+    case Profile::simulation:
+        break;
     }
+    Rows rows = sound;
+    add(rows, {{"outward_oriented", yes},
+               {"duplicate_faces", no_more_than_none},
+               {"folded_faces", no_more_than_none}});
     if (profile == Profile::solid) return rows;
     add(rows, {{"self_intersections", no_more_than_none}, {"isolated_vertices", no_more_than_none}});
     if (profile == Profile::simulation)
