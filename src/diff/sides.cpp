@@ -40,8 +40,7 @@ void add_part(const Part& part, std::vector<Component>& components) {
         component.area += length(area);
         component.looks += area;
         component.volume += dot(area, at - origins[of.of_face[f]]) / 3;
-        Vec3 corners;
-        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) corners += t.point(mesh.point(c));
+        const Vec3 corners = corner_sum_at(mesh, f, [&](Index c) { return t.point(mesh.point(c)); });
         component.middle += corners * (length(area) / mesh.face_size(f));
     }
 }

@@ -1,6 +1,7 @@
 #include "io/attributes.hpp"
 
 #include "base/parallel.hpp"
+#include "base/unique_names.hpp"
 #include "base/words.hpp"
 
 #include <cmath>
@@ -25,12 +26,9 @@ Role role_of(const std::string& name, int components, const AttributeData& data)
 }
 
 void add_attribute(Mesh& mesh, Attribute attribute) {
-    const std::string wanted = attribute.name;
-    const auto taken = [&] {
-        return attribute.name.empty() || attribute.name == primitive_attribute ||
-               mesh.find(attribute.name, attribute.domain) != nullptr;
-    };
-    for (int n = 2; taken(); ++n) attribute.name = fmt::format("{}_{}", wanted, n);
+    attribute.name = free_name(attribute.name, [&](const std::string& name) {
+        return name.empty() || name == primitive_attribute || mesh.find(name, attribute.domain) != nullptr;
+    });
     // What lost the name that its role goes with is an array like any other.
     if (attribute.role == Role::normal && attribute.name != "NORMAL") attribute.role = Role::generic;
     mesh.attributes.push_back(std::move(attribute));

@@ -1,7 +1,7 @@
 #include "io/convert.hpp"
 
-#include <fmt/format.h>
-#include <set>
+#include "base/unique_names.hpp"
+
 #include <utility>
 
 namespace facetmill::io {
@@ -63,14 +63,13 @@ Conversion add_scene(Scene& scene, Scene more) {
         scene.materials.push_back(std::move(m));
     }
     for (auto& d : more.documents) scene.documents.push_back(std::move(d));
-    std::set<std::string> taken;
-    for (const auto& part : scene.parts) taken.insert(part.name);
+    UniqueNames names;
+    for (const auto& part : scene.parts) names.take(part.name);
     for (auto& part : more.parts) {
         for (auto& p : part.mesh.primitives)
             if (p.material != none) p.material += materials;
         if (part.document >= 0) part.document += documents;
-        const std::string name = part.name;
-        for (int n = 2; !taken.insert(part.name).second; ++n) part.name = fmt::format("{}_{}", name, n);
+        part.name = names.add(part.name);
         scene.parts.push_back(std::move(part));
     }
     return done;

@@ -44,11 +44,17 @@ inline Vec3 area_vector(const Mesh& mesh, Index f, const Transform& to_world) {
 /// degrees.
 inline bool exceeds_feature_angle(double dot_product, double cosine) { return dot_product < cosine - 1e-12; }
 
+/// The sum of the corners of face f, which are where place(corner) says.
+template <class Place>
+Vec3 corner_sum_at(const Mesh& mesh, Index f, Place&& place) {
+    Vec3 sum;
+    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += place(c);
+    return sum;
+}
+
 /// The mean of the corners of face f, their places being points[vertex].
 inline Vec3 corner_mean(const Mesh& mesh, Index f, const std::vector<Vec3>& points) {
-    Vec3 sum;
-    for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) sum += points[mesh.vertex(c)];
-    return sum / mesh.face_size(f);
+    return corner_sum_at(mesh, f, [&](Index c) { return points[mesh.vertex(c)]; }) / mesh.face_size(f);
 }
 inline Vec3 corner_mean(const Mesh& mesh, Index f) { return corner_mean(mesh, f, mesh.positions); }
 

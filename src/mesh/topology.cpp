@@ -122,17 +122,31 @@ EdgeTable build_edges(const Mesh& mesh) {
     return table;
 }
 
-std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh) {
+namespace {
+
+/// Of the edges whose number of faces is wanted, an entry for each face.
+template <class Wanted>
+std::vector<BoundaryEdge> edges_of_faces(const Mesh& mesh, Wanted&& wanted) {
     const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
-    std::vector<BoundaryEdge> boundary;
+    std::vector<BoundaryEdge> all;
     for (Index e = 0; e < edges.size(); ++e) {
         const auto corners = edges.corners_of(e);
-        if (corners.size() != 1) continue;
-        const Index c = corners[0], f = faces[c];
-        boundary.push_back({c, f, mesh.vertex(c), mesh.vertex(next_corner(mesh, f, c))});
+        if (!wanted(corners.size())) continue;
+        for (const Index c : corners)
+            all.push_back({c, faces[c], mesh.vertex(c), mesh.vertex(next_corner(mesh, faces[c], c))});
     }
-    return boundary;
+    return all;
+}
+
+} // namespace
+
+std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh) {
+    return edges_of_faces(mesh, [](std::size_t faces) { return faces == 1; });
+}
+
+std::vector<BoundaryEdge> odd_edges(const Mesh& mesh) {
+    return edges_of_faces(mesh, [](std::size_t faces) { return faces % 2 == 1; });
 }
 
 std::vector<Index> lowest_at_place(const Mesh& mesh) {

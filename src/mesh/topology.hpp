@@ -36,6 +36,9 @@ struct BoundaryEdge {
 };
 /// In the order of the edge table: by (low vertex, high vertex).
 std::vector<BoundaryEdge> boundary_edges(const Mesh& mesh);
+/// The edges of one face, and those of three, five ... of which all but one may pass by: one entry for each
+/// of the faces. In the order of the edge table.
+std::vector<BoundaryEdge> odd_edges(const Mesh& mesh);
 
 /// For each vertex the lowest one at exactly the same position (-0 is 0).
 std::vector<Index> lowest_at_place(const Mesh& mesh);

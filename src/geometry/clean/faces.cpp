@@ -5,6 +5,7 @@
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/rays.hpp"
+#include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -152,14 +153,6 @@ std::vector<std::uint8_t> stay_many(const Mesh& mesh, const EdgeTable& edges, co
     return many;
 }
 
-double area_of(const Mesh& mesh, Index f) {
-    Vec3 twice;
-    const Index begin = mesh.face_begin(f);
-    for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
-        twice += cross(mesh.point(c) - mesh.point(begin), mesh.point(c + 1) - mesh.point(begin));
-    return length(twice) / 2;
-}
-
 } // namespace
 
 bool remove_degenerate(Work& work) {
@@ -234,7 +227,7 @@ bool remove_components(Work& work, const ComponentSettings& s) {
     double whole = 0;
     for (Index f = 0; f < mesh.face_count(); ++f) {
         Component& p = all[components.of_face[f]];
-        const double area = area_of(mesh, f);
+        const double area = length(area_vector(mesh, f)) / 2;
         ++p.faces;
         p.area += area;
         whole += area;

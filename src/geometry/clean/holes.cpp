@@ -261,18 +261,10 @@ class Filler {
     HolePatch patch_for(const Outline& o, const std::vector<Vec3>& ring, std::string& why) const {
         if (settings_.method == HoleFill::planar) return planar(ring, why);
         std::vector<Vec3> across;
-        for (const Index f : o.faces) across.push_back(area_vector(f));
+        for (const Index f : o.faces) across.push_back(area_vector(mesh_, f));
         HolePatch patch{span_outline(ring, across), {}};
         return settings_.method == HoleFill::smooth ? fair_patch(ring, patch.triangles, surroundings(o))
                                                     : patch;
-    }
-
-    Vec3 area_vector(Index f) const {
-        Vec3 sum;
-        const Index begin = mesh_.face_begin(f);
-        for (Index c = begin + 1; c + 1 < mesh_.face_end(f); ++c)
-            sum += cross(mesh_.point(c) - mesh_.point(begin), mesh_.point(c + 1) - mesh_.point(begin));
-        return sum;
     }
 
     /// The triangles of two rings of faces around the outline.
@@ -362,7 +354,8 @@ class Filler {
                 const Index i = t[k], j = t[(k + 1) % 3];
                 if (i >= n || j >= n || (i + 1) % n != j) continue;
                 const Vec3 apex = corner_of(ring, patch, t[(k + 2) % 3]);
-                const Vec3 beyond = area_vector(o.faces[i]), own = cross(ring[j] - ring[i], apex - ring[i]);
+                const Vec3 beyond = area_vector(mesh_, o.faces[i]),
+                           own = cross(ring[j] - ring[i], apex - ring[i]);
                 const auto face = mesh_.face_wedges(o.faces[i]);
                 if (dot(beyond, own) < 0 && in_plane(apex, ring[i], beyond) &&
                     std::all_of(face.begin(), face.end(), [&](Index w) {

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "geometry/clip/assemble.hpp"
 #include "geometry/cut/score.hpp"
+#include "geometry/edit/redrawn_faces.hpp"
 
 #include <algorithm>
 #include <array>
@@ -83,23 +84,17 @@ class Rest {
     }
 
     Mesh keep_walls() {
-        Mesh out;
-        out.positions = from_.positions;
-        out.wedge_vertex = from_.wedge_vertex;
-        out.face_offsets.push_back(0);
-        Descent descent;
-        descent.vertices.identity = descent.wedges.identity = true;
+        RedrawnFaces kept(from_);
         for (Index f = 0; f < from_.face_count(); ++f) {
             if (taken_[f]) continue;
             for_polygon_edges(from_.face_wedges(f), [&](Index a, Index b) {
-                out.corners.push_back(a);
-                if (!inserted_.empty()) insert(out, descent, a, b);
+                kept.mesh.corners.push_back(a);
+                if (!inserted_.empty()) insert(kept.mesh, kept.descent, a, b);
             });
-            out.face_offsets.push_back(static_cast<Index>(out.corners.size()));
-            descent.faces.push_back(f);
+            kept.end_face(f);
         }
-        inherit_attributes(out, from_, descent);
-        return out;
+        inherit_attributes(kept.mesh, from_, kept.descent);
+        return std::move(kept.mesh);
     }
 
     /// A vertex per point and, with seams, a wedge per pair of wedges.
@@ -171,23 +166,18 @@ class Rest {
 
     /// The front's caps alone, seen from behind.
     Mesh turned_caps() const {
-        Mesh out;
-        out.positions = front_.positions;
-        out.wedge_vertex = front_.wedge_vertex;
-        out.face_offsets.push_back(0);
-        Descent descent;
-        descent.vertices.identity = descent.wedges.identity = true;
+        RedrawnFaces caps(front_);
+        Mesh& out = caps.mesh;
         for (Index f = 0; f < front_.face_count(); ++f) {
             if (numbers_of(front_, Domain::face)[f] != 0) continue;
             const auto wedges = front_.face_wedges(f);
             out.corners.insert(out.corners.end(), wedges.rbegin(), wedges.rend());
-            out.face_offsets.push_back(static_cast<Index>(out.corners.size()));
-            descent.faces.push_back(f);
+            caps.end_face(f);
         }
-        inherit_attributes(out, front_, descent);
+        inherit_attributes(out, front_, caps.descent);
         drop_unused(out);
         turn(out);
-        return out;
+        return std::move(caps.mesh);
     }
     /// Normals look the other way; textures are not seen in a mirror.
     static void turn(Mesh& caps) {

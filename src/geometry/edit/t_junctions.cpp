@@ -11,20 +11,6 @@ namespace facetmill {
 
 namespace {
 
-/// The edges of one face, and those of three of which two pass by.
-std::vector<BoundaryEdge> odd_edges(const Mesh& mesh) {
-    const auto edges = build_edges(mesh);
-    const auto faces = corner_faces(mesh);
-    std::vector<BoundaryEdge> boundary;
-    for (Index e = 0; e < edges.size(); ++e) {
-        const auto corners = edges.corners_of(e);
-        if (corners.size() % 2 == 0) continue;
-        for (const Index c : corners)
-            boundary.push_back({c, faces[c], mesh.vertex(c), mesh.vertex(next_corner(mesh, faces[c], c))});
-    }
-    return boundary;
-}
-
 /// The lists of boundary edges at each vertex that has some.
 struct BoundaryEdgesAt {
     std::vector<std::pair<Index, Index>> by_vertex; ///< (vertex, edge), sorted

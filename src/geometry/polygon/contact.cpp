@@ -47,25 +47,6 @@ struct LowerOnLine {
     }
 };
 
-/// An edge and its neighbours along the ring.
-struct RingEdge {
-    Vec2 a, b;
-    Index next, previous;
-};
-
-std::vector<RingEdge> edges_of(Rings rings) {
-    std::vector<RingEdge> edges;
-    std::size_t count = 0;
-    for (const Ring ring : rings) count += ring.size();
-    edges.reserve(count);
-    for (const Ring ring : rings) {
-        const auto first = static_cast<Index>(edges.size()), n = static_cast<Index>(ring.size());
-        for (Index i = 0; i < n; ++i)
-            edges.push_back({ring[i], ring[(i + 1) % n], first + (i + 1) % n, first + (i + n - 1) % n});
-    }
-    return edges;
-}
-
 /// f comes after e: do they run along each other from their common corner?
 bool runs_back(const RingEdge& e, const RingEdge& f) {
     if (e.a == e.b || f.a == f.b || turn(e.a, e.b, f.b) != 0) return false;
@@ -214,7 +195,7 @@ constexpr std::size_t few_edges = 16;
 } // namespace
 
 Contact contact(Rings rings) {
-    const std::vector<RingEdge> edges = edges_of(rings);
+    const std::vector<RingEdge> edges = ring_edges(rings);
     return edges.size() <= few_edges ? contact_by_pairs(edges) : ContactSweep(edges).run();
 }
 

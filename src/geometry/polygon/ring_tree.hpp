@@ -12,12 +12,18 @@ inline int turn(const Vec2& a, const Vec2& b, const Vec2& c) {
     return orientation_2d(a.x, a.y, b.x, b.y, c.x, c.y);
 }
 
+/// An edge, its ring, and the numbers of its neighbours along that.
+struct RingEdge {
+    Vec2 a, b;
+    Index ring = 0, next = 0, previous = 0;
+};
+
+/// The edges of the rings, one after the other.
+std::vector<RingEdge> ring_edges(Rings rings);
+
 class RingTree {
   public:
-    struct Edge {
-        Vec2 a, b;
-        Index ring = 0, next = 0, previous = 0; ///< its ring; its neighbours' numbers
-    };
+    using Edge = RingEdge;
     struct Bounds {
         double x0 = HUGE_VAL, y0 = HUGE_VAL, x1 = -HUGE_VAL, y1 = -HUGE_VAL;
         void add(const Vec2& p) {

@@ -1,7 +1,7 @@
 #include "geometry/triangulate/triangulate.hpp"
 
 #include "base/parallel.hpp"
-#include "mesh/lineage.hpp"
+#include "geometry/edit/redrawn_faces.hpp"
 #include "mesh/topology.hpp"
 
 #include <algorithm>
@@ -78,12 +78,8 @@ PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings) {
         if (first == none && second == none) first = second = c.edge;
     }
     PairResult result;
-    Mesh& out = result.mesh;
-    out.positions = mesh.positions;
-    out.wedge_vertex = mesh.wedge_vertex;
-    out.face_offsets.push_back(0);
-    Descent descent;
-    descent.vertices.identity = descent.wedges.identity = true;
+    RedrawnFaces drawn(mesh);
+    Mesh& out = drawn.mesh;
     for (Index f = 0; f < mesh.face_count(); ++f) {
         if (edge_of[f] == none) {
             const auto wedges = mesh.face_wedges(f);
@@ -97,11 +93,11 @@ PairResult pair_triangles(const Mesh& mesh, const PairSettings& settings) {
             out.corners.insert(out.corners.end(), q.begin(), q.end());
             ++result.quads;
         }
-        out.face_offsets.push_back(static_cast<Index>(out.corners.size()));
-        descent.faces.push_back(f);
+        drawn.end_face(f);
     }
     normalise_offsets(out);
-    result.changes = inherit_attributes(out, mesh, descent);
+    result.changes = inherit_attributes(out, mesh, drawn.descent);
+    result.mesh = std::move(out);
     return result;
 }
 

@@ -1,10 +1,10 @@
 #include "io/gltf/nodes.hpp"
 
+#include "base/unique_names.hpp"
 #include "io/gltf/gltf.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <set>
 
 namespace facetmill::io::gltf {
@@ -155,8 +155,7 @@ bool has_triangles(const Place& mesh) {
 
 std::vector<Placement> placements(const Json& document, const std::vector<NodeFrame>& frames) {
     std::vector<Placement> all;
-    std::set<std::string> taken;
-    std::map<std::string, int> copies; // where to go on counting: a thousand nodes may share a name
+    UniqueNames names;
     std::vector<char> triangles(count_of(document, "meshes"));
     for (std::size_t m = 0; m < triangles.size(); ++m)
         triangles[m] = has_triangles(item(document, "meshes", m));
@@ -166,9 +165,7 @@ std::vector<Placement> placements(const Json& document, const std::vector<NodeFr
             node < 0 ? "" : item(document, "nodes", static_cast<std::size_t>(node)).text_or("name", "");
         if (name.empty()) name = item(document, "meshes", static_cast<std::size_t>(mesh)).text_or("name", "");
         if (name.empty()) name = fmt::format("mesh_{}", mesh);
-        std::string unique = name;
-        while (!taken.insert(unique).second) unique = fmt::format("{}_{}", name, ++copies[name] + 1);
-        all.push_back({unique, node, mesh, skinned, skinned ? Transform{} : world});
+        all.push_back({names.add(name), node, mesh, skinned, skinned ? Transform{} : world});
     };
     for (std::size_t i = 0; i < frames.size(); ++i)
         if (frames[i].mesh >= 0)

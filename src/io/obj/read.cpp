@@ -6,6 +6,7 @@
 #include "io/image_files.hpp"
 #include "io/obj/materials.hpp"
 #include "io/text.hpp"
+#include "mesh/face.hpp"
 
 #include <fmt/format.h>
 #include <numeric>
@@ -59,10 +60,7 @@ Attribute numbers(const char* name, std::vector<Index> values) {
 void fill_normals(const Mesh& mesh, std::vector<float>& normals, const std::vector<bool>& given) {
     std::vector<Vec3> sums(given.size());
     for (Index f = 0; f < mesh.face_count(); ++f) {
-        Vec3 area;
-        const Vec3& o = mesh.point(mesh.face_begin(f));
-        for (Index c = mesh.face_begin(f) + 1; c + 1 < mesh.face_end(f); ++c)
-            area += cross(mesh.point(c) - o, mesh.point(c + 1) - o);
+        const Vec3 area = area_vector(mesh, f);
         for (const Index w : mesh.face_wedges(f)) sums[w] += area;
     }
     for (std::size_t w = 0; w < given.size(); ++w) {

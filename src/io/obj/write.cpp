@@ -1,10 +1,10 @@
+#include "base/unique_names.hpp"
 #include "io/flatten.hpp"
 #include "io/obj/materials.hpp"
 
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>
-#include <set>
 #include <unordered_map>
 
 namespace facetmill::io::obj {
@@ -183,14 +183,12 @@ class PartWriter {
 /// Names for usemtl: on one line, never empty, each once.
 std::vector<std::string> material_names(const std::vector<Material>& materials) {
     std::vector<std::string> names;
-    std::set<std::string> taken;
+    UniqueNames taken;
     for (const auto& m : materials) {
         std::string name = m.name.empty() ? "material" : m.name;
         for (char& c : name)
             if (static_cast<unsigned char>(c) <= ' ' || c == '#') c = '_';
-        std::string unique = name;
-        for (int n = 2; !taken.insert(unique).second; ++n) unique = fmt::format("{}_{}", name, n);
-        names.push_back(unique);
+        names.push_back(taken.add(name));
     }
     return names;
 }

@@ -1,3 +1,4 @@
+#include "base/unique_names.hpp"
 #include "stage/stage.hpp"
 #include "stages/merge/help.hpp"
 
@@ -51,14 +52,10 @@ void mark_group(Mesh& mesh, std::uint32_t number) {
                                std::vector<std::uint32_t>(mesh.face_count(), number)});
 }
 
-/// The name, or with a number behind it when another part has it.
-std::string free_name(const std::string& name, const std::vector<Part>& others) {
-    const auto taken = [&](const std::string& n) {
-        return std::any_of(others.begin(), others.end(), [&](const Part& part) { return part.name == n; });
-    };
-    std::string free = name;
-    for (int n = 2; taken(free); ++n) free = fmt::format("{}_{}", name, n);
-    return free;
+std::string name_beside(const std::vector<Part>& others, const std::string& wanted) {
+    return free_name(wanted, [&](const std::string& name) {
+        return std::any_of(others.begin(), others.end(), [&](const Part& part) { return part.name == name; });
+    });
 }
 
 Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& report) {
@@ -90,7 +87,7 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
     }
     if (joined) {
         const std::size_t welded = o.weld ? weld_exact(joined->mesh) : 0;
-        if (!o.name.empty()) joined->name = free_name(o.name, rest);
+        if (!o.name.empty()) joined->name = name_beside(rest, o.name);
         report.part = joined->name;
         report.welded_vertices = welded;
         rest.insert(rest.begin() + static_cast<std::ptrdiff_t>(place), std::move(*joined));

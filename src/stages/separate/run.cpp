@@ -1,9 +1,9 @@
+#include "base/unique_names.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "stages/separate/help.hpp"
 #include "stages/separate/options.hpp"
 
 #include <fmt/format.h>
-#include <set>
 
 namespace facetmill::separate_stage {
 
@@ -26,12 +26,6 @@ void declare_report(DeclareFields<SeparateReport>& d) {
                p.field("part", &SeparatedPart::part, "The name that it had.");
                p.field("parts", &SeparatedPart::parts, "The number of parts made of it.");
            });
-}
-
-std::string unique_name(std::string name, std::set<std::string>& taken) {
-    std::string free = name;
-    for (int n = 2; !taken.insert(free).second; ++n) free = fmt::format("{}_{}", name, n);
-    return free;
 }
 
 /// Refuses to make more parts than is wanted.
@@ -59,13 +53,13 @@ Part part_of(const Part& part, Mesh mesh, std::string name) {
 
 Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateReport& report) {
     std::vector<Part> parts;
-    std::set<std::string> taken;
+    UniqueNames names;
     for (const Part& part : scene.parts)
-        if (!context.selects(part, scene)) taken.insert(part.name);
+        if (!context.selects(part, scene)) names.take(part.name);
     for (Part& part : scene.parts) {
         const FaceLabels labels = context.selects(part, scene) ? face_labels(part, scene, o) : FaceLabels{};
         if (labels.names.size() < 2) {
-            if (context.selects(part, scene)) part.name = unique_name(part.name, taken);
+            if (context.selects(part, scene)) part.name = names.add(part.name);
             parts.push_back(std::move(part));
             continue;
         }
@@ -74,7 +68,7 @@ Scene run(Scene scene, const SeparateOptions& o, Context& context, SeparateRepor
         context.attribute_changes(part, kept_changes(part.mesh.attributes));
         report.separated.push_back({part.name, labels.names.size()});
         for (std::size_t i = 0; i < pieces.size(); ++i)
-            parts.push_back(part_of(part, std::move(pieces[i]), unique_name(labels.names[i], taken)));
+            parts.push_back(part_of(part, std::move(pieces[i]), names.add(labels.names[i])));
     }
     scene.parts = std::move(parts);
     report.parts = scene.parts.size();

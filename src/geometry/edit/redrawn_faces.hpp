@@ -1,0 +1,27 @@
+#pragma once
+// Other faces on the vertices and wedges of a mesh.
+
+#include "mesh/lineage.hpp"
+
+namespace facetmill {
+
+/// A mesh with the vertices and wedges of another, whose faces are added one by one: their wedges to
+/// mesh.corners, then end_face. Vertices and wedges may be added behind those of the other.
+struct RedrawnFaces {
+    Mesh mesh; ///< without attributes
+    Descent descent;
+
+    explicit RedrawnFaces(const Mesh& from) {
+        mesh.positions = from.positions;
+        mesh.wedge_vertex = from.wedge_vertex;
+        mesh.face_offsets.push_back(0);
+        descent.vertices.identity = descent.wedges.identity = true;
+    }
+    /// of: the face of the other mesh that the corners since the last one come from.
+    void end_face(Index of) {
+        mesh.face_offsets.push_back(static_cast<Index>(mesh.corners.size()));
+        descent.faces.push_back(of);
+    }
+};
+
+} // namespace facetmill
