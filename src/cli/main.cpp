@@ -1,3 +1,37 @@
-#include "cli/entry.hpp"
+// The only place that catches exceptions, and the exit codes.
+
+#include "base/error.hpp"
+#include "cli/command.hpp"
+#include "io/outputs.hpp"
+
+#include <algorithm>
+#include <new>
+
+namespace facetmill::cli {
+
+namespace {
+
+int fail(const Console& console, const Error& error) {
+    console.diagnostics(error);
+    return static_cast<int>(error.kind());
+}
+
+int entry(int argc, char** argv) {
+    Console console;
+    try {
+        io::clean_up_on_signals();
+        return program({argv + 1, argv + std::max(argc, 1)}, console);
+    } catch (const Error& e) {
+        return fail(console, e);
+    } catch (const std::bad_alloc&) {
+        return fail(console, out_of_memory("not enough memory"));
+    } catch (const std::exception& e) {
+        return fail(console, Error(ErrorKind::bug, "E-BUG", e.what(), "this is a bug in facetmill"));
+    }
+}
+
+} // namespace
+
+} // namespace facetmill::cli
 
 int main(int argc, char** argv) { return facetmill::cli::entry(argc, argv); }

@@ -61,8 +61,12 @@ class Planner {
                      bool& has_scene);
     void plan_foreach(Step& step, const Value& item, const Value::Entry& entry, const Scope& scope,
                       const Position& inner, bool& has_scene);
+    /// base: the key of the step's stage, which gives it its name unless the item does.
     void common_keys(Step& step, const Value& item, const Scope& scope, const std::string& base,
                      const Position& position);
+    void name_step(Step& step, const Value* given, const Scope& scope, const std::string& base,
+                   const Position& position);
+    void read_only(const Value& only, const Scope& scope, PartFilter& filter);
     /// The stages of the file that an item includes.
     Steps include(const Value& item, const Value::Entry& entry, const Scope& scope, const Position& position,
                   bool& has_scene);

@@ -11,21 +11,21 @@ namespace {
 
 /// Keys that belong to an item beside its stage.
 bool belongs(std::string_view key, std::string_view stage) {
-    return (is_common_key(key) && stage != "include") ||
-           (key == "join" && (stage == "branch" || stage == "foreach")) ||
-           (key == "do" && stage == "foreach") || (key == "with" && stage == "include");
+    const ControlItem* control = control_item(stage);
+    if (is_common_key(key)) return !control || control->takes_common_keys;
+    return control && std::find(control->keys.begin(), control->keys.end(), key) != control->keys.end();
 }
 
 std::vector<std::string> keys_beside(const std::string& stage) {
     std::vector<std::string> keys;
     for (const auto& common : common_keys())
         if (belongs(common.name, stage)) keys.push_back(common.name);
-    for (const char* key : {"join", "do", "with"})
-        if (belongs(key, stage)) keys.emplace_back(key);
+    if (const ControlItem* control = control_item(stage))
+        keys.insert(keys.end(), control->keys.begin(), control->keys.end());
     return keys;
 }
 
-bool is_stage(std::string_view key) { return is_control_item(key) || stage_named(key); }
+bool is_stage(std::string_view key) { return control_item(key) || stage_named(key); }
 
 std::vector<std::string> all_stage_names() {
     auto names = stage_names();
@@ -171,27 +171,44 @@ void Planner::step(const Value& item, const Scope& scope, const Position& positi
 
 void Planner::common_keys(Step& step, const Value& item, const Scope& scope, const std::string& base,
                           const Position& position) {
+    for (const CommonKey& key : facetmill::common_keys()) {
+        const Value* value = key.name == base ? nullptr : item.find(key.name); // that is the stage
+        switch (key.use) {
+        case CommonKey::Use::names:
+            name_step(step, value, scope, base, position);
+            break;
+        case CommonKey::Use::conditions:
+            if (value) step.when = read_condition(*value, scope, problems_);
+            break;
+        case CommonKey::Use::selects:
+            if (value) read_only(*value, scope, step.only);
+            break;
+        case CommonKey::Use::ensures:
+            if (value) parse_contract(resolved(*value, scope, problems_), step.ensure.emplace(), problems_);
+            break;
+        }
+    }
+}
+
+void Planner::name_step(Step& step, const Value* given, const Scope& scope, const std::string& base,
+                        const Position& position) {
     std::string name = base;
-    Mark explicit_at;
-    if (const Value* value = item.find("name")) {
-        OptionType<std::string>::parse(resolved(*value, scope, problems_), name, problems_);
-        explicit_at = value->mark;
+    if (given) {
+        OptionType<std::string>::parse(resolved(*given, scope, problems_), name, problems_);
         if (name.empty() || name.find_first_of("./[]") != std::string::npos)
-            problems_.add(value->mark, "E-NAME", fmt::format("'{}' cannot name a stage", name),
+            problems_.add(given->mark, "E-NAME", fmt::format("'{}' cannot name a stage", name),
                           "a name has no . / [ ]");
     }
-    step.name = unique_name(name, position.prefix, explicit_at);
+    step.name = unique_name(name, position.prefix, given ? given->mark : Mark{});
     names_.insert({base, step.name});
-    if (const Value* when = item.find("when")) step.when = read_condition(*when, scope, problems_);
-    if (const Value* only = item.find("only")) {
-        const Value names = resolved(*only, scope, problems_);
-        OptionType<std::vector<std::string>>::parse(names, step.only.patterns, problems_);
-        if (names.is_list() && names.items.empty())
-            problems_.add(only->mark, "E-MISSING", "'only' names no part or material",
-                          "only: wheel, only: [\"tree*\", \"!tree_9\"], or leave it out for all");
-    }
-    if (const Value* ensure = item.find("ensure"); ensure && base != "ensure")
-        parse_contract(resolved(*ensure, scope, problems_), step.ensure.emplace(), problems_);
+}
+
+void Planner::read_only(const Value& only, const Scope& scope, PartFilter& filter) {
+    const Value names = resolved(only, scope, problems_);
+    OptionType<std::vector<std::string>>::parse(names, filter.patterns, problems_);
+    if (names.is_list() && names.items.empty())
+        problems_.add(only.mark, "E-MISSING", "'only' names no part or material",
+                      "only: wheel, only: [\"tree*\", \"!tree_9\"], or leave it out for all");
 }
 
 std::string Planner::unique_name(const std::string& base, const std::string& prefix,

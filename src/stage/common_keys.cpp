@@ -13,15 +13,15 @@ const std::vector<CommonKey>& common_keys() {
         const Json condition = {
             {"anyOf", Json::array({{{"type", Json::array({"boolean", "string"})}}, assertions_schema()})}};
         return std::vector<CommonKey>{
-            {"name", "The name of this step in the report, in --set and in messages. Unique in the pipeline.",
-             text},
-            {"when",
+            {CommonKey::Use::names, "name",
+             "The name of this step in the report, in --set and in messages. Unique in the pipeline.", text},
+            {CommonKey::Use::conditions, "when",
              "Runs the step only if this holds: a bool param, ${a} == value, or properties as in ensure.",
              condition},
-            {"only", "The parts that it works on: names or globs of parts or materials; \"!glob\" excludes.",
-             texts},
-            {"ensure", "A contract on the result of the step: {closed: true, faces: {max: 5000}}.",
-             contract_schema()},
+            {CommonKey::Use::selects, "only",
+             "The parts that it works on: names or globs of parts or materials; \"!glob\" excludes.", texts},
+            {CommonKey::Use::ensures, "ensure",
+             "A contract on the result of the step: {closed: true, faces: {max: 5000}}.", contract_schema()},
         };
     }();
     return keys;
@@ -34,17 +34,17 @@ bool is_common_key(std::string_view name) {
 
 const std::vector<ControlItem>& control_items() {
     static const std::vector<ControlItem> items{
-        {"branch", "Runs several lists of stages on the same scene"},
-        {"foreach", "Runs stages for each of some values"},
-        {"include", "Runs the stages of another file"},
+        {"branch", "Runs several lists of stages on the same scene", {"join"}},
+        {"foreach", "Runs stages for each of some values", {"join", "do"}},
+        {"include", "Runs the stages of another file", {"with"}, false},
     };
     return items;
 }
 
-bool is_control_item(std::string_view name) {
-    const auto& items = control_items();
-    return std::any_of(items.begin(), items.end(),
-                       [&](const ControlItem& item) { return item.name == name; });
+const ControlItem* control_item(std::string_view name) {
+    for (const ControlItem& item : control_items())
+        if (item.name == name) return &item;
+    return nullptr;
 }
 
 } // namespace facetmill

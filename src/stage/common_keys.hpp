@@ -11,6 +11,9 @@
 namespace facetmill {
 
 struct CommonKey {
+    /// What the planner does with it: its switch has a case for each.
+    enum class Use { names, conditions, selects, ensures };
+    Use use;
     std::string name;
     std::string help;
     Json schema; ///< of the value, without expressions
@@ -23,10 +26,14 @@ bool is_common_key(std::string_view name);
 /// An item of a list of stages that is no stage: it has stages inside.
 struct ControlItem {
     std::string name, about;
+    std::vector<std::string> keys; ///< that belong beside it
+    bool takes_common_keys = true;
 };
 
 /// branch, foreach, include.
 const std::vector<ControlItem>& control_items();
-bool is_control_item(std::string_view name);
+/// Null when there is none of the name.
+const ControlItem* control_item(std::string_view name);
+inline bool is_control_item(std::string_view name) { return control_item(name) != nullptr; }
 
 } // namespace facetmill
