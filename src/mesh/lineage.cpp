@@ -237,7 +237,11 @@ AttributeChange change_of(const Attribute& a, const Ancestry& ancestry) {
     case Role::weights:
         change.why = "combined at new elements, the strongest kept and renormalised";
         break;
-    default:
+    case Role::generic:
+    case Role::uv:
+    case Role::colour:
+    case Role::morph_vector:
+    case Role::index:
         change.why = "mixed at new elements";
         break;
     }

@@ -56,9 +56,10 @@ Overrides::Overrides(const PlanSettings& settings, Problems& problems)
 
 void Overrides::apply(const std::vector<std::string>& names, const StageInfo& stage, Value& given,
                       Problems& problems) {
-    if (update_baselines_ && stage.options->find("update_baseline") && given.find("baseline")) {
+    const OptionRoles& roles = stage.roles;
+    if (update_baselines_ && !roles.updates_baseline.empty() && given.find(roles.baseline)) {
         const Mark where = command_line_mark("--update-baseline", "");
-        given.set("update_baseline", Value::scalar("true", where), where);
+        given.set(roles.updates_baseline, Value::scalar("true", where), where);
         any_baseline_ = true;
     }
     for (auto& change : all_) {

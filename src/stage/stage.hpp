@@ -36,6 +36,8 @@ struct OptionRoles {
     std::string sets_unit = {};          ///< says what the numbers of the scene mean afterwards
     std::string writes_in_unit = {};     ///< the unit of the numbers in the file that it writes
     std::string compares_with_load = {}; ///< compares with the scene as loaded, when it is given
+    std::string baseline = {};           ///< the file of what is known and may go on
+    std::string updates_baseline = {};   ///< writes that file anew: --update-baseline gives it
 };
 
 struct StageInfo {

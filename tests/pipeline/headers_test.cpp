@@ -86,13 +86,14 @@ TEST_CASE("stages name options of their own to the pipeline", "[pipeline]") {
     std::size_t named = 0;
     for (const auto& stage : stages())
         for (const auto* role :
-             {&stage.roles.sets_unit, &stage.roles.writes_in_unit, &stage.roles.compares_with_load}) {
+             {&stage.roles.sets_unit, &stage.roles.writes_in_unit, &stage.roles.compares_with_load,
+              &stage.roles.baseline, &stage.roles.updates_baseline}) {
             if (role->empty()) continue;
             CAPTURE(stage.name, *role);
             CHECK(stage.options->find(*role));
             ++named;
         }
-    CHECK(named == 4);
+    CHECK(named == 6);
 }
 
 TEST_CASE("inputs that no stage could load are found before anything runs", "[pipeline]") {

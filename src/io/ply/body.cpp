@@ -34,9 +34,12 @@ std::int64_t load_count(const std::byte* at, Type type, bool swap) {
         return load<std::int16_t>(at, swap);
     case Type::uint32:
         return load<std::uint32_t>(at, swap);
-    default:
-        return load<std::int32_t>(at, swap);
+    case Type::int32:
+    case Type::float32: // no count is of these: the header says so
+    case Type::float64:
+        break;
     }
+    return load<std::int32_t>(at, swap);
 }
 
 /// The value as T; false when it does not fit.

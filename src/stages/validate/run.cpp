@@ -102,7 +102,8 @@ const RegisterStage registered{make_stage<ValidateOptions>(
      .examples = {"validate", "validate: {closed: true, euler: 2}", "validate: {for: printing, per: part}",
                   "validate: {for: web, faces: {max: 5000}, baseline: known.json}",
                   "validate: {min_angle: {min: 5deg}, severity: warn, mark: failed.glb}"},
-     .checks = true},
+     .checks = true,
+     .roles = {.baseline = "baseline", .updates_baseline = "update_baseline"}},
     declare, declare_report, run, StageHooks<ValidateOptions>{.files = files, .verify = verify})};
 
 } // namespace
