@@ -17,18 +17,18 @@ std::uint32_t canonical_bits(double x) {
 }
 
 /// The lattice cell of a coordinate, and the smooth weight (0 to 1) of its upper end.
-struct Cell {
+struct NoiseCell {
     std::int64_t low;
     double weight;
 };
-Cell cell_of(double x) {
+NoiseCell cell_of(double x) {
     constexpr double most = 4503599627370496.0; // 2^52: beyond, no two points share a cell anyway
     const double low = std::floor(std::clamp(x, -most, most)), t = std::clamp(x - low, 0.0, 1.0);
     return {static_cast<std::int64_t>(low), t * t * t * (t * (t * 6 - 15) + 10)};
 }
 
 double octave(std::uint64_t seed, const Vec3& p, double truncate) {
-    const Cell cells[3] = {cell_of(p.x), cell_of(p.y), cell_of(p.z)};
+    const NoiseCell cells[3] = {cell_of(p.x), cell_of(p.y), cell_of(p.z)};
     double sum = 0, squares = 0;
     for (int corner = 0; corner < 8; ++corner) {
         double weight = 1;

@@ -11,9 +11,9 @@ namespace {
 
 /// Cuts one face. Its corners and crossings become a ring of nodes; what lies on a side is chains of that
 /// ring.
-class FaceCutter {
+class PieceCutter {
   public:
-    FaceCutter(const PlaneCut& cut, int side) : cut_(cut), side_(side) {}
+    PieceCutter(const PlaneCut& cut, int side) : cut_(cut), side_(side) {}
 
     void cut(std::size_t i, Pieces& out) {
         const Index face = cut_.cut_faces[i];
@@ -142,7 +142,7 @@ void settle_flat(PlaneCut& cut, int side) {
 
 Pieces pieces_on_side(const PlaneCut& cut, int side) {
     Pieces out;
-    FaceCutter cutter(cut, side);
+    PieceCutter cutter(cut, side);
     for (std::size_t i = 0; i < cut.cut_faces.size(); ++i) cutter.cut(i, out);
     return out;
 }

@@ -9,6 +9,13 @@
 
 namespace facetmill {
 
+std::vector<Index> explicit_wedges(const Mesh& mesh) {
+    if (mesh.has_seams()) return mesh.wedge_vertex;
+    std::vector<Index> wedges(mesh.wedge_count());
+    for (Index w = 0; w < wedges.size(); ++w) wedges[w] = w;
+    return wedges;
+}
+
 namespace {
 
 constexpr Index gone = none;
@@ -16,13 +23,6 @@ constexpr Index gone = none;
 bool has_wedge_attributes(const Mesh& mesh) {
     return std::any_of(mesh.attributes.begin(), mesh.attributes.end(),
                        [](const Attribute& a) { return a.domain == Domain::wedge; });
-}
-
-std::vector<Index> explicit_wedges(const Mesh& mesh) {
-    if (mesh.has_seams()) return mesh.wedge_vertex;
-    std::vector<Index> wedges(mesh.wedge_count());
-    for (Index w = 0; w < wedges.size(); ++w) wedges[w] = w;
-    return wedges;
 }
 
 void forget_plain_wedges(Mesh& mesh) {

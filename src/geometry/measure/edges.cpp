@@ -33,13 +33,13 @@ std::vector<Vec3> area_vectors(const Mesh& mesh) {
 double angle_between(const Vec3& a, const Vec3& b) { return arc_tangent(length(cross(a, b)), dot(a, b)); }
 
 /// How the surface turns at an edge with two faces that run along it in opposite directions; nan at others.
-struct Turns {
+struct EdgeTurns {
     EdgeTable edges;
     std::vector<double> turn;
 };
 
-Turns turns_of(const Mesh& mesh, const std::vector<Vec3>& areas) {
-    Turns t{build_edges(mesh), {}};
+EdgeTurns turns_of(const Mesh& mesh, const std::vector<Vec3>& areas) {
+    EdgeTurns t{build_edges(mesh), {}};
     const std::vector<Index> face_of = corner_faces(mesh);
     t.turn.assign(t.edges.size(), none_there);
     parallel_for(t.edges.size(), [&](std::size_t e) {
@@ -71,7 +71,7 @@ double angle_at(const Vec3& before, const Vec3& at, const Vec3& after, const Vec
 // Of meshes whose boxes are not far from 1 in size.
 
 EdgeResult edges_of(const Mesh& mesh, const EdgeSettings& settings) {
-    const Turns t = turns_of(mesh, area_vectors(mesh));
+    const EdgeTurns t = turns_of(mesh, area_vectors(mesh));
     EdgeResult r;
     std::vector<double> lengths(t.edges.size());
     parallel_for(lengths.size(), [&](std::size_t e) { lengths[e] = length_of(mesh, t.edges.edges[e]); });
@@ -125,7 +125,7 @@ FaceResult faces_of(const Mesh& mesh) {
 CurvatureResult curvature_of(const Mesh& given) {
     const Mesh mesh = triangles_of(given); // vertices where faces cross themselves come last
     const std::vector<Vec3> areas = area_vectors(mesh);
-    const Turns t = turns_of(mesh, areas);
+    const EdgeTurns t = turns_of(mesh, areas);
     const VertexLists corners = corners_at_vertices(mesh);
     std::vector<double> turns(mesh.vertex_count()), missing(mesh.vertex_count());
     std::vector<std::uint8_t> open(mesh.vertex_count());

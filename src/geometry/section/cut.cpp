@@ -11,7 +11,7 @@ namespace facetmill {
 
 namespace {
 
-struct Crossing {
+struct PlaneCrossing {
     EdgeKey edge;
     bool up;
     double along;
@@ -19,9 +19,10 @@ struct Crossing {
 
 /// Cuts faces into pieces. A face of many corners may cross a plane several times: crossings are ordered
 /// along the cut, and the first way down is joined with the first way up, and so on.
-class Cutter {
+class SectionCutter {
   public:
-    Cutter(const Mesh& mesh, const std::vector<Index>& levels, const StackPlanes& stack, const Plane& plane)
+    SectionCutter(const Mesh& mesh, const std::vector<Index>& levels, const StackPlanes& stack,
+                  const Plane& plane)
         : mesh_(mesh), levels_(levels), stack_(stack), normal_(plane.normal) {}
 
     void cut(Index f, std::vector<Piece>& out) {
@@ -62,14 +63,14 @@ class Cutter {
             x.along = dot(mix(a, b, sa / (sa - sb)), along);
         }
         std::stable_sort(crossings_.begin(), crossings_.end(),
-                         [](const Crossing& a, const Crossing& b) { return a.along < b.along; });
+                         [](const PlaneCrossing& a, const PlaneCrossing& b) { return a.along < b.along; });
     }
 
     const Mesh& mesh_;
     const std::vector<Index>& levels_;
     const StackPlanes& stack_;
     Vec3 normal_;
-    std::vector<Crossing> crossings_;
+    std::vector<PlaneCrossing> crossings_;
     std::vector<Vec3> corners_;
 };
 
@@ -87,7 +88,7 @@ std::vector<Piece> pieces_of(const Mesh& mesh, const StackPlanes& stack, const P
     const std::size_t chunks = (mesh.face_count() + default_chunk - 1) / default_chunk;
     std::vector<std::vector<Piece>> found(chunks);
     parallel_chunks(mesh.face_count(), [&](std::size_t begin, std::size_t end) {
-        Cutter cutter(mesh, levels, stack, plane);
+        SectionCutter cutter(mesh, levels, stack, plane);
         for (std::size_t f = begin; f < end; ++f)
             cutter.cut(static_cast<Index>(f), found[begin / default_chunk]);
     });

@@ -34,13 +34,6 @@ struct Doubled {
     Descent descent; ///< complete but for what is added later
 };
 
-std::vector<Index> explicit_wedges(const Mesh& mesh) {
-    if (mesh.has_seams()) return mesh.wedge_vertex;
-    std::vector<Index> wedges(mesh.wedge_count());
-    for (Index w = 0; w < wedges.size(); ++w) wedges[w] = w;
-    return wedges;
-}
-
 /// back_vertex says where each vertex is on the back: itself, or one of the new ones, numbered from the
 /// vertex count on, which are copies of back_copies.
 Doubled doubled(const Mesh& mesh, const std::vector<Index>& back_vertex,

@@ -11,7 +11,7 @@ namespace facetmill {
 
 namespace {
 
-using Cell = std::array<std::int64_t, 3>;
+using TileCell = std::array<std::int64_t, 3>;
 
 struct CellRange {
     double low = -HUGE_VAL, high = HUGE_VAL; ///< cells
@@ -27,7 +27,7 @@ class Tiler {
 
     /// within: the cells along this axis that the cuts so far leave. A point that rounding puts beyond a
     /// plane it was cut at stays on its side of it, so every cut leaves fewer cells and the recursion ends.
-    TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, Cell cell, CellRange within = {}) {
+    TileResult split(Mesh mesh, CutMemory memory, std::size_t axis, TileCell cell, CellRange within = {}) {
         if (mesh.face_count() == 0) return {};
         if (axis == settings_.axes.size()) return finished(std::move(mesh), std::move(memory), cell);
         const TileAxis& a = settings_.axes[axis];
@@ -109,7 +109,7 @@ class Tiler {
         return r;
     }
 
-    TileResult one_side(ClipResult halves, std::size_t axis, Cell cell, double middle, CellRange within) {
+    TileResult one_side(ClipResult halves, std::size_t axis, TileCell cell, double middle, CellRange within) {
         const bool front = halves.back.face_count() == 0;
         Mesh& mesh = front ? halves.front : halves.back;
         const TileAxis& a = settings_.axes[axis];
@@ -125,7 +125,7 @@ class Tiler {
         return joined(std::move(whole), {}, halves);
     }
 
-    TileResult finished(Mesh mesh, CutMemory memory, const Cell& cell) {
+    TileResult finished(Mesh mesh, CutMemory memory, const TileCell& cell) {
         if (++made_ > settings_.limit)
             throw Error(ErrorKind::limit, "E-TILE",
                         fmt::format("there would be more than {} tiles", settings_.limit),

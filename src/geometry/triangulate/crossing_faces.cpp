@@ -52,17 +52,17 @@ bool is_parted_quad(std::span<const Vec3> p) {
     return side(p[1]) * side(p[3]) < 0;
 }
 
-enum class Crossing : std::uint8_t { none, in_plane, in_no_plane };
+enum class CrossingKind : std::uint8_t { none, in_plane, in_no_plane };
 
-Crossing crossing_of(std::span<const Vec3> corners) {
-    if (corners.size() < 4 || is_parted_quad(corners)) return Crossing::none;
+CrossingKind crossing_of(std::span<const Vec3> corners) {
+    if (corners.size() < 4 || is_parted_quad(corners)) return CrossingKind::none;
     const std::vector<Vec2> ring = polygon::flattened(corners);
     const polygon::Kind kind = polygon::classify(ring);
-    if (!crosses(ring, kind)) return Crossing::none;
-    if (is_planar(corners, polygon::plane_deviation(corners))) return Crossing::in_plane;
+    if (!crosses(ring, kind)) return CrossingKind::none;
+    if (is_planar(corners, polygon::plane_deviation(corners))) return CrossingKind::in_plane;
     // The two triangles of a skewed quad share a diagonal and nothing else, wherever it is seen from.
     const bool may_overlap = kind == polygon::Kind::self_intersecting && corners.size() > 4;
-    return may_overlap ? Crossing::in_no_plane : Crossing::none;
+    return may_overlap ? CrossingKind::in_no_plane : CrossingKind::none;
 }
 
 Contours flat_outline(const Mesh& mesh, Index f) {
@@ -80,7 +80,7 @@ struct Found {
 Found find_crossing_faces(const Mesh& mesh) {
     Found found;
     if (mesh.all_triangles()) return found;
-    std::vector<Crossing> crossings(mesh.face_count(), Crossing::none);
+    std::vector<CrossingKind> crossings(mesh.face_count(), CrossingKind::none);
     parallel_chunks(mesh.face_count(), [&](std::size_t begin, std::size_t end) {
         std::vector<Vec3> corners;
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
@@ -90,8 +90,8 @@ Found find_crossing_faces(const Mesh& mesh) {
         }
     });
     for (Index f = 0; f < crossings.size(); ++f) {
-        if (crossings[f] == Crossing::in_plane) found.in_plane.push_back(f);
-        found.in_no_plane += crossings[f] == Crossing::in_no_plane;
+        if (crossings[f] == CrossingKind::in_plane) found.in_plane.push_back(f);
+        found.in_no_plane += crossings[f] == CrossingKind::in_no_plane;
     }
     return found;
 }
@@ -255,7 +255,7 @@ class FaceFiller {
 
 std::vector<std::array<Vec3, 3>> covering_triangles(std::span<const Vec3> corners) {
     std::vector<std::array<Vec3, 3>> covering;
-    if (crossing_of(corners) != Crossing::in_plane) return covering;
+    if (crossing_of(corners) != CrossingKind::in_plane) return covering;
     const std::vector<Vec2> flat = polygon::flattened(corners);
     const polygon::Ring ring = flat;
     const auto t = polygon::triangulate_rings(polygon::Rings(&ring, 1));

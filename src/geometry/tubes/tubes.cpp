@@ -16,19 +16,19 @@ namespace {
 constexpr double step = pi / 8; ///< of a corner that is turned through
 
 /// The direction d of a line, and what is up across it.
-struct Frame {
+struct TubeFrame {
     Vec3 d, up;
     Vec3 aside() const { return cross(d, up); }
 };
 
-Frame frame_along(const Vec3& d) {
+TubeFrame frame_along(const Vec3& d) {
     const double x = std::abs(d.x), y = std::abs(d.y), z = std::abs(d.z);
     const Vec3 other = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
     return {d, normalised(cross(other, d))};
 }
 
 /// The frame turned by the least rotation that brings its direction to d; not by half a turn.
-Frame turned(const Frame& f, const Vec3& d) {
+TubeFrame turned(const TubeFrame& f, const Vec3& d) {
     const Vec3 up = f.up - (f.d + d) * (dot(f.up, d) / (1 + dot(f.d, d)));
     return {d, normalised(up - d * dot(up, d))};
 }
@@ -79,7 +79,7 @@ class Sweep {
     }
 
     void open() {
-        Frame frame = frame_along(directions_.front());
+        TubeFrame frame = frame_along(directions_.front());
         ring(points_.front(), frame);
         for (std::size_t i = 1; i < directions_.size(); ++i) frame = corner(i, i - 1, i, frame);
         ring(points_.back(), frame);
@@ -90,10 +90,10 @@ class Sweep {
 
     void closed() {
         const std::size_t n = directions_.size();
-        const Frame start = frame_along(directions_.back());
+        const TubeFrame start = frame_along(directions_.back());
         twist_ = {1, 0};
         // Once to see how far the frame has turned about the line when it is back, and once to take that up.
-        Frame frame = start;
+        TubeFrame frame = start;
         for (std::size_t i = 0; i < n; ++i) frame = carried((i + n - 1) % n, i, frame);
         const double left = arc_tangent(dot(frame.up, start.aside()), dot(frame.up, start.up));
         const double side = 2 * pi / sides_;
@@ -113,13 +113,13 @@ class Sweep {
     }
 
     /// The offset of the section's k-th point in that frame.
-    Vec3 offset(const Frame& f, Index k) const {
+    Vec3 offset(const TubeFrame& f, Index k) const {
         const auto [c, s] = section_[k];
         const double x = c * twist_[0] - s * twist_[1], y = c * twist_[1] + s * twist_[0];
         return (f.up * x + f.aside() * y) * radius_;
     }
 
-    void ring(const Vec3& centre, const Frame& f) {
+    void ring(const Vec3& centre, const TubeFrame& f) {
         for (Index k = 0; k < sides_; ++k) r.mesh.positions.push_back(centre + offset(f, k));
         ++rings_;
     }
@@ -132,18 +132,18 @@ class Sweep {
     }
 
     /// The frame behind a corner.
-    Frame carried(std::size_t before, std::size_t after, const Frame& f) const {
+    TubeFrame carried(std::size_t before, std::size_t after, const TubeFrame& f) const {
         const Vec3 &from = directions_[before], &to = directions_[after];
         if (dot(from, to) > -0.5) return turned(f, to);
-        Frame done = f;
+        TubeFrame done = f;
         for (const Vec3& d : directions_between(from, to, f.up)) done = turned(done, d);
         return done;
     }
 
-    Frame corner(std::size_t i, std::size_t before, std::size_t after, const Frame& f) {
+    TubeFrame corner(std::size_t i, std::size_t before, std::size_t after, const TubeFrame& f) {
         const Vec3 &from = directions_[before], &to = directions_[after], &at = points_[i];
         const double half = std::sqrt(std::max(0.0, (1 + dot(from, to)) / 2)); // cosine of half the turn
-        const Frame behind = carried(before, after, f);
+        const TubeFrame behind = carried(before, after, f);
         if (has_room(before, after, half)) {
             const Vec3 across = normalised(from + to); // normal of the plane that halves the angle
             for (Index k = 0; k < sides_; ++k) {
@@ -155,7 +155,7 @@ class Sweep {
         }
         ++r.sharp;
         ring(at, f);
-        Frame g = f;
+        TubeFrame g = f;
         for (const Vec3& d : directions_between(from, to, f.up)) {
             g = turned(g, d);
             ring(at, g);
