@@ -13,7 +13,8 @@ namespace facetmill::polygon {
 
 namespace {
 
-/// Integrals over a ring, about a point of reference: Bourke's sums, with their factors.
+/// Integrals over a ring, about a point of reference: the sums of P. Bourke, "Calculating the area and
+/// centroid of a polygon" (1988), with their factors.
 struct Integrals {
     double one = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
 

@@ -63,7 +63,8 @@ struct Moments {
 };
 
 /// Of a polygon with holes by orientation, summed over its rings; when the sum is clockwise all signs are
-/// turned, as Bourke asks. None when the area is zero. The rings must not cross themselves: see classify.
+/// turned, as P. Bourke, "Calculating the area and centroid of a polygon" (1988), requires. None when the
+/// area is zero. The rings must not cross themselves: see classify.
 std::optional<Moments> moments(Rings rings);
 std::optional<Moments> moments(Ring ring);
 

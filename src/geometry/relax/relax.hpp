@@ -8,7 +8,7 @@ namespace facetmill {
 
 struct RelaxSettings {
     enum class Method {
-        laplacian, ///< Bourke's: towards the mean of the neighbours
+        laplacian, ///< towards the mean of the neighbours
         taubin,    ///< a step in and a step out: shrinks hardly
         cotangent, ///< towards the mean weighted by the angles: vertices do not drift along the surface
         implicit,  ///< one linear system per iteration: any lambda is stable

@@ -418,7 +418,7 @@ Attempt collapse(State& s, Index c, Around& around, Pricer& pricer, Tally& tally
     Collapse edit(s, around);
     const bool held = s.limits && !(p.error < std::min((*s.limits)[a], (*s.limits)[b]));
     auto why = held ? blocked_border : edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge);
-    if (!why && p.error > s.ceiling) why = blocked_error;
+    if (!why && p.error > s.max_squared_error) why = blocked_error;
     if (why == outside) return Attempt::outside;
     if (why) {
         s.flags[c] |= why;

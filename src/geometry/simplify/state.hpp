@@ -122,7 +122,7 @@ struct State : Shape {
     std::optional<std::vector<FineQuadric>> fine;     ///< [vertices] the same; where much is nearly flat
     std::optional<AttributeError> attributes;         ///< none: they weigh nothing
     std::optional<std::vector<float>> limits; ///< [vertices] squared error that a collapse there stays below
-    double ceiling = HUGE_VAL;                ///< squared error beyond which no collapse goes
+    double max_squared_error = HUGE_VAL;      ///< squared error beyond which no collapse goes
     std::optional<FollowedPoints> followed;   ///< with max_error
     std::optional<Log> log;                   ///< when attributes or a rollback need it
     /// [wedges] with coincident borders: the vertex that each wedge was at before they were joined. Two sides

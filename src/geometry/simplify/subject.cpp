@@ -67,8 +67,8 @@ State Subject::state(bool rollback, const std::vector<float>* limits) {
     s.rules = {.endpoints = settings_.method == Method::quadric_endpoints,
                .changes_topology = settings_.topology == SimplifySettings::Topology::allow};
     if (settings_.max_quadric_error && s.quadrics) {
-        const double ceiling = *settings_.max_quadric_error * s.frame.scale;
-        s.ceiling = ceiling * ceiling;
+        const double max_error = *settings_.max_quadric_error * s.frame.scale;
+        s.max_squared_error = max_error * max_error;
     }
     if (rollback || carries_attributes(mesh())) s.log.emplace().features = feature_corners(s);
     if (limits) {

@@ -24,7 +24,7 @@ void check_weights(const AttributeWeights& w) {
             refuse("weights are at least 0, not " + to_string(weight));
 }
 
-void check_ceiling(const SimplifySettings& s) {
+void check_max_quadric_error(const SimplifySettings& s) {
     if (s.max_quadric_error && !(*s.max_quadric_error > 0))
         refuse("max_quadric_error is above 0, not " + to_string(*s.max_quadric_error));
 }
@@ -49,7 +49,7 @@ void check(const SimplifySettings& s) {
     if (s.topology == SimplifySettings::Topology::allow && s.method == Method::constrained)
         refuse("constrained keeps the topology");
     if (s.method == Method::cluster) check_cluster(s);
-    check_ceiling(s);
+    check_max_quadric_error(s);
     check_weights(s.weights);
 }
 
@@ -62,7 +62,7 @@ void check_levels(const SimplifySettings& s) {
     if (s.ratio || s.faces || s.vertices || s.max_error) refuse("levels are targets of their own");
     for (const double ratio : s.levels) check_ratio(ratio);
     if (!std::is_sorted(s.levels.rbegin(), s.levels.rend())) refuse("levels go from fine to coarse");
-    check_ceiling(s);
+    check_max_quadric_error(s);
     check_weights(s.weights);
 }
 
