@@ -2,7 +2,7 @@
 #
 #   make          build build/release/facetmill
 #   make deps     install the Debian packages that are missing (tools/deps.sh --list names them)
-#   make demo     build, then mill a real scan and say where to look
+#   make demo     build, process a real scan and say where the results are
 #   make test     build and run all tests                    (PRESET=debug, asan, tsan or ci for other builds)
 #   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
 #   make tsan     the same with ThreadSanitizer, on plain threads in the place of TBB (slow)

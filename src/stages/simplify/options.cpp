@@ -181,10 +181,10 @@ void declare_settings(Declare<SimplifySettings>& d) {
         "What is done about faces that would intersect.");
 }
 
-/// Adds a problem for an option that another method, or none of the sort, has use for.
-class Together {
+/// Collects conflicts: options that only another method, or none of those given, uses.
+class Conflicts {
   public:
-    Together(const Value& given, Problems& problems) : given_(given), problems_(problems) {}
+    Conflicts(const Value& given, Problems& problems) : given_(given), problems_(problems) {}
 
     const Mark& mark(const char* name) const { return mark_at(given_, name); }
     bool has(const char* name) const { return given_.find(name); }
@@ -197,15 +197,15 @@ class Together {
     Problems& problems_;
 };
 
-void verify_levels(const SimplifyOptions& o, Together& together, const Mark& mark, Problems& problems) {
-    together.refuse(o.ratio || o.faces || o.vertices || o.max_error, "lods", "lods has its own targets",
-                    "leave out ratio, faces, vertices and max_error");
-    together.refuse(o.settings.self_intersections == Intersections::avoid, "lods",
-                    "lods cannot be combined with self_intersections: avoid",
-                    "use self_intersections: count, or one simplify stage for each level");
-    together.refuse(o.settings.method == Method::cluster, "lods",
-                    "lods needs a chain of collapses, which the method cluster does not have",
-                    "use another method, or one simplify stage for each level");
+void verify_levels(const SimplifyOptions& o, Conflicts& conflicts, const Mark& mark, Problems& problems) {
+    conflicts.refuse(o.ratio || o.faces || o.vertices || o.max_error, "lods", "lods has its own targets",
+                     "leave out ratio, faces, vertices and max_error");
+    conflicts.refuse(o.settings.self_intersections == Intersections::avoid, "lods",
+                     "lods cannot be combined with self_intersections: avoid",
+                     "use self_intersections: count, or one simplify stage for each level");
+    conflicts.refuse(o.settings.method == Method::cluster, "lods",
+                     "lods needs a chain of collapses, which the method cluster does not have",
+                     "use another method, or one simplify stage for each level");
     if (o.lods->ratios.empty())
         problems.add(mark, "E-RANGE", "simplify: lods: at least one ratio", "for example [100%, 50%, 10%]");
     for (std::size_t i = 0; i < o.lods->ratios.size(); ++i) {
@@ -257,37 +257,37 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
 }
 
 void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems) {
-    Together together(given, problems);
+    Conflicts conflicts(given, problems);
     const bool constrained = o.settings.method == Method::constrained,
                cluster = o.settings.method == Method::cluster;
     const bool locks = o.lock.boundary || o.lock.seams || o.lock.group || o.lock.box;
-    together.refuse(constrained && o.max_error, "max_error", "constrained takes no max_error",
-                    "use constraints: {hausdorff: 0.1%} to limit the error");
-    together.refuse(constrained && o.lods, "lods", "constrained takes no lods",
-                    "use another method, or one simplify stage for each level");
-    together.refuse(constrained && o.settings.topology == Topology::allow, "topology",
-                    "constrained keeps the topology", "use the method quadric");
-    together.refuse(cluster && locks, "lock", "cluster cannot lock vertices", "use the method quadric");
-    together.refuse(cluster && o.settings.self_intersections == Intersections::avoid, "self_intersections",
-                    "cluster cannot avoid self-intersections", "count them, or use the method quadric");
-    together.refuse(!constrained && together.has("constraints"), "constraints",
-                    "constraints go with the method constrained only", "method: constrained");
-    together.refuse(!has_quadrics(o) && together.has("weights"), "weights",
-                    "weights go with the methods quadric and quadric-endpoints only",
-                    "method: quadric, which is the default");
-    const bool limited = o.max_quadric_error && together.has("max_quadric_error");
-    together.refuse(!has_quadrics(o) && limited, "max_quadric_error",
-                    "max_quadric_error goes with the methods quadric and quadric-endpoints only",
-                    "method: quadric, which is the default");
-    together.refuse(o.max_error && limited, "max_quadric_error",
-                    "max_error limits the deviation already, in place of max_quadric_error",
-                    "leave out one of the two");
-    together.refuse((constrained || cluster) && together.has("share") &&
-                        o.share == SimplifyOptions::Share::error,
-                    "share", "cluster and constrained have no cost that parts could share by",
-                    "share: equal, or the method quadric");
-    if (o.lock.box) verify_box(*o.lock.box, together.mark("lock"), problems);
-    if (o.lods) verify_levels(o, together, together.mark("lods"), problems);
+    conflicts.refuse(constrained && o.max_error, "max_error", "constrained takes no max_error",
+                     "use constraints: {hausdorff: 0.1%} to limit the error");
+    conflicts.refuse(constrained && o.lods, "lods", "constrained takes no lods",
+                     "use another method, or one simplify stage for each level");
+    conflicts.refuse(constrained && o.settings.topology == Topology::allow, "topology",
+                     "constrained keeps the topology", "use the method quadric");
+    conflicts.refuse(cluster && locks, "lock", "cluster cannot lock vertices", "use the method quadric");
+    conflicts.refuse(cluster && o.settings.self_intersections == Intersections::avoid, "self_intersections",
+                     "cluster cannot avoid self-intersections", "count them, or use the method quadric");
+    conflicts.refuse(!constrained && conflicts.has("constraints"), "constraints",
+                     "constraints go with the method constrained only", "method: constrained");
+    conflicts.refuse(!has_quadrics(o) && conflicts.has("weights"), "weights",
+                     "weights go with the methods quadric and quadric-endpoints only",
+                     "method: quadric, which is the default");
+    const bool limited = o.max_quadric_error && conflicts.has("max_quadric_error");
+    conflicts.refuse(!has_quadrics(o) && limited, "max_quadric_error",
+                     "max_quadric_error goes with the methods quadric and quadric-endpoints only",
+                     "method: quadric, which is the default");
+    conflicts.refuse(o.max_error && limited, "max_quadric_error",
+                     "max_error limits the deviation already, in place of max_quadric_error",
+                     "leave out one of the two");
+    conflicts.refuse((constrained || cluster) && conflicts.has("share") &&
+                         o.share == SimplifyOptions::Share::error,
+                     "share", "cluster and constrained have no cost that parts could share by",
+                     "share: equal, or the method quadric");
+    if (o.lock.box) verify_box(*o.lock.box, conflicts.mark("lock"), problems);
+    if (o.lods) verify_levels(o, conflicts, conflicts.mark("lods"), problems);
 }
 
 SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to_world,
