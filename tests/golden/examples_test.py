@@ -177,7 +177,7 @@ exec "{executable}" "$@"
         path.write_text(text.replace(old, new))
 
     def due(self, folder, command, good=True):
-        """Which scans are milled."""
+        """Which scans are processed."""
         (self.dir / "runs").write_text("")
         run = subprocess.run(command, cwd=self.dir / "examples" / folder, env=self.env, capture_output=True, text=True, timeout=900)
         self.said = run.stdout + run.stderr

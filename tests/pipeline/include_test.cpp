@@ -88,7 +88,7 @@ TEST_CASE("what is wrong with an include is said at its place", "[pipeline]") {
     has("  - include: needs.yaml\n    with: {k: 10%, kk: 1}\n", "what is included has no parameter 'kk'");
     has("  - include: list.yaml\n", "list.yaml:1:1: error[E-TYPE]");
     has("  - include: broken.yaml\n", "broken.yaml:");
-    has("  - include: needs.yaml\n    when: true\n", "'when' is no key of an item");
+    has("  - include: needs.yaml\n    when: true\n", "'when' is not a key of an item");
     CHECK_THROWS_AS(problems_in(folder, "  - include: gone.yaml\n"), Error);
 }
 

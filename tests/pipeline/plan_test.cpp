@@ -89,11 +89,11 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "    - test-cut: ...\n"
          "    - test-warn: ..."},
         {stages("  - test-cut:\n    cap: true\n"),
-         "p.yaml:5:5: error[E-KEY]: 'cap' is no key of an item\n"
+         "p.yaml:5:5: error[E-KEY]: 'cap' is not a key of an item\n"
          "      cap: true\n"
          "      ^~~\n"
          "  hint: it is an option of test-cut: write test-cut: {cap: ...}, or indent it more"},
-        {stages("  - test-cut: 3\n    ony: a\n"), "p.yaml:5:5: error[E-KEY]: 'ony' is no key of an item\n"
+        {stages("  - test-cut: 3\n    ony: a\n"), "p.yaml:5:5: error[E-KEY]: 'ony' is not a key of an item\n"
                                                   "      ony: a\n"
                                                   "      ^~~\n"
                                                   "  hint: did you mean 'only'?"},
@@ -205,7 +205,7 @@ TEST_CASE("all errors are reported at once", "[pipeline]") {
     for (const char* id :
          {"[E-STAGE]: there is no stage 'test-cot'", "[E-KEY]: test-cut has no option 'capp'",
           "[E-TYPE]: expected an integer, found 'x'", "[E-TYPE]: expected an integer, found 'three'",
-          "[E-KEY]: 'ony' is no key of an item", "[E-MISSING]: test-write: 'path' is needed"})
+          "[E-KEY]: 'ony' is not a key of an item", "[E-MISSING]: test-write: 'path' is needed"})
         CHECK(problems.find(id) != std::string::npos);
 }
 
@@ -409,7 +409,7 @@ TEST_CASE("limits that a param's type does not have, or that nothing meets, are 
         return all.substr(0, all.find('\n'));
     };
     CHECK(problem("{type: number, choices: [1, 2], default: 1}") ==
-          "p.yaml:2:28: error[E-PARAM]: 'q' has choices, but is no choice");
+          "p.yaml:2:28: error[E-PARAM]: 'q' has choices, but its type is not choice");
     CHECK(problem("{type: text, min: 2, default: a}") ==
           "p.yaml:2:26: error[E-PARAM]: 'q' has no order that min could limit");
     CHECK(problem("{type: integer, min: 5, max: 2, default: 3}") ==

@@ -136,7 +136,7 @@ TEST_CASE("crumple: octaves go with a frequency, and refusals speak of crumple",
     const Value avoid = options({{"grid", "9000"}, {"self_intersections", "avoid"}});
     CHECK(test::failure([&] {
               run_stage("crumple", avoid, scene_of(shapes::icosphere(2)));
-          }).starts_with("limit [E-MEMORY] crumple: keeping "));
+          }).starts_with("limit [E-MEMORY] crumple: avoiding intersections of "));
 }
 
 TEST_CASE("crumple: an amplitude beyond the edges is warned of, with a hint", "[stages]") {

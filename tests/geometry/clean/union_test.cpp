@@ -351,7 +351,7 @@ TEST_CASE("clean looks for crossings only where few boxes meet, and says so", "[
         const CleanResult r = clean(bars, s);
         CHECK(test::same_mesh(r.mesh, bars));
         REQUIRE(r.not_done.size() == 1);
-        CHECK(says(r.not_done[0].why, "the boxes of more than 30720 pairs of its 960 faces meet"));
+        CHECK(says(r.not_done[0].why, "the bounding boxes of more than 30720 pairs of its 960 faces meet"));
         if (threads == 1) told = r.not_done;
         CHECK(r.not_done == told);
     }
