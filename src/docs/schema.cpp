@@ -86,7 +86,7 @@ Json foreach_step() {
 
 Json include_step() {
     return {{"title", "include"},
-            {"description", "The stages of another file in this place."},
+            {"description", "The stages of another file, in place of this item."},
             {"type", "object"},
             {"required", Json::array({"include"})},
             {"properties",

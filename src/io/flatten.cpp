@@ -34,7 +34,7 @@ void leave_documents(Written& written, const Scene& scene, const char* format) {
         if (!json.is_object()) continue;
         const auto leave = [&](const std::string& what) {
             written.changes.push_back({what, Domain::face, AttributeChange::Kind::dropped,
-                                       fmt::format("{} has no place for it", format)});
+                                       fmt::format("{} cannot represent it", format)});
         };
         for (const char* what : {"textures", "skins", "animations", "cameras"})
             if (const auto at = json.find(what); at != json.end() && at->is_array() && !at->empty())

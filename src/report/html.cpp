@@ -58,7 +58,7 @@ std::string pictures(const RunRecord& record) {
         const std::string caption =
             failures.empty()
                 ? fmt::format("{}: {} faces", s.name, count(s.after, "faces"))
-                : fmt::format("{}: where {} did not hold; on the right the first place, magnified", s.name,
+                : fmt::format("{}: where {} did not hold; on the right the first location, magnified", s.name,
                               failures);
         figures += fmt::format("<figure{2}><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"
                                "<figcaption>{0}</figcaption></figure>\n",

@@ -128,9 +128,9 @@ TEST_CASE("write says of vertices that the format makes one that it does", "[sta
     b.scene.unit = Unit::m;
     b.scene.up = UpAxis::y;
     b.scene.parts.emplace_back().mesh = touching_cubes();
-    CHECK(told_of(b, Value::scalar("c.stl")) ==
-          "stl has no shared vertices, so corners at the same place are one when it is read (2 fewer): write "
-          "PLY, OBJ or OFF");
+    CHECK(told_of(b, Value::scalar("c.stl")) == "stl has no shared vertices, so corners at the same position "
+                                                "are one when it is read (2 fewer): write "
+                                                "PLY, OBJ or OFF");
     b.record.warnings.clear();
     CHECK(told_of(b, Value::scalar("c.glb")) ==
           "vertices of glb at the same position are merged when it is read (2 fewer): mesh_manifold: true, "

@@ -273,7 +273,7 @@ Index MaterialMaker::index_of(const std::string& name, bool textured, std::vecto
     std::sort(lost.begin(), lost.end());
     lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
     if (!lost.empty() && !known_.count({name, !textured}))
-        warn(name, fmt::format("glTF has no place for {}", fmt::join(lost, ", ")));
+        warn(name, fmt::format("glTF cannot represent {}", fmt::join(lost, ", ")));
     return at->second;
 }
 

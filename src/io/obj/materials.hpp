@@ -34,7 +34,7 @@ struct Description {
     std::optional<int> illumination;                       ///< illum
     double opacity = 1;                                    ///< d, or 1 - Tr
     std::map<std::string, Map> maps;                       ///< by their word, "map_Kd" as "kd"
-    std::vector<std::string> left_out;                     ///< words and options that glTF has no place for
+    std::vector<std::string> left_out;                     ///< words and options that glTF cannot represent
 };
 
 /// The materials of all libraries that the events name, by name. What cannot be read is a warning (W-MTL):

@@ -206,7 +206,7 @@ void tell_what_is_lost(const Mesh& mesh, Written& written) {
             std::find_if(written.changes.begin(), written.changes.end(), [&](const AttributeChange& f) {
                 return f.attribute == a.name && f.domain == a.domain;
             }) == written.changes.end())
-            dropped(written, a, "OBJ has no place for it");
+            dropped(written, a, "OBJ cannot represent it");
     }
 }
 

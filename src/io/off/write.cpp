@@ -110,7 +110,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         if (&a != colour && &a != face_colour && &a != normal)
             dropped(written, a,
                     a.name == "NORMAL" ? "OFF has one normal at a vertex, and seams need several"
-                                       : "OFF has no place for it");
+                                       : "OFF cannot represent it");
     if (rows.split)
         written.changes.push_back(
             {"vertices", Domain::vertex, AttributeChange::Kind::recomputed,

@@ -20,7 +20,7 @@ std::vector<Reason> reasons(const SimplifyResult::Blocked& b) {
     return {{b.seams, "held by seams and by borders of materials and groups",
              "texture islands, materials and groups keep their borders: fewer of them allow more collapses"},
             {b.borders, "by boundaries and locks", "ask for more faces, or lock less"},
-            {b.non_manifold, "at places that are not manifold", "use clean before simplify to repair them"},
+            {b.non_manifold, "at non-manifold regions", "use clean before simplify to repair them"},
             {b.topology, "by topology", "topology: allow lets small components, holes and handles vanish"},
             {b.flips, "would flip a face", "ask for more faces"},
             {b.error, "by max_quadric_error", "a larger max_quadric_error, or off"}};

@@ -46,9 +46,10 @@ std::string reason(const io::ReadBack& back, const io::Codec& codec, const io::W
                                       "vertices were added: write OBJ or glTF, or weld after loading (clean)",
                                       codec.name, changes.added));
     if (changes.merged > 0 && !codec.can.shares_vertices)
-        reasons.push_back(fmt::format("{} has no shared vertices, so corners at the same place are one when "
-                                      "it is read ({} fewer): write PLY, OBJ or OFF",
-                                      codec.name, changes.merged));
+        reasons.push_back(
+            fmt::format("{} has no shared vertices, so corners at the same position are one when "
+                        "it is read ({} fewer): write PLY, OBJ or OFF",
+                        codec.name, changes.merged));
     else if (changes.merged > 0)
         reasons.push_back(
             fmt::format("vertices of {} at the same position are merged when it is read ({} fewer): {}write "

@@ -124,7 +124,7 @@ TEST_CASE("options of MTL textures are kept", "[io]") {
         all["samplers"][all["textures"][texture["index"].get<std::size_t>()]["sampler"].get<std::size_t>()];
     CHECK(sampler["wrapS"] == 33071);
     CHECK(all["extensionsUsed"] == Json::array({"KHR_texture_transform"}));
-    CHECK(loaded.warnings() == "W-MTL material 'm': glTF has no place for -mm\n");
+    CHECK(loaded.warnings() == "W-MTL material 'm': glTF cannot represent -mm\n");
 }
 
 TEST_CASE("opacity, roughness, metalness and relief go where glTF has them", "[io]") {
