@@ -40,7 +40,7 @@ void warn_of_tangles(const CrumpledPart& part, double amplitude, Context& contex
 void warn_of_rounding(const CrumpledPart& part, const CrumpleMoves& moves, double amplitude,
                       Context& context);
 /// Warns when shares were lowered in large steps to bound the work.
-void warn_of_hurry(const AvoidResult& r, Context& context);
+void warn_of_coarse_steps(const AvoidResult& r, Context& context);
 /// Warns of concave quads, which cannot be split n x n without folds.
 void warn_of_folds(const CrumpledPart& part, Context& context);
 /// Warns when parts are so near each other that their faces may have come to meet.

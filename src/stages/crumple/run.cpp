@@ -51,7 +51,7 @@ void move(std::vector<CrumpledPart>& works, std::vector<CrumpleSheet>& sheets, c
         const bool forbid = o.self_intersections == Intersections::forbid;
         const AvoidResult r = avoid_intersections(sheets, forbid);
         if (r.left > 0) refuse_intersections(r, works, o.grid);
-        warn_of_hurry(r, context);
+        warn_of_coarse_steps(r, context);
         report.self_intersections = r;
         return;
     }
