@@ -195,12 +195,22 @@ class Parser {
     Value step() {
         const std::string name = all_[at_];
         const Mark where = mark();
-        if (name == "foreach") return foreach_step(where);
-        if (name == "branch") return branch_step(where);
-        if (name == "include") return include_step(where);
+        if (const ControlItem* control = control_item(name)) return control_step(control->kind, where);
         if (is_option(name) || is_bracket(name)) wrong(fmt::format("expected a stage, found '{}'", name));
         ++at_;
         return stage_step(name, where);
+    }
+
+    Value control_step(ControlItem::Kind kind, const Mark& where) {
+        switch (kind) {
+        case ControlItem::Kind::branch:
+            return branch_step(where);
+        case ControlItem::Kind::foreach:
+            return foreach_step(where);
+        case ControlItem::Kind::include:
+            break;
+        }
+        return include_step(where);
     }
 
     Value stage_step(const std::string& name, const Mark& where) {

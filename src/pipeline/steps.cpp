@@ -146,7 +146,8 @@ void Planner::step(const Value& item, const Scope& scope, const Position& positi
         has_scene = true; // it may have been the load; do not complain of what follows
         return;
     }
-    if (entry->key == "include") {
+    const ControlItem* control = control_item(entry->key);
+    if (control && control->kind == ControlItem::Kind::include) {
         for (auto& one : include(as_map, *entry, scope, position, has_scene)) steps.push_back(std::move(one));
         return;
     }
@@ -156,12 +157,12 @@ void Planner::step(const Value& item, const Scope& scope, const Position& positi
     common_keys(step, as_map, scope, entry->key, position);
     const bool auto_named = step.name == position.prefix + entry->key;
     const Position inner{step.path + "." + entry->key, auto_named ? position.prefix : step.name + "/"};
-    if (entry->key == "branch")
-        plan_branch(step, *entry, scope, inner, has_scene);
-    else if (entry->key == "foreach")
-        plan_foreach(step, as_map, *entry, scope, inner, has_scene);
-    else
+    if (!control)
         plan_stage(step, *entry, scope, has_scene);
+    else if (control->kind == ControlItem::Kind::branch)
+        plan_branch(step, *entry, scope, inner, has_scene);
+    else
+        plan_foreach(step, as_map, *entry, scope, inner, has_scene);
     if (const Value* join = as_map.find("join"); join && step.kind != Step::Kind::stage) {
         OptionType<bool>::parse(resolved(*join, scope, problems_), step.join, problems_);
         has_scene = has_scene || step.join;

@@ -34,9 +34,9 @@ bool is_common_key(std::string_view name) {
 
 const std::vector<ControlItem>& control_items() {
     static const std::vector<ControlItem> items{
-        {"branch", "Runs several lists of stages on the same scene", {"join"}},
-        {"foreach", "Runs stages for each of some values", {"join", "do"}},
-        {"include", "Runs the stages of another file", {"with"}, false},
+        {ControlItem::Kind::branch, "branch", "Runs several lists of stages on the same scene", {"join"}},
+        {ControlItem::Kind::foreach, "foreach", "Runs stages for each of some values", {"join", "do"}},
+        {ControlItem::Kind::include, "include", "Runs the stages of another file", {"with"}, false},
     };
     return items;
 }

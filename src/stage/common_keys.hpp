@@ -25,6 +25,8 @@ bool is_common_key(std::string_view name);
 
 /// An item of a list of stages that is no stage: it has stages inside.
 struct ControlItem {
+    enum class Kind { branch, foreach, include };
+    Kind kind;
     std::string name, about;
     std::vector<std::string> keys; ///< that belong beside it
     bool takes_common_keys = true;
