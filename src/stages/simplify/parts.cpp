@@ -6,14 +6,15 @@
 #include "mesh/equal_meshes.hpp"
 #include "mesh/placement.hpp"
 #include "mesh/power_scale.hpp"
+#include "mesh/surface.hpp"
 #include "mesh/transform.hpp"
 #include "stages/simplify/report.hpp"
-#include "stages/simplify/samples.hpp"
 
 #include <array>
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <span>
 
 namespace facetmill::simplify_stage {
 
@@ -55,6 +56,42 @@ double rounded_scale(double scale) {
     int exponent = 0;
     const double mantissa = std::frexp(scale, &exponent);
     return std::ldexp(std::round(std::ldexp(mantissa, 20)), exponent - 20);
+}
+
+/// What a part's share of the samples depends on.
+struct SampledSize {
+    double area = 0;
+    std::size_t triangles = 0;
+};
+
+SampledSize sampled_size(const Surface& surface) {
+    SampledSize size{0, surface.size()};
+    for (std::size_t t = 0; t < surface.size(); ++t) {
+        const Vec3& a = surface.point(t, 0);
+        const double area = length(cross(surface.point(t, 1) - a, surface.point(t, 2) - a)) / 2;
+        if (std::isfinite(area)) size.area += area;
+    }
+    return size;
+}
+
+/// Samples of parts that are measured one by one, so that all together have `all`: half of them go by area,
+/// half by the number of triangles (all of them where there is no finite area), rounded up. A single part has
+/// all.
+std::vector<std::size_t> shared_samples(std::size_t all, std::span<const SampledSize> parts) {
+    double area = 0;
+    double triangles = 0;
+    for (const auto& part : parts) {
+        area += part.area;
+        triangles += static_cast<double>(part.triangles);
+    }
+    const bool by_area = area > 0 && std::isfinite(area);
+    std::vector<std::size_t> shares;
+    for (const auto& part : parts) {
+        double share = triangles > 0 ? static_cast<double>(part.triangles) / triangles : 0;
+        if (by_area) share = share / 2 + part.area / area / 2;
+        shares.push_back(static_cast<std::size_t>(std::ceil(share * static_cast<double>(all))));
+    }
+    return shares;
 }
 
 /// A part as it came, as far as the report compares with it.
