@@ -38,14 +38,4 @@ std::string readable(const Vec3& point) {
     return fmt::format("{} {} {}", readable(point.x), readable(point.y), readable(point.z));
 }
 
-std::string join_texts(const std::vector<std::string>& texts, std::string_view between) {
-    std::string all;
-    for (const auto& text : texts) {
-        if (text.empty()) continue;
-        if (!all.empty()) all += between;
-        all += text;
-    }
-    return all;
-}
-
 } // namespace facetmill

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace facetmill {
 
@@ -23,7 +21,5 @@ template <class T>
 std::string readable(const std::optional<T>& value) {
     return value ? readable(*value) : "-";
 }
-/// Those that are not empty, one after the other.
-std::string join_texts(const std::vector<std::string>& texts, std::string_view between = ", ");
 
 } // namespace facetmill

@@ -1,6 +1,37 @@
 #include "base/words.hpp"
 
+#include <algorithm>
+
 namespace facetmill {
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blanks = " \t";
+    text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+    return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
+
+std::vector<std::string_view> split_at_commas(std::string_view text) {
+    std::vector<std::string_view> items;
+    if (trimmed(text).empty()) return items;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        items.push_back(trimmed(text.substr(at, end - at)));
+        at = end + 1;
+    }
+    return items;
+}
+
+void append_item(std::string& list, std::string_view item, std::string_view between) {
+    if (item.empty()) return;
+    if (!list.empty()) list += between;
+    list += item;
+}
+
+std::string join_texts(const std::vector<std::string>& texts, std::string_view between) {
+    std::string all;
+    for (const auto& text : texts) append_item(all, text, between);
+    return all;
+}
 
 std::size_t utf8_length(std::string_view text, std::size_t i) {
     const auto byte = [&](std::size_t k) {

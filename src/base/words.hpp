@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace facetmill {
 
@@ -24,6 +25,20 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
     constexpr std::string_view mark = "\xEF\xBB\xBF";
     return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
+
+/// The text without spaces and tabs at its ends.
+std::string_view trimmed(std::string_view text);
+
+/// What stands between commas, without blanks around it: "a, b" is a and b. Two commas have an empty item
+/// between them, as have a comma and an end, so that who reads the items can refuse it; a blank text has
+/// none.
+std::vector<std::string_view> split_at_commas(std::string_view text);
+
+/// Adds an item to a list in text; an empty one adds nothing.
+void append_item(std::string& list, std::string_view item, std::string_view between = ", ");
+
+/// The items that are not empty, one after the other.
+std::string join_texts(const std::vector<std::string>& texts, std::string_view between = ", ");
 
 /// Bytes of the UTF-8 sequence at i; 0 when it is none (cut short, overlong, a surrogate, beyond U+10FFFF).
 std::size_t utf8_length(std::string_view text, std::size_t i);

@@ -1,6 +1,7 @@
 #include "cli/arguments.hpp"
 
 #include "base/numbers.hpp"
+#include "base/words.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -10,16 +11,6 @@
 namespace facetmill::cli {
 
 namespace {
-
-std::vector<std::string> split_names(const std::string& names) {
-    std::vector<std::string> all;
-    for (std::size_t at = 0; at <= names.size();) {
-        const auto end = std::min(names.find(',', at), names.size());
-        all.push_back(names.substr(at, end - at));
-        at = end + 1;
-    }
-    return all;
-}
 
 /// What is wrong with a number that must be 0 or more, or nothing.
 std::string negative(const std::string& text) {
@@ -69,14 +60,14 @@ Argument& Arguments::add(std::string names, Argument::Target target, std::string
 std::vector<std::string> Arguments::long_names() const {
     std::vector<std::string> names{"help"};
     for (const auto& a : all_)
-        for (const auto& name : split_names(a.names))
-            if (name.starts_with("--")) names.push_back(name.substr(2));
+        for (const auto name : split_at_commas(a.names))
+            if (name.starts_with("--")) names.emplace_back(name.substr(2));
     return names;
 }
 
 const Argument* Arguments::find(const std::string& name) const {
     for (const auto& a : all_)
-        for (const auto& known : split_names(a.names))
+        for (const auto known : split_at_commas(a.names))
             if (known == name) return &a;
     return nullptr;
 }

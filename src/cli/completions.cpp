@@ -1,6 +1,7 @@
 // facetmill completions: what a shell offers while a command is typed, from the declarations.
 
 #include "base/message_ids.hpp"
+#include "base/words.hpp"
 #include "cli/command.hpp"
 #include "cli/completion_scripts.hpp"
 #include "docs/describe.hpp"
@@ -74,13 +75,10 @@ void add_command(const Command& command, Tables& tables) {
             tables.emplace_back("values " + owner + " ", values_of_command(command.name, argument));
             continue;
         }
-        for (std::size_t at = 0; at < argument.names.size();) {
-            const std::size_t end = std::min(argument.names.find(',', at), argument.names.size());
-            const std::string name = argument.names.substr(at, end - at);
-            if (name.starts_with("--")) options.push_back({name, brief_help(argument.help)});
+        for (const auto name : split_at_commas(argument.names)) {
+            if (name.starts_with("--")) options.push_back({std::string(name), brief_help(argument.help)});
             if (!argument.choices.empty())
                 tables.emplace_back(fmt::format("values {} {}", owner, name), plain(argument.choices));
-            at = end + 1;
         }
     }
     if (command.rest_is_stages) tables.emplace_back("values " + owner + " ", stage_words());

@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "geometry/inspect/inspect.hpp"
+#include "options/lists.hpp"
 #include "pipeline/document.hpp"
 #include "stage/common_keys.hpp"
 #include "stage/stage.hpp"
@@ -40,17 +41,9 @@ Value scalar(const std::string& text, const Mark& mark) {
 }
 
 /// "1,2,3", or "[1, 2, 3]" as help shows it.
-Value split(std::string text, const Mark& mark) {
-    if (text.starts_with('[') && text.ends_with(']') && text.find('[', 1) == text.npos) {
-        text = text.substr(1, text.size() - 2);
-        std::erase(text, ' ');
-    }
-    Value list = Value::list({}, mark);
-    for (std::size_t at = 0; at <= text.size();) {
-        const auto end = std::min(text.find(',', at), text.size());
-        list.items.push_back(scalar(text.substr(at, end - at), mark));
-        at = end + 1;
-    }
+Value split(const std::string& text, const Mark& mark) {
+    Value list = list_of_words(text, mark);
+    for (Value& item : list.items) item = scalar(item.text, mark);
     return list;
 }
 

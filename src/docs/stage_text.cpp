@@ -1,3 +1,4 @@
+#include "base/words.hpp"
 #include "docs/describe.hpp"
 #include "docs/stages.hpp"
 #include "stage/common_keys.hpp"
@@ -29,7 +30,7 @@ std::string option_text(const OptionRow& row) {
 
 std::string common_names() {
     std::string names;
-    for (const auto& key : common_keys()) names += (names.empty() ? "" : ", ") + key.name;
+    for (const auto& key : common_keys()) append_item(names, key.name);
     return names;
 }
 

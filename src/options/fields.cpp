@@ -1,6 +1,7 @@
 #include "options/fields.hpp"
 
 #include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ std::string tally(const Field& list, const void* record) {
         if (sum == 0) continue;
         std::string words = field.name;
         std::replace(words.begin(), words.end(), '_', ' ');
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", words, grouped(sum));
+        append_item(text, fmt::format("{} {}", words, grouped(sum)));
     }
     return text.empty() ? *list.nothing_counted : text;
 }
@@ -44,7 +45,7 @@ std::string tally(const Field& list, const void* record) {
 void add_phrases(const Fields& fields, const void* record, std::string& line) {
     for (const Field& field : fields.all) {
         if (field.phrase && field.name != fields.heading)
-            if (const auto phrase = field.phrase(record)) line += (line.empty() ? "" : ", ") + *phrase;
+            if (const auto phrase = field.phrase(record)) append_item(line, *phrase);
         if (field.fields && !field.is_list)
             field.each(record, [&](const void* object) { add_phrases(*field.fields, object, line); });
     }

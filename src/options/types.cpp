@@ -3,6 +3,7 @@
 #include "base/numbers.hpp"
 #include "base/portable_math.hpp"
 #include "base/spelling.hpp"
+#include "options/lists.hpp"
 
 #include <array>
 #include <cmath>
@@ -228,18 +229,10 @@ std::optional<double> OptionType<Angle>::magnitude(const Angle& value) { return 
 bool OptionType<Vec3>::parse(const Value& value, Vec3& out, Problems& problems) {
     if (value.deferred) return true;
     const std::string expected = "three numbers ([0, 0, 1])";
-    if (value.is_scalar()) { // "0,0,1", as the one-liner writes it
-        Value list = Value::list({}, value.mark);
-        for (std::size_t at = 0; at <= value.text.size();) {
-            const auto end = std::min(value.text.find(',', at), value.text.size());
-            list.items.push_back(Value::scalar(value.text.substr(at, end - at), value.mark));
-            at = end + 1;
-        }
-        return list.items.size() == 3 ? parse(list, out, problems) : wrong_type(value, expected, problems);
-    }
-    if (!value.is_list() || value.items.size() != 3) return wrong_type(value, expected, problems);
+    const Value list = listed(value); // "0,0,1", as the one-liner writes it
+    if (!list.is_list() || list.items.size() != 3) return wrong_type(value, expected, problems);
     bool good = true;
-    for (std::size_t i = 0; i < 3; ++i) good &= OptionType<double>::parse(value.items[i], out[i], problems);
+    for (std::size_t i = 0; i < 3; ++i) good &= OptionType<double>::parse(list.items[i], out[i], problems);
     return good;
 }
 std::string OptionType<Vec3>::print(const Vec3& v) {

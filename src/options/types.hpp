@@ -3,6 +3,7 @@
 // OptionType for it: the YAML parser, the one-liner, help, man page and schema follow.
 
 #include "base/json.hpp"
+#include "base/words.hpp"
 #include "options/quantities.hpp"
 #include "options/value.hpp"
 
@@ -79,7 +80,7 @@ struct OptionType<std::vector<T>> {
     }
     static std::string print(const std::vector<T>& values) {
         std::string text;
-        for (const auto& v : values) text += (text.empty() ? "" : ", ") + OptionType<T>::print(v);
+        for (const auto& v : values) append_item(text, OptionType<T>::print(v));
         return "[" + text + "]";
     }
     static Json schema() {

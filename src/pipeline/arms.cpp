@@ -1,4 +1,5 @@
 #include "base/spelling.hpp"
+#include "base/words.hpp"
 #include "pipeline/planner.hpp"
 
 #include <fmt/format.h>
@@ -95,7 +96,7 @@ std::vector<Arm> Planner::foreach_arms(const Value& variables, const Value& body
             arm.variables.emplace_back(axes[a].name, value);
             if (axes[a].over_parts && parts) arm.part = at[a];
             const std::string shown = axes[a].over_parts && parts ? safe_name(value.text) : to_string(value);
-            arm.name += fmt::format("{}{}={}", arm.name.empty() ? "" : ",", axes[a].name, shown);
+            append_item(arm.name, fmt::format("{}={}", axes[a].name, shown), ",");
         }
         bool arm_has_scene = has_scene;
         const Position place{fmt::format("{}[{}]", position.path, arms.size()),

@@ -1,3 +1,4 @@
+#include "base/words.hpp"
 #include "pipeline/document.hpp"
 #include "pipeline/params.hpp"
 #include "pipeline/plan.hpp"
@@ -15,15 +16,13 @@ std::string list_of(const std::vector<std::string>& texts) {
 
 std::string assertions_text(const Assertions& assertions) {
     std::string out;
-    for (const auto& a : assertions.all)
-        out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", a.property, to_string(a));
+    for (const auto& a : assertions.all) append_item(out, fmt::format("{}: {}", a.property, to_string(a)));
     return out;
 }
 
 std::string contract_text(const Contract& contract) {
     std::string out = assertions_text(contract.assertions);
-    if (contract.deviation)
-        out += fmt::format("{}deviation: {}", out.empty() ? "" : ", ", to_string(*contract.deviation));
+    if (contract.deviation) append_item(out, "deviation: " + to_string(*contract.deviation));
     return out;
 }
 
@@ -44,9 +43,8 @@ std::string lengths_text(const Headers& headers, const Step& step) {
     if (lengths == headers.lengths.end()) return "";
     std::string out;
     for (const auto& [option, length] : lengths->second.items())
-        out += fmt::format("{}{}: {} is {} {}", out.empty() ? "" : ", ", option,
-                           length["given"].get<std::string>(), length["is"].dump(),
-                           length["unit"].get<std::string>());
+        append_item(out, fmt::format("{}: {} is {} {}", option, length["given"].get<std::string>(),
+                                     length["is"].dump(), length["unit"].get<std::string>()));
     return fmt::format("  ({})", out);
 }
 

@@ -1,3 +1,4 @@
+#include "base/words.hpp"
 #include "pipeline/document.hpp"
 
 #include <algorithm>
@@ -58,11 +59,10 @@ std::string flow(const Value& value) {
     case Value::Kind::scalar:
         return scalar(value.text, value.quoted);
     case Value::Kind::list:
-        for (const auto& item : value.items) out += (out.empty() ? "" : ", ") + flow(item);
+        for (const auto& item : value.items) append_item(out, flow(item));
         return fmt::format("[{}]", out);
     case Value::Kind::map:
-        for (const auto& e : value.entries)
-            out += (out.empty() ? "" : ", ") + scalar(e.key, false) + ": " + flow(e.value);
+        for (const auto& e : value.entries) append_item(out, scalar(e.key, false) + ": " + flow(e.value));
         return fmt::format("{{{}}}", out);
     }
     return out;

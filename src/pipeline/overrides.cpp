@@ -1,4 +1,5 @@
 #include "base/spelling.hpp"
+#include "options/lists.hpp"
 #include "pipeline/params.hpp"
 #include "pipeline/planner.hpp"
 
@@ -8,10 +9,10 @@ namespace facetmill::pipeline {
 
 namespace {
 
-std::vector<std::string> split(const std::string& text, char separator) {
+std::vector<std::string> split_at_dots(const std::string& text) {
     std::vector<std::string> parts;
     for (std::size_t at = 0; at <= text.size();) {
-        const std::size_t end = std::min(text.size(), text.find(separator, at));
+        const std::size_t end = std::min(text.size(), text.find('.', at));
         parts.push_back(text.substr(at, end - at));
         at = end + 1;
     }
@@ -20,14 +21,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 /// "[0, 0, 1]" as a list; all else is one scalar.
 Value command_line_value(const std::string& text, const Mark& where) {
-    if (!text.starts_with('[') || !text.ends_with(']')) return Value::scalar(text, where);
-    Value list = Value::list({}, where);
-    for (auto& part : split(text.substr(1, text.size() - 2), ',')) {
-        const auto first = part.find_first_not_of(' '), last = part.find_last_not_of(' ');
-        if (first != std::string::npos)
-            list.items.push_back(Value::scalar(part.substr(first, last - first + 1), where));
-    }
-    return list;
+    const bool is_list = text.starts_with('[') && text.ends_with(']');
+    return is_list ? list_of_words(text, where) : Value::scalar(text, where);
 }
 
 } // namespace
@@ -37,7 +32,7 @@ Overrides::Overrides(const PlanSettings& settings, Problems& problems)
     for (const auto& [key, text] : settings.sets) {
         const std::string whole = fmt::format("{}={}", key, text);
         const Mark where = command_line_mark("--set", whole);
-        std::vector<std::string> path = split(key, '.');
+        std::vector<std::string> path = split_at_dots(key);
         if (path.size() < 2 || std::find(path.begin(), path.end(), "") != path.end()) {
             problems.add(where, "E-SET", fmt::format("expected stage.option=value, found '{}'", whole));
             continue;

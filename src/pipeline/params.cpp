@@ -1,6 +1,7 @@
 #include "pipeline/params.hpp"
 
 #include "base/spelling.hpp"
+#include "base/words.hpp"
 #include "io/bytes.hpp"
 #include "pipeline/document.hpp"
 
@@ -158,14 +159,9 @@ Value list_of_text(const std::string& text, const Mark& mark, Problems& problems
         list.deferred = found.any_errors();
         return list;
     }
-    for (std::size_t at = 0; !text.empty() && at <= text.size();) {
-        const std::size_t end = std::min(text.size(), text.find(',', at));
-        std::string_view one = std::string_view(text).substr(at, end - at);
-        const std::size_t blanks = std::min(one.find_first_not_of(' '), one.size());
-        one.remove_prefix(blanks);
-        while (one.ends_with(' ')) one.remove_suffix(1);
-        list.items.push_back(Value::scalar(std::string(one), mark_within(mark, one, at + blanks)));
-        at = end + 1;
+    for (const std::string_view one : split_at_commas(text)) {
+        const auto at = static_cast<std::size_t>(one.data() - text.data());
+        list.items.push_back(Value::scalar(std::string(one), mark_within(mark, one, at)));
     }
     return list;
 }

@@ -3,6 +3,7 @@
 #include "base/message_ids.hpp"
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
+#include "base/words.hpp"
 #include "io/bytes.hpp"
 #include "pipeline/document.hpp"
 #include "pipeline/params.hpp"
@@ -36,9 +37,7 @@ std::optional<Version> parse_version(std::string_view text) {
 std::optional<bool> satisfies_one(const Version& version, std::string_view comparator) {
     for (const std::string_view op : {">=", "<=", "==", ">", "<", "="}) {
         if (!comparator.starts_with(op)) continue;
-        std::string_view number = comparator.substr(op.size());
-        while (number.starts_with(' ')) number.remove_prefix(1);
-        const auto limit = parse_version(number);
+        const auto limit = parse_version(trimmed(comparator.substr(op.size())));
         if (!limit) return {};
         if (op == ">=") return version >= *limit;
         if (op == "<=") return version <= *limit;
@@ -54,16 +53,13 @@ std::optional<bool> satisfies_one(const Version& version, std::string_view compa
 std::optional<bool> satisfies(const std::string& version, const std::string& range) {
     const auto own = parse_version(version);
     if (!own) return {};
+    const auto comparators = split_at_commas(range);
+    if (comparators.empty()) return {};
     bool all = true;
-    for (std::size_t at = 0; at <= range.size();) {
-        const std::size_t end = std::min(range.size(), range.find(',', at));
-        std::string_view one = std::string_view(range).substr(at, end - at);
-        while (one.starts_with(' ')) one.remove_prefix(1);
-        while (one.ends_with(' ')) one.remove_suffix(1);
+    for (const std::string_view one : comparators) {
         const auto holds = satisfies_one(*own, one);
         if (!holds) return {};
         all = all && *holds;
-        at = end + 1;
     }
     return all;
 }

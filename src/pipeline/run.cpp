@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/point_json.hpp"
+#include "base/words.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/gltf/looks.hpp"
@@ -321,7 +322,7 @@ class Runner {
 
     static std::string names_hint(const Scene& scene) {
         std::string names;
-        for (const auto& part : scene.parts) names += (names.empty() ? "" : ", ") + part.name;
+        for (const auto& part : scene.parts) append_item(names, part.name);
         return names.empty() ? "the scene is empty" : "their names: " + names.substr(0, 300);
     }
 

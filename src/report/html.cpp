@@ -1,5 +1,6 @@
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 #include "report/check_text.hpp"
 #include "report/html_parts.hpp"
 #include "report/render.hpp"
@@ -46,7 +47,7 @@ std::string shown_failures(const RunRecord& record, const StageRecord& stage) {
     std::string names;
     for (const auto& c : record.checks)
         if (c.stage == stage.name && !failing_locations(c).empty())
-            names += fmt::format("{}'{}'", names.empty() ? "" : ", ", c.name);
+            append_item(names, fmt::format("'{}'", c.name));
     return names;
 }
 

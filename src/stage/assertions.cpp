@@ -1,6 +1,7 @@
 #include "stage/assertions.hpp"
 
 #include "base/numbers.hpp"
+#include "base/words.hpp"
 #include "report/render.hpp"
 #include "stage/context.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 std::string written(const std::vector<Length>& lengths) {
     if (lengths.size() == 1) return lengths[0].text;
     std::string text;
-    for (const Length& l : lengths) text += (text.empty() ? "" : ", ") + l.text;
+    for (const Length& l : lengths) append_item(text, l.text);
     return "[" + text + "]";
 }
 
@@ -29,7 +30,7 @@ std::string told(const std::vector<Length>& lengths, const std::vector<double>& 
                                    [](const Length& l) { return l.kind == Length::Kind::scene; });
     if (plain) return written(lengths);
     std::string text;
-    for (const double x : are) text += fmt::format("{}{:.6g}", text.empty() ? "" : ", ", x);
+    for (const double x : are) append_item(text, fmt::format("{:.6g}", x));
     return fmt::format("{} ({})", written(lengths), text);
 }
 
@@ -40,8 +41,7 @@ std::string expectation(const Property& property, const Assertion& a) {
         return std::string(property.words()[static_cast<std::size_t>(a.bound.min.value_or(0))]);
     if (property.kind == PropertyKind::box) {
         std::string text = a.min.empty() ? "" : "at least " + told(a.min, numbers(a.within.min));
-        if (!a.max.empty())
-            text += (text.empty() ? "at most " : ", at most ") + told(a.max, numbers(a.within.max));
+        if (!a.max.empty()) append_item(text, "at most " + told(a.max, numbers(a.within.max)));
         return text;
     }
     if (a.min.empty() && a.max.empty()) return expectation(a.bound);
@@ -79,7 +79,7 @@ std::string to_string(const Assertion& a) {
     if (a.min.empty() && a.max.empty()) return OptionType<Bound>::print(a.bound);
     if (same(a.min, a.max)) return written(a.min);
     std::string text = a.min.empty() ? "" : "min: " + written(a.min);
-    if (!a.max.empty()) text += (text.empty() ? "max: " : ", max: ") + written(a.max);
+    if (!a.max.empty()) append_item(text, "max: " + written(a.max));
     return "{" + text + "}";
 }
 

@@ -1,6 +1,7 @@
 // Assertions from what people write, of stage/assertions.hpp.
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
+#include "options/lists.hpp"
 #include "stage/assertions.hpp"
 #include "stage/options/convention.hpp"
 
@@ -91,15 +92,7 @@ bool read_word(const Property& property, const Value& value, Assertion& out, Pro
 /// One length, or the three of a corner: as a list, or as the one-liner writes it, "0,0,20cm".
 bool read_lengths(const Value& value, std::size_t count, std::vector<Length>& out, Problems& problems) {
     if (count == 1) return OptionType<Length>::parse(value, out.emplace_back(), problems);
-    Value list = value;
-    if (value.is_scalar()) {
-        list = Value::list({}, value.mark);
-        for (std::size_t at = 0; at <= value.text.size();) {
-            const auto end = std::min(value.text.find(',', at), value.text.size());
-            list.items.push_back(Value::scalar(value.text.substr(at, end - at), value.mark));
-            at = end + 1;
-        }
-    }
+    const Value list = listed(value);
     if (!list.is_list() || list.items.size() != count) {
         problems.add(value.mark, "E-TYPE",
                      fmt::format("expected three lengths ([0, 0, 20cm]), found {}", value.described()));

@@ -1,6 +1,7 @@
 #include "stage/contract.hpp"
 
 #include "base/numbers.hpp"
+#include "base/words.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 
@@ -101,7 +102,7 @@ Json contract_result_schema() {
 std::string to_string(const DeviationLimits& limits) {
     std::string text;
     const auto add = [&](const char* name, const std::optional<Length>& limit) {
-        if (limit) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, limit->text);
+        if (limit) append_item(text, fmt::format("{} {}", name, limit->text));
     };
     add("max", limits.max);
     add("rms", limits.rms);

@@ -1,5 +1,7 @@
 #include "stage/options/mask.hpp"
 
+#include "base/words.hpp"
+
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -29,7 +31,7 @@ std::vector<double> MaskOfParts::of(const Part& part) {
 void MaskOfParts::warn_if_idle(Context& context) const {
     if (vertices_ == 0 || selected_ > 0) return;
     std::string materials;
-    for (const auto& m : scene_.materials) materials += (materials.empty() ? "" : ", ") + m.name;
+    for (const auto& m : scene_.materials) append_item(materials, m.name);
     context.warn(
         "W-MASK",
         fmt::format("{}: the mask selects none of {} vertices: nothing moves", context.name(), vertices_),

@@ -1,6 +1,6 @@
 #include "stage/options/numbers.hpp"
 
-#include "stage/options/lists.hpp"
+#include "options/lists.hpp"
 
 #include <fmt/format.h>
 

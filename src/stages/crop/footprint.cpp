@@ -1,7 +1,7 @@
 #include "stages/crop/footprint.hpp"
 
 #include "base/hash.hpp"
-#include "stage/options/lists.hpp"
+#include "options/lists.hpp"
 
 #include <fmt/format.h>
 

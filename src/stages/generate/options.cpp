@@ -1,5 +1,6 @@
 #include "stages/generate/options.hpp"
 
+#include "base/words.hpp"
 #include "stage/options/convention.hpp"
 
 #include <algorithm>
@@ -155,7 +156,7 @@ void verify_generate(const GenerateOptions& o, const Value& given, Problems& pro
     for (const auto& entry : given.entries) {
         std::string others;
         for (const auto& s : shape_table())
-            if (takes(s, entry.key)) others += (others.empty() ? "" : ", ") + std::string(s.name);
+            if (takes(s, entry.key)) append_item(others, s.name);
         if (!others.empty() && !takes(mine, entry.key))
             problems.add(
                 entry.key_mark, "E-CONFLICT",

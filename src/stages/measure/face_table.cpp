@@ -1,5 +1,6 @@
 #include "stages/measure/face_table.hpp"
 
+#include "base/words.hpp"
 #include "geometry/measure/measure.hpp"
 #include "io/csv.hpp"
 
@@ -90,7 +91,7 @@ const std::vector<Columns>& columns() {
 std::string face_table_head() {
     std::string head;
     for (const Columns& group : columns())
-        for (const char* name : group.names) head += (head.empty() ? "" : ",") + std::string(name);
+        for (const char* name : group.names) append_item(head, name, ",");
     return head + "\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/portable_math.hpp"
 #include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 #include "geometry/measure/statistics_fields.hpp"
 #include "geometry/polygon/polygon.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"

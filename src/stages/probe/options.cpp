@@ -2,7 +2,7 @@
 
 #include "base/hash.hpp"
 #include "io/csv.hpp"
-#include "stage/options/lists.hpp"
+#include "options/lists.hpp"
 
 #include <array>
 #include <fmt/format.h>

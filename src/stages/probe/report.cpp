@@ -1,6 +1,7 @@
 #include "stages/probe/report.hpp"
 
 #include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 #include "geometry/measure/statistics_fields.hpp"
 #include "io/csv.hpp"
 

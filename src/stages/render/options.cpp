@@ -1,8 +1,8 @@
 #include "stages/render/options.hpp"
 
-#include "base/numbers.hpp"
 #include "base/portable_math.hpp"
 #include "base/spelling.hpp"
+#include "options/lists.hpp"
 #include "options/mark_at.hpp"
 
 #include <fmt/format.h>
@@ -73,20 +73,15 @@ bool OptionType<ColourRange>::parse(const Value& value, ColourRange& out, Proble
     if (value.deferred) return true;
     const std::string expected = "auto, percentile, all, or two numbers ([0, 2.5])";
     std::vector<std::optional<double>> numbers;
-    if (value.is_list()) {
-        for (const auto& item : value.items) numbers.push_back(item.as_real());
-    } else if (value.is_scalar()) {
+    if (value.is_scalar())
         for (const auto& [name, kind] :
              {std::pair{"auto", Kind::automatic}, {"percentile", Kind::percentile}, {"all", Kind::all}})
             if (value.text == name) {
                 out.kind = kind;
                 return true;
             }
-        // "0,2.5", as the one-liner writes it
-        const auto comma = value.text.find(',');
-        if (comma != value.text.npos)
-            numbers = {parse_real(value.text.substr(0, comma)), parse_real(value.text.substr(comma + 1))};
-    }
+    const Value list = listed(value); // "0,2.5", as the one-liner writes it
+    for (const auto& item : list.items) numbers.push_back(item.as_real());
     if (numbers.size() != 2 || !numbers[0] || !numbers[1] || !(*numbers[0] < *numbers[1]))
         return wrong_type(value, expected, problems, "the first number is less than the second");
     out = {Kind::given, *numbers[0], *numbers[1]};

@@ -2,8 +2,8 @@
 
 #include "base/portable_math.hpp"
 #include "base/spelling.hpp"
+#include "options/lists.hpp"
 #include "options/mark_at.hpp"
-#include "stage/options/lists.hpp"
 
 #include <fmt/format.h>
 

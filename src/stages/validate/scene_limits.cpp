@@ -2,6 +2,7 @@
 
 #include "base/glob.hpp"
 #include "base/random.hpp"
+#include "base/words.hpp"
 #include "stage/assertions.hpp"
 #include "stages/validate/document_contents.hpp"
 #include "stages/validate/evidence_json.hpp"
@@ -40,12 +41,6 @@ LimitCheck check_number(const char* name, const Bound& bound, std::vector<Share>
     return limit;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const auto& w : words) text += (text.empty() ? "" : ", ") + w;
-    return text;
-}
-
 /// A word that has to match a pattern, and what is told of it when it does not.
 struct Word {
     std::string text;
@@ -57,7 +52,7 @@ LimitCheck check_words(const char* name, const std::vector<std::string>& pattern
     LimitCheck limit;
     report::Check& check = limit.check;
     check.name = name;
-    check.expected = joined(patterns);
+    check.expected = join_texts(patterns);
     std::vector<std::string> bad;
     Json evidence = Json::array();
     for (const Word& w : words) {
@@ -77,7 +72,7 @@ LimitCheck check_words(const char* name, const std::vector<std::string>& pattern
     bad.resize(bad.size() - more);
     check.found = bad;
     if (check.passed) check.found_words = "nothing else";
-    if (more > 0) check.found_words = fmt::format("{} and {} more", joined(bad), more);
+    if (more > 0) check.found_words = fmt::format("{} and {} more", join_texts(bad), more);
     if (check.passed) return limit;
     check.evidence = std::move(evidence);
     check.locations = limit.keys.size();

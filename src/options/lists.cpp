@@ -1,4 +1,6 @@
-#include "stage/options/lists.hpp"
+#include "options/lists.hpp"
+
+#include "base/words.hpp"
 
 #include <algorithm>
 
@@ -6,12 +8,10 @@ namespace facetmill {
 
 namespace {
 
-/// Reads the text from left to right; blanks do not count.
+/// Reads the text from left to right; blanks beside signs do not count.
 class ListReader {
   public:
-    ListReader(std::string text, const Mark& mark) : text_(std::move(text)), mark_(mark) {
-        std::erase(text_, ' ');
-    }
+    ListReader(std::string_view text, const Mark& mark) : text_(trimmed(text)), mark_(mark) {}
 
     std::optional<Value> read() {
         Value rows = Value::list({}, mark_);
@@ -34,32 +34,57 @@ class ListReader {
         Value list = Value::list({}, mark_);
         do {
             if (skip('[')) {
+                if (skip(']')) {
+                    list.items.push_back(Value::list({}, mark_));
+                    continue;
+                }
                 auto inner = items();
                 if (!inner || !skip(']')) return {};
                 list.items.push_back(std::move(*inner));
                 continue;
             }
             const auto end = std::min(text_.find_first_of("[],;", at_), text_.size());
-            list.items.push_back(Value::scalar(text_.substr(at_, end - at_), mark_));
+            list.items.push_back(Value::scalar(std::string(trimmed(text_.substr(at_, end - at_))), mark_));
             at_ = end;
         } while (skip(','));
         return list;
     }
 
     bool skip(char c) {
+        while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
         const bool here = at_ < text_.size() && text_[at_] == c;
         at_ += here;
         return here;
     }
 
-    std::string text_;
+    std::string_view text_;
     Mark mark_;
     std::size_t at_ = 0;
 };
 
+/// Whether the bracket that opens the text is closed by its last character: not so in "[a],[b]".
+bool is_in_brackets(std::string_view text) {
+    if (!text.starts_with('[')) return false;
+    std::size_t depth = 0;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+        depth += text[at] == '[';
+        if (text[at] == ']' && --depth == 0) return at + 1 == text.size();
+    }
+    return false;
+}
+
 } // namespace
 
 std::optional<Value> list_in_text(const Value& text) { return ListReader(text.text, text.mark).read(); }
+
+Value list_of_words(std::string_view text, const Mark& mark) {
+    text = trimmed(text);
+    if (is_in_brackets(text)) text = text.substr(1, text.size() - 2);
+    Value list = Value::list({}, mark);
+    for (const auto word : split_at_commas(text))
+        list.items.push_back(Value::scalar(std::string(word), mark));
+    return list;
+}
 
 Value listed(const Value& value) {
     if (!value.is_scalar() || value.deferred) return value;

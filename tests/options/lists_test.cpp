@@ -1,6 +1,6 @@
 // Lists in one text: one reader for numbers, rows, footprints and words.
 
-#include "stage/options/lists.hpp"
+#include "options/lists.hpp"
 
 #include "support/catch.hpp"
 
@@ -22,7 +22,7 @@ std::string read(const char* text) {
 
 } // namespace
 
-TEST_CASE("lists: what a text stands for", "[stage]") {
+TEST_CASE("lists: what a text stands for", "[options]") {
     CHECK(read("1") == "(1)");
     CHECK(read("1, 2,3") == "(1 2 3)");
     CHECK(read("[1, 2, 3]") == "(1 2 3)");
@@ -32,13 +32,27 @@ TEST_CASE("lists: what a text stands for", "[stage]") {
     CHECK(read("[1,2],[3,4]") == "((1 2) (3 4))");
     CHECK(read("[[0,0],[1,0]],[[2,2],[3,2]]") == "(((0 0) (1 0)) ((2 2) (3 2)))");
     CHECK(read("1,,2") == "(1  2)"); // an empty item is no number: who reads it refuses it
+    CHECK(read(" [ a b , c ] ") == "(a b c)");
+    CHECK(list_in_text(Value::scalar("a b, c"))->items.size() == 2); // blanks within an item stay
+    CHECK(read("[]") == "()");
 }
 
-TEST_CASE("lists: brackets that do not match are none", "[stage]") {
+TEST_CASE("lists: of words, which may have brackets", "[options]") {
+    const auto words = [](const char* text) { return told(list_of_words(text, {})); };
+    CHECK(words("a,b") == "(a b)");
+    CHECK(words("[a, b ]") == "(a b)");
+    CHECK(words("[a[1], b;c]") == "(a[1] b;c)");
+    CHECK(words("[ab]*,[cd]") == "([ab]* [cd])");
+    CHECK(words("[a],[b]") == "([a] [b])");
+    CHECK(words("[]") == "()");
+    CHECK(words("[a,]") == "(a )");
+}
+
+TEST_CASE("lists: brackets that do not match are none", "[options]") {
     for (const char* text : {"[1,2", "1,2]", "[[1,2]", "[1]2", "][", "[1;2]"}) CHECK(read(text) == "none");
 }
 
-TEST_CASE("lists: values that are no text stay as they are", "[stage]") {
+TEST_CASE("lists: values that are no text stay as they are", "[options]") {
     const Value map = Value::map({{"a", {}, Value::scalar("1,2")}});
     CHECK(listed(map).is_map());
     Value deferred = Value::scalar("1,2");

@@ -1,0 +1,22 @@
+#pragma once
+// Lists in one text, as one-liners have them: "1, 2, 3", "[1, 2, 3]", "1,2; 3,4" and "[[1, 2], [3, 4]]".
+
+#include "options/value.hpp"
+
+#include <optional>
+
+namespace facetmill {
+
+/// The list that a scalar's text stands for; its items have the scalar's mark, and no blanks around them.
+/// Items are separated by commas and may be lists in brackets; semicolons separate rows. A text without any
+/// of them is a list of one item, "[]" is empty. None when brackets do not match.
+std::optional<Value> list_in_text(const Value& text);
+
+/// The items between the commas of "a, b" or "[a, b]", whatever else they hold: names may have brackets and
+/// semicolons. All have the mark.
+Value list_of_words(std::string_view text, const Mark& mark);
+
+/// The value, or the list that its text stands for when it is a scalar.
+Value listed(const Value& value);
+
+} // namespace facetmill
