@@ -37,7 +37,7 @@ char delimiter_of(std::string_view heading) {
     return ' ';
 }
 
-std::string_view trimmed(std::string_view cell) {
+std::string_view bare_cell(std::string_view cell) {
     while (!cell.empty() && is_separator(cell.front())) cell.remove_prefix(1);
     while (!cell.empty() && is_separator(cell.back())) cell.remove_suffix(1);
     return cell;
@@ -48,7 +48,7 @@ std::vector<std::string_view> cells_of(std::string_view line, char delimiter) {
     std::vector<std::string_view> cells;
     for (std::size_t at = 0; at <= line.size();) {
         const auto end = std::min(line.find(delimiter, at), line.size());
-        if (delimiter != ' ' || end > at) cells.push_back(trimmed(line.substr(at, end - at)));
+        if (delimiter != ' ' || end > at) cells.push_back(bare_cell(line.substr(at, end - at)));
         at = end + 1;
     }
     return cells;

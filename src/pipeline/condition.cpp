@@ -1,4 +1,5 @@
 #include "base/numbers.hpp"
+#include "base/words.hpp"
 #include "pipeline/planner.hpp"
 
 #include <fmt/format.h>
@@ -6,11 +7,6 @@
 namespace facetmill::pipeline {
 
 namespace {
-
-std::string trimmed(const std::string& text) {
-    const auto first = text.find_first_not_of(' ');
-    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
-}
 
 /// The comparison operator outside of ${...}: where it begins, and itself.
 std::optional<std::pair<std::size_t, std::string>> find_operator(const std::string& text) {
@@ -96,8 +92,9 @@ Condition read_condition(const Value& value, const Scope& scope, Problems& probl
         return condition;
     }
     const auto [at, op] = *found;
-    const std::string texts[] = {trimmed(value.text.substr(0, at)),
-                                 trimmed(value.text.substr(at + op.size()))};
+    const std::string_view text = value.text;
+    const std::string texts[] = {std::string(trimmed(text.substr(0, at))),
+                                 std::string(trimmed(text.substr(at + op.size())))};
     Value sides[2];
     for (std::size_t i = 0; i < 2; ++i)
         sides[i] = resolved(Value::scalar(texts[i], mark_within(value.mark, texts[i])), scope, problems);
