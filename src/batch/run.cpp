@@ -32,10 +32,6 @@ double elapsed(BatchClock::time_point start) {
     return std::chrono::duration<double>(BatchClock::now() - start).count();
 }
 
-std::uint64_t faces_in_brief(const Json& brief) {
-    return brief.is_object() ? brief.value("faces", std::uint64_t{0}) : 0;
-}
-
 /// From the output folder of the batch.
 std::string from_folder(const Asset& asset, const std::string& output) {
     return (fs::path(output).is_absolute() ? fs::path(output) : asset.folder / output)
@@ -51,10 +47,9 @@ Outcome outcome_of(const Asset& asset, report::RunRecord& record) {
     out.verdict = record.exit_code == 0 ? Verdict::ok : Verdict::failed;
     out.seconds = record.seconds;
     for (const auto& stage : record.stages) {
-        if (stage.after.is_null()) continue;
-        const auto faces = faces_in_brief(stage.after);
-        if (out.faces_in == 0) out.faces_in = faces;
-        out.faces_out = faces;
+        if (!stage.after) continue;
+        if (out.faces_in == 0) out.faces_in = stage.after->faces;
+        out.faces_out = stage.after->faces;
     }
     for (const auto& file : record.outputs) {
         out.bytes += file.bytes;

@@ -33,6 +33,7 @@ FACETMILL_STORED(Part, name, mesh, transform, document, node, source_mesh, skinn
 FACETMILL_STORED(Scene, parts, materials, unit, up, documents)
 
 FACETMILL_STORED(AttributeChange, attribute, domain, kind, why)
+FACETMILL_STORED(report::Brief, parts, vertices, faces, bounds)
 FACETMILL_STORED(report::PartChange, part, change)
 FACETMILL_STORED(report::FileRecord, path, bytes, sha256, read_back)
 

@@ -8,6 +8,7 @@
 #include "io/gltf/looks.hpp"
 #include "io/outputs.hpp"
 #include "io/png.hpp"
+#include "report/contents.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>
@@ -38,78 +39,126 @@ struct InfoOptions {
     int threads = 0;
 };
 
-std::string text_of(const Json& value) {
-    if (value.is_string()) return value.get<std::string>();
-    if (value.is_null()) return "-";
-    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    return value.dump();
+/// What is told of a file.
+struct FileInfo {
+    Scene scene;
+    Properties properties;
+    std::vector<report::Component> components; ///< the largest
+    FaceKinds kinds;
+
+    std::int64_t omitted() const {
+        return properties.components - static_cast<std::int64_t>(components.size());
+    }
+};
+
+/// A number as JSON has it.
+std::string number_text(double number) { return Json(number).dump(); }
+
+std::string value_text(const Property& property, const Properties& properties) {
+    const auto value = property.get(properties);
+    if (!value) return "-";
+    if (property.truth()) return *value != 0 ? "yes" : "no";
+    if (property.kind == PropertyKind::count) return std::to_string(static_cast<std::int64_t>(*value));
+    return number_text(*value);
 }
 
-/// "NORMAL (wedge, float32)" for an attribute, the name of a part or material.
-std::string entry_text(const Json& entry) {
-    if (!entry.is_object()) return text_of(entry);
-    std::string text = entry.contains("name") ? text_of(entry["name"]) : "", more;
-    if (text.empty()) text = "(unnamed)";
-    for (const auto& [key, value] : entry.items())
-        if (key != "name" && value.is_primitive())
-            more += (more.empty() ? "" : ", ") + (key == "domain" || key == "type" ? "" : key + " ") +
-                    text_of(value);
-    return more.empty() ? text : fmt::format("{} ({})", text, more);
+std::string row(std::string_view name, std::string_view value) {
+    return fmt::format("  {:<20}{}\n", name, value);
+}
+
+/// A row with the number of entries, and a line for each.
+std::string list_text(std::string_view name, const std::vector<std::string>& entries) {
+    std::string text = row(name, entries.empty() ? "none" : std::to_string(entries.size()));
+    for (const auto& entry : entries) text += fmt::format("    {}\n", entry);
+    return text;
+}
+
+std::string named(const std::string& name) { return name.empty() ? "(unnamed)" : name; }
+
+std::vector<std::string> attribute_texts(const Scene& scene) {
+    std::vector<std::string> texts;
+    for (const auto& a : report::attributes_of(scene))
+        texts.push_back(fmt::format("{} ({}, {}, components {})", named(a.name), to_string(a.domain), a.type,
+                                    a.components));
+    return texts;
+}
+
+std::vector<std::string> part_texts(const Scene& scene) {
+    std::vector<std::string> texts;
+    for (const auto& p : report::parts_of(scene))
+        texts.push_back(fmt::format("{} (vertices {}, wedges {}, faces {})", named(p.name), p.vertices,
+                                    p.wedges, p.faces));
+    return texts;
+}
+
+std::vector<std::string> material_texts(const Scene& scene) {
+    std::vector<std::string> texts;
+    for (const auto& m : scene.materials) texts.push_back(m.name);
+    return texts;
 }
 
 /// "'body': 1240 faces, euler 2, closed, genus 0"
-std::string component_text(const Json& component) {
-    const auto count = [&](const char* key, const char* noun) {
-        return counted(component[key].get<std::size_t>(), noun);
+std::string component_text(const report::Component& component) {
+    const Properties& p = component.properties;
+    const auto count = [](std::int64_t n, const char* noun) {
+        return counted(static_cast<std::size_t>(n), noun);
     };
-    std::string text = fmt::format("'{}': {}, euler {}, ", text_of(component["part"]), count("faces", "face"),
-                                   text_of(component["euler"]));
-    if (component["closed"].get<bool>())
-        text += "closed";
-    else
-        text += "open, " + count("boundary_loops", "boundary loop");
-    return component["genus"].is_null() ? text : text + ", genus " + text_of(component["genus"]);
+    std::string text = fmt::format("'{}': {}, euler {}, {}", component.part, count(p.faces, "face"), p.euler,
+                                   p.closed ? "closed" : "open, " + count(p.boundary_loops, "boundary loop"));
+    if (p.genus) append_item(text, fmt::format("genus {}", *p.genus));
+    return text;
+}
+
+/// A line for each of the largest components, where there are several.
+std::string components_text(const FileInfo& info) {
+    if (info.components.size() < 2) return {};
+    std::string text = row("components_detail", "the largest first");
+    const std::size_t shown = std::min(info.components.size(), max_components_in_text);
+    for (std::size_t i = 0; i < shown; ++i)
+        text += fmt::format("    {}\n", component_text(info.components[i]));
+    const auto more = static_cast<std::int64_t>(info.components.size() - shown) + info.omitted();
+    return more > 0 ? text + fmt::format("    and {} more\n", more) : text;
 }
 
 /// "1240 triangle, 12 degenerate": what there is of each kind.
-std::string kinds_text(const Json& kinds) {
+std::string kinds_text(const FaceKinds& kinds) {
     std::string text;
-    for (const auto& [kind, value] : kinds.items()) {
-        if (value == 0) continue;
-        const std::string words =
-            kind == "deviation" ? "deviation " + text_of(value) : text_of(value) + " " + kind;
-        text += (text.empty() ? "" : ", ") + words;
+    for (const Field& field : face_kinds_fields().all) {
+        const auto value = field.value(&kinds);
+        if (field.count && field.count(&kinds) > 0)
+            append_item(text, fmt::format("{} {}", field.count(&kinds), field.name));
+        else if (const double* number = value ? std::get_if<double>(&*value) : nullptr;
+                 number && *number != 0)
+            append_item(text, fmt::format("{} {}", field.name, number_text(*number)));
     }
     return text.empty() ? "none" : text;
 }
 
-/// A line for each of the largest components, where there are several.
-std::string components_text(const Json& components, std::int64_t omitted) {
-    if (components.size() < 2) return {};
-    std::string text = fmt::format("  {:<20}{}\n", "components_detail", "the largest first");
-    const std::size_t shown = std::min(components.size(), max_components_in_text);
-    for (std::size_t i = 0; i < shown; ++i) text += fmt::format("    {}\n", component_text(components[i]));
-    const auto more = static_cast<std::int64_t>(components.size() - shown) + omitted;
-    return more > 0 ? text + fmt::format("    and {} more\n", more) : text;
+std::string point_text(const Vec3& p) {
+    return fmt::format("[{},{},{}]", number_text(p.x), number_text(p.y), number_text(p.z));
 }
 
-std::string as_text(const std::string& name, const Json& info) {
+std::string as_text(const std::string& name, const FileInfo& info) {
+    const Box& bounds = info.properties.bounds;
     std::string text = name + "\n";
-    for (const auto& [key, value] : info.items()) {
-        if (key == "components_omitted") continue; // told with those that are listed
-        if (key == "components_detail")
-            text += components_text(value, info["components_omitted"].get<std::int64_t>());
-        else if (value.is_array()) {
-            text += fmt::format("  {:<20}{}\n", key, value.empty() ? "none" : std::to_string(value.size()));
-            for (const auto& entry : value) text += fmt::format("    {}\n", entry_text(entry));
-        } else if (key == "bounds" && value.is_object())
-            text += fmt::format("  {:<20}{} to {}\n", key, value["min"].dump(), value["max"].dump());
-        else if (key == "face_kinds")
-            text += fmt::format("  {:<20}{}\n", key, kinds_text(value));
-        else
-            text += fmt::format("  {:<20}{}\n", key, text_of(value));
-    }
-    return text;
+    for (const Property* p : report::told_properties(info.properties))
+        text += row(p->name, value_text(*p, info.properties));
+    text += row("bounds", bounds.empty() ? "-" : point_text(bounds.min) + " to " + point_text(bounds.max));
+    text += row("unit", to_string(info.scene.unit));
+    text += row("up", to_string(info.scene.up));
+    text += list_text("attributes", attribute_texts(info.scene));
+    text += list_text("materials", material_texts(info.scene));
+    text += list_text("parts", part_texts(info.scene));
+    text += components_text(info);
+    return text + row("face_kinds", kinds_text(info.kinds));
+}
+
+Json json_of(const FileInfo& info) {
+    Json json = report::scene_json(info.scene, info.properties);
+    json["components_detail"] = report::list_json(info.components, report::component_fields());
+    json["components_omitted"] = info.omitted();
+    json["face_kinds"] = face_kinds_fields().json(&info.kinds);
+    return json;
 }
 
 /// The picture that reports show, larger; of several files beside each other.
@@ -130,20 +179,17 @@ Picture info_picture(const Scene& scene, const Console& console) {
     return picture_of(scene, settings);
 }
 
-Json info_of(const std::string& mesh, const InfoOptions& options, const Console& console,
-             std::vector<Picture>& pictures) {
+FileInfo info_of(const std::string& mesh, const InfoOptions& options, const Console& console,
+                 std::vector<Picture>& pictures) {
     const auto* codec = options.format.empty() ? nullptr : io::codec_named(options.format);
     io::ReadLog log;
-    const Scene scene = io::read_scene(io::Input::open(mesh), {}, log, codec);
+    FileInfo info;
+    info.scene = io::read_scene(io::Input::open(mesh), {}, log, codec);
     for (const auto& warning : log.warnings) console.diagnostic(warning);
-    if (!options.picture.empty()) pictures.push_back(info_picture(scene, console));
-    const Properties properties = inspect(scene, {options.self_intersections});
-    Json info = report::scene_json(scene, properties);
-    Json& components = info["components_detail"] = report::components_json(scene, properties, max_components);
-    const auto listed = static_cast<std::int64_t>(components.size());
-    info["components_omitted"] = properties.components - listed;
-    const FaceKinds kinds = face_kinds(scene);
-    info["face_kinds"] = face_kinds_fields().json(&kinds);
+    if (!options.picture.empty()) pictures.push_back(info_picture(info.scene, console));
+    info.properties = inspect(info.scene, {options.self_intersections});
+    info.components = report::largest_components(info.scene, info.properties, max_components);
+    info.kinds = face_kinds(info.scene);
     return info;
 }
 
@@ -157,8 +203,11 @@ int info(const InfoOptions& options, const Console& console, const CommandLine& 
     std::string text;
     std::vector<Picture> pictures;
     for (const auto& mesh : options.meshes) {
-        all.push_back(info_of(mesh, options, console, pictures));
-        if (!options.json) text += as_text(mesh, all.back());
+        const FileInfo info = info_of(mesh, options, console, pictures);
+        if (options.json)
+            all.push_back(json_of(info));
+        else
+            text += as_text(mesh, info);
     }
     if (options.json)
         text = (all.size() == 1 ? all[0] : all).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -194,8 +194,8 @@ void tell_resolved(const report::StageRecord& stage, const Console& console) {
 }
 
 void tell_stage(const report::StageRecord& stage, const std::string& asset, const Console& console) {
-    const auto faces = [](const Json& brief) {
-        return brief.is_object() ? brief.value("faces", Json()) : Json();
+    const auto faces = [](const std::optional<report::Brief>& brief) {
+        return brief ? Json(brief->faces) : Json();
     };
     Json event = {{"level", "info"},
                   {"event", "stage"},
@@ -203,7 +203,7 @@ void tell_stage(const report::StageRecord& stage, const std::string& asset, cons
                   {"stage", stage.stage},
                   {"seconds", stage.seconds},
                   {"faces_before", faces(stage.before)},
-                  {"done", !stage.after.is_null()},
+                  {"done", stage.after.has_value()},
                   {"faces_after", faces(stage.after)}};
     if (!asset.empty()) event["asset"] = asset;
     console.event(event);

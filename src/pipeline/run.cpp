@@ -1,7 +1,6 @@
 #include "pipeline/run.hpp"
 
 #include "base/parallel.hpp"
-#include "base/point_json.hpp"
 #include "base/words.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -13,6 +12,7 @@
 #include "pipeline/join.hpp"
 #include "pipeline/reuse.hpp"
 #include "report/check_text.hpp"
+#include "report/contents.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>
@@ -28,19 +28,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// What is cheap to tell of a scene before and after every stage.
-Json brief(const Scene& scene) {
-    std::size_t vertices = 0;
-    for (const auto& part : scene.parts) vertices += part.mesh.vertex_count();
-    const Box box = scene.bounds();
-    Json bounds;
-    if (!box.empty()) bounds = {{"min", point_json(box.min)}, {"max", point_json(box.max)}};
-    return {{"parts", scene.parts.size()},
-            {"vertices", vertices},
-            {"faces", scene.face_count()},
-            {"bounds", bounds}};
-}
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -239,7 +226,7 @@ class Runner {
     bool perform_stage(const Step& step, Flow& flow, report::StageRecord& stage) {
         if (!fetch(step.where, fmt::format("'{}'", step.name), flow)) return false;
         Scene& scene = flow.scene;
-        stage.before = brief(scene);
+        stage.before = report::brief_of(scene);
         const auto before = reuse_.before(step, flow, state_);
         const auto start = Clock::now();
         const Share share(settings_.progress ? &settings_.progress->share : nullptr);
@@ -253,7 +240,7 @@ class Runner {
         });
         stage.seconds = seconds_since(start);
         if (!done) return false;
-        stage.after = brief(scene);
+        stage.after = report::brief_of(scene);
         if (step.stage->loads) state_.load_diagonal = diagonal(scene.bounds());
         if (step.stage->loads && keeps_loaded_)
             state_.loaded = std::make_shared<const Surface>(surface_or_points_of(scene, filled_surface));

@@ -11,8 +11,8 @@ namespace facetmill::report {
 
 namespace {
 
-std::string count(const Json& brief, const char* key) {
-    return brief.is_object() ? grouped(brief.value(key, std::uint64_t{0})) : "";
+std::string count(const std::optional<Brief>& brief, std::size_t Brief::*member) {
+    return brief ? grouped((*brief).*member) : "";
 }
 
 template <class Diagnostics>
@@ -36,8 +36,9 @@ std::string stage_rows(const RunRecord& record) {
         for (const auto& w : s.warnings)
             notes += fmt::format("<div class=\"warn\">{}: {}</div>", escaped(w.id), escaped(w.message));
         rows += fmt::format("<tr>{}{}{}{}{}{}</tr>\n", cell(escaped(s.name)), cell(code(s.stage)),
-                            number_cell(count(s.before, "faces")), number_cell(count(s.after, "faces")),
-                            number_cell(count(s.after, "vertices")), cell(notes));
+                            number_cell(count(s.before, &Brief::faces)),
+                            number_cell(count(s.after, &Brief::faces)),
+                            number_cell(count(s.after, &Brief::vertices)), cell(notes));
     }
     return rows;
 }
@@ -58,7 +59,7 @@ std::string pictures(const RunRecord& record) {
         const std::string failures = shown_failures(record, s);
         const std::string caption =
             failures.empty()
-                ? fmt::format("{}: {} faces", s.name, count(s.after, "faces"))
+                ? fmt::format("{}: {} faces", s.name, count(s.after, &Brief::faces))
                 : fmt::format("{}: where {} did not hold; on the right the first location, magnified", s.name,
                               failures);
         figures += fmt::format("<figure{2}><img alt=\"{0}\" src=\"data:image/png;base64,{1}\">"

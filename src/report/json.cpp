@@ -1,3 +1,4 @@
+#include "report/contents.hpp"
 #include "report/diagnostics_json.hpp"
 #include "report/render.hpp"
 
@@ -19,6 +20,8 @@ Json files_json(const std::vector<FileRecord>& files, bool read_back) {
     return all;
 }
 
+Json brief_json(const std::optional<Brief>& brief) { return brief ? brief_fields().json(&*brief) : Json(); }
+
 Json stage_json(const StageRecord& stage) {
     Json changes = Json::array();
     for (const auto& [part, change] : stage.attribute_changes)
@@ -31,8 +34,8 @@ Json stage_json(const StageRecord& stage) {
             {"stage", stage.stage},
             {"path", stage.path},
             {"skipped", stage.skipped},
-            {"before", stage.before},
-            {"after", stage.after},
+            {"before", brief_json(stage.before)},
+            {"after", brief_json(stage.after)},
             {"resolved", stage.resolved},
             {"attribute_changes", std::move(changes)},
             {"warnings", diagnostics_json(stage.warnings)},

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/json.hpp"
+#include "base/vec.hpp"
 #include "mesh/attribute_changes.hpp"
 
 #include <optional>
@@ -37,11 +38,17 @@ struct PartChange {
     AttributeChange change;
 };
 
+/// What is cheap to tell of a scene before and after every stage.
+struct Brief {
+    std::size_t parts = 0, vertices = 0, faces = 0;
+    Box bounds = {};
+};
+
 struct StageRecord {
-    std::string name;   ///< unique in the run: the common key name, or the stage's own with a number
-    std::string stage;  ///< "clip"
-    std::string path;   ///< where in the pipeline: "stages[3]" or "stages[5].branch.far[0]"
-    Json before, after; ///< brief properties: vertices, faces, parts, bounds
+    std::string name;  ///< unique in the run: the common key name, or the stage's own with a number
+    std::string stage; ///< "clip"
+    std::string path;  ///< where in the pipeline: "stages[3]" or "stages[5].branch.far[0]"
+    std::optional<Brief> before, after; ///< none: it was skipped; none after: it failed
     std::vector<PartChange> attribute_changes;
     std::vector<Diagnostic> warnings;
     Json result = Json::object(); ///< what the stage itself reports

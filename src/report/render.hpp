@@ -8,13 +8,13 @@ namespace facetmill::report {
 
 /// One value by the property's kind; null where it does not apply or was not asked for.
 Json property_json(const Property& property, const Properties& properties);
+/// The rows of the table that are told of these properties, in order, but for the box and what only scenes
+/// have.
+std::vector<const Property*> told_properties(const Properties& properties);
 Json properties_json(
     const Properties& properties); ///< numbers and truths of property_table(), null where not applicable
 /// All properties of a scene: properties_json plus unit, up, attributes, materials and parts.
 Json scene_json(const Scene& scene, const Properties& properties);
-/// The components of a scene of these properties with most faces, the largest first: [{part, faces, euler,
-/// boundary_loops, closed, genus}].
-Json components_json(const Scene& scene, const Properties& properties, std::size_t limit);
 Json to_json(const RunRecord& record); ///< the report; its schema is schema()
 Json schema();                         ///< JSON Schema (2020-12) of the report
 /// Times, memory and threads: what differs from run to run, and is therefore in no report.

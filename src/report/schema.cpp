@@ -1,3 +1,4 @@
+#include "report/contents.hpp"
 #include "report/render.hpp"
 #include "report/schema_forms.hpp"
 
@@ -6,15 +7,6 @@
 namespace facetmill::report {
 
 namespace {
-
-Json point() { return {{"type", "array"}, {"items", typed("number")}, {"minItems", 3}, {"maxItems", 3}}; }
-
-Json bounds() {
-    Json schema = closed_object({{"min", point()}, {"max", point()}});
-    schema["type"] = Json::array({"object", "null"});
-    schema["description"] = "The axis-aligned box in world space; null when there is nothing";
-    return schema;
-}
 
 Json file(bool read_back) {
     Json properties = {{"path", typed("string")},
@@ -39,6 +31,13 @@ Json value_schema(const Property& p) {
     return schema;
 }
 
+/// Of a property whose values are words.
+Json words_schema(const Property& p) {
+    Json names = Json::array();
+    for (const auto& word : p.words()) names.push_back(word);
+    return {{"enum", std::move(names)}, {"description", p.help}};
+}
+
 /// The properties of a scene, named once in the table that info, validate, ensure and when share.
 Json scene_schema() {
     Json properties = Json::object();
@@ -46,20 +45,12 @@ Json scene_schema() {
         if (p.on_request() || p.of_scene() || p.kind == PropertyKind::box) continue;
         properties[std::string(p.name)] = value_schema(p);
     }
-    properties["bounds"] = bounds();
-    properties["unit"] = typed("string", "um, mm, cm, m, km, in, ft or unknown");
-    properties["up"] = choice({"y", "z", "unknown"});
-    properties["attributes"] = list_of(closed_object({{"name", typed("string")},
-                                                      {"domain", choice({"vertex", "wedge", "face"})},
-                                                      {"type", typed("string")},
-                                                      {"components", typed("integer")}}),
-                                       "Each attribute once");
+    properties["bounds"] = box_schema();
+    for (const auto& p : property_table())
+        if (p.of_scene() && p.words) properties[std::string(p.name)] = words_schema(p);
+    properties["attributes"] = list_of(attribute_fields().schema(), "Each attribute once");
     properties["materials"] = list_of(typed("string"), "Names of the materials");
-    properties["parts"] = list_of(closed_object({{"name", typed("string")},
-                                                 {"vertices", typed("integer")},
-                                                 {"wedges", typed("integer")},
-                                                 {"faces", typed("integer")}}),
-                                  "The parts, in order");
+    properties["parts"] = list_of(part_fields().schema(), "The parts, in order");
     Json scene = closed_object(std::move(properties));
     for (const auto& p : property_table()) // there when they were asked for
         if (p.on_request()) scene["properties"][std::string(p.name)] = value_schema(p);
@@ -85,10 +76,7 @@ Json stage_schema() {
 }
 
 Json definitions() {
-    Json brief = closed_object({{"parts", typed("integer")},
-                                {"vertices", typed("integer")},
-                                {"faces", typed("integer")},
-                                {"bounds", bounds()}});
+    Json brief = brief_fields().schema();
     brief["type"] = Json::array({"object", "null"});
     return {{"diagnostic", diagnostic_schema()},
             {"brief", std::move(brief)},
@@ -109,16 +97,6 @@ Json definitions() {
                   {"new_locations", nullable("integer", "The number of them that are not in the baseline")},
                   {"evidence", nullable("array", "The first locations, or the worst values")}})},
             {"scene", scene_schema()}};
-}
-
-Json components_detail() {
-    return list_of(closed_object({{"part", typed("string")},
-                                  {"faces", typed("integer")},
-                                  {"euler", typed("integer")},
-                                  {"boundary_loops", typed("integer")},
-                                  {"closed", typed("boolean")},
-                                  {"genus", nullable("integer")}}),
-                   "The components with most faces, the largest first");
 }
 
 } // namespace
@@ -150,7 +128,8 @@ Json schema() {
 Json info_schema() {
     Json out = {{"$schema", schema_dialect}, {"title", "facetmill info"}};
     Json scene = scene_schema();
-    scene["properties"]["components_detail"] = components_detail();
+    scene["properties"]["components_detail"] =
+        list_of(component_fields().schema(), "The components with most faces, the largest first");
     scene["properties"]["components_omitted"] =
         typed("integer", "How many components there are beyond those of components_detail");
     out.update(scene);

@@ -17,15 +17,12 @@ struct Paint {
     }
 };
 
-std::uint64_t faces_of(const Json& brief) {
-    return brief.is_object() ? brief.value("faces", std::uint64_t{0}) : 0;
-}
-
 /// "12,000 -> 3,000 faces", or one number when the stage left it.
 std::string face_change(const StageRecord& stage) {
-    const auto before = faces_of(stage.before), after = faces_of(stage.after);
-    const auto faces = [](std::uint64_t n) { return grouped(n) + " " + noun_for(n, "face"); };
-    if (stage.after.is_null()) return faces(before) + " -> failed";
+    const std::size_t before = stage.before ? stage.before->faces : 0;
+    const std::size_t after = stage.after ? stage.after->faces : 0;
+    const auto faces = [](std::size_t n) { return grouped(n) + " " + noun_for(n, "face"); };
+    if (!stage.after) return faces(before) + " -> failed";
     if (before == after) return faces(after);
     return before == 0 ? "-> " + faces(after) : grouped(before) + " -> " + faces(after);
 }

@@ -66,8 +66,8 @@ TEST_CASE("stages are recalled, and what writes or judges runs", "[pipeline][cac
           "load recalled, split recalled, relax recalled, write always, validate always, orient recalled");
     CHECK(test::get(works.directory / "b.ply") == first);
     REQUIRE(record.stages.size() == 6);
-    CHECK(record.stages[1].before["faces"] == 4);
-    CHECK(record.stages[1].after["faces"] == 16);
+    CHECK(record.stages[1].before.value().faces == 4);
+    CHECK(record.stages[1].after.value().faces == 16);
     CHECK(record.inputs.size() == 1);
     CHECK(record.outputs.size() == 1);
     CHECK(record.checks.size() == 1);

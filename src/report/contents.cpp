@@ -1,0 +1,127 @@
+#include "report/contents.hpp"
+
+#include <algorithm>
+
+namespace facetmill::report {
+
+namespace {
+
+void declare_box_corners(DeclareFields<Box>& d) {
+    d.field("min", &Box::min, "The corner with the smallest coordinates.");
+    d.field("max", &Box::max, "The corner with the largest coordinates.");
+}
+
+constexpr const char* about_bounds = "The axis-aligned box in world space; null when there is nothing";
+
+std::optional<Box> bounds_of(const Brief& brief) {
+    return brief.bounds.empty() ? std::nullopt : std::optional<Box>(brief.bounds);
+}
+
+const Fields& box_fields() {
+    static const Fields fields = fields_of<Box>(declare_box_corners);
+    return fields;
+}
+
+} // namespace
+
+Brief brief_of(const Scene& scene) {
+    Brief brief{.parts = scene.parts.size(), .faces = scene.face_count(), .bounds = scene.bounds()};
+    for (const auto& part : scene.parts) brief.vertices += part.mesh.vertex_count();
+    return brief;
+}
+
+const Fields& brief_fields() {
+    static const Fields fields = fields_of<Brief>([](DeclareFields<Brief>& d) {
+        d.field("parts", &Brief::parts, "");
+        d.field("vertices", &Brief::vertices, "");
+        d.field("faces", &Brief::faces, "");
+        d.object("bounds", bounds_of, "The axis-aligned box in world space.", declare_box_corners)
+            .null_when("there is nothing");
+    });
+    return fields;
+}
+
+Json box_json(const Box& box) { return box.empty() ? Json() : box_fields().json(&box); }
+
+Json box_schema() {
+    Json schema = box_fields().schema();
+    schema["type"] = Json::array({"object", "null"});
+    schema["description"] = about_bounds;
+    return schema;
+}
+
+std::vector<AttributeEntry> attributes_of(const Scene& scene) {
+    std::vector<AttributeEntry> all;
+    for (const auto& part : scene.parts)
+        for (const auto& a : part.mesh.attributes) {
+            if (a.name == primitive_attribute && a.domain == Domain::face) continue;
+            AttributeEntry entry{a.name, a.domain, a.type(), static_cast<std::size_t>(a.components)};
+            if (std::find(all.begin(), all.end(), entry) == all.end()) all.push_back(std::move(entry));
+        }
+    return all;
+}
+
+const Fields& attribute_fields() {
+    static const Fields fields = fields_of<AttributeEntry>([](DeclareFields<AttributeEntry>& d) {
+        d.field("name", &AttributeEntry::name, "");
+        d.choice("domain", &AttributeEntry::domain,
+                 {{to_string(Domain::vertex), Domain::vertex, ""},
+                  {to_string(Domain::wedge), Domain::wedge, ""},
+                  {to_string(Domain::face), Domain::face, ""}},
+                 "");
+        d.field("type", &AttributeEntry::type, "");
+        d.field("components", &AttributeEntry::components, "");
+    });
+    return fields;
+}
+
+std::vector<PartEntry> parts_of(const Scene& scene) {
+    std::vector<PartEntry> all;
+    for (const auto& part : scene.parts)
+        all.push_back({part.name, part.mesh.vertex_count(), part.mesh.wedge_count(), part.mesh.face_count()});
+    return all;
+}
+
+const Fields& part_fields() {
+    static const Fields fields = fields_of<PartEntry>([](DeclareFields<PartEntry>& d) {
+        d.field("name", &PartEntry::name, "");
+        d.field("vertices", &PartEntry::vertices, "");
+        d.field("wedges", &PartEntry::wedges, "");
+        d.field("faces", &PartEntry::faces, "");
+    });
+    return fields;
+}
+
+std::vector<Component> largest_components(const Scene& scene, const Properties& properties,
+                                          std::size_t limit) {
+    std::vector<Component> all;
+    for (const Part& part : scene.parts) {
+        if (part.mesh.face_count() == 0) continue;
+        if (properties.components == 1)
+            all.push_back({part.name, properties});
+        else
+            for (Properties& p : inspect_components(part.mesh, limit))
+                all.push_back({part.name, std::move(p)});
+    }
+    std::stable_sort(all.begin(), all.end(), [](const Component& a, const Component& b) {
+        return a.properties.faces > b.properties.faces;
+    });
+    if (all.size() > limit) all.erase(all.begin() + static_cast<std::ptrdiff_t>(limit), all.end());
+    return all;
+}
+
+const Fields& component_fields() {
+    static const Fields fields = fields_of<Component>([](DeclareFields<Component>& d) {
+        d.field("part", &Component::part, "The part that it belongs to.");
+        d.embed(&Component::properties, [](DeclareFields<Properties>& p) {
+            p.field("faces", &Properties::faces, "");
+            p.field("euler", &Properties::euler, "");
+            p.field("boundary_loops", &Properties::boundary_loops, "");
+            p.field("closed", &Properties::closed, "");
+            p.field("genus", &Properties::genus, "Of a closed one.").null_when("it does not apply");
+        });
+    });
+    return fields;
+}
+
+} // namespace facetmill::report
