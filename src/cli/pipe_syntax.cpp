@@ -47,53 +47,30 @@ Value split(const std::string& text, const Mark& mark) {
     return list;
 }
 
-/// Whether the short form of a group is a list, or one word of such a list.
-bool short_list(const Declaration& group) {
-    const Json& schema = group.shorthand_schema;
-    if (!schema.contains("anyOf")) return schema.contains("type") && schema["type"] == "array";
-    const auto is_list = [](const Json& form) { return form.contains("type") && form["type"] == "array"; };
-    const auto is_word = [](const Json& form) { return form.contains("enum"); };
-    bool any = false;
-    for (const Json& form : schema["anyOf"]) {
-        if (!is_list(form) && !is_word(form)) return false;
-        any |= is_list(form);
-    }
-    return any;
-}
-
 /// Whether commas separate the values of the option.
 bool comma_list(const Option& option) {
-    if (option.type == "vector") return true;
-    if (option.fields && short_list(*option.fields)) return true;
-    if (!option.repeatable || !option.schema.contains("anyOf")) return false;
-    const Json& one = option.schema["anyOf"][0];
-    return one != OptionType<PathText>::schema() && one != OptionType<Vec3>::schema();
+    if (option.kind == OptionKind::vector) return true;
+    if (option.fields && option.fields->short_form == ShortForm::list) return true;
+    return option.repeatable && option.one != OptionKind::path && option.one != OptionKind::vector;
 }
 
-/// Whether a value of that schema may be of this type: "object", "array".
-bool may_be(const Json& schema, const char* type) {
-    if (const auto is = schema.find("type"); is != schema.end() && *is == type) return true;
-    for (const char* forms : {"anyOf", "oneOf"})
-        if (const auto any = schema.find(forms); any != schema.end())
-            for (const Json& form : *any)
-                if (may_be(form, type)) return true;
-    return false;
-}
-
-/// The schema of one value of an option that takes several, else of its value.
-const Json& schema_of_one(const Option& option) {
-    return option.repeatable && option.schema.contains("anyOf") ? option.schema["anyOf"][0] : option.schema;
+/// An option that takes several texts.
+Option list_of_texts() {
+    Option list;
+    list.kind = OptionKind::list;
+    list.repeatable = true;
+    return list;
 }
 
 /// Whether the text is to be read as YAML: a map where one may stand, or lists in a list. A path may begin
 /// and end with such signs, too.
 bool is_flow(const std::string& text, const Option* option) {
     if (text.starts_with('{') && text.ends_with('}')) {
-        return !option || option->fields || may_be(schema_of_one(*option), "object");
+        return !option || option->fields || may_be_map(option->one);
     }
     return option && text.starts_with('[') && text.ends_with(']') &&
-           text.find_first_of("[{", 1) != text.npos && may_be(option->schema, "array") &&
-           schema_of_one(*option) != OptionType<PathText>::schema();
+           text.find_first_of("[{", 1) != text.npos && option->may_be_list() &&
+           option->one != OptionKind::path;
 }
 
 /// All of a value is at that place; percentages are spelled out.
@@ -122,7 +99,7 @@ Value as_one_value(Value list, const Option& option) {
     const bool numbers = std::all_of(list.items.begin(), list.items.end(), [](const Value& item) {
         return item.is_scalar() && parse_real(item.text).has_value();
     });
-    if (!option.repeatable || !numbers || !may_be(schema_of_one(option), "array")) return list;
+    if (!option.repeatable || !numbers || !may_be_list(option.one)) return list;
     const Mark mark = list.mark;
     return Value::list({std::move(list)}, mark);
 }
@@ -243,8 +220,9 @@ class Parser {
         if (std::any_of(primary->choices.begin(), primary->choices.end(),
                         [&](const Choice& choice) { return choice.name == word; }))
             return false;
-        const bool takes_words = primary->dimension == Dimension::none && primary->type != "integer" &&
-                                 primary->type != "number" && primary->type != "vector";
+        const bool takes_words = primary->dimension == Dimension::none &&
+                                 primary->kind != OptionKind::integer &&
+                                 primary->kind != OptionKind::number && primary->kind != OptionKind::vector;
         return !(first && takes_words) && !std::filesystem::exists(word, ignored);
     }
 
@@ -275,7 +253,7 @@ class Parser {
         const Option* primary = stage ? stage->options->primary() : nullptr;
         Value one = bare[0];
         if (bare.size() > 1) {
-            if (primary && !primary->repeatable && primary->type != "vector")
+            if (primary && !primary->repeatable && primary->kind != OptionKind::vector)
                 problems_.add(bare[1].mark, "E-PIPE",
                               fmt::format("'{}' takes one value, found {}", stage->name, bare.size()),
                               is_foreign_truth(bare[1].text)
@@ -348,9 +326,7 @@ class Parser {
 
     Value given(const std::string& text, const std::string& key, const Option* known, const Mark& where) {
         if (key != "only") return pipe_value(text, known, where, problems_);
-        Option list;
-        list.repeatable = true;
-        list.schema = OptionType<std::vector<std::string>>::schema();
+        const Option list = list_of_texts();
         return pipe_value(text, &list, where, problems_);
     }
 
@@ -364,24 +340,16 @@ class Parser {
     /// Whether true and false are all that a value of the key may be: a flag of a stage, a group that is
     /// switched on by true (--draco), or a property that is a truth.
     static bool is_truth(const std::string& key, const Option* known) {
-        if (known && known->fields) return known->fields->shorthand_schema == OptionType<bool>::schema();
-        if (known && known->type != "bound") return known->type == "bool";
+        if (known && known->fields) return known->fields->short_form == ShortForm::truth;
+        if (known && known->kind != OptionKind::bound) return known->kind == OptionKind::boolean;
         const auto* property = property_named(std::string_view(key).substr(key.rfind('.') + 1));
         return key == "join" || (property && property->truth());
     }
 
-    /// Whether true is one of the values that the schema allows.
-    static bool may_be_true(const Json& schema) {
-        const auto any = schema.find("anyOf");
-        return any != schema.end() && std::any_of(any->begin(), any->end(), [](const Json& s) {
-                   return s == OptionType<bool>::schema();
-               });
-    }
-
     /// A key without a value: true, where that may be meant.
     Value flag(const std::string& key, const Option* known, const Mark& where) {
-        if (known && known->type != "group" && known->type != "assertions" && !is_truth(key, known) &&
-            !may_be_true(known->schema))
+        if (known && known->kind != OptionKind::group && known->kind != OptionKind::assertions &&
+            !is_truth(key, known) && !known->may_be_true)
             problems_.add(where, "E-PIPE", fmt::format("'--{}' needs a value", key), known->help);
         return Value::scalar("true", where);
     }
@@ -479,9 +447,7 @@ class Parser {
 
     void variable_values(Value& variables, const std::string& variable, const std::string& text,
                          std::size_t offset) {
-        Option list;
-        list.repeatable = true;
-        list.schema = OptionType<std::vector<std::string>>::schema();
+        const Option list = list_of_texts();
         const bool parts = variable == "part" && text.find(',') == text.npos;
         Value values = pipe_value(text, parts ? nullptr : &list, inside(offset), problems_);
         if (parts)

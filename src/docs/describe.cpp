@@ -13,13 +13,13 @@ std::string type_text(const Option& o) {
         for (const auto& c : o.choices) names.push_back(c.name);
         return fmt::format("one of {}", fmt::join(names, ", "));
     }
-    std::string text = o.type;
+    std::string text(to_string(o.kind));
     if (o.dimension == Dimension::bytes) text += " of bytes";
-    if (o.type == "list" && o.dimension == Dimension::length) text += " of lengths";
-    if (o.type == "list" && o.dimension == Dimension::ratio) text += " of ratios";
-    if (o.type == "list" && o.dimension == Dimension::angle) text += " of angles";
-    if (o.type == "bound" && o.dimension == Dimension::angle) text += " of an angle";
-    if (o.type == "bound" && o.dimension == Dimension::length) text += " of a length";
+    if (o.kind == OptionKind::list && o.dimension == Dimension::length) text += " of lengths";
+    if (o.kind == OptionKind::list && o.dimension == Dimension::ratio) text += " of ratios";
+    if (o.kind == OptionKind::list && o.dimension == Dimension::angle) text += " of angles";
+    if (o.kind == OptionKind::bound && o.dimension == Dimension::angle) text += " of an angle";
+    if (o.kind == OptionKind::bound && o.dimension == Dimension::length) text += " of a length";
     if (const auto range = o.range.to_string(); !range.empty()) text += ", " + range;
     return text;
 }

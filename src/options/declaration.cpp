@@ -38,10 +38,18 @@ Declaration& Declaration::operator=(const Declaration&) = default;
 Declaration& Declaration::operator=(Declaration&&) noexcept = default;
 Declaration::~Declaration() = default;
 
-Option& start_option(Declaration& owner, std::string_view name, const char* type, std::string_view help) {
+bool Option::may_be_list() const {
+    if (facetmill::may_be_list(kind)) return true;
+    if (!fields) return false;
+    const Option* primary = fields->primary();
+    return fields->short_form == ShortForm::list || fields->short_form == ShortForm::text_or_list ||
+           (primary && primary->may_be_list());
+}
+
+Option& start_option(Declaration& owner, std::string_view name, OptionKind kind, std::string_view help) {
     Option& o = owner.options.emplace_back();
     o.name = name;
-    o.type = type;
+    o.kind = o.one = kind;
     o.help = help;
     return o;
 }
@@ -88,7 +96,7 @@ namespace {
 Json default_json(const Option& option) {
     const std::string& text = option.default_text;
     if (text.empty() || text.starts_with('[') || text.starts_with('{')) return nullptr;
-    if (option.type == "bool") return text == "true";
+    if (option.kind == OptionKind::boolean) return text == "true";
     if (const auto integer = parse_integer(text)) return *integer;
     if (const auto number = parse_real(text)) return *number;
     return text;
@@ -102,8 +110,7 @@ Json described(const Option& option) {
     const Range& range = option.range;
     if (!range.min && !range.max) return schema;
     schema["description"] = fmt::format("{} Range: {}.", option.help, range.to_string());
-    const bool number =
-        schema.contains("type") && (schema["type"] == "integer" || schema["type"] == "number");
+    const bool number = option.kind == OptionKind::integer || option.kind == OptionKind::number;
     if (number && range.min) schema[range.min_open ? "exclusiveMinimum" : "minimum"] = *range.min;
     if (number && range.max) schema[range.max_open ? "exclusiveMaximum" : "maximum"] = *range.max;
     return schema;

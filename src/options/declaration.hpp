@@ -43,7 +43,8 @@ struct Option {
     ~Option();
 
     std::string name;
-    std::string type; ///< "integer", "length", "choice", "group", ...
+    OptionKind kind = OptionKind::text;
+    OptionKind one = OptionKind::text; ///< of one value, where several may be given; else the kind
     Dimension dimension = Dimension::none;
     std::string help;         ///< one or two sentences; says the unit when the number has one
     std::string default_text; ///< the default's spelling; empty when unset
@@ -59,6 +60,19 @@ struct Option {
     std::function<bool(const Option&, const Value&, void* target, Problems&)> parse;
     /// The number in the struct that the range limits, if there is one.
     std::function<std::optional<double>(const void* target)> magnitude;
+    bool may_be_true = false; ///< true is one of its values, beside others
+
+    /// Whether a value may be a list: several, or one that is a list.
+    bool may_be_list() const;
+};
+
+/// What stands for a group when it is no map and not the value of its primary option.
+enum class ShortForm {
+    none,
+    truth,       ///< true or false: switched on or off
+    number,      ///< one number
+    list,        ///< a list, or one word of it
+    text_or_list ///< a text of its own, or a list
 };
 
 /// A rule over several options.
@@ -82,6 +96,7 @@ struct Declaration {
     /// Reads a value that is no map (none: the primary option takes it). For groups with a short form,
     /// "z=0.2".
     std::function<bool(const Value&, void* target, Problems&)> shorthand;
+    ShortForm short_form = ShortForm::none; ///< what shorthand reads
     std::string shorthand_help;
     Json shorthand_schema;
 
@@ -177,7 +192,7 @@ const T& member_at(const void* record, std::size_t offset) {
 }
 
 /// Adds an option to those of a declaration.
-Option& start_option(Declaration& owner, std::string_view name, const char* type, std::string_view help);
+Option& start_option(Declaration& owner, std::string_view name, OptionKind kind, std::string_view help);
 /// Adds the options of a struct that lies at the offset within the one that is parsed.
 void embed_options(Declaration& owner, const Declaration& inner, std::size_t offset);
 
@@ -186,11 +201,12 @@ template <class T>
 void typed_option(Declaration& owner, std::string_view name, std::size_t offset, const T& now,
                   std::string_view help) {
     using Type = OptionType<T>;
-    Option& o = start_option(owner, name, Type::name, help);
+    Option& o = start_option(owner, name, Type::kind, help);
+    o.one = kind_of_one<T>;
     o.dimension = Type::dimension;
     o.default_text = Type::print(now);
     o.schema = Type::schema();
-    o.repeatable = std::string_view(Type::name) == "list";
+    o.repeatable = Type::kind == OptionKind::list;
     o.parse = [offset](const Option&, const Value& v, void* target, Problems& problems) {
         return Type::parse(v, member_at<T>(target, offset), problems);
     };
@@ -232,7 +248,7 @@ class Declare {
     template <class E>
     OptionRef choice(std::string_view name, E S::*member, const std::vector<NamedChoice<E>>& choices,
                      std::string_view help) {
-        Option& o = start_option(declaration, name, "choice", help);
+        Option& o = start_option(declaration, name, OptionKind::choice, help);
         std::vector<E> values;
         for (const auto& c : choices) {
             if (c.value == defaults_.*member) o.default_text = c.name;
@@ -255,7 +271,7 @@ class Declare {
         using G = typename Inner<M>::type;
         Declare<G> nested;
         fill(nested);
-        Option& o = start_option(declaration, name, "group", help);
+        Option& o = start_option(declaration, name, OptionKind::group, help);
         o.fields = std::make_shared<const Declaration>(std::move(nested.declaration));
         o.schema = o.fields->schema();
         o.parse = [at = offset_of(member)](const Option& self, const Value& v, void* target,
@@ -279,7 +295,8 @@ class Declare {
 
     /// For groups: how a value that is no map is read.
     template <class Parse>
-    void shorthand(std::string_view help, Json schema, Parse parse) {
+    void shorthand(ShortForm form, std::string_view help, Json schema, Parse parse) {
+        declaration.short_form = form;
         declaration.shorthand_help = help;
         declaration.shorthand_schema = std::move(schema);
         declaration.shorthand = [parse](const Value& v, void* target, Problems& problems) {

@@ -13,7 +13,7 @@ namespace {
 Json described(const Field& field) {
     Json schema = field.schema;
     if (!field.null_when.empty()) {
-        if (schema.contains("enum"))
+        if (!field.choices.empty())
             schema["enum"].push_back(nullptr);
         else
             schema["type"] = Json::array({schema["type"], "null"});

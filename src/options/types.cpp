@@ -73,6 +73,67 @@ std::string hint_of_integer(const Value& value) {
 
 } // namespace
 
+std::string_view to_string(OptionKind kind) {
+    switch (kind) {
+    case OptionKind::boolean:
+        return "bool";
+    case OptionKind::integer:
+        return "integer";
+    case OptionKind::number:
+        return "number";
+    case OptionKind::text:
+        return "text";
+    case OptionKind::path:
+        return "path";
+    case OptionKind::ratio:
+        return "ratio";
+    case OptionKind::length:
+        return "length";
+    case OptionKind::angle:
+        return "angle";
+    case OptionKind::vector:
+        return "vector";
+    case OptionKind::bound:
+        return "bound";
+    case OptionKind::limit:
+        return "limit";
+    case OptionKind::choice:
+        return "choice";
+    case OptionKind::group:
+        return "group";
+    case OptionKind::list:
+        return "list";
+    case OptionKind::assertions:
+        return "assertions";
+    case OptionKind::rows:
+        return "rows";
+    case OptionKind::footprint:
+        return "footprint";
+    case OptionKind::range:
+        return "range";
+    case OptionKind::point:
+        return "point";
+    case OptionKind::coefficients:
+        return "coefficients";
+    case OptionKind::plane:
+        return "plane";
+    case OptionKind::corners:
+        return "corners";
+    }
+    return {};
+}
+
+bool may_be_map(OptionKind kind) {
+    using enum OptionKind;
+    return kind == bound || kind == limit || kind == group || kind == assertions || kind == plane;
+}
+
+bool may_be_list(OptionKind kind) {
+    using enum OptionKind;
+    return kind == vector || kind == list || kind == rows || kind == footprint || kind == range ||
+           kind == point || kind == coefficients || kind == plane || kind == corners;
+}
+
 bool OptionType<bool>::parse(const Value& value, bool& out, Problems& problems) {
     if (value.deferred) return true;
     const auto truth = value.as_bool();

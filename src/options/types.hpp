@@ -11,6 +11,37 @@
 
 namespace facetmill {
 
+/// What a value of an option is.
+enum class OptionKind {
+    boolean,
+    integer,
+    number,
+    text,
+    path,
+    ratio,
+    length,
+    angle,
+    vector,
+    bound,
+    limit,
+    choice,
+    group,
+    list,
+    assertions,
+    rows,
+    footprint,
+    range,
+    point,
+    coefficients,
+    plane,
+    corners
+};
+/// As help and the manual call it: "bool", "integer".
+std::string_view to_string(OptionKind kind);
+/// Whether a value may be a map, or a list, in YAML. (Of a group its declaration tells more.)
+bool may_be_map(OptionKind kind);
+bool may_be_list(OptionKind kind);
+
 /// What the number of an option measures.
 enum class Dimension { none, length, angle, ratio, count, bytes };
 
@@ -29,7 +60,7 @@ std::optional<std::pair<double, std::string_view>> number_and_unit(std::string_v
 bool wrong_type(const Value& value, std::string_view expected, Problems& problems, std::string hint = {});
 
 /// Each specialisation has:
-///   static constexpr const char* name;                      type for people: "integer", "length"
+///   static constexpr OptionKind kind;
 ///   static constexpr Dimension dimension;
 ///   static bool parse(const Value&, T&, Problems&);         false after adding a problem at the value's mark
 ///   static std::string print(const T&);                     a spelling that parses to the same
@@ -38,10 +69,10 @@ bool wrong_type(const Value& value, std::string_view expected, Problems& problem
 template <class T>
 struct OptionType;
 
-#define FACETMILL_OPTION_TYPE(T, NAME, DIMENSION)                                                            \
+#define FACETMILL_OPTION_TYPE(T, KIND, DIMENSION)                                                            \
     template <>                                                                                              \
     struct OptionType<T> {                                                                                   \
-        static constexpr const char* name = NAME;                                                            \
+        static constexpr OptionKind kind = OptionKind::KIND;                                                 \
         static constexpr Dimension dimension = DIMENSION;                                                    \
         static bool parse(const Value& value, T& out, Problems& problems);                                   \
         static std::string print(const T& value);                                                            \
@@ -49,24 +80,24 @@ struct OptionType;
         static std::optional<double> magnitude(const T& value);                                              \
     }
 
-FACETMILL_OPTION_TYPE(bool, "bool", Dimension::none);
-FACETMILL_OPTION_TYPE(std::int64_t, "integer", Dimension::count);
-FACETMILL_OPTION_TYPE(double, "number", Dimension::none);
-FACETMILL_OPTION_TYPE(std::string, "text", Dimension::none);
-FACETMILL_OPTION_TYPE(PathText, "path", Dimension::none);
-FACETMILL_OPTION_TYPE(Ratio, "ratio", Dimension::ratio);
-FACETMILL_OPTION_TYPE(Length, "length", Dimension::length);
-FACETMILL_OPTION_TYPE(Angle, "angle", Dimension::angle);
-FACETMILL_OPTION_TYPE(Vec3, "vector", Dimension::none);
-FACETMILL_OPTION_TYPE(Bound, "bound", Dimension::none);
-FACETMILL_OPTION_TYPE(AngleBound, "bound", Dimension::angle);
-FACETMILL_OPTION_TYPE(CountLimit, "limit", Dimension::count);
-FACETMILL_OPTION_TYPE(ByteLimit, "limit", Dimension::bytes);
+FACETMILL_OPTION_TYPE(bool, boolean, Dimension::none);
+FACETMILL_OPTION_TYPE(std::int64_t, integer, Dimension::count);
+FACETMILL_OPTION_TYPE(double, number, Dimension::none);
+FACETMILL_OPTION_TYPE(std::string, text, Dimension::none);
+FACETMILL_OPTION_TYPE(PathText, path, Dimension::none);
+FACETMILL_OPTION_TYPE(Ratio, ratio, Dimension::ratio);
+FACETMILL_OPTION_TYPE(Length, length, Dimension::length);
+FACETMILL_OPTION_TYPE(Angle, angle, Dimension::angle);
+FACETMILL_OPTION_TYPE(Vec3, vector, Dimension::none);
+FACETMILL_OPTION_TYPE(Bound, bound, Dimension::none);
+FACETMILL_OPTION_TYPE(AngleBound, bound, Dimension::angle);
+FACETMILL_OPTION_TYPE(CountLimit, limit, Dimension::count);
+FACETMILL_OPTION_TYPE(ByteLimit, limit, Dimension::bytes);
 
 /// One value or a list of them.
 template <class T>
 struct OptionType<std::vector<T>> {
-    static constexpr const char* name = "list";
+    static constexpr OptionKind kind = OptionKind::list;
     static constexpr Dimension dimension = OptionType<T>::dimension;
     static bool parse(const Value& value, std::vector<T>& out, Problems& problems) {
         out.clear();
@@ -93,7 +124,7 @@ struct OptionType<std::vector<T>> {
 /// Unset unless given.
 template <class T>
 struct OptionType<std::optional<T>> {
-    static constexpr const char* name = OptionType<T>::name;
+    static constexpr OptionKind kind = OptionType<T>::kind;
     static constexpr Dimension dimension = OptionType<T>::dimension;
     static bool parse(const Value& value, std::optional<T>& out, Problems& problems) {
         return OptionType<T>::parse(value, out.emplace(), problems);
@@ -106,5 +137,13 @@ struct OptionType<std::optional<T>> {
         return value ? OptionType<T>::magnitude(*value) : std::nullopt;
     }
 };
+
+/// The kind of one value, of types whose value may be a list of several; else of the value.
+template <class T>
+inline constexpr OptionKind kind_of_one = OptionType<T>::kind;
+template <class T>
+inline constexpr OptionKind kind_of_one<std::vector<T>> = OptionType<T>::kind;
+template <class T>
+inline constexpr OptionKind kind_of_one<std::optional<T>> = kind_of_one<T>;
 
 } // namespace facetmill

@@ -32,12 +32,6 @@ void add_physical(const std::string& name, const Value& value, Lengths& found) {
         found.emplace_back(name, value);
 }
 
-/// Whether the values of the option may be planes in their short form.
-bool takes_planes(const Option& option) {
-    static const Json plane = OptionType<PlaneOption>::schema();
-    return option.schema == plane || (option.schema.contains("anyOf") && option.schema["anyOf"][0] == plane);
-}
-
 /// The lengths with a physical unit among the values of options.
 void find_physical(const Option& option, const Value& value, Lengths& found);
 
@@ -52,7 +46,7 @@ void find_physical(const Declaration& declaration, const Value& given, Lengths& 
 }
 
 void find_physical(const Option& option, const Value& value, Lengths& found) {
-    if (takes_planes(option))
+    if (option.one == OptionKind::plane)
         if (const auto length = length_in_plane(value)) return add_physical(option.name, *length, found);
     if (option.fields) return find_physical(*option.fields, value, found);
     for (const auto& item : value.items) find_physical(option, item, found);

@@ -74,7 +74,7 @@ class Rebase {
 
     void stage(const StageInfo& stage, Value& given) const {
         for (const auto& option : stage.options->options) {
-            if (option.type != "path" && option.type != "list") continue;
+            if (option.kind != OptionKind::path && option.kind != OptionKind::list) continue;
             Value* value = given.is_map()                       ? given.find(option.name)
                            : option.primary && !given.is_null() ? &given
                                                                 : nullptr;

@@ -88,12 +88,12 @@ Value with_safe_paths(const Value& value, Value given, const StageInfo& stage, c
         if (after.is_scalar() && is_name_from_file(before, scope)) after.text = safe_name(after.text);
     };
     const Option* primary = stage.options->primary();
-    if (value.is_scalar() && primary && primary->type == OptionType<PathText>::name) make_safe(value, given);
+    if (value.is_scalar() && primary && primary->kind == OptionKind::path) make_safe(value, given);
     if (!value.is_map() || !given.is_map()) return given;
     for (auto& entry : given.entries) {
         const Option* option = stage.options->find(entry.key);
         const Value* before = value.find(entry.key);
-        if (option && before && option->type == OptionType<PathText>::name) make_safe(*before, entry.value);
+        if (option && before && option->kind == OptionKind::path) make_safe(*before, entry.value);
     }
     return given;
 }

@@ -59,7 +59,10 @@ void declare_properties(Declare<S>& d, Assertions S::*member, std::string owner)
     for (const auto& p : property_table()) {
         Option o;
         o.name = p.name;
-        o.type = p.truth() ? "bool" : p.kind == PropertyKind::word ? "choice" : OptionType<Bound>::name;
+        o.kind = p.truth()                      ? OptionKind::boolean
+                 : p.kind == PropertyKind::word ? OptionKind::choice
+                                                : OptionKind::bound;
+        o.one = o.kind;
         const bool length = p.kind == PropertyKind::length || p.kind == PropertyKind::box;
         o.dimension = length                          ? Dimension::length
                       : p.kind == PropertyKind::angle ? Dimension::angle
@@ -84,7 +87,7 @@ std::optional<bool> holds(const Assertion& assertion, const Properties& properti
 
 template <>
 struct OptionType<Assertions> {
-    static constexpr const char* name = "assertions";
+    static constexpr OptionKind kind = OptionKind::assertions;
     static constexpr Dimension dimension = Dimension::none;
     static bool parse(const Value& v, Assertions& out, Problems& p) {
         return parse_assertions(v, out, "assertions", p);

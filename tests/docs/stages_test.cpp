@@ -35,7 +35,9 @@ std::vector<StageInfo> shipped() {
 
 /// The default's spelling, read again, is a value inside the range.
 void check_default(const StageInfo& stage, const Option& option) {
-    if (option.default_text.empty() || option.type == "group" || option.type == "assertions") return;
+    if (option.default_text.empty() || option.kind == OptionKind::group ||
+        option.kind == OptionKind::assertions)
+        return;
     INFO(stage.name << ": " << option.name << " = " << option.default_text);
     Problems problems;
     const auto source =

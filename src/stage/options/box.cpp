@@ -32,8 +32,8 @@ void declare_box(Declare<BoxOption>& d) {
              "The rotation of the box, anticlockwise when looking against the axis.");
     d.at_most_one({"min", "centre"});
     d.at_most_one({"max", "size"});
-    d.shorthand("[x, y, z, X, Y, Z]: the smallest and the largest corner", OptionType<BoxCorners>::schema(),
-                [](const Value& value, BoxOption& out, Problems& problems) {
+    d.shorthand(ShortForm::list, "[x, y, z, X, Y, Z]: the smallest and the largest corner",
+                OptionType<BoxCorners>::schema(), [](const Value& value, BoxOption& out, Problems& problems) {
                     BoxCorners c;
                     if (!OptionType<BoxCorners>::parse(value, c, problems)) return false;
                     const auto& n = c.numbers;

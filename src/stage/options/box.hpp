@@ -15,7 +15,7 @@ struct BoxCorners {
 
 template <>
 struct OptionType<BoxCorners> {
-    static constexpr const char* name = "corners";
+    static constexpr OptionKind kind = OptionKind::corners;
     static constexpr Dimension dimension = Dimension::none;
     static bool parse(const Value& value, BoxCorners& out, Problems& problems);
     static std::string print(const BoxCorners& value);

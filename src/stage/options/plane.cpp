@@ -170,7 +170,8 @@ void declare_plane(Declare<PlaneOption>& d) {
     d.at_most_one({"normal", "coefficients"});
     d.at_most_one({"through", "coefficients"});
     const Json text = {{"type", "string"}, {"pattern", "^ *[xyz] *="}};
-    d.shorthand("z=0.2, x=10%, y=2mm or z=centre: the plane perpendicular to that axis at that position; [A, "
+    d.shorthand(ShortForm::text_or_list,
+                "z=0.2, x=10%, y=2mm or z=centre: the plane perpendicular to that axis at that position; [A, "
                 "B, C, D]: its coefficients",
                 {{"anyOf", Json::array({text, OptionType<PlaneCoefficients>::schema()})}},
                 [](const Value& value, PlaneOption& out, Problems& problems) {

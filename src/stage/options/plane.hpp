@@ -21,7 +21,7 @@ struct PlanePlace {
 
 template <>
 struct OptionType<PlanePlace> {
-    static constexpr const char* name = "point";
+    static constexpr OptionKind kind = OptionKind::point;
     static constexpr Dimension dimension = Dimension::length;
     static bool parse(const Value& value, PlanePlace& out, Problems& problems);
     static std::string print(const PlanePlace& value);
@@ -36,7 +36,7 @@ struct PlaneCoefficients {
 
 template <>
 struct OptionType<PlaneCoefficients> {
-    static constexpr const char* name = "coefficients";
+    static constexpr OptionKind kind = OptionKind::coefficients;
     static constexpr Dimension dimension = Dimension::none;
     static bool parse(const Value& value, PlaneCoefficients& out, Problems& problems);
     static std::string print(const PlaneCoefficients& value);
@@ -56,7 +56,7 @@ void declare_plane(Declare<PlaneOption>& d);
 
 template <>
 struct OptionType<PlaneOption> {
-    static constexpr const char* name = "plane";
+    static constexpr OptionKind kind = OptionKind::plane;
     static constexpr Dimension dimension = Dimension::none;
     static bool parse(const Value& value, PlaneOption& out, Problems& problems);
     static std::string print(const PlaneOption&) { return {}; }

@@ -66,6 +66,7 @@ void declare_self_intersections(Declare<CleanOptions>& d) {
         return true;
     };
     o.schema = {{"anyOf", Json::array({o.schema, {{"type", "boolean"}}})}};
+    o.may_be_true = true;
 }
 
 } // namespace

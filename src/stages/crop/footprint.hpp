@@ -15,7 +15,7 @@ struct FootprintOption {
 
 template <>
 struct OptionType<FootprintOption> {
-    static constexpr const char* name = "footprint";
+    static constexpr OptionKind kind = OptionKind::footprint;
     static constexpr Dimension dimension = Dimension::none;
     static bool parse(const Value& value, FootprintOption& out, Problems& problems);
     static std::string print(const FootprintOption& value) { return value.path; }

@@ -30,7 +30,7 @@ std::vector<std::array<double, N>> rows_of(const std::vector<double>& numbers) {
 
 template <std::size_t N>
 struct OptionType<Rows<N>> {
-    static constexpr const char* name = "rows";
+    static constexpr OptionKind kind = OptionKind::rows;
     static constexpr Dimension dimension = Dimension::none;
     static bool parse(const Value& value, Rows<N>& out, Problems& problems) {
         std::vector<double> numbers;

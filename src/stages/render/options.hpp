@@ -46,7 +46,7 @@ Shots shots_of(const RenderOptions& o, const Scene& scene, const Context& contex
 /// "auto", "percentile", "all", or two numbers.
 template <>
 struct OptionType<ColourRange> {
-    static constexpr const char* name = "range";
+    static constexpr OptionKind kind = OptionKind::range;
     static constexpr Dimension dimension = Dimension::none;
     static bool parse(const Value& value, ColourRange& out, Problems& problems);
     static std::string print(const ColourRange& range);

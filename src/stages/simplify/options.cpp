@@ -41,7 +41,7 @@ void declare_lock(Declare<LockOptions>& d) {
              "Keeps the vertices of borders between the groups of an OBJ file.");
     d.group("box", &LockOptions::box, "Keeps the vertices within this box, in world space.", declare_box);
     const Json words = {{"enum", {"boundary", "seams", "group"}}};
-    d.shorthand("boundary, seams or group, or a list of them",
+    d.shorthand(ShortForm::list, "boundary, seams or group, or a list of them",
                 {{"anyOf", Json::array({words, {{"type", "array"}, {"items", words}}})}}, parse_locks);
 }
 
@@ -62,7 +62,7 @@ void declare_weights(Declare<AttributeWeights>& d) {
              "Skin weights: a difference of 1 counts as a surface displaced by this percentage of the part's "
              "diagonal (a factor).")
         .at_least(0);
-    d.shorthand("one number for all, 0 for the shape alone", OptionType<double>::schema(),
+    d.shorthand(ShortForm::number, "one number for all, 0 for the shape alone", OptionType<double>::schema(),
                 [](const Value& v, AttributeWeights& out, Problems& problems) {
                     double all = 0;
                     if (!OptionType<double>::parse(v, all, problems)) return false;
@@ -92,7 +92,7 @@ void declare_levels(Declare<LevelOptions>& d) {
     d.option("ratios", &LevelOptions::ratios,
              "The ratio of the triangles that remains at each level, from fine to coarse: [100%, 50%, 10%].")
         .required();
-    d.shorthand("a list of ratios", {{"type", "array"}},
+    d.shorthand(ShortForm::list, "a list of ratios", {{"type", "array"}},
                 [](const Value& v, LevelOptions& out, Problems& problems) {
                     return OptionType<std::vector<Ratio>>::parse(listed(v), out.ratios, problems);
                 });

@@ -33,7 +33,7 @@ void declare_draco(Declare<DracoOptions>& d) {
           "in a separate primitive, without the connectivity that makes Draco files small"}},
         "What is done with faces that use a vertex twice, which Draco's compression of connectivity cannot "
         "represent.");
-    d.shorthand("true or false", {{"type", "boolean"}},
+    d.shorthand(ShortForm::truth, "true or false", {{"type", "boolean"}},
                 [](const Value& v, DracoOptions& out, Problems& problems) {
                     return OptionType<bool>::parse(v, out.on, problems);
                 });
@@ -54,7 +54,7 @@ void declare_quantize(Declare<QuantizeOptions>& d) {
     d.option("weights", &QuantizeOptions::weights,
              "8 stores the weights of joints as bytes, more as 16 bits (a count).")
         .between(8, 16);
-    d.shorthand("true or false", {{"type", "boolean"}},
+    d.shorthand(ShortForm::truth, "true or false", {{"type", "boolean"}},
                 [](const Value& v, QuantizeOptions& out, Problems& problems) {
                     return OptionType<bool>::parse(v, out.on, problems);
                 });
@@ -72,7 +72,7 @@ void declare_meshopt(Declare<MeshoptOptions>& d) {
              "bits, and values that stay float32 as multiples of a power of two: positions within quantize's "
              "bits, translations and scales within 2^-16 of their extent. Without filters, the values are "
              "compressed unchanged.");
-    d.shorthand("true or false", {{"type", "boolean"}},
+    d.shorthand(ShortForm::truth, "true or false", {{"type", "boolean"}},
                 [](const Value& v, MeshoptOptions& out, Problems& problems) {
                     return OptionType<bool>::parse(v, out.on, problems);
                 });
