@@ -2,6 +2,7 @@
 
 #include "base/numbers.hpp"
 #include "base/spelling.hpp"
+#include "options/mark_at.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -199,16 +200,13 @@ bool parse_option(const Option& option, const Value& value, void* target, Proble
 
 bool check_exclusion(const Exclusion& rule, const Value& map, std::string_view owner, Problems& problems) {
     std::vector<std::string> given;
-    const Value::Entry* second = nullptr;
     for (const auto& e : map.entries)
-        if (std::find(rule.names.begin(), rule.names.end(), e.key) != rule.names.end()) {
+        if (std::find(rule.names.begin(), rule.names.end(), e.key) != rule.names.end())
             given.push_back(e.key);
-            if (given.size() == 2) second = &e;
-        }
     if (given.size() > 1 && rule.rule != Exclusion::Rule::at_least_one) {
-        problems.add(second->key_mark, "E-CONFLICT",
-                     fmt::format("{}: at most one of {} may be given, found {}", owner,
-                                 fmt::join(rule.names, ", "), fmt::join(given, " and ")));
+        add_refusal(Refusal{given[1], fmt::format("at most one of {} may be given, found {}",
+                                                  fmt::join(rule.names, ", "), fmt::join(given, " and "))},
+                    owner, map, problems);
         return false;
     }
     if (given.empty() && rule.rule != Exclusion::Rule::at_most_one) {

@@ -105,10 +105,10 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "    - test-cut: 101\n"
          "                ^~~"},
         {stages("  - test-cut: {faces: 3, ratio: 10%}\n"),
-         "p.yaml:4:26: error[E-CONFLICT]: test-cut: at most one of faces, ratio may be given, found faces "
+         "p.yaml:4:33: error[E-CONFLICT]: test-cut: at most one of faces, ratio may be given, found faces "
          "and ratio\n"
          "    - test-cut: {faces: 3, ratio: 10%}\n"
-         "                           ^~~~~"},
+         "                                  ^~~"},
         {stages("  - test-cut: {depth: 3parsec}\n"),
          "p.yaml:4:23: error[E-TYPE]: expected a length (2, 2mm, 0.5%, 0.5% of part), found '3parsec'\n"
          "    - test-cut: {depth: 3parsec}\n"

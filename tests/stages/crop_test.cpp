@@ -48,7 +48,7 @@ TEST_CASE("crop stands walls on the outline on request", "[stages]") {
     CHECK(open.scene.materials.empty());
     CHECK(refusal_of("crop", "{footprint: [[0, 0], [1, 0], [1, 1]], cap: true, by: whole}",
                      scene_of(shapes::grid(4, 3))) ==
-          "usage [E-CONFLICT] crop: cap needs a cut at the outline, and with whole faces there is none | "
+          "usage [E-CONFLICT] crop: 'cap' needs a cut at the outline, and with whole faces there is none | "
           "leave out cap, or use by: cut");
 }
 

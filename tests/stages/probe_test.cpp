@@ -165,11 +165,13 @@ TEST_CASE("probe refuses what it cannot use", "[stages]") {
           "E-MISSING probe: one of points, points_of, segments, rays, along is needed");
     CHECK(probe_refusal("[1, 2]") == "E-TYPE expected rows of 3 numbers or a .csv file, found a list of 2");
     CHECK(probe_refusal("[1, 2, x]") == "E-TYPE expected rows of 3 numbers or a .csv file, found 'x'");
-    CHECK(probe_refusal("{points: [0, 0, 0], face: 1}") == "E-CONFLICT 'face' goes with segments or rays");
+    CHECK(probe_refusal("{points: [0, 0, 0], face: 1}") ==
+          "E-CONFLICT probe: 'face' goes with segments or rays");
     CHECK(probe_refusal("{points: [0, 0, 0], path: a.txt}") == "E-FORMAT probe cannot write 'a.txt'");
-    CHECK(probe_refusal("{points: [0, 0, 0], reverse: true}") == "E-CONFLICT 'reverse' goes with along");
+    CHECK(probe_refusal("{points: [0, 0, 0], reverse: true}") ==
+          "E-CONFLICT probe: 'reverse' goes with along");
     CHECK(probe_refusal("{points: [0, 0, 0], hits: first}") ==
-          "E-CONFLICT 'hits' goes with segments or rays");
+          "E-CONFLICT probe: 'hits' goes with segments or rays");
     CHECK(probe_refusal("{points_of: part}") == "E-PART 'points_of' leaves no part as the surface");
     CHECK(probe_refusal("none.csv").starts_with("E-FILE"));
 }

@@ -112,5 +112,5 @@ TEST_CASE("transform refuses what would flatten the parts", "[stages]") {
 TEST_CASE("transform names options without effect", "[stages]") {
     CHECK(failure([] {
               run_stage("transform", "{pivot: centre}", scene_of(shapes::cube()));
-          }).find("pivot goes with scale or rotate") != std::string::npos);
+          }).find("1:9: transform: 'pivot' goes with scale or rotate") != std::string::npos);
 }

@@ -1,6 +1,6 @@
 #include "geometry/clip/clip.hpp"
 
-#include "base/error.hpp"
+#include "base/refusal.hpp"
 #include "geometry/clip/assemble.hpp"
 #include "geometry/cut/score.hpp"
 #include "geometry/edit/redrawn_faces.hpp"
@@ -344,8 +344,8 @@ ClipResult clip(Mesh mesh, const ClipSettings& settings) {
         return result;
     }
     if (settings.keep == Keep::both && settings.planes.size() != 1)
-        throw Error(ErrorKind::usage, "E-CONFLICT", "keeping both sides takes exactly one plane",
-                    "clip once for every plane, or keep the front or the back");
+        throw_refusal("clip", Refusal{"keep", "'keep: both' takes exactly one plane",
+                                      "clip once for every plane, or keep the front or the back"});
     return Clipper(settings).run(std::move(mesh));
 }
 

@@ -17,19 +17,20 @@ namespace {
 using Settings = RelaxSettings;
 using Method = Settings::Method;
 
-void need(bool holds, const char* name, const char* range, const std::string& found) {
-    if (!holds)
-        throw Error(ErrorKind::usage, "E-RANGE", fmt::format("relax: {} is {}, not {}", name, range, found));
-}
+/// What a setting must be, and what it is.
+struct Need {
+    bool holds;
+    const char* name;
+    const char* range;
+    double found;
+};
 
-void check_lambda(const Settings& s) {
+Need need_of_lambda(const Settings& s) {
     const double f = relax_lambda(s);
-    if (s.method == Method::implicit)
-        need(f > 0 && f <= 1e6, "lambda", "0 < x <= 1e+06 for implicit", to_string(f));
-    else if (s.method == Method::taubin) // the step out would grow what the step in has turned around
-        need(f > 0 && f < 0.7, "lambda", "0 < x < 0.7 for taubin", to_string(f));
-    else
-        need(f > 0 && f <= 1, "lambda", "0 < x <= 1", to_string(f));
+    if (s.method == Method::implicit) return {f > 0 && f <= 1e6, "lambda", "0 < x <= 1e+06 for implicit", f};
+    if (s.method == Method::taubin) // the step out would grow what the step in has turned around
+        return {f > 0 && f < 0.7, "lambda", "0 < x < 0.7 for taubin", f};
+    return {f > 0 && f <= 1, "lambda", "0 < x <= 1", f};
 }
 
 // Of the area that is left by the first iteration: with less, it is shrinking that goes on, not smoothing.
@@ -141,17 +142,24 @@ AttributeChanges relax_targets(Mesh& mesh, const Neighbourhoods& near, const Set
 
 } // namespace
 
-void check_relax_settings(const Settings& s) {
-    need(s.iterations >= 0, "iterations", "at least 0", std::to_string(s.iterations));
-    check_lambda(s);
-    need(s.pass_band > 0 && s.pass_band < 1, "pass_band", "0 < x < 1", to_string(s.pass_band));
-    need(s.alpha >= 0 && s.alpha <= 1, "alpha", "0 <= x <= 1", to_string(s.alpha));
-    need(s.beta >= 0 && s.beta <= 1, "beta", "0 <= x <= 1", to_string(s.beta));
-    need(s.until >= 0, "until", "at least 0", to_string(s.until));
+std::optional<Refusal> check_relax_settings(const Settings& s) {
+    const Need needs[] = {{s.iterations >= 0, "iterations", "at least 0", static_cast<double>(s.iterations)},
+                          need_of_lambda(s),
+                          {s.pass_band > 0 && s.pass_band < 1, "pass_band", "0 < x < 1", s.pass_band},
+                          {s.alpha >= 0 && s.alpha <= 1, "alpha", "0 <= x <= 1", s.alpha},
+                          {s.beta >= 0 && s.beta <= 1, "beta", "0 <= x <= 1", s.beta},
+                          {s.until >= 0, "until", "at least 0", s.until}};
+    for (const Need& need : needs)
+        if (!need.holds)
+            return Refusal{need.name,
+                           fmt::format("{} is {}, not {}", need.name, need.range, to_string(need.found)),
+                           {},
+                           "E-RANGE"};
+    return {};
 }
 
 RelaxResult relax(Mesh mesh, const Settings& settings) {
-    check_relax_settings(settings);
+    throw_refusal("relax", check_relax_settings(settings));
     RelaxResult result;
     const Neighbourhoods near = neighbourhoods(mesh, settings);
     result.held = near.held;

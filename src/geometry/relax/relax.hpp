@@ -1,6 +1,7 @@
 #pragma once
 // Relaxation: vertices move towards the mean of their neighbours, all at the same time.
 
+#include "base/refusal.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/topology.hpp"
 
@@ -80,8 +81,8 @@ struct RelaxResult {
 /// O(iterations * corners), parallel; the same bytes for any number of threads.
 RelaxResult relax(Mesh mesh, const RelaxSettings& settings = {});
 
-/// Throws usage (E-RANGE) when a setting is out of range; relax does it first of all.
-void check_relax_settings(const RelaxSettings& settings);
+/// What is refused when a setting is out of range (E-RANGE); relax throws it first of all.
+std::optional<Refusal> check_relax_settings(const RelaxSettings& settings);
 
 struct Neighbourhoods {
     VertexLists lists; ///< neighbours of each vertex, in a fixed order, each once; empty for those that stay

@@ -1,6 +1,7 @@
 #include "stages/clean/options.hpp"
 
 #include "mesh/transform.hpp"
+#include "options/mark_at.hpp"
 
 namespace facetmill::clean_stage {
 
@@ -138,9 +139,9 @@ void verify_clean(const CleanOptions& o, const Value& given, Problems& problems)
     if (near && !o.tolerance)
         problems.add(given.mark, "E-MISSING", "clean: near needs a tolerance", "tolerance: 0.01% (or 0.1mm)");
     if (!near && o.tolerance)
-        problems.add(given.mark, "E-CONFLICT",
-                     "clean: tolerance has no effect, because no step is set to near",
-                     "weld: near, stitch: near or t_junctions: near");
+        add_refusal(Refusal{"tolerance", "'tolerance' has no effect, because no step is set to near",
+                            "weld: near, stitch: near or t_junctions: near"},
+                    "clean", given, problems);
     const auto& c = o.components;
     if (c && c->min_faces == 0 && !c->min_size && !c->min_area && c->keep == 0)
         problems.add(given.mark, "E-MISSING",

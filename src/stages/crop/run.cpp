@@ -1,4 +1,5 @@
 #include "geometry/crop/crop.hpp"
+#include "options/mark_at.hpp"
 #include "stage/both_sides.hpp"
 #include "stage/context.hpp"
 #include "stage/options/cap.hpp"
@@ -193,13 +194,12 @@ Scene run(Scene scene, const CropOptions& o, Context& context, CropReport& repor
 }
 
 void verify(const CropOptions& o, const Value& given, Problems& problems) {
-    const auto find = [&](const char* name) { return given.is_map() ? given.find(name) : nullptr; };
-    const Value* footprint = given.is_map() ? find("footprint") : &given;
+    const Value* footprint = given.is_map() ? given.find("footprint") : &given;
     if (footprint) verify_footprint(o.footprint, *footprint, "crop", problems);
     if (o.cap && o.by != CropBy::cut)
-        problems.add(find("cap")->mark, "E-CONFLICT",
-                     "crop: cap needs a cut at the outline, and with whole faces there is none",
-                     "leave out cap, or use by: cut");
+        add_refusal(Refusal{"cap", "'cap' needs a cut at the outline, and with whole faces there is none",
+                            "leave out cap, or use by: cut"},
+                    "crop", given, problems);
 }
 
 /// Faces that are kept whole stay as they are.

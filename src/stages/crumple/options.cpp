@@ -1,6 +1,7 @@
 #include "stages/crumple/options.hpp"
 
 #include "mesh/power_scale.hpp"
+#include "options/mark_at.hpp"
 
 #include <fmt/format.h>
 
@@ -73,10 +74,10 @@ void verify_crumple(const CrumpleOptions& o, const Value& given, Problems& probl
     const Value* frequency = given.find("frequency");
     if (frequency && frequency->deferred) return;
     for (const char* name : {"octaves", "roughness"})
-        if (const Value* value = given.find(name))
-            problems.add(value->mark, "E-CONFLICT",
-                         fmt::format("crumple: '{}' goes with a frequency above 0 only", name),
-                         "for example frequency: 4, or leave it out");
+        if (given.find(name))
+            add_refusal(Refusal{name, fmt::format("'{}' goes with a frequency above 0 only", name),
+                                "for example frequency: 4, or leave it out"},
+                        "crumple", given, problems);
 }
 
 CrumpleSettings crumple_settings(const CrumpleOptions& o, const Scene& scene) {

@@ -1,6 +1,7 @@
 #include "stages/generate/options.hpp"
 
 #include "base/words.hpp"
+#include "options/mark_at.hpp"
 #include "stage/options/convention.hpp"
 
 #include <algorithm>
@@ -158,16 +159,17 @@ void verify_generate(const GenerateOptions& o, const Value& given, Problems& pro
         for (const auto& s : shape_table())
             if (takes(s, entry.key)) append_item(others, s.name);
         if (!others.empty() && !takes(mine, entry.key))
-            problems.add(
-                entry.key_mark, "E-CONFLICT",
-                fmt::format("generate: '{}' goes with {}, not with {}", entry.key, others, mine.name),
-                "leave it out");
+            add_refusal(Refusal{entry.key,
+                                fmt::format("'{}' goes with {}, not with {}", entry.key, others, mine.name),
+                                "leave it out"},
+                        "generate", given, problems);
     }
     verify_counts(o, given, problems);
     verify_torus(o, given, problems);
     if (o.faces && (o.segments || o.rings))
-        problems.add(given.mark, "E-CONFLICT", "generate: 'faces' stands for 'segments' and 'rings'",
-                     "give either faces, or segments and rings");
+        add_refusal(Refusal{"faces", "'faces' stands for 'segments' and 'rings'",
+                            "give either faces, or segments and rings"},
+                    "generate", given, problems);
 }
 
 } // namespace facetmill::generate_stage

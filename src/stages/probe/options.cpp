@@ -3,6 +3,7 @@
 #include "base/hash.hpp"
 #include "io/csv.hpp"
 #include "options/lists.hpp"
+#include "options/mark_at.hpp"
 
 #include <array>
 #include <fmt/format.h>
@@ -132,11 +133,11 @@ void verify_probe(const ProbeOptions& o, const Value& given, Problems& problems)
             problems.add(given.mark, "E-FORMAT", fmt::format("probe cannot write '{}'", path.text),
                          "a name that ends in .csv or .json");
     if (given.find("reverse") && o.along.empty())
-        problems.add(given.mark, "E-CONFLICT", "'reverse' goes with along");
-    if (given.find("hits") && !o.segments && !o.rays)
-        problems.add(given.mark, "E-CONFLICT", "'hits' goes with segments or rays");
-    if (o.face && !o.segments && !o.rays)
-        problems.add(given.mark, "E-CONFLICT", "'face' goes with segments or rays");
+        add_refusal(Refusal{"reverse", "'reverse' goes with along"}, "probe", given, problems);
+    if (o.segments || o.rays) return;
+    if (given.find("hits"))
+        add_refusal(Refusal{"hits", "'hits' goes with segments or rays"}, "probe", given, problems);
+    if (o.face) add_refusal(Refusal{"face", "'face' goes with segments or rays"}, "probe", given, problems);
 }
 
 } // namespace facetmill

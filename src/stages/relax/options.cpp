@@ -2,6 +2,8 @@
 
 #include "options/mark_at.hpp"
 
+#include <fmt/format.h>
+
 namespace facetmill::relax_stage {
 
 namespace {
@@ -105,24 +107,19 @@ RelaxSettings relax_settings(const RelaxOptions& o) {
 
 void verify_relax(const RelaxOptions& o, const Value& given, Problems& problems) {
     const RelaxSettings settings = relax_settings(o);
-    try {
-        check_relax_settings(settings);
-    } catch (const Error& e) {
-        const auto& d = e.diagnostics().front();
-        problems.add(mark_at(given, "lambda"), d.id, d.message, d.hint);
-    }
+    add_refusal(check_relax_settings(settings), "relax", given, problems);
     const auto belongs = [&](const char* name, Method method, const char* to) {
         if (given.is_map() && given.find(name) && settings.method != method)
-            problems.add(mark_at(given, name), "E-CONFLICT",
-                         std::string("relax: '") + name + "' goes with the method " + to + " only");
+            add_refusal(Refusal{name, fmt::format("'{}' goes with the method {} only", name, to)}, "relax",
+                        given, problems);
     };
     belongs("pass_band", Method::taubin, "taubin");
     belongs("alpha", Method::hc, "hc");
     belongs("beta", Method::hc, "hc");
     if (given.is_map() && given.find("neighbours") && settings.method == Method::cotangent)
-        problems.add(
-            mark_at(given, "neighbours"), "E-CONFLICT",
-            "relax: 'neighbours' does not go with the method cotangent, which weights those by angles");
+        add_refusal(Refusal{"neighbours", "'neighbours' does not go with the method cotangent, which weights "
+                                          "those by angles"},
+                    "relax", given, problems);
 }
 
 } // namespace facetmill::relax_stage

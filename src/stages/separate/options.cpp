@@ -1,6 +1,7 @@
 #include "stages/separate/options.hpp"
 
 #include "geometry/clean/clean.hpp"
+#include "options/mark_at.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -81,9 +82,9 @@ void declare_separate(Declare<SeparateOptions>& d) {
 
 void verify_separate(const SeparateOptions& o, const Value& given, Problems& problems) {
     if (given.find("attribute") && o.by != By::group)
-        problems.add(given.mark, "E-CONFLICT", "separate: 'attribute' goes with by: group");
+        add_refusal(Refusal{"attribute", "'attribute' goes with by: group"}, "separate", given, problems);
     if (given.find("cavities") && o.by != By::component)
-        problems.add(given.mark, "E-CONFLICT", "separate: 'cavities' goes with by: component");
+        add_refusal(Refusal{"cavities", "'cavities' goes with by: component"}, "separate", given, problems);
 }
 
 FaceLabels face_labels(const Part& part, const Scene& scene, const SeparateOptions& o) {

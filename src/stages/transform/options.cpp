@@ -93,7 +93,7 @@ void verify_transform(const TransformOptions& o, const Value& given, Problems& p
         (o.matrix[12] != 0 || o.matrix[13] != 0 || o.matrix[14] != 0 || o.matrix[15] != 1))
         refuse("matrix", "the last row of a matrix is 0, 0, 0, 1");
     if (given.find("pivot") && o.scale.empty() && !o.rotate)
-        problems.add(mark_at(given, "pivot"), "E-CONFLICT", "transform: pivot goes with scale or rotate");
+        add_refusal(Refusal{"pivot", "'pivot' goes with scale or rotate"}, "transform", given, problems);
     if (o.rotate && !(length(o.rotate->axis) > 0)) refuse("rotate", "the axis of a rotation has no length");
 }
 

@@ -106,24 +106,26 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
         std::vector<std::string> formats;
         for (const auto& other : io::codecs())
             if (other.write && known(other.can)) formats.push_back(other.name);
-        problems.add(
-            given.find_entry(name)->key_mark, "E-CONFLICT",
-            fmt::format("write: '{}' goes with {}, not with {}", name, fmt::join(formats, ", "), codec.name),
-            "leave it out");
+        add_refusal(
+            Refusal{name,
+                    fmt::format("'{}' goes with {}, not with {}", name, fmt::join(formats, ", "), codec.name),
+                    "leave it out"},
+            "write", given, problems);
     }
     const bool draco = o.draco && o.draco->on;
     for (const auto& [name, asked] : {std::pair("quantize", o.quantize && o.quantize->on),
                                       std::pair("meshopt", o.meshopt && o.meshopt->on)})
         if (draco && asked)
-            problems.add(
-                given.find_entry(name)->key_mark, "E-CONFLICT",
-                fmt::format("write: '{}' and 'draco' exclude each other, since Draco compresses the same "
-                            "data in its own way",
-                            name),
-                "leave one of them out");
+            add_refusal(Refusal{name,
+                                fmt::format("'{}' and 'draco' exclude each other, since Draco compresses the "
+                                            "same data in its own way",
+                                            name),
+                                "leave one of them out"},
+                        "write", given, problems);
     if (o.feature_angle && o.normals != NormalKind::smooth)
-        problems.add(mark_at(given, "feature_angle"), "E-CONFLICT",
-                     "write: 'feature_angle' goes with normals: smooth only", "add normals: smooth");
+        add_refusal(
+            Refusal{"feature_angle", "'feature_angle' goes with normals: smooth only", "add normals: smooth"},
+            "write", given, problems);
 }
 
 /// The file's name without suffix and .gz.

@@ -279,7 +279,7 @@ TEST_CASE("both sides of several planes are refused", "[geometry]") {
     settings.keep = Keep::both;
     CHECK(
         test::failure([&] { clip(shapes::cube(), settings); }) ==
-        "usage [E-CONFLICT] keeping both sides takes exactly one plane | clip once for every plane, or keep "
+        "usage [E-CONFLICT] clip: 'keep: both' takes exactly one plane | clip once for every plane, or keep "
         "the front "
         "or the back");
 }

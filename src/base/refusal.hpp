@@ -1,0 +1,28 @@
+#pragma once
+// Why settings are refused: what the check of an algorithm or of a stage returns, so that the algorithm can
+// throw it and a stage can tell it where the option stands.
+
+#include "base/error.hpp"
+
+#include <optional>
+
+namespace facetmill {
+
+struct Refusal {
+    std::string option;  ///< as users name it: "min_angle"
+    std::string message; ///< "'min_angle' goes with no other target"; whose option it is comes before it
+    std::string hint = {};
+    std::string id = "E-CONFLICT";
+};
+
+/// "split: 'min_angle' goes with no other target".
+inline std::string refusal_text(std::string_view owner, const Refusal& refusal) {
+    return std::string(owner) + ": " + refusal.message;
+}
+
+/// Throws usage when there is a refusal. owner: the capability, "split".
+inline void throw_refusal(std::string_view owner, const std::optional<Refusal>& refusal) {
+    if (refusal) throw Error(ErrorKind::usage, refusal->id, refusal_text(owner, *refusal), refusal->hint);
+}
+
+} // namespace facetmill
