@@ -177,33 +177,32 @@ bool is_smooth(SplitMethod method) { return row_of(method).smooth; }
 
 const char* to_string(SplitMethod method) { return row_of(method).name; }
 
-void check_split_targets(const SplitSettings& s) {
-    const auto refuse = [&](const char* target, const char* knows) {
-        throw Error(ErrorKind::usage, "E-CONFLICT",
-                    fmt::format("split: {} cannot reach the target {}", to_string(s.method), target),
-                    fmt::format("use {}", knows));
+std::optional<Refusal> check_split_targets(const SplitSettings& s) {
+    const auto unreachable = [&](const char* target, const char* knows) {
+        return Refusal{target, fmt::format("{} cannot reach the target '{}'", to_string(s.method), target),
+                       fmt::format("use {}", knows)};
     };
     if (s.max_edge > 0 && s.method != SplitMethod::bisect && !row_of(s.method).halves_edges)
-        refuse("max_edge", "bisect, midpoint, quads, loop, butterfly or catmull-clark");
+        return unreachable("max_edge", "bisect, midpoint, quads, loop, butterfly or catmull-clark");
     if (s.min_angle > 0 && s.method != SplitMethod::bisect && s.method != SplitMethod::notch)
-        refuse("min_angle", "bisect or notch");
+        return unreachable("min_angle", "bisect or notch");
     const char* target = s.max_edge > 0    ? "max_edge"
                          : s.min_angle > 0 ? "min_angle"
                          : s.max_faces > 0 ? "max_faces"
                                            : nullptr;
     if (s.cut == SplitSettings::Cut::widest_angle && target)
-        throw Error(ErrorKind::usage, "E-CONFLICT",
-                    fmt::format("split: 'cut: widest-angle' does not go with the target '{}', which its cuts "
-                                "may never reach",
-                                target),
-                    "leave out cut, or give passes and no target");
+        return Refusal{"cut",
+                       fmt::format("'cut: widest-angle' does not go with the target '{}', which its cuts may "
+                                   "never reach",
+                                   target),
+                       "leave out cut, or give passes and no target"};
     if (s.min_angle > 0 && (s.max_edge > 0 || s.max_faces > 0))
-        throw Error(ErrorKind::usage, "E-CONFLICT", "split: 'min_angle' goes with no other target",
-                    "use two split stages");
+        return Refusal{"min_angle", "'min_angle' goes with no other target", "use two split stages"};
+    return {};
 }
 
 SplitResult split(const Mesh& mesh, const SplitSettings& settings) {
-    check_split_targets(settings);
+    throw_refusal("split", check_split_targets(settings));
     check_polygons(mesh, settings.method);
     if (settings.min_angle <= 0) refuse_giant_split(mesh, split_corner_estimate(mesh, settings));
     if (is_smooth(settings.method) && settings.passes > 0) require_manifold(mesh, settings.method);

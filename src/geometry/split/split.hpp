@@ -1,6 +1,7 @@
 #pragma once
 // Splits faces into smaller ones, by many methods, without cracks.
 
+#include "base/refusal.hpp"
 #include "mesh/lineage.hpp"
 
 #include <optional>
@@ -120,8 +121,8 @@ struct SplitResult {
 /// facets" (1991).
 SplitResult split(const Mesh& mesh, const SplitSettings& settings);
 
-/// Throws usage (E-CONFLICT) for targets that the method cannot reach; split does it first of all.
-void check_split_targets(const SplitSettings& settings);
+/// What is refused (E-CONFLICT) of targets that the method cannot reach; split throws it first of all.
+std::optional<Refusal> check_split_targets(const SplitSettings& settings);
 
 /// split with SplitMethod::grid: each triangle into n * n, each quad into n x n; shared edges get the same n
 /// - 1 points. n = 1 returns the mesh.

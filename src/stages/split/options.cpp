@@ -90,35 +90,30 @@ void declare_split(Declare<SplitOptions>& d) {
 
 void verify_split(const SplitOptions& o, const Value& given, Problems& problems) {
     const SplitMethod method = o.chosen();
+    const auto refuse = [&](const std::optional<Refusal>& refusal) {
+        add_refusal(refusal, "split", given, problems);
+    };
     if (o.grid && o.method && o.method != SplitMethod::grid)
-        problems.add(mark_at(given, "method"), "E-CONFLICT", "split: 'grid' goes with the method grid only",
-                     "leave out either method or grid");
+        refuse(Refusal{"grid", "'grid' goes with the method grid only", "leave out either method or grid"});
     if (o.method == SplitMethod::grid && !o.grid)
         problems.add(given.mark, "E-MISSING",
                      "split: the method grid needs 'grid', the number of segments per edge",
                      "for example split: {grid: 3}");
     if (o.cut != Cut::longest_edge && method != SplitMethod::bisect)
-        problems.add(mark_at(given, "cut"), "E-CONFLICT",
-                     fmt::format("split: 'cut' goes with the method bisect, not with {}", to_string(method)));
+        refuse(
+            Refusal{"cut", fmt::format("'cut' goes with the method bisect, not with {}", to_string(method))});
     if (o.feature_angle && (!is_smooth(method) || method == SplitMethod::sqrt3))
-        problems.add(
-            mark_at(given, "feature_angle"), "E-CONFLICT",
-            fmt::format("split: 'feature_angle' goes with loop, butterfly and catmull-clark, not with {}",
-                        to_string(method)));
-    try {
-        SplitSettings s;
-        s.method = method;
-        // Whether there is a target, not which: its length is known in the scene only.
-        s.cut = o.cut;
-        s.max_edge = o.max_edge ? 1 : 0;
-        s.min_angle = o.min_angle ? 1 : 0;
-        s.max_faces = o.max_faces ? 1 : 0;
-        check_split_targets(s);
-    } catch (const Error& e) {
-        const auto& d = e.diagnostics().front();
-        const char* at = o.cut != Cut::longest_edge ? "cut" : o.min_angle ? "min_angle" : "max_edge";
-        problems.add(mark_at(given, at), d.id, d.message, d.hint);
-    }
+        refuse(Refusal{"feature_angle",
+                       fmt::format("'feature_angle' goes with loop, butterfly and catmull-clark, not with {}",
+                                   to_string(method))});
+    SplitSettings s;
+    s.method = method;
+    // Whether there is a target, not which: its length is known in the scene only.
+    s.cut = o.cut;
+    s.max_edge = o.max_edge ? 1 : 0;
+    s.min_angle = o.min_angle ? 1 : 0;
+    s.max_faces = o.max_faces ? 1 : 0;
+    refuse(check_split_targets(s));
 }
 
 SplitSettings split_settings(const SplitOptions& o) {

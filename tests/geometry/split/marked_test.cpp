@@ -197,14 +197,14 @@ TEST_CASE("min_angle: passes end before they multiply narrow triangles", "[geome
 TEST_CASE("targets that a method cannot reach are refused", "[geometry]") {
     SplitSettings s = by(SplitMethod::centroid);
     s.max_edge = 1;
-    CHECK(
-        test::failure([&] { split(shapes::cube(), s); }) ==
-        "usage [E-CONFLICT] split: centroid cannot reach the target max_edge | use bisect, midpoint, quads, "
-        "loop, butterfly or catmull-clark");
+    CHECK(test::failure([&] { split(shapes::cube(), s); }) ==
+          "usage [E-CONFLICT] split: centroid cannot reach the target 'max_edge' | use bisect, midpoint, "
+          "quads, "
+          "loop, butterfly or catmull-clark");
     s.max_edge = 0;
     s.min_angle = 1;
     CHECK(test::failure([&] { split(shapes::cube(), s); }) ==
-          "usage [E-CONFLICT] split: centroid cannot reach the target min_angle | use bisect or notch");
+          "usage [E-CONFLICT] split: centroid cannot reach the target 'min_angle' | use bisect or notch");
     s = by(SplitMethod::bisect);
     s.max_edge = 1e-300;
     CHECK(test::failure([&] { split(shapes::cube(), s); }).substr(0, 17) == "limit [E-LIMIT] s");
