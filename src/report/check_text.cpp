@@ -19,52 +19,55 @@ namespace {
 /// "[0, 0, 0]"
 std::string point_text(const Json& point) {
     std::string text;
-    for (const Json& x : point) text += (text.empty() ? "" : ", ") + to_string(x.get<double>());
+    for (const Json& x : point) append_item(text, to_string(x.get<double>()));
     return "[" + text + "]";
 }
 
 std::string names_text(const Json& names) {
     std::string text;
-    for (const Json& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
+    for (const Json& name : names) append_item(text, name.get<std::string>());
     return text;
 }
 
 /// "face 7 and 9 of 'part' at 1 2 3"
-std::string location_text(const Json& place) {
+std::string location_text(const EvidenceEntry& e) {
     std::string text;
-    if (place.contains("face")) text += fmt::format("face {} ", place["face"].get<std::size_t>());
-    if (place.contains("with")) text += fmt::format("and {} ", place["with"].get<std::size_t>());
-    if (place.contains("part")) text += fmt::format("of '{}' ", place["part"].get<std::string>());
-    const Json& at = place.at("at");
-    text +=
-        fmt::format("at {:.6g} {:.6g} {:.6g}", at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
-    if (place.contains("attribute")) text += fmt::format(" in {}", place["attribute"].get<std::string>());
+    if (e.face) text += fmt::format("face {} ", *e.face);
+    if (e.with) text += fmt::format("and {} ", *e.with);
+    if (e.of == EvidenceEntry::Of::part) text += fmt::format("of '{}' ", e.name);
+    text += fmt::format("at {:.6g} {:.6g} {:.6g}", e.at->x, e.at->y, e.at->z);
+    if (!e.attribute.empty()) text += fmt::format(" in {}", e.attribute);
     return text;
 }
 
 /// "part 'wheel' 1200", "image 'wood' 2048 x 1024", "extension 'KHR_a' of 'b.glb'"
-std::string share_text(const Json& entry) {
-    std::string text;
-    for (const char* kind : {"part", "material", "image", "extension"})
-        if (entry.contains(kind)) text += fmt::format("{} '{}'", kind, entry[kind].get<std::string>());
-    if (entry.contains("bytes_of")) text += entry["bytes_of"].get<std::string>() + ",";
-    if (entry.contains("document")) text += fmt::format(" of '{}'", entry["document"].get<std::string>());
-    if (entry.contains("width"))
-        text +=
-            fmt::format(" {} x {}", entry["width"].get<std::size_t>(), entry["height"].get<std::size_t>());
-    else if (entry.contains("amount"))
-        text += fmt::format(" {:.12g}{}", entry["amount"].get<double>(),
-                            entry.contains("bytes_of") ? " bytes" : "");
-    return text;
+std::string share_text(const EvidenceEntry& e) {
+    using Of = EvidenceEntry::Of;
+    const std::string amount = e.amount ? fmt::format(" {:.12g}", *e.amount) : "";
+    switch (e.of) {
+    case Of::place:
+        return amount;
+    case Of::part:
+        return fmt::format("part '{}'{}", e.name, amount);
+    case Of::material:
+        return fmt::format("material '{}'{}", e.name, amount);
+    case Of::image:
+        return fmt::format("image '{}' {} x {}", e.name, e.width, e.height);
+    case Of::extension:
+        return fmt::format("extension '{}' of '{}'", e.name, e.document);
+    case Of::bytes:
+        return fmt::format("{},{} bytes", e.name, amount);
+    }
+    return {};
 }
 
 /// The first of those that are no locations.
-std::string shares_text(const Json& evidence) {
-    constexpr std::size_t most = 3;
+std::string shares_text(const CheckEvidence& evidence) {
+    constexpr std::size_t max_shown = 3;
     std::string text;
-    for (std::size_t i = 0; i < std::min(most, evidence.size()); ++i)
-        text += (i == 0 ? "" : ", ") + share_text(evidence[i]);
-    return evidence.size() > most ? text + " ..." : text;
+    for (std::size_t i = 0; i < std::min(max_shown, evidence.size()); ++i)
+        append_item(text, share_text(evidence[i]));
+    return evidence.size() > max_shown ? text + " ..." : text;
 }
 
 } // namespace
@@ -81,9 +84,9 @@ std::string found_text(const Check& check) {
 }
 
 std::string locations_text(const Check& check) {
-    if (!check.evidence.is_array() || check.evidence.empty()) return {};
-    const Json& first = check.evidence[0];
-    if (!first.contains("at")) return shares_text(check.evidence);
+    if (!check.evidence || check.evidence->empty()) return {};
+    const EvidenceEntry& first = check.evidence->front();
+    if (!first.at) return shares_text(*check.evidence);
     std::string text = "first ";
     const std::string count =
         check.locations ? counted(static_cast<std::size_t>(*check.locations), "location") + ", " : "";
@@ -94,12 +97,9 @@ std::string locations_text(const Check& check) {
 
 std::vector<Vec3> failing_locations(const Check& check) {
     std::vector<Vec3> places;
-    if (check.passed || !check.evidence.is_array()) return places;
-    for (const Json& entry : check.evidence) {
-        if (!entry.contains("at")) continue;
-        const Json& at = entry["at"];
-        places.push_back({at[0].get<double>(), at[1].get<double>(), at[2].get<double>()});
-    }
+    if (check.passed || !check.evidence) return places;
+    for (const EvidenceEntry& entry : *check.evidence)
+        if (entry.at) places.push_back(*entry.at);
     return places;
 }
 

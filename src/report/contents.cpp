@@ -1,5 +1,7 @@
 #include "report/contents.hpp"
 
+#include "base/point_json.hpp"
+
 #include <algorithm>
 
 namespace facetmill::report {
@@ -20,6 +22,25 @@ std::optional<Box> bounds_of(const Brief& brief) {
 const Fields& box_fields() {
     static const Fields fields = fields_of<Box>(declare_box_corners);
     return fields;
+}
+
+/// Null of a place, which is nobody's.
+const char* key_of(EvidenceEntry::Of of) {
+    switch (of) {
+    case EvidenceEntry::Of::place:
+        return nullptr;
+    case EvidenceEntry::Of::part:
+        return "part";
+    case EvidenceEntry::Of::material:
+        return "material";
+    case EvidenceEntry::Of::image:
+        return "image";
+    case EvidenceEntry::Of::extension:
+        return "extension";
+    case EvidenceEntry::Of::bytes:
+        return "bytes_of";
+    }
+    return nullptr;
 }
 
 } // namespace
@@ -108,6 +129,29 @@ std::vector<Component> largest_components(const Scene& scene, const Properties& 
     });
     if (all.size() > limit) all.erase(all.begin() + static_cast<std::ptrdiff_t>(limit), all.end());
     return all;
+}
+
+Json evidence_json(const EvidenceEntry& e) {
+    Json json = Json::object();
+    if (const char* key = key_of(e.of)) json[key] = e.name;
+    if (e.at) json["at"] = point_json(*e.at);
+    if (e.nearest) json["nearest"] = point_json(*e.nearest);
+    if (!e.side.empty()) json["of"] = e.side;
+    if (e.face) json["face"] = *e.face;
+    if (e.with) json["with"] = *e.with;
+    if (!e.attribute.empty()) json["attribute"] = e.attribute;
+    if (e.loop) json.update({{"loop", *e.loop}, {"edges", e.edges}, {"length", e.length}});
+    if (e.of == EvidenceEntry::Of::extension) json["document"] = e.document;
+    if (e.of == EvidenceEntry::Of::image) json.update({{"width", e.width}, {"height", e.height}});
+    if (e.amount) json["amount"] = e.is_count ? Json(static_cast<std::int64_t>(*e.amount)) : Json(*e.amount);
+    return json;
+}
+
+Json evidence_json(const std::optional<CheckEvidence>& evidence) {
+    if (!evidence) return nullptr;
+    Json list = Json::array();
+    for (const EvidenceEntry& entry : *evidence) list.push_back(evidence_json(entry));
+    return list;
 }
 
 const Fields& component_fields() {

@@ -47,6 +47,10 @@ std::vector<Component> largest_components(const Scene& scene, const Properties& 
                                           std::size_t limit);
 const Fields& component_fields();
 
+/// [{part, at, face}], with the keys that the entries have; null of none.
+Json evidence_json(const std::optional<CheckEvidence>& evidence);
+Json evidence_json(const EvidenceEntry& entry);
+
 /// The records of a list, as their fields say.
 template <class Record>
 Json list_json(const std::vector<Record>& records, const Fields& fields) {

@@ -55,7 +55,7 @@ Json check_json(const Check& check) {
             {"waived", check.waived},
             {"locations", check.locations ? Json(*check.locations) : Json()},
             {"new_locations", check.fresh ? Json(*check.fresh) : Json()},
-            {"evidence", check.evidence}};
+            {"evidence", evidence_json(check.evidence)}};
 }
 
 } // namespace

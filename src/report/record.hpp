@@ -12,6 +12,26 @@
 
 namespace facetmill::report {
 
+/// One thing that speaks against a check: a place, or what somebody contributes.
+struct EvidenceEntry {
+    enum class Of { place, part, material, image, extension, bytes };
+    Of of = Of::place;                               ///< place: a point, of nobody
+    std::string name = {};                           ///< whose it is
+    std::optional<Vec3> at = {};                     ///< in the world
+    std::optional<Vec3> nearest = {};                ///< of a deviation: on the other surface ...
+    std::string side = {};                           ///< ... and whose `at` is
+    std::optional<std::size_t> face = {}, with = {}; ///< with: the other face of a pair
+    std::string attribute = {};                      ///< the place is about it
+    std::optional<std::size_t> loop = {}; ///< the number of a boundary chain among those of its part,
+    std::size_t edges = 0;                ///< ... how many edges it has
+    double length = 0;                    ///< ... and how long it is
+    std::string document = {};            ///< that names an extension
+    std::size_t width = 0, height = 0;    ///< of an image
+    std::optional<double> amount = {};    ///< what is contributed
+    bool is_count = false;                ///< the amount is
+};
+using CheckEvidence = std::vector<EvidenceEntry>;
+
 /// A validate or ensure assertion and how it went.
 struct Check {
     std::string name = {};  ///< the property: "closed"
@@ -22,12 +42,12 @@ struct Check {
     /// A number, a truth, a word, the corners of a box {min, max} or a list of names, by the property's kind;
     /// null when the property does not apply.
     Json found = {};
-    std::string found_words = {};              ///< what people read for it, where that says more
-    std::optional<double> min = {}, max = {};  ///< what a number had to lie between
-    std::string hint = {};                     ///< when it failed: the stage that fixes it
-    std::string part = {};                     ///< the part it is about; empty: the scene
-    Json evidence = {};                        ///< the first locations: [{part, at, face}], or null
-    std::optional<std::size_t> locations = {}; ///< how many speak against it, where found does not tell
+    std::string found_words = {};               ///< what people read for it, where that says more
+    std::optional<double> min = {}, max = {};   ///< what a number had to lie between
+    std::string hint = {};                      ///< when it failed: the stage that fixes it
+    std::string part = {};                      ///< the part it is about; empty: the scene
+    std::optional<CheckEvidence> evidence = {}; ///< the first locations, or what counts most; none if it held
+    std::optional<std::size_t> locations = {};  ///< how many speak against it, where found does not tell
     std::optional<std::size_t> fresh = {}; ///< how many of these a baseline does not know; none without one
     bool waived = false;                   ///< it did not hold, but that is known; passed is true
     Mark where = {};

@@ -26,10 +26,12 @@ std::string found_text(const DeviationResult& measured, double value) {
     return fmt::format("{:.6g} ({:.4g} % of the diagonal)", value, measured.percent(value));
 }
 
-Json evidence_of(const DirectedDeviation& way, bool forward) {
-    return {{"at", {way.from.x, way.from.y, way.from.z}},
-            {"nearest", {way.to.x, way.to.y, way.to.z}},
-            {"of", forward ? "what entered" : "what left"}};
+report::EvidenceEntry evidence_of(const DirectedDeviation& way, bool forward) {
+    report::EvidenceEntry entry;
+    entry.at = way.from;
+    entry.nearest = way.to;
+    entry.side = forward ? "what entered" : "what left";
+    return entry;
 }
 
 } // namespace
@@ -135,7 +137,8 @@ void check_deviation(const DeviationLimits& limits, const Mark& where, const Sur
         c.passed = value <= most;
         const bool forward = measured.forward.maximum >= measured.backward.maximum;
         if (!c.passed && std::isfinite(value))
-            c.evidence = Json::array({evidence_of(forward ? measured.forward : measured.backward, forward)});
+            c.evidence =
+                report::CheckEvidence{evidence_of(forward ? measured.forward : measured.backward, forward)};
         context.check(std::move(c));
     };
     const double maximum = measured.maximum();

@@ -53,30 +53,33 @@ RunRecord full_record() {
     skipped.path = "stages[1]";
     skipped.skipped = true;
     record.stages = {cut, skipped};
-    record.checks = {{.name = "closed", .stage = "validate", .expected = "true", .found = true},
-                     {.name = "euler",
-                      .stage = "validate",
-                      .passed = false,
-                      .expected = "2",
-                      .found = 0,
-                      .hint = "clean fills holes",
-                      .part = "cube",
-                      .evidence = Json::array({{{"part", "cube"}, {"face", 3}, {"at", {1, 2.5, 3}}}}),
-                      .where = file_mark("p.yaml")},
-                     {.name = "area",
-                      .stage = "validate",
-                      .passed = false,
-                      .severity = Severity::warning,
-                      .expected = "at most 5",
-                      .found = 6},
-                     {.name = "oriented",
-                      .stage = "validate",
-                      .expected = "true",
-                      .found = false,
-                      .part = "cube",
-                      .evidence = Json::array({{{"part", "cube"}, {"face", 4}, {"at", {0, 0, 1}}}}),
-                      .locations = 12,
-                      .waived = true}};
+    record.checks = {
+        {.name = "closed", .stage = "validate", .expected = "true", .found = true},
+        {.name = "euler",
+         .stage = "validate",
+         .passed = false,
+         .expected = "2",
+         .found = 0,
+         .hint = "clean fills holes",
+         .part = "cube",
+         .evidence =
+             CheckEvidence{{.of = EvidenceEntry::Of::part, .name = "cube", .at = Vec3{1, 2.5, 3}, .face = 3}},
+         .where = file_mark("p.yaml")},
+        {.name = "area",
+         .stage = "validate",
+         .passed = false,
+         .severity = Severity::warning,
+         .expected = "at most 5",
+         .found = 6},
+        {.name = "oriented",
+         .stage = "validate",
+         .expected = "true",
+         .found = false,
+         .part = "cube",
+         .evidence =
+             CheckEvidence{{.of = EvidenceEntry::Of::part, .name = "cube", .at = Vec3{0, 0, 1}, .face = 4}},
+         .locations = 12,
+         .waived = true}};
     record.errors = {
         {Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), "", true},
         {Severity::error, "E-WRITE", "the disk is full", {}, "make room"}};
@@ -239,7 +242,8 @@ TEST_CASE("the picture of a stage whose checks failed says what it shows", "[rep
     auto& check = record.checks.emplace_back();
     check.name = "closed";
     check.stage = "validate";
-    check.evidence = Json::parse(R"([{"part": "a", "at": [1, 2.5, -3]}, {"part": "b", "amount": 2}])");
+    check.evidence = CheckEvidence{{.of = EvidenceEntry::Of::part, .name = "a", .at = Vec3{1, 2.5, -3}},
+                                   {.of = EvidenceEntry::Of::part, .name = "b", .amount = 2}};
     CHECK(failing_locations(check).empty());
     CHECK(to_html(record).find("did not hold") == std::string::npos);
     check.passed = false;

@@ -69,12 +69,12 @@ TEST_CASE("a lift within the limit passes, one beyond it fails with its place", 
     CHECK(passed[0].expected == "at most 1.1% (0.055)");
     CHECK(passed[0].found.get<double>() == Approx(0.05));
     CHECK(passed[0].found_words == "0.05 (1 % of the diagonal)");
-    CHECK(passed[0].evidence.is_null());
+    CHECK_FALSE(passed[0].evidence);
     const auto failed = judged_deviation(map("max", Value::scalar("0.04")));
     CHECK_FALSE(failed[0].passed);
     CHECK(failed[0].expected == "at most 0.04");
-    CHECK(failed[0].evidence[0]["at"][2] == 0);
-    CHECK(failed[0].evidence[0]["nearest"][2].get<double>() == Approx(0.05));
+    CHECK(failed[0].evidence.value().at(0).at.value().z == 0);
+    CHECK(failed[0].evidence->at(0).nearest.value().z == Approx(0.05));
 }
 
 TEST_CASE("every limit is a check of its own", "[stage]") {

@@ -7,7 +7,7 @@
 
 #include "geometry/inspect/inspect.hpp"
 #include "mesh/shapes.hpp"
-#include "stages/validate/evidence_json.hpp"
+#include "stages/validate/check_evidence.hpp"
 #include "stages/validate/known_failures.hpp"
 
 #include <fstream>
@@ -155,9 +155,9 @@ TEST_CASE("of a failure that is known in part, the new locations are shown", "[s
     const auto& check = run.state->record.checks.at(0);
     CHECK_FALSE(check.passed);
     CHECK(check.fresh == 1);
-    REQUIRE(check.evidence.size() == 1);
-    CHECK(check.evidence[0]["at"][1] == 77);
-    CHECK(check.evidence[0]["face"] == 12 + 15);
+    REQUIRE(check.evidence.value().size() == 1);
+    CHECK(check.evidence->at(0).at.value().y == 77);
+    CHECK(check.evidence->at(0).face == std::size_t{12 + 15});
     CHECK(run.record.result["waived_locations"] == 15);
 }
 

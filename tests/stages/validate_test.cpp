@@ -6,6 +6,7 @@
 
 #include "io/codec.hpp"
 #include "mesh/shapes.hpp"
+#include "report/contents.hpp"
 #include "support/run_stage.hpp"
 
 using namespace facetmill;
@@ -97,7 +98,7 @@ TEST_CASE("validate names the locations that speak against a property", "[stages
     Mesh mesh = shapes::cube();
     mesh.corners.resize(33);
     const auto run = run_stage("validate", "{closed: true}", scene_of(mesh));
-    const auto& evidence = run.state->record.checks.at(0).evidence;
+    const Json evidence = report::evidence_json(run.state->record.checks.at(0).evidence);
     REQUIRE(evidence.size() == 1); // one hole
     CHECK(evidence[0]["part"] == "part");
     CHECK(evidence[0]["at"].size() == 3);
@@ -107,7 +108,7 @@ TEST_CASE("validate names the locations that speak against a property", "[stages
     const Index fin[] = {0, 1, 6};
     add_face(third, fin);
     const auto crowded = run_stage("validate", "{edge_manifold: true}", scene_of(third));
-    CHECK(crowded.state->record.checks.at(0).evidence[0].contains("face"));
+    CHECK(crowded.state->record.checks.at(0).evidence.value().at(0).face);
 }
 
 TEST_CASE("validate tells every open loop: which, how long and where, in the world", "[stages]") {
@@ -118,13 +119,14 @@ TEST_CASE("validate tells every open loop: which, how long and where, in the wor
         10;
     const auto run = run_stage("validate", "{boundary_loops: 0, longest_boundary: {max: 100}}", scene);
     for (const auto& check : run.state->record.checks) {
-        REQUIRE(check.evidence.size() == 2);
-        CHECK(check.evidence[0]["loop"] == 0);
-        CHECK(check.evidence[0]["edges"] == 6);
-        CHECK(check.evidence[0]["length"] == Approx(60));
-        CHECK(check.evidence[1]["loop"] == 1);
-        CHECK(check.evidence[1]["length"] == Approx(120));
-        CHECK(check.evidence[1]["at"].size() == 3);
+        const Json evidence = report::evidence_json(check.evidence);
+        REQUIRE(evidence.size() == 2);
+        CHECK(evidence[0]["loop"] == 0);
+        CHECK(evidence[0]["edges"] == 6);
+        CHECK(evidence[0]["length"] == Approx(60));
+        CHECK(evidence[1]["loop"] == 1);
+        CHECK(evidence[1]["length"] == Approx(120));
+        CHECK(evidence[1]["at"].size() == 3);
     }
 }
 

@@ -3,7 +3,7 @@
 #include "io/codec.hpp"
 #include "io/outputs.hpp"
 #include "options/mark_at.hpp"
-#include "stages/validate/evidence_json.hpp"
+#include "stages/validate/check_evidence.hpp"
 
 #include <array>
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "geometry/edit/surgery.hpp"
 #include "mesh/topology.hpp"
 #include "stage/context.hpp"
-#include "stages/validate/evidence_json.hpp"
+#include "stages/validate/check_evidence.hpp"
 #include "stages/validate/failed_copy.hpp"
 #include "stages/validate/known_failures.hpp"
 
@@ -91,7 +91,7 @@ class Judge {
             check.evidence =
                 some ? evidence_among(scene, assertion, verdict.keys) : evidence_against(scene, assertion);
             check.locations = count_locations(scene, assertion);
-            if (subject.faces) renumber(check.evidence, *subject.faces);
+            if (subject.faces) renumber(*check.evidence, *subject.faces);
             if (!take(std::move(check), std::move(failure), verdict) && s_.mark)
                 flag(scene, subject, assertion);
         }
@@ -109,10 +109,10 @@ class Judge {
                 .keys = std::move(keys)};
     }
 
-    static void renumber(Json& evidence, const std::vector<Index>& faces) {
-        for (Json& entry : evidence)
-            for (const char* key : {"face", "with"})
-                if (entry.contains(key)) entry[key] = faces[entry[key].get<std::size_t>()];
+    static void renumber(report::CheckEvidence& evidence, const std::vector<Index>& faces) {
+        for (auto& entry : evidence)
+            for (auto* face : {&entry.face, &entry.with})
+                if (*face) *face = faces[**face];
     }
 
     void flag(const Scene& scene, const Subject& subject, const Assertion& assertion) {

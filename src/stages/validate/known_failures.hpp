@@ -19,7 +19,7 @@ struct Failure {
     Json found;
     std::optional<double> min = {}, max = {}; ///< what a number had to lie between
     std::vector<std::uint64_t> keys =
-        {};                      ///< of all its locations (stages/validate/evidence_json.hpp), ascending
+        {};                      ///< of all its locations (stages/validate/check_evidence.hpp), ascending
     std::size_t more = 0;        ///< read from a file: locations that it only counts,
     std::uint64_t more_hash = 0; ///< and what they are known by together
 

@@ -3,9 +3,10 @@
 #include "base/glob.hpp"
 #include "base/random.hpp"
 #include "base/words.hpp"
+#include "report/contents.hpp"
 #include "stage/assertions.hpp"
+#include "stages/validate/check_evidence.hpp"
 #include "stages/validate/document_contents.hpp"
-#include "stages/validate/evidence_json.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,9 +15,11 @@ namespace facetmill::validate_stage {
 
 namespace {
 
+using Of = report::EvidenceEntry::Of;
+
 /// Something that counts towards a limit.
 struct Share {
-    Json entry;
+    report::EvidenceEntry entry;
     std::size_t amount = 1;
 };
 
@@ -36,15 +39,15 @@ LimitCheck check_number(const char* name, const Bound& bound, std::vector<Share>
     std::stable_sort(shares.begin(), shares.end(),
                      [](const Share& a, const Share& b) { return a.amount > b.amount; });
     shares.resize(std::min(shares.size(), max_evidence));
-    check.evidence = Json::array();
-    for (Share& s : shares) check.evidence.push_back(std::move(s.entry));
+    check.evidence.emplace();
+    for (Share& s : shares) check.evidence->push_back(std::move(s.entry));
     return limit;
 }
 
 /// A word that has to match a pattern, and what is told of it when it does not.
 struct Word {
     std::string text;
-    Json entry;
+    report::EvidenceEntry entry;
 };
 
 LimitCheck check_words(const char* name, const std::vector<std::string>& patterns,
@@ -54,7 +57,7 @@ LimitCheck check_words(const char* name, const std::vector<std::string>& pattern
     check.name = name;
     check.expected = join_texts(patterns);
     std::vector<std::string> bad;
-    Json evidence = Json::array();
+    report::CheckEvidence evidence;
     for (const Word& w : words) {
         if (std::any_of(patterns.begin(), patterns.end(),
                         [&](const auto& p) { return glob_matches(p, w.text); }))
@@ -62,7 +65,8 @@ LimitCheck check_words(const char* name, const std::vector<std::string>& pattern
         if (evidence.size() < max_evidence) evidence.push_back(w.entry);
         if (std::find(bad.begin(), bad.end(), w.text) == bad.end()) bad.push_back(w.text);
         std::uint64_t key = 8;
-        for (const char letter : w.entry.dump(-1, ' ', false, Json::error_handler_t::replace))
+        const Json told = report::evidence_json(w.entry); // baselines know it by that
+        for (const char letter : told.dump(-1, ' ', false, Json::error_handler_t::replace))
             key = hashed(key, static_cast<unsigned char>(letter));
         limit.keys.push_back(key);
     }
@@ -81,29 +85,35 @@ LimitCheck check_words(const char* name, const std::vector<std::string>& pattern
 
 std::vector<Share> parts_of(const Scene& scene) {
     std::vector<Share> shares;
-    for (const auto& part : scene.parts) shares.push_back({{{"part", part.name}}});
+    for (const auto& part : scene.parts) shares.push_back({{.of = Of::part, .name = part.name}});
     return shares;
 }
 
 std::vector<Share> materials_of(const Scene& scene) {
     std::vector<Share> shares;
-    for (const auto& m : scene.materials) shares.push_back({{{"material", m.name}}});
+    for (const auto& m : scene.materials) shares.push_back({{.of = Of::material, .name = m.name}});
     return shares;
 }
 
 std::vector<Share> documents_bytes(const Scene& scene) {
     std::vector<Share> shares;
     for (const auto& b : bytes_of(scene))
-        shares.push_back({{{"bytes_of", b.name}, {"amount", b.bytes}}, b.bytes});
+        shares.push_back(
+            {{.of = Of::bytes, .name = b.name, .amount = static_cast<double>(b.bytes), .is_count = true},
+             b.bytes});
     return shares;
 }
 
 std::vector<Share> texture_pixels(const Scene& scene) {
     std::vector<Share> shares;
     for (const auto& i : images_of(scene))
-        shares.push_back(
-            {{{"image", i.name}, {"width", i.width}, {"height", i.height}, {"amount", i.pixels()}},
-             i.pixels()});
+        shares.push_back({{.of = Of::image,
+                           .name = i.name,
+                           .width = i.width,
+                           .height = i.height,
+                           .amount = static_cast<double>(i.pixels()),
+                           .is_count = true},
+                          i.pixels()});
     return shares;
 }
 
@@ -132,13 +142,14 @@ std::vector<LimitCheck> check_limits(const SceneLimits& limits, const Scene& sce
         checks.push_back(check_number("texture_pixels", *limits.texture_pixels, texture_pixels(scene)));
     if (!limits.names.empty()) {
         std::vector<Word> words;
-        for (const auto& part : scene.parts) words.push_back({part.name, {{"part", part.name}}});
+        for (const auto& part : scene.parts)
+            words.push_back({part.name, {.of = Of::part, .name = part.name}});
         checks.push_back(check_words("names", limits.names, words));
     }
     if (!limits.extensions.empty()) {
         std::vector<Word> words;
         for (const auto& e : extensions_of(scene))
-            words.push_back({e.name, {{"extension", e.name}, {"document", e.document}}});
+            words.push_back({e.name, {.of = Of::extension, .name = e.name, .document = e.document}});
         checks.push_back(check_words("extensions", limits.extensions, words));
     }
     return checks;

@@ -1,6 +1,5 @@
-#include "stages/validate/evidence_json.hpp"
+#include "stages/validate/check_evidence.hpp"
 
-#include "base/point_json.hpp"
 #include "base/random.hpp"
 
 #include <algorithm>
@@ -17,27 +16,22 @@ std::function<bool(double)> failing(const Assertion& assertion) {
     return [bound = assertion.bound](double value) { return !holds(bound, value); };
 }
 
-Json amount_json(const Property& property, double amount) {
-    if (property.kind == PropertyKind::count) return static_cast<std::int64_t>(amount);
-    return amount;
-}
-
-Json entry_of(const Property& property, const Evidence& e) {
-    Json entry = Json::object();
-    if (e.material.empty())
-        entry["part"] = e.part;
-    else
-        entry["material"] = e.material;
-    if (e.location) entry["at"] = point_json(e.location->at);
-    if (e.location && e.location->face != none) entry["face"] = e.location->face;
-    if (e.location && e.location->with != none) entry["with"] = e.location->with;
-    if (!e.attribute.empty()) entry["attribute"] = e.attribute;
-    if (e.loop) {
-        entry["loop"] = *e.loop;
-        entry["edges"] = e.chain.edges;
-        entry["length"] = e.chain.length;
+report::EvidenceEntry entry_of(const Property& property, const Evidence& e) {
+    using Of = report::EvidenceEntry::Of;
+    report::EvidenceEntry entry;
+    entry.of = e.material.empty() ? Of::part : Of::material;
+    entry.name = e.material.empty() ? e.part : e.material;
+    if (e.location) {
+        entry.at = e.location->at;
+        if (e.location->face != none) entry.face = e.location->face;
+        if (e.location->with != none) entry.with = e.location->with;
     }
-    if (e.amount) entry["amount"] = amount_json(property, *e.amount);
+    entry.attribute = e.attribute;
+    entry.loop = e.loop;
+    entry.edges = e.chain.edges;
+    entry.length = e.chain.length;
+    entry.amount = e.amount;
+    entry.is_count = property.kind == PropertyKind::count;
     return entry;
 }
 
@@ -59,18 +53,19 @@ std::vector<Location> locations_against(const Part& part, const Assertion& asser
     return locations_against(part, property_of(assertion), {max_locations, failing(assertion)});
 }
 
-Json evidence_against(const Scene& scene, const Assertion& assertion) {
+report::CheckEvidence evidence_against(const Scene& scene, const Assertion& assertion) {
     const Property& property = property_of(assertion);
-    Json evidence = Json::array();
+    report::CheckEvidence evidence;
     for (const Evidence& e :
          evidence_against(scene, EvidenceQuery{property, failing(assertion), assertion.within, max_evidence}))
         evidence.push_back(entry_of(property, e));
     return evidence;
 }
 
-Json evidence_among(const Scene& scene, const Assertion& assertion, const std::vector<std::uint64_t>& keys) {
+report::CheckEvidence evidence_among(const Scene& scene, const Assertion& assertion,
+                                     const std::vector<std::uint64_t>& keys) {
     const Property& property = property_of(assertion);
-    Json evidence = Json::array();
+    report::CheckEvidence evidence;
     for (const Part& part : scene.parts) {
         const PartKeys known(part);
         for (const Location& location : locations_against(part, assertion))

@@ -1,8 +1,8 @@
 #pragma once
 // What speaks against an assertion, as checks carry it.
 
-#include "base/json.hpp"
 #include "geometry/inspect/evidence.hpp"
+#include "report/record.hpp"
 #include "stage/assertions.hpp"
 
 namespace facetmill::validate_stage {
@@ -17,10 +17,11 @@ constexpr std::size_t max_evidence = 10;
 /// of their first edge. For a number that no location speaks against, what it is of the parts, those that
 /// count most first: [{part, amount}]; for a box also {at}, its corner that is out; for parts and materials
 /// their names.
-Json evidence_against(const Scene& scene, const Assertion& assertion);
+report::CheckEvidence evidence_against(const Scene& scene, const Assertion& assertion);
 
 /// The first locations, likewise, of which the ascending keys tell.
-Json evidence_among(const Scene& scene, const Assertion& assertion, const std::vector<std::uint64_t>& keys);
+report::CheckEvidence evidence_among(const Scene& scene, const Assertion& assertion,
+                                     const std::vector<std::uint64_t>& keys);
 
 /// How many locations speak against it, where its value does not tell that; none where there are none.
 std::optional<std::size_t> count_locations(const Scene& scene, const Assertion& assertion);
