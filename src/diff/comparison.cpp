@@ -10,11 +10,10 @@ namespace {
 
 void compare_properties(const Comparing& with) {
     const Properties a = inspect(with.a), b = inspect(with.b);
-    static const std::set<std::string_view> counts{"vertices", "wedges", "edges", "faces", "triangles"};
     for (const auto& p : property_table()) {
         const bool counted = p.kind == PropertyKind::count || p.truth();
         if (!counted || p.costly || p.of_scene() || p.on_request()) continue;
-        with.add(counts.contains(p.name) ? "counts" : "topology", std::string(p.name), property_json(p, a),
+        with.add(p.is_size ? "counts" : "topology", std::string(p.name), property_json(p, a),
                  property_json(p, b));
     }
 }

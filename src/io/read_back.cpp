@@ -270,25 +270,24 @@ void set_tolerance(ReadBack& back, const Scene& scene, const WriteSettings& sett
     back.tolerance = 2 * largest * float_step + back.grid_step;
 }
 
-/// The properties that a file should not lose; truths, or counts of what is wrong.
-constexpr const char* sound_properties[] = {"closed",   "edge_manifold",    "vertex_manifold",
-                                            "oriented", "degenerate_faces", "duplicate_faces"};
+/// What a file should not lose; truths, or counts of what is wrong.
+bool should_stay(const Property& property) { return property.soundness != Soundness::none; }
 
 /// Whether nothing can have been lost: every truth holds, and nothing wrong is counted.
 bool is_sound(const Properties& properties) {
-    return std::all_of(std::begin(sound_properties), std::end(sound_properties), [&](const char* name) {
-        const Property& property = *property_named(name);
-        return (property.get(properties).value_or(0) != 0) == property.truth();
+    const auto all = property_table();
+    return std::all_of(all.begin(), all.end(), [&](const Property& p) {
+        return !should_stay(p) || (p.get(properties).value_or(0) != 0) == p.truth();
     });
 }
 
 std::vector<std::string> losses(const Properties& before, const Properties& after) {
     std::vector<std::string> lost;
-    for (const char* name : sound_properties) {
-        const Property& property = *property_named(name);
-        const double was = property.get(before).value_or(0), is = property.get(after).value_or(0);
-        if (property.truth() && was != 0 && is == 0) lost.push_back(fmt::format("no longer {}", name));
-        if (!property.truth() && is > was) lost.push_back(fmt::format("{} {} (before: {})", is, name, was));
+    for (const Property& p : property_table()) {
+        if (!should_stay(p)) continue;
+        const double was = p.get(before).value_or(0), is = p.get(after).value_or(0);
+        if (p.truth() && was != 0 && is == 0) lost.push_back(fmt::format("no longer {}", p.name));
+        if (!p.truth() && is > was) lost.push_back(fmt::format("{} {} (before: {})", is, p.name, was));
     }
     return lost;
 }
@@ -314,10 +313,11 @@ bool ReadBack::too_far_for_floats() const {
 
 Json ReadBack::json() const {
     Json all = {{"vertices", vertices}, {"faces", faces}, {"position_error", position_error}};
-    for (const char* name : sound_properties) {
-        const Property& property = *property_named(name);
-        const double value = property.get(soundness).value_or(0);
-        if (property.truth())
+    for (const Property& p : property_table()) {
+        if (!should_stay(p)) continue;
+        const double value = p.get(soundness).value_or(0);
+        const std::string name(p.name);
+        if (p.truth())
             all[name] = value != 0;
         else
             all[name] = static_cast<std::int64_t>(value);

@@ -99,6 +99,13 @@ enum class Join {
     of_scene, ///< parts have none: it is about the scene
 };
 
+/// Whether a truth, or a count of what is wrong, is part of being sound.
+enum class Soundness {
+    none,
+    file,   ///< what a file must not lose when it is written
+    surface ///< that, and what every surface that others work with should have
+};
+
 /// A mesh that is measured.
 struct Measured {
     const Mesh& world;            ///< where it stands
@@ -123,7 +130,9 @@ struct Property {
     std::string_view help; ///< for the manual
     std::string_view hint; ///< the stage that fixes it
     Member member = {};
-    bool costly = false; ///< a member that needs InspectSettings::self_intersections
+    bool costly = false;  ///< a member that needs InspectSettings::self_intersections
+    bool is_size = false; ///< how much there is, rather than how it hangs together
+    Soundness soundness = Soundness::none;
     /// On request: the value; none when it does not apply (no faces, no such attribute). Truths as 0 and 1.
     std::optional<double> (*measure)(const Measured& mesh) = nullptr;
     /// On request: the value of each face; the property is the least or most of them, as they join. Infinity

@@ -10,17 +10,21 @@ const Bound yes{.min = {}, .max = {}, .truth = true};
 const Bound no_more_than_none{.min = 0, .max = 0, .truth = {}};
 const Bound some{.min = 1, .max = {}, .truth = {}};
 
-using Rows = std::vector<std::pair<const char*, Bound>>;
+using Rows = std::vector<std::pair<std::string, Bound>>;
 
 void add(Rows& rows, const Rows& more) { rows.insert(rows.end(), more.begin(), more.end()); }
 
+/// What every surface should have.
+Rows sound_rows() {
+    Rows rows;
+    for (const Property& p : property_table())
+        if (p.soundness == Soundness::surface) rows.emplace_back(p.name, p.truth() ? yes : no_more_than_none);
+    rows.emplace_back("faces", some);
+    return rows;
+}
+
 Rows rows_of(Profile profile) {
-    const Rows sound = {{"closed", yes},
-                        {"edge_manifold", yes},
-                        {"vertex_manifold", yes},
-                        {"oriented", yes},
-                        {"degenerate_faces", no_more_than_none},
-                        {"faces", some}};
+    const Rows sound = sound_rows();
     switch (profile) {
     case Profile::none:
         return sound;
