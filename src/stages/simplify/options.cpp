@@ -189,7 +189,7 @@ class Conflicts {
     const Mark& mark(const char* name) const { return mark_at(given_, name); }
     bool has(const char* name) const { return given_.find(name); }
     void refuse(bool when, const char* name, const char* what, const char* hint) {
-        if (when) problems_.add(mark(name), "E-CONFLICT", std::string("simplify: ") + what, hint);
+        if (when) add_refusal(Refusal{name, what, hint}, "simplify", given_, problems_);
     }
 
   private:
