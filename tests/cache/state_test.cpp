@@ -102,7 +102,7 @@ void check_same(const Part& a, const Part& b) {
 
 report::StageRecord full_record() {
     report::StageRecord record;
-    record.after = {.parts = 1, .vertices = 5, .faces = 3, .bounds = {{0, -0.0, 1}, {2, 3, 4}}};
+    record.after = report::Brief{.parts = 1, .vertices = 5, .faces = 3, .bounds = {{0, -0.0, 1}, {2, 3, 4}}};
     record.attribute_changes = {
         {"hull", {"NORMAL", Domain::vertex, AttributeChange::Kind::dropped, "no reason"}}};
     record.warnings = {{Severity::note, "W-X", "message", line_mark("p.yaml", 3), "hint"}};

@@ -52,8 +52,8 @@ TEST_CASE("stages run in order and the outputs are written", "[pipeline]") {
     CHECK(errors_of(record).empty());
     CHECK(record.exit_code == 0);
     CHECK(ground.file("out/b.txt") == "a 5\n");
-    CHECK(record.stages.at(1).before["faces"] == 12);
-    CHECK(record.stages.at(1).after["faces"] == 5);
+    CHECK(record.stages.at(1).before.value().faces == 12);
+    CHECK(record.stages.at(1).after.value().faces == 5);
     CHECK(record.stages.at(1).resolved["depth"]["given"] == "1%");
 }
 

@@ -35,14 +35,12 @@ RunRecord full_record() {
     record.params = {{"keep", "10%"}};
     record.inputs = {{"a.ply", 1234, std::string(64, 'a'), {}}};
     record.outputs = {{"b.glb", 56789, std::string(64, 'b'), {{"faces", 12}}}};
-    const Json brief = {
-        {"parts", 1}, {"vertices", 8}, {"faces", 1200}, {"bounds", {{"min", {0, 0, 0}}, {"max", {1, 1, 1}}}}};
     StageRecord cut;
     cut.name = "cut";
     cut.stage = "clip";
     cut.path = "stages[0]";
-    cut.before = cut.after = brief;
-    cut.after["faces"] = 12;
+    cut.before = Brief{.parts = 1, .vertices = 8, .faces = 1200, .bounds = {{0, 0, 0}, {1, 1, 1}}};
+    cut.after = Brief{.parts = 1, .vertices = 8, .faces = 12, .bounds = {{0, 0, 0}, {1, 1, 1}}};
     cut.attribute_changes = {
         {"cube", {"NORMAL", Domain::wedge, AttributeChange::Kind::dropped, "the format has none"}}};
     cut.warnings = {{Severity::warning, "W-CAP", "one loop stays open", file_mark("p.yaml"), "close it"}};

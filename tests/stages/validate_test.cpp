@@ -267,7 +267,7 @@ Scene with_document() {
 Json limit_evidence(const std::string& limit) {
     const auto run = run_stage("validate", "{limits: {" + limit + "}}", with_document());
     const auto& check = run.state->record.checks.at(0);
-    return check.passed ? Json("passed") : check.evidence;
+    return check.passed ? Json("passed") : report::evidence_json(check.evidence);
 }
 
 } // namespace
@@ -337,7 +337,7 @@ TEST_CASE("validate shows only the faces beyond the bound, and how many they are
     }
     REQUIRE((thin > 0 && thin < 10));
     CHECK(check.locations == thin);
-    CHECK(check.evidence.size() == thin);
+    CHECK(check.evidence.value().size() == thin);
     io::ReadLog log;
     const Scene copy = io::read_scene(io::Input::open(file), {}, log);
     const Attribute* failed = copy.parts.at(0).mesh.find("failed", Domain::face);
@@ -354,8 +354,8 @@ TEST_CASE("validate numbers faces as the part has them, also by component", "[st
     const auto run = run_stage("validate", "{closed: true, per: component}", scene_of(mesh));
     const auto& check = run.state->record.checks.at(1);
     CHECK(check.part == "part.1");
-    CHECK(check.evidence.at(0)["part"] == "part");
-    CHECK(check.evidence.at(0)["face"] >= 12);
+    CHECK(check.evidence->at(0).name == "part");
+    CHECK(check.evidence->at(0).face.value() >= 12);
     CHECK(check.locations == 4);
 }
 
