@@ -90,6 +90,13 @@ struct JpegErrors {
     std::longjmp(reinterpret_cast<JpegErrors*>(state->err)->back, 1); // the manager is its first member
 }
 
+/// Leaves an image that has been given more scans than any encoder makes.
+void limit_scans(j_common_ptr state) {
+    constexpr int most = 500;
+    if (state->is_decompressor && reinterpret_cast<j_decompress_ptr>(state)->input_scan_number > most)
+        leave_jpeg(state);
+}
+
 /// As read_png.
 bool read_jpeg(jpeg_decompress_struct& state, JpegErrors& errors, Span bytes, bool header, Pixels& pixels) {
     if (setjmp(errors.back) != 0) return false;
@@ -100,6 +107,9 @@ bool read_jpeg(jpeg_decompress_struct& state, JpegErrors& errors, Span bytes, bo
     pixels.height = state.image_height;
     if (header) return true;
     if (too_large(pixels.width, pixels.height)) return false;
+    jpeg_progress_mgr progress{};
+    progress.progress_monitor = limit_scans;
+    state.progress = &progress;
     state.out_color_space = JCS_EXT_RGBA;
     state.dct_method = JDCT_ISLOW; // integers: the same on every processor
     pixels.rgba.resize(4 * pixels.width * pixels.height);
@@ -109,6 +119,7 @@ bool read_jpeg(jpeg_decompress_struct& state, JpegErrors& errors, Span bytes, bo
         ::jpeg_read_scanlines(&state, &row, 1);
     }
     ::jpeg_finish_decompress(&state);
+    pixels.damaged = errors.manager.num_warnings > 0;
     return true;
 }
 
@@ -129,7 +140,7 @@ std::optional<Pixels> decoded_webp(Span bytes, bool header) {
     const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
     int width = 0, height = 0;
     if (!::WebPGetInfo(data, bytes.size(), &width, &height) || width < 1 || height < 1) return {};
-    Pixels pixels{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}};
+    Pixels pixels{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}, false};
     if (header) return pixels;
     if (too_large(pixels.width, pixels.height)) return {};
     pixels.rgba.resize(4 * pixels.width * pixels.height);
@@ -176,7 +187,7 @@ bool is_grey(const Pixels& image) {
 }
 
 Bytes combined_image(const std::array<Channel, 4>& channels) {
-    Pixels out{1, 1, {}};
+    Pixels out{1, 1, {}, false};
     for (const Channel& c : channels) {
         if (!c.image) continue;
         out.width = std::max(out.width, c.image->width);
@@ -196,7 +207,7 @@ Bytes combined_image(const std::array<Channel, 4>& channels) {
 }
 
 Bytes normals_of_relief(const Pixels& relief, double strength) {
-    Pixels out{relief.width, relief.height, std::vector<std::uint8_t>(relief.rgba.size())};
+    Pixels out{relief.width, relief.height, std::vector<std::uint8_t>(relief.rgba.size()), false};
     const auto height = [&](std::size_t x, std::size_t y) {
         const std::size_t at = (y % relief.height) * relief.width + x % relief.width;
         return brightness_of(&relief.rgba[4 * at]) / 255.0;

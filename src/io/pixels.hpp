@@ -14,6 +14,7 @@ namespace facetmill::io {
 struct Pixels {
     std::size_t width = 0, height = 0;
     std::vector<std::uint8_t> rgba;
+    bool damaged = false; ///< a JPEG whose data end early or are broken: the rest is a guess of the library's
 
     /// The pixel of an image scaled to width x height (its nearest one).
     const std::uint8_t* at(std::size_t x, std::size_t y, std::size_t of_width, std::size_t of_height) const {
@@ -23,7 +24,8 @@ struct Pixels {
 
 /// A PNG, JPEG or WebP of at most 2^26 pixels; none for others and for what is broken. Grey becomes three
 /// equal channels, what has no alpha is opaque, 16 bits are rounded to 8. Colours are the file's own numbers:
-/// gAMA, iCCP and such are not applied, as glTF says.
+/// gAMA, iCCP and such are not applied, as glTF says. A JPEG of more than 500 scans is none, either: each
+/// costs as much as a whole image, however few bytes it has.
 std::optional<Pixels> decoded_image(Span bytes);
 
 /// Width and height of such an image, of which no more than the header is read; none where that is broken.
