@@ -5,6 +5,7 @@
 #include "io/gltf/patch.hpp"
 #include "io/image_files.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::io::gltf {
@@ -88,6 +89,14 @@ class Placer {
     std::vector<OutputFile> files_;
 };
 
+/// Whether the file has these bytes.
+bool has_bytes(const fs::path& path, const Bytes& bytes) {
+    std::error_code failed;
+    if (!fs::is_regular_file(path, failed) || fs::file_size(path, failed) != bytes.size()) return false;
+    const Input file = Input::open(path);
+    return std::equal(bytes.begin(), bytes.end(), file.stored().begin(), file.stored().end());
+}
+
 /// Names the image by the way from the output's directory to where it lies.
 void refer(Patch& patch, Placer& placer, const FileImage& image) {
     const auto path = decoded_path(image.uri);
@@ -97,7 +106,8 @@ void refer(Patch& patch, Placer& placer, const FileImage& image) {
     const fs::path to =
         fs::absolute(patch.settings.directory.empty() ? "." : patch.settings.directory, failed);
     if (failed) return;
-    if (image.bytes && !fs::exists(from, failed)) return placer.copy(image); // made while it was read
+    // Made while it was read, or by a stage.
+    if (image.bytes && !has_bytes(from, *image.bytes)) return placer.copy(image);
     image_json(patch, image)["uri"] =
         uri_of(from.lexically_normal().lexically_relative(to.lexically_normal()));
 }

@@ -112,6 +112,15 @@ TEST_CASE("images may stay where the input has them", "[io]") {
     CHECK(Json::parse(json_of(to_bytes(glb)))["images"][0]["uri"] == "../../in/maps/wood%20grain.png");
 }
 
+TEST_CASE("an image whose file is no longer what was read is copied and not named", "[io]") {
+    const TemporaryDirectory dir;
+    put_asset(dir / "in", red_png());
+    const Scene scene = load(dir / "in/a.gltf");
+    put(dir / "in" / "maps" / "wood grain.png", blue_png());
+    write(scene, fmt::format("{{path: {}/out/b.glb, textures: reference}}", dir.path().string()));
+    CHECK(image_of(dir / "out/b.glb") == red_png());
+}
+
 TEST_CASE("an image that would replace another output of the run is an error", "[io]") {
     const TemporaryDirectory dir;
     put_asset(dir / "red", red_png());
