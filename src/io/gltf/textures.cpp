@@ -1,0 +1,365 @@
+#include "io/gltf/textures.hpp"
+
+#include "io/gltf/builder.hpp"
+#include "io/gltf/container.hpp"
+#include "io/image_files.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::io {
+
+using namespace gltf;
+
+namespace {
+
+constexpr const char* webp_extension = "EXT_texture_webp";
+
+/// The index below count that owner[key] is; none for anything else.
+std::optional<std::size_t> index_at(const Json& owner, const char* key, std::size_t count) {
+    if (!owner.is_object()) return {};
+    const auto found = owner.find(key);
+    if (found == owner.end() || !found->is_number_unsigned()) return {};
+    const auto index = found->get<std::size_t>();
+    return index < count ? std::optional(index) : std::nullopt;
+}
+
+/// owner[key] where that is an object, else nothing.
+const Json* object_at(const Json& owner, const char* key) {
+    if (!owner.is_object()) return nullptr;
+    const auto found = owner.find(key);
+    return found != owner.end() && found->is_object() ? &*found : nullptr;
+}
+
+// --- what images are used for
+
+/// What the specification of glTF 2.0 and its extensions say of a texture, by its name in a material.
+ImageUse use_of(const std::string& name) {
+    static const std::set<std::string> colours = {"baseColorTexture",
+                                                  "emissiveTexture",
+                                                  "diffuseTexture",
+                                                  "specularGlossinessTexture",
+                                                  "sheenColorTexture",
+                                                  "specularColorTexture",
+                                                  "diffuseTransmissionColorTexture"};
+    static const std::set<std::string> without_alpha = {
+        "metallicRoughnessTexture", "occlusionTexture", "clearcoatTexture",   "clearcoatRoughnessTexture",
+        "transmissionTexture",      "thicknessTexture", "iridescenceTexture", "iridescenceThicknessTexture",
+        "anisotropyTexture"};
+    ImageUse use;
+    use.colours = colours.contains(name);
+    use.normals = name == "normalTexture" || name == "clearcoatNormalTexture";
+    use.numbers = !use.colours && !use.normals;
+    use.alpha = name == "specularGlossinessTexture" || (use.numbers && !without_alpha.contains(name));
+    use.textures = {name};
+    return use;
+}
+
+/// Walks through a document and notes what its images are used for.
+class Uses {
+  public:
+    explicit Uses(const Json& json)
+        : json_(json), images_(count_of(json, "images")), textures_(count_of(json, "textures")),
+          all_(images_) {}
+
+    std::vector<ImageUse> of_document(const std::set<int>& held) {
+        for (std::size_t m = 0; m < count_of(json_, "materials"); ++m) {
+            held_ = held.contains(static_cast<int>(m));
+            const Json& material = json_["materials"][m];
+            const auto mode = material.is_object() ? material.find("alphaMode") : material.end();
+            covers_ = material.is_object() && mode != material.end() && (*mode == "MASK" || *mode == "BLEND");
+            walk_material(material);
+        }
+        hold_features(json_);
+        hold_lights();
+        return std::move(all_);
+    }
+
+  private:
+    void walk_material(const Json& json) {
+        if (!json.is_object()) return;
+        for (const auto& [name, value] : json.items()) {
+            if (name == "extras") continue;
+            const auto texture =
+                name.ends_with("Texture") ? index_at(value, "index", textures_) : std::nullopt;
+            if (texture) use_texture(*texture, name);
+            walk_material(value);
+        }
+    }
+
+    void use_texture(std::size_t index, const std::string& name) {
+        ImageUse use = use_of(name);
+        use.held = held_;
+        use.coverage = covers_ && (name == "baseColorTexture" || name == "diffuseTexture");
+        use.alpha |= use.coverage;
+        each_image(index, [&](std::size_t image) { all_[image].join(use); });
+    }
+
+    /// Calls with each image of a texture, and marks that which stands beside another one.
+    template <class Call>
+    void each_image(std::size_t index, Call&& call) {
+        const Json& texture = json_["textures"][index];
+        const auto source = index_at(texture, "source", images_);
+        if (source) call(*source);
+        const Json* extensions = object_at(texture, "extensions");
+        if (!extensions) return;
+        for (const auto& [name, value] : extensions->items())
+            if (const auto other = index_at(value, "source", images_)) {
+                call(*other);
+                if (source) all_[*source].fallback = true;
+            }
+    }
+
+    void hold(std::size_t image) { all_[image].held = true; }
+
+    /// Textures whose channels are numbers of EXT_structural_metadata or EXT_mesh_features.
+    void hold_features(const Json& json) {
+        if (!json.is_structured()) return;
+        if (json.is_object() && json.contains("channels"))
+            if (const auto texture = index_at(json, "index", textures_))
+                each_image(*texture, [&](std::size_t image) { hold(image); });
+        for (const auto& [key, value] : json.items())
+            if (key != "extras") hold_features(value);
+    }
+
+    void hold_lights() {
+        const Json::json_pointer path("/extensions/EXT_lights_image_based/lights");
+        if (!json_.contains(path) || !json_[path].is_array()) return;
+        for (const Json& light : json_[path])
+            if (light.is_object() && light.contains("specularImages")) hold_all(light["specularImages"]);
+    }
+    void hold_all(const Json& images) {
+        if (images.is_number_unsigned() && images.get<std::size_t>() < images_)
+            hold(images.get<std::size_t>());
+        if (images.is_array())
+            for (const Json& one : images) hold_all(one);
+    }
+
+    const Json& json_;
+    std::size_t images_, textures_;
+    std::vector<ImageUse> all_;
+    bool held_ = false, covers_ = false; ///< of the material that is walked through
+};
+
+/// The bytes of an image; none when they are not there.
+Bytes bytes_of_image(const Document& document, Source& source, const Json& image) {
+    if (!image.is_object()) return {};
+    const auto uri = image.find("uri");
+    if (uri != image.end()) {
+        if (!uri->is_string()) return {};
+        const auto text = uri->get<std::string>();
+        if (is_data_uri(text)) return data_uri_bytes(text);
+        const auto file = document.files.find(text);
+        return file == document.files.end() ? Bytes{} : file->second;
+    }
+    const auto view = index_at(image, "bufferView", count_of(source.json(), "bufferViews"));
+    if (!view || source.without_bytes(*view)) return {};
+    const Span bytes = source.view(*view);
+    return {bytes.begin(), bytes.end()};
+}
+
+std::string name_of_image(const Json& image, std::size_t index) {
+    if (image.is_object() && image.contains("name") && image["name"].is_string())
+        if (const auto name = image["name"].get<std::string>(); !name.empty()) return name;
+    if (image.is_object() && image.contains("uri") && image["uri"].is_string())
+        if (const auto uri = image["uri"].get<std::string>(); !is_data_uri(uri))
+            if (const auto path = relative_path(uri)) return path->filename().string();
+    return fmt::format("images[{}]", index);
+}
+
+// --- other images
+
+std::string suffix_of(const std::string& type) {
+    return type == "image/webp" ? ".webp" : type == "image/jpeg" ? ".jpg" : ".png";
+}
+
+/// Puts images into a copy of a document.
+class Replacing {
+  public:
+    Replacing(const Document& document, const std::map<std::size_t, Bytes>& replaced)
+        : out_(document), json_(parse_document(document.json)), replaced_(replaced) {}
+
+    std::shared_ptr<const Document> run() {
+        for (const auto& [index, bytes] : replaced_) {
+            Json& image = json_["images"][index];
+            types_[index] = media_type(bytes);
+            if (image.contains("uri") && !is_data_uri(image["uri"].get<std::string>()))
+                put_file(image, bytes, types_[index]);
+            else
+                put_view(image, bytes, types_[index]);
+        }
+        drop_files();
+        for (std::size_t t = 0; t < count_of(json_, "textures"); ++t) point(json_["textures"][t]);
+        if (!types_.empty()) list_extension();
+        out_.json = to_string(json_);
+        return std::make_shared<const Document>(std::move(out_));
+    }
+
+  private:
+    /// Images that have the same file and the same bytes keep sharing it.
+    void put_file(Json& image, const Bytes& bytes, const std::string& type) {
+        const auto old = image["uri"].get<std::string>();
+        const std::string before = media_type(out_.files[old]);
+        if (image.contains("mimeType")) image["mimeType"] = type;
+        const auto [place, fresh] = renamed_.try_emplace({old, type}, old);
+        if (fresh && before != type) {
+            const std::filesystem::path path = decoded_path(old).value_or("image");
+            const auto named = [&](const std::string& more) {
+                return uri_of(path.parent_path() / (path.stem().string() + more + suffix_of(type)));
+            };
+            place->second = named("");
+            for (int n = 2; out_.files.contains(place->second); ++n)
+                place->second = named(fmt::format(".{}", n));
+        }
+        if (fresh) files_[place->second] = bytes;
+        image["uri"] = place->second;
+        if (fresh) out_.files.try_emplace(place->second);
+    }
+
+    void put_view(Json& image, const Bytes& bytes, const std::string& type) {
+        std::size_t view = 0;
+        const auto old = index_at(image, "bufferView", count_of(json_, "bufferViews"));
+        const auto known = old ? views_.find(*old) : views_.end();
+        if (known != views_.end()) {
+            view = known->second;
+        } else {
+            Json& buffers = list_of("buffers");
+            buffers.push_back({{"byteLength", bytes.size()}});
+            out_.buffers.resize(buffers.size());
+            out_.buffers.back() = bytes;
+            Json fresh = {{"buffer", buffers.size() - 1}, {"byteLength", bytes.size()}};
+            if (old && is_alone(*old)) { // a number that stays the same needs no other to change
+                view = *old;
+                json_["bufferViews"][view] = std::move(fresh);
+            } else {
+                Json& views = list_of("bufferViews");
+                views.push_back(std::move(fresh));
+                view = views.size() - 1;
+            }
+            if (old) views_[*old] = view;
+        }
+        image.erase("uri");
+        image["mimeType"] = type;
+        image["bufferView"] = view;
+    }
+
+    Json& list_of(const char* name) {
+        Json& list = json_[name];
+        if (!list.is_array()) list = Json::array();
+        return list;
+    }
+
+    /// Whether nothing names the view but images that are replaced.
+    bool is_alone(std::size_t view) {
+        std::size_t all = 0, ours = 0;
+        visit_view_references(json_, [&](Json& r) { all += r == view; });
+        for (const auto& [index, _] : replaced_)
+            ours += index_at(json_["images"][index], "bufferView", view + 1) == view;
+        return all == ours;
+    }
+
+    /// Bytes of files that are others now, and files that no image names any more.
+    void drop_files() {
+        for (auto& [uri, bytes] : files_) out_.files[uri] = std::move(bytes);
+        std::set<std::string> named;
+        for (const Json& image : json_["images"])
+            if (image.is_object() && image.contains("uri") && image["uri"].is_string())
+                named.insert(image["uri"].get<std::string>());
+        std::erase_if(out_.files, [&](const auto& file) { return !named.contains(file.first); });
+    }
+
+    /// Names the images of a texture where their kinds belong.
+    void point(Json& texture) {
+        if (!texture.is_object()) return;
+        const auto type = [&](std::optional<std::size_t> image) {
+            const auto found = image ? types_.find(*image) : types_.end();
+            return found == types_.end() ? std::string() : found->second;
+        };
+        const std::size_t images = count_of(json_, "images");
+        const auto source = index_at(texture, "source", images);
+        const Json* extensions = object_at(texture, "extensions");
+        const Json* webp = extensions ? object_at(*extensions, webp_extension) : nullptr;
+        const auto other = webp ? index_at(*webp, "source", images) : std::nullopt;
+        if (other && !type(other).empty() && type(other) != "image/webp") {
+            texture["source"] = *other;
+            texture["extensions"].erase(webp_extension);
+            if (texture["extensions"].empty()) texture.erase("extensions");
+        } else if (!other && source && type(source) == "image/webp") {
+            texture.erase("source");
+            texture["extensions"][webp_extension] = {{"source", *source}};
+        }
+    }
+
+    void list_extension() {
+        bool used = false, required = false;
+        for (std::size_t t = 0; t < count_of(json_, "textures"); ++t) {
+            const Json* extensions = object_at(json_["textures"][t], "extensions");
+            if (!extensions || !extensions->contains(webp_extension)) continue;
+            used = true;
+            required |= !json_["textures"][t].contains("source");
+        }
+        set_name("extensionsUsed", used);
+        set_name("extensionsRequired", required);
+    }
+
+    void set_name(const char* list, bool listed) {
+        Json names = Json::array();
+        if (json_.contains(list) && json_[list].is_array())
+            for (const Json& name : json_[list])
+                if (name != webp_extension) names.push_back(name);
+        if (listed) names.push_back(webp_extension);
+        if (names.empty())
+            json_.erase(list);
+        else
+            json_[list] = std::move(names);
+    }
+
+    Document out_;
+    Json json_;
+    const std::map<std::size_t, Bytes>& replaced_;
+    std::map<std::size_t, std::string> types_;                           ///< of what is replaced
+    std::map<std::pair<std::string, std::string>, std::string> renamed_; ///< by the old name and the new type
+    std::map<std::string, Bytes> files_;
+    std::map<std::size_t, std::size_t> views_; ///< by the old one
+};
+
+} // namespace
+
+void ImageUse::join(const ImageUse& other) {
+    colours |= other.colours;
+    normals |= other.normals;
+    numbers |= other.numbers;
+    coverage |= other.coverage;
+    alpha |= other.alpha;
+    fallback |= other.fallback;
+    held |= other.held;
+    for (const auto& name : other.textures)
+        if (std::find(textures.begin(), textures.end(), name) == textures.end()) textures.push_back(name);
+}
+
+std::vector<DocumentImage> document_images(const Document& document, const std::set<int>& held) {
+    const Json json = parse_document(document.json);
+    Source source(json, document.buffers);
+    std::vector<ImageUse> uses = Uses(json).of_document(held);
+    std::vector<DocumentImage> all;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        const Json& image = json["images"][i];
+        DocumentImage& out = all.emplace_back();
+        out.index = i;
+        out.name = name_of_image(image, i);
+        out.use = std::move(uses[i]);
+        try { // the document is as a file had it, and reading looks no further than meshes
+            out.bytes = bytes_of_image(document, source, image);
+        } catch (const Error&) {
+            out.bytes.clear(); // told where the file is written, or by render
+        }
+    }
+    return all;
+}
+
+std::shared_ptr<const Document> with_images(const Document& document,
+                                            const std::map<std::size_t, Bytes>& replaced) {
+    return Replacing(document, replaced).run();
+}
+
+} // namespace facetmill::io

@@ -1,0 +1,48 @@
+#pragma once
+// The images of a glTF document and what its materials use them for, and the document with other images in
+// their place.
+
+#include "io/bytes.hpp"
+#include "mesh/scene.hpp"
+
+#include <map>
+#include <set>
+
+namespace facetmill::io {
+
+/// What an image is used for, by all materials of its document.
+struct ImageUse {
+    bool colours = false;  ///< red, green and blue in sRGB
+    bool normals = false;  ///< a tangent-space normal map
+    bool numbers = false;  ///< metalness, roughness, occlusion, thickness ...
+    bool coverage = false; ///< alpha says how much is there: of a material that masks or blends
+    bool alpha = false;    ///< alpha is read, as coverage or as a number
+    bool fallback = false; ///< beside another image, for readers that do not know an extension
+    bool held = false;     ///< something other than the materials asked for names it: it has to stay as it is
+    std::vector<std::string> textures; ///< what materials call it, "baseColorTexture", each once
+
+    /// What is said of either.
+    void join(const ImageUse& other);
+};
+
+/// An image of a document.
+struct DocumentImage {
+    std::size_t index = 0;
+    std::string name; ///< its own, else its file's, else its place: "images[3]"
+    Bytes bytes;      ///< none when they were not read, or are not there
+    ImageUse use;
+};
+
+/// The images of the document, by index. held: materials of the document whose images stay as they are. What
+/// EXT_structural_metadata, EXT_mesh_features and EXT_lights_image_based read from images is held, too. A
+/// reference to nothing is passed over. Throws malformed when the document is no JSON.
+std::vector<DocumentImage> document_images(const Document& document, const std::set<int>& held);
+
+/// The document with other bytes (PNG, JPEG or WebP) for some of its images, by index. Where an image's kind
+/// changes, its name, its media type and the textures do as well: WebP becomes the source of
+/// EXT_texture_webp, which is required unless every such texture has another image, too. Images in buffers
+/// and in data URIs become views of buffers of their own; all else is where it was.
+std::shared_ptr<const Document> with_images(const Document& document,
+                                            const std::map<std::size_t, Bytes>& replaced);
+
+} // namespace facetmill::io

@@ -1,0 +1,27 @@
+#pragma once
+// What the help and the manual say about textures.
+
+namespace facetmill::help::textures {
+
+inline constexpr const char* about = R"(Makes the images of materials smaller, as PNG, JPEG or WebP.)";
+
+inline constexpr const char* details =
+    R"(Images are scaled down to max_size and power_of_two, never up, by Lanczos's filter: colours in
+linear light, weighted by alpha where the material masks or blends; normal maps as directions, which
+are of length 1 again; all else (metalness, roughness, occlusion ...) as plain numbers. An image in
+several of these roles is treated as numbers, and written with the options of the strictest:
+normals, then data. Images of equal bytes are worked on once.
+
+An image that has the size and the format that are asked for stays as it is, byte for byte; so does
+one that would not be smaller in the other format (but png is always done), that is broken, larger
+than 2^26 pixels or of another kind (KTX2, DDS), or that holds feature ids, metadata or light. A
+colour image whose alpha is used does not become JPEG (W-TEXTURE-KEPT). Images of 16 bits a channel
+that are worked on have 8 afterwards.
+
+WebP is named by EXT_texture_webp, which is then required: there is no second image for readers that
+do not know it. An image that stands beside another one for such readers is scaled, but does not
+become WebP. With only, images that parts left out use, too, stay as they are.
+
+Source: K. Turkowski, 'Filters for Common Resampling Tasks' (1990).)";
+
+} // namespace facetmill::help::textures

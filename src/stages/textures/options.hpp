@@ -1,0 +1,39 @@
+#pragma once
+// The options of textures.
+
+#include "stage/stage.hpp"
+
+namespace facetmill::textures_stage {
+
+enum class Format { keep, png, jpeg, webp };
+
+/// What is asked of images of one role.
+struct RoleOptions {
+    std::optional<std::int64_t> max_size, quality;
+    std::optional<bool> power_of_two, lossless;
+    std::optional<Format> format;
+};
+
+struct TexturesOptions {
+    std::optional<std::int64_t> max_size, quality;
+    bool power_of_two = false, lossless = false;
+    Format format = Format::keep;
+    RoleOptions normals, data;
+};
+
+/// What is done to images of a role.
+struct ImageSettings {
+    std::size_t max_size = SIZE_MAX;
+    bool power_of_two = false, lossless = false;
+    Format format = Format::keep;
+    int quality = 80;
+};
+ImageSettings for_colours(const TexturesOptions& o);
+ImageSettings for_normals(const TexturesOptions& o);
+ImageSettings for_data(const TexturesOptions& o);
+
+void declare_textures(Declare<TexturesOptions>& d);
+/// lossless goes with WebP only.
+void verify_textures(const TexturesOptions& o, const Value& given, Problems& problems);
+
+} // namespace facetmill::textures_stage

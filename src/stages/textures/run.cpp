@@ -1,0 +1,195 @@
+#include "base/hash.hpp"
+#include "base/parallel.hpp"
+#include "base/readable_numbers.hpp"
+#include "stages/textures/help.hpp"
+#include "stages/textures/work.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::textures_stage {
+
+namespace {
+
+struct ReportedImage {
+    std::string image;
+    std::vector<std::string> used_as;
+    ImageState before, after;
+    std::optional<std::string> kept;
+};
+
+struct TexturesReport {
+    std::vector<ReportedImage> images;
+    std::size_t resized = 0, converted = 0, unchanged = 0, bytes_before = 0, bytes_after = 0;
+};
+
+/// Images of equal bytes, wherever they are.
+struct Job {
+    const io::DocumentImage* image = nullptr; ///< the first of them
+    io::ImageUse use;
+    std::vector<std::pair<std::size_t, std::size_t>> places; ///< documents and their images
+    Worked worked;
+};
+
+/// The materials of each document that parts use which are left out.
+std::vector<std::set<int>> held_materials(const Scene& scene, const Context& context) {
+    std::vector<std::set<int>> held(scene.documents.size());
+    for (const Part& part : scene.parts) {
+        if (context.selects(part, scene)) continue;
+        for (const Primitive& primitive : part.mesh.primitives) {
+            if (primitive.material >= scene.materials.size()) continue;
+            const Material& material = scene.materials[primitive.material];
+            if (material.document >= 0)
+                held[static_cast<std::size_t>(material.document)].insert(material.index);
+        }
+    }
+    return held;
+}
+
+std::vector<std::vector<io::DocumentImage>> images_of(const Scene& scene, const Context& context) {
+    const auto held = held_materials(scene, context);
+    std::vector<std::vector<io::DocumentImage>> all;
+    for (std::size_t d = 0; d < scene.documents.size(); ++d)
+        all.push_back(io::document_images(*scene.documents[d], held[d]));
+    return all;
+}
+
+std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& images) {
+    std::vector<Job> jobs;
+    std::map<std::string, std::size_t> known; // by digest
+    for (std::size_t d = 0; d < images.size(); ++d)
+        for (const io::DocumentImage& image : images[d]) {
+            // Without bytes there is nothing that two could share.
+            const std::string key =
+                image.bytes.empty() ? fmt::format("{} {}", d, image.index) : sha256(image.bytes);
+            const auto [place, fresh] = known.try_emplace(key, jobs.size());
+            if (fresh) jobs.push_back({&image, {}, {}, {}});
+            Job& job = jobs[place->second];
+            job.use.join(image.use);
+            job.places.emplace_back(d, image.index);
+        }
+    return jobs;
+}
+
+/// Several images at once, but not more pixels than one image may have, which bounds the memory.
+void work(std::vector<Job>& jobs, const TexturesOptions& o) {
+    constexpr std::size_t most_pixels = std::size_t{1} << 26;
+    for (std::size_t begin = 0; begin < jobs.size();) {
+        std::size_t end = begin, pixels = 0;
+        for (; end < jobs.size(); ++end) {
+            const ImageState state = state_of(jobs[end].image->bytes);
+            const std::size_t more = std::min(state.width, most_pixels) * std::min(state.height, most_pixels);
+            if (end > begin && pixels + more > most_pixels) break;
+            pixels += more;
+        }
+        parallel_for(
+            end - begin,
+            [&](std::size_t i) {
+                Job& job = jobs[begin + i];
+                job.worked = worked(job.image->bytes, job.use, o);
+            },
+            1);
+        begin = end;
+    }
+}
+
+void put_back(Scene& scene, const std::vector<Job>& jobs) {
+    std::vector<std::map<std::size_t, io::Bytes>> replaced(scene.documents.size());
+    for (const Job& job : jobs)
+        for (const auto& [document, image] : job.places)
+            if (!job.worked.bytes.empty()) replaced[document][image] = job.worked.bytes;
+    for (std::size_t d = 0; d < replaced.size(); ++d)
+        if (!replaced[d].empty()) scene.documents[d] = io::with_images(*scene.documents[d], replaced[d]);
+}
+
+void tell(const std::vector<Job>& jobs, Context& context, TexturesReport& report) {
+    for (const Job& job : jobs) {
+        const Worked& w = job.worked;
+        const bool resized = w.before.width != w.after.width || w.before.height != w.after.height;
+        const bool converted = w.before.format != w.after.format;
+        report.resized += resized;
+        report.converted += converted;
+        report.unchanged += w.bytes.empty();
+        report.bytes_before += w.before.bytes;
+        report.bytes_after += w.after.bytes;
+        report.images.push_back({job.image->name, job.use.textures, w.before, w.after,
+                                 w.why.empty() ? std::nullopt : std::optional(w.why)});
+        if (w.warn)
+            context.warn("W-TEXTURE-KEPT",
+                         fmt::format("textures: the image '{}' {}: {}", job.image->name,
+                                     w.bytes.empty() ? "stays as it is" : "keeps its format", w.why));
+    }
+}
+
+void declare_state(DeclareFields<ImageState>& d) {
+    d.field("format", &ImageState::format, "png, jpeg, webp, ktx2 or dds; empty for others.");
+    d.field("width", &ImageState::width, "0 where it cannot be read.").unit("pixels");
+    d.field("height", &ImageState::height, "0 where it cannot be read.").unit("pixels");
+    d.field("bytes", &ImageState::bytes, "Of the file.").unit("bytes");
+}
+
+void declare_image(DeclareFields<ReportedImage>& d) {
+    d.field("image", &ReportedImage::image, "Its name, its file's, or its place in the document.");
+    d.field("used_as", &ReportedImage::used_as, "The textures of materials that it is used as.");
+    d.object("before", &ReportedImage::before, "As it entered.", declare_state);
+    d.object("after", &ReportedImage::after, "As it left.", declare_state);
+    d.field("kept", &ReportedImage::kept, "Why it stays as it is, or keeps its format.")
+        .only_when("more was asked for");
+}
+
+std::string text_of(const ImageState& s) {
+    if (s.bytes == 0) return "missing";
+    const std::string size = s.width == 0 ? "" : fmt::format("{} x {} ", s.width, s.height);
+    return fmt::format("{}{}, {}", size, s.format.empty() ? "unknown" : s.format, sized(s.bytes));
+}
+
+std::string line_of(const ReportedImage& image) {
+    std::string line = image.image + ": " + text_of(image.before);
+    if (image.before.bytes != image.after.bytes || image.before.format != image.after.format)
+        line += " -> " + text_of(image.after);
+    return image.kept && image.before.bytes > 0 ? line + " (" + *image.kept + ")" : line;
+}
+
+std::vector<std::string> lines_of(const TexturesReport& r) {
+    constexpr std::size_t most = 20;
+    std::vector<std::string> lines;
+    for (const ReportedImage& image : r.images)
+        if (lines.size() < most) lines.push_back(line_of(image));
+    if (r.images.size() > most)
+        lines.push_back(fmt::format("... and {} more, which the report has", r.images.size() - most));
+    if (r.images.empty()) return {"there are no images"};
+    lines.push_back(fmt::format("{} resized, {} in another format, {} as before: {} -> {}", r.resized,
+                                r.converted, r.unchanged, sized(r.bytes_before), sized(r.bytes_after)));
+    return lines;
+}
+
+void declare_report(DeclareFields<TexturesReport>& d) {
+    d.list("images", &TexturesReport::images, "Each image; those of equal bytes are one.", declare_image);
+    d.field("resized", &TexturesReport::resized, "Images that are smaller now.");
+    d.field("converted", &TexturesReport::converted, "Images that have another format now.");
+    d.field("unchanged", &TexturesReport::unchanged, "Images that are the same, byte for byte.");
+    d.field("bytes_before", &TexturesReport::bytes_before, "Of all images that entered.").unit("bytes");
+    d.field("bytes_after", &TexturesReport::bytes_after, "Of all images that left.").unit("bytes");
+    d.tell(lines_of);
+}
+
+Scene run(Scene scene, const TexturesOptions& o, Context& context, TexturesReport& report) {
+    const auto images = images_of(scene, context);
+    std::vector<Job> jobs = jobs_of(images);
+    work(jobs, o);
+    put_back(scene, jobs);
+    tell(jobs, context, report);
+    return scene;
+}
+
+const RegisterStage registered = make_stage<TexturesOptions>(
+    {.name = "textures",
+     .about = help::textures::about,
+     .details = help::textures::details,
+     .examples = {"textures: 1024", "textures: {max_size: 2048, format: webp, quality: 75}",
+                  "textures: {format: webp, normals: {lossless: true}}",
+                  "textures: {max_size: 1024, power_of_two: true, format: jpeg, data: {format: keep}}"}},
+    declare_textures, declare_report, run, {.verify = verify_textures});
+
+} // namespace
+
+} // namespace facetmill::textures_stage
