@@ -38,9 +38,12 @@ PUBLIC = {
     "geometry/inspect/connectivity.hpp": "components of a mesh",
     "geometry/inspect/evidence.hpp": "where a property fails",
     "geometry/measure/statistics_fields.hpp": "the declared fields of statistics, which reports show",
+    "geometry/render/srgb.hpp": "the curve of sRGB, for images that io makes smaller",
     "geometry/render/texture.hpp": "textures that io decodes",
     "io/drawing/drawing_fields.hpp": "the declared fields of a drawing, which reports show",
     "io/gltf/looks.hpp": "materials as pictures draw them",
+    "io/gltf/textures.hpp": "the images of documents, for textures",
+    "io/gltf/tidy.hpp": "documents without what nothing uses, for optimize",
 }
 
 # First path component (or whole name) of a library's headers, and the only places that may include it.
@@ -56,9 +59,9 @@ LIBRARIES = {
     "OpenMesh": ["src/geometry/openmesh/"],
     "openssl": ["src/base/"],
     "zlib.h": ["src/io/"],
-    "png.h": ["src/io/pixels.cpp"],
-    "jpeglib.h": ["src/io/pixels.cpp"],
-    "webp": ["src/io/pixels.cpp"],
+    "png.h": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
+    "jpeglib.h": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
+    "webp": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
 }
 
 # Libraries that are met anywhere, and folders of the system's headers.

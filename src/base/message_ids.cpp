@@ -560,6 +560,11 @@ std::span<const MessageId> message_ids() {
          {},
          "A section has open contours, because the mesh is open where the plane cuts it.",
          "`clean` closes holes."},
+        {"W-OPTIMIZE",
+         {},
+         "The stage optimize erases and joins nothing in a document, because it has an extension that may "
+         "refer to items by their numbers.",
+         "Remove the extension first, if it is not needed."},
         {"W-ORIENT",
          {},
          "A part is not orientable and is left as it was.",
@@ -661,6 +666,12 @@ std::span<const MessageId> message_ids() {
          "unsupported kind, or beyond a total of 512 MiB of images.",
          "Use PNG, JPEG or WebP of at most 8192 x 8192 pixels. The plain colour is drawn instead of the "
          "texture."},
+        {"W-TEXTURE-KEPT",
+         {},
+         "The stage textures leaves an image unchanged, or in its format: it is broken, larger than 2^26 "
+         "pixels, of an unsupported kind, or its alpha is used and JPEG has none.",
+         "Use format: webp or png where alpha is used; scale images of more than 8192 x 8192 pixels down "
+         "elsewhere."},
         {"W-TEXTURES",
          {},
          "Textures are not written, because the format cannot hold them or facetmill does not write them in "

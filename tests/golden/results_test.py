@@ -1,8 +1,11 @@
 """Every stage's result, run for run, follows the schema that its declaration gives, and every declared field is seen
 in one of the runs: a field that nothing writes, or a key that nothing declares, fails."""
 
+import base64
 import json
+import struct
 import unittest
+import zlib
 
 from support import Case, main
 
@@ -21,6 +24,33 @@ OPEN = "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
 FLIPPED = OPEN.replace("3 2 0 3", "3 0 2 3")  # one face is turned round
 CROSSED = "OFF\n8 6 0\n" + "".join(f"{x} {y} {z}\n" for z in (0, 1) for x, y in ((0, 0), (2, 2), (2, 0), (0, 1))) + (
     "4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n4 3 2 1 0\n4 4 5 6 7\n")  # a prism over a bow tie
+
+
+
+def png(width, height):
+    """A PNG in colour, with little noise."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+    rows = b"".join(b"\0" + bytes((x * x + y * c) % 251 for x in range(width) for c in (3, 5, 7)) for y in range(height))
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+def data_uri(data):
+    return "data:image/png;base64," + base64.b64encode(data).decode()
+
+
+# A triangle with an image, and one that is broken.
+TEXTURED = {
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "normalTexture": {"index": 1}}],
+    "textures": [{"source": 0}, {"source": 1}],
+    "images": [{"uri": data_uri(data)} for data in (png(24, 16), b"no PNG")],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
+                 + base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()}]}
 
 RUNS = [
     "load cubes.obj ! thicken 0.1 ! section z=0.5",
@@ -50,6 +80,8 @@ RUNS = [
     "generate sphere ! simplify --ratio 50% --ensure.deviation 10% ! ensure --deviation 10%",
     "load touching.obj ! simplify 50%",
     "load flipped.off ! split ! simplify 60%",
+    "load textured.gltf ! optimize ! textures 8 --format webp ! write t.glb",
+    "load cubes.obj ! optimize",
 ]
 
 
@@ -75,6 +107,7 @@ class Results(Case):
         self.write("open.off", OPEN)
         self.write("flipped.off", FLIPPED)
         self.write("crossed.off", CROSSED)
+        self.write("textured.gltf", json.dumps(TEXTURED))
         # Two grids of 4 x 4 quads that share an edge.
         grid = "".join(f"o {n}\n" + "".join(f"v {4 * k + i} {j} 0\n" for j in range(5) for i in range(5))
                        + "".join(f"f {b} {b + 1} {b + 6} {b + 5}\n" for j in range(4) for i in range(4)
@@ -103,6 +136,14 @@ class Results(Case):
             names = {n.removesuffix("[]") for n in found[name]}
             missing = sorted(n for n in fields if n.removesuffix("[]") not in names)
             self.assertEqual(missing, [], f"{name}: fields that no run shows")
+
+    def test_images_are_the_same_for_any_number_of_threads(self):
+        images = [{"uri": data_uri(png(300, 200))}, {"uri": data_uri(png(160, 160))}]
+        self.write("two.gltf", json.dumps(TEXTURED | {"images": images}))
+        for threads in ("1", "3"):
+            self.mill("pipe", "-q", "-j", threads, "-o", threads, "load", "two.gltf", "!", "textures", "100", "--format",
+                      "webp", "!", "write", "o.glb")
+        self.assertEqual(self.files(self.dir / "1"), self.files(self.dir / "3"))
 
     def test_an_undeclared_key_is_refused(self):
         schema = json.loads(self.mill("schema", "report").stdout)

@@ -1,0 +1,339 @@
+#include "io/gltf/tidy.hpp"
+
+#include "base/hash.hpp"
+#include "io/gltf/builder.hpp"
+#include "io/gltf/container.hpp"
+#include "io/gltf/gltf.hpp"
+#include "io/gltf/nodes.hpp"
+#include "io/gltf/textures.hpp"
+
+#include <algorithm>
+
+namespace facetmill::io {
+
+using namespace gltf;
+
+namespace {
+
+using Visit = std::function<void(Json&)>;
+
+bool is_index(const Json& json, const char* key) {
+    return json.is_object() && json.contains(key) && json[key].is_number_unsigned();
+}
+
+/// Calls visit for references in members of the objects of a list: list[i][key].
+void visit_members(Json& document, const char* list, const char* key, const Visit& visit) {
+    if (!document.contains(list)) return;
+    for (Json& item : document[list])
+        if (is_index(item, key)) visit(item[key]);
+}
+
+/// Textures are named by materials, "...Texture", and by whatever reads channels of them.
+void visit_texture_references(Json& json, const Visit& visit) {
+    if (!json.is_structured()) return;
+    for (auto& [key, value] : json.items()) {
+        if (key == "extras") continue;
+        const bool texture =
+            std::string_view(key).ends_with("Texture") || (value.is_object() && value.contains("channels"));
+        if (texture && is_index(value, "index")) visit(value["index"]);
+        visit_texture_references(value, visit);
+    }
+}
+
+void visit_image_references(Json& document, const Visit& visit) {
+    visit_members(document, "textures", "source", visit);
+    if (!document.contains("textures")) return;
+    for (Json& texture : document["textures"])
+        if (texture.is_object() && texture.contains("extensions"))
+            for (auto& [name, value] : texture["extensions"].items())
+                if (is_index(value, "source")) visit(value["source"]);
+}
+
+void visit_material_references(Json& document, const Visit& visit) {
+    if (!document.contains("meshes")) return;
+    for (Json& mesh : document["meshes"])
+        for (Json& primitive : mesh["primitives"])
+            if (is_index(primitive, "material")) visit(primitive["material"]);
+}
+
+void visit_sampler_references(Json& document, const Visit& visit) {
+    visit_members(document, "textures", "sampler", visit);
+}
+
+void each_number(Json& owner, const char* key, const Visit& visit) {
+    if (!owner.is_object() || !owner.contains(key) || !owner[key].is_array()) return;
+    for (Json& one : owner[key])
+        if (one.is_number_unsigned()) visit(one);
+}
+
+/// The nodes that are named for what they are and not as part of the hierarchy.
+void visit_named_nodes(Json& document, const Visit& visit) {
+    if (document.contains("skins"))
+        for (Json& skin : document["skins"]) {
+            each_number(skin, "joints", visit);
+            if (is_index(skin, "skeleton")) visit(skin["skeleton"]);
+        }
+    if (document.contains("animations"))
+        for (Json& animation : document["animations"])
+            for (Json& channel : animation["channels"])
+                if (is_index(channel["target"], "node")) visit(channel["target"]["node"]);
+    const Json::json_pointer lod("/extensions/MSFT_lod");
+    if (document.contains("nodes"))
+        for (Json& node : document["nodes"])
+            if (node.contains(lod)) each_number(node[lod], "ids", visit);
+}
+
+void visit_node_references(Json& document, const Visit& visit) {
+    visit_named_nodes(document, visit);
+    for (const char* list : {"nodes", "scenes"})
+        if (document.contains(list))
+            for (Json& owner : document[list])
+                each_number(owner, std::string_view(list) == "nodes" ? "children" : "nodes", visit);
+}
+
+bool uses(const Json& document, const char* extension) {
+    const auto used = document.find("extensionsUsed");
+    return used != document.end() && used->is_array() &&
+           std::find(used->begin(), used->end(), extension) != used->end();
+}
+
+/// For each item, the first that is written as it is.
+std::vector<std::size_t> first_equal(const std::vector<std::string>& written) {
+    std::map<std::string, std::size_t> known;
+    std::vector<std::size_t> first;
+    for (std::size_t i = 0; i < written.size(); ++i)
+        first.push_back(known.try_emplace(written[i], i).first->second);
+    return first;
+}
+
+std::vector<std::string> texts_of(const Json& document, const char* list, bool keep_names) {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < count_of(document, list); ++i) {
+        Json item = document[list][i];
+        if (!keep_names && item.is_object()) item.erase("name");
+        all.push_back(to_string(item));
+    }
+    return all;
+}
+
+/// What an image is: its bytes, and whatever else the document says of it.
+std::vector<std::string> image_texts(const Document& source, const Json& document) {
+    std::vector<std::string> all;
+    for (const DocumentImage& image : document_images(source, {})) {
+        Json said = document["images"][image.index];
+        if (!image.bytes.empty() && said.is_object())
+            for (const char* key : {"name", "uri", "bufferView", "mimeType"}) said.erase(key);
+        all.push_back(to_string(said) + sha256(image.bytes));
+    }
+    return all;
+}
+
+void follow(const std::vector<std::size_t>& first, Json& reference) {
+    const auto old = reference.get<std::size_t>();
+    if (old < first.size()) reference = first[old];
+}
+
+/// Takes nodes out of the lists of children and of scenes.
+void drop_from_hierarchy(Json& document, const std::set<std::size_t>& dead) {
+    if (dead.empty()) return;
+    for (const char* list : {"nodes", "scenes"}) {
+        const char* key = std::string_view(list) == "nodes" ? "children" : "nodes";
+        if (!document.contains(list)) continue;
+        for (Json& owner : document[list]) {
+            if (!owner.contains(key)) continue;
+            Json left = Json::array();
+            for (const Json& one : owner[key])
+                if (!dead.contains(one.get<std::size_t>())) left.push_back(one);
+            owner[key] = std::move(left);
+            if (owner[key].empty()) owner.erase(key);
+        }
+    }
+}
+
+bool has_more(const Json& object) { return object.contains("extras") || object.contains("extensions"); }
+
+/// The nodes that are more than places, and those below them.
+std::set<std::size_t> bound_nodes(Json& document) {
+    std::set<std::size_t> bound;
+    const auto frames = node_frames(document);
+    const bool all = count_of(document, "scenes") > 1 || has_unknown_extensions(document) ||
+                     uses(document, "KHR_animation_pointer");
+    visit_named_nodes(document, [&](Json& r) { bound.insert(r.get<std::size_t>()); });
+    for (const std::size_t n : parents_first(frames)) {
+        const Json& node = document["nodes"][n];
+        const int parent = frames[n].parent;
+        if (all || has_more(node) || node.contains("camera") || node.contains("weights") ||
+            (parent >= 0 && bound.contains(static_cast<std::size_t>(parent))))
+            bound.insert(n);
+    }
+    return bound;
+}
+
+/// The meshes that have more than triangles without morph targets.
+std::set<std::size_t> bound_meshes(const Json& document) {
+    std::set<std::size_t> bound;
+    for (std::size_t m = 0; m < count_of(document, "meshes"); ++m) {
+        const Json& mesh = document["meshes"][m];
+        bool more = has_more(mesh) || mesh.contains("weights");
+        for (const Json& primitive : mesh["primitives"])
+            more |= primitive.contains("targets") || !makes_triangles(Place(primitive, ""));
+        if (more) bound.insert(m);
+    }
+    return bound;
+}
+
+/// New numbers when the dead ones are gone.
+std::vector<int> numbers_without(std::size_t count, const std::set<std::size_t>& dead) {
+    std::vector<int> numbers;
+    int next = 0;
+    for (std::size_t i = 0; i < count; ++i) numbers.push_back(dead.contains(i) ? -1 : next++);
+    return numbers;
+}
+
+} // namespace
+
+DocumentTidy::DocumentTidy(const Document& document)
+    : document_(document), json_(parse_document(document.json)), before_(json_) {
+    known_ = !has_unknown_extensions(json_) && !uses(json_, "EXT_lights_image_based") &&
+             !uses(json_, "KHR_animation_pointer");
+}
+
+std::vector<std::size_t> DocumentTidy::merge_equal(bool keep_names) {
+    const std::size_t count = count_of(json_, "materials");
+    std::vector<std::size_t> first(count);
+    for (std::size_t m = 0; m < count; ++m) first[m] = m;
+    const auto images = first_equal(image_texts(document_, json_));
+    visit_image_references(json_, [&](Json& r) { follow(images, r); });
+    const auto samplers = first_equal(texts_of(json_, "samplers", false));
+    visit_sampler_references(json_, [&](Json& r) { follow(samplers, r); });
+    const auto textures = first_equal(texts_of(json_, "textures", false));
+    visit_texture_references(json_, [&](Json& r) { follow(textures, r); });
+    if (uses(json_, "KHR_materials_variants")) return first;
+    first = first_equal(texts_of(json_, "materials", keep_names));
+    visit_material_references(json_, [&](Json& r) { follow(first, r); });
+    return first;
+}
+
+std::set<std::size_t> DocumentTidy::unnamed(const char* list, References references,
+                                            const std::set<std::size_t>& named) {
+    const auto without_name = [&](Json& document) {
+        std::set<std::size_t> dead;
+        for (std::size_t i = 0; i < count_of(document, list); ++i) dead.insert(i);
+        references(document, [&](Json& r) { dead.erase(r.get<std::size_t>()); });
+        return dead;
+    };
+    std::set<std::size_t> dead = without_name(json_);
+    for (const std::size_t i : named) dead.erase(i);
+    if (!all_) // each list is erased from once, so that its numbers are still those of before
+        for (const std::size_t i : without_name(before_)) dead.erase(i);
+    return dead;
+}
+
+std::size_t DocumentTidy::erase(const char* list, References references, const std::set<std::size_t>& dead) {
+    if (dead.empty()) return 0;
+    erase_items(json_[list], dead, [&](const Visit& visit) { references(json_, visit); });
+    if (json_[list].empty()) json_.erase(list);
+    return dead.size();
+}
+
+/// The emptied nodes that nothing needs, and then those above them; each is taken out of its parent and its
+/// scene.
+std::set<std::size_t> DocumentTidy::empty_nodes(const std::set<std::size_t>& emptied) {
+    std::set<std::size_t> named, dead;
+    visit_named_nodes(json_, [&](Json& r) { named.insert(r.get<std::size_t>()); });
+    const auto frames = node_frames(json_);
+    auto order = parents_first(frames);
+    std::reverse(order.begin(), order.end());
+    std::set<std::size_t> candidates = emptied;
+    for (const std::size_t n : order) {
+        if (!candidates.contains(n) || named.contains(n)) continue;
+        Json& node = json_["nodes"][n];
+        if (node.contains("children")) {
+            Json left = Json::array();
+            for (const Json& child : node["children"])
+                if (!dead.contains(child.get<std::size_t>())) left.push_back(child);
+            node["children"] = std::move(left);
+            if (node["children"].empty()) node.erase("children");
+        }
+        const bool needed = std::any_of(node.items().begin(), node.items().end(), [](const auto& member) {
+            static const std::set<std::string> places = {"name", "translation", "rotation", "scale",
+                                                         "matrix"};
+            return !places.contains(member.key());
+        });
+        if (needed) continue;
+        dead.insert(n);
+        if (frames[n].parent >= 0) candidates.insert(static_cast<std::size_t>(frames[n].parent));
+    }
+    return dead;
+}
+
+TidyNumbers DocumentTidy::erase_unused(const TidyRequest& request) {
+    TidyNumbers numbers;
+    all_ = request.all;
+    for (const std::size_t n : request.emptied)
+        for (const char* key : {"mesh", "weights"}) json_["nodes"][n].erase(key);
+    visit_mesh_references(json_, [&](Json& r) {
+        const auto equal = request.equal_meshes.find(r.get<std::size_t>());
+        if (equal != request.equal_meshes.end()) r = equal->second;
+    });
+    const std::size_t nodes = count_of(json_, "nodes"), meshes = count_of(json_, "meshes"),
+                      materials = count_of(json_, "materials");
+    std::set<std::size_t> dead_nodes, dead_meshes, dead_materials;
+    if (known_) {
+        dead_nodes = empty_nodes(request.emptied);
+        drop_from_hierarchy(json_, dead_nodes);
+        erased_.nodes += erase("nodes", visit_node_references, dead_nodes);
+        dead_meshes = unnamed("meshes", visit_mesh_references, request.meshes);
+        erased_.meshes += erase("meshes", visit_mesh_references, dead_meshes);
+        if (!uses(json_, "KHR_materials_variants"))
+            dead_materials = unnamed("materials", visit_material_references, request.materials);
+        erased_.materials += erase("materials", visit_material_references, dead_materials);
+        const auto tidy = [&](const char* list, References references) {
+            return erase(list, references, unnamed(list, references, {}));
+        };
+        erased_.textures += tidy("textures", visit_texture_references);
+        erased_.samplers += tidy("samplers", visit_sampler_references);
+        erased_.images += tidy("images", visit_image_references);
+        erased_.accessors += tidy("accessors", visit_accessor_references);
+        tidy("bufferViews", visit_view_references);
+    }
+    numbers.nodes = numbers_without(nodes, dead_nodes);
+    numbers.meshes = numbers_without(meshes, dead_meshes);
+    numbers.materials = numbers_without(materials, dead_materials);
+    return numbers;
+}
+
+std::shared_ptr<const Document> DocumentTidy::finish(const std::shared_ptr<const Document>& before) {
+    if (json_ == before_) return before;
+    auto out = std::make_shared<Document>(document_);
+    out->json = to_string(json_);
+    std::set<std::string> named;
+    for (std::size_t i = 0; i < count_of(json_, "images"); ++i)
+        if (const Json& image = json_["images"][i]; image.contains("uri") && image["uri"].is_string())
+            named.insert(image["uri"].get<std::string>());
+    std::erase_if(out->files, [&](const auto& file) { return !named.contains(file.first); });
+    return out;
+}
+
+std::vector<bool> bound_parts(const Scene& scene) {
+    std::vector<bool> bound = animated_parts(scene);
+    std::vector<std::set<std::size_t>> nodes; // of each document, that are bound
+    std::vector<std::set<std::size_t>> meshes;
+    for (const auto& document : scene.documents) {
+        Json json = parse_document(document->json);
+        nodes.push_back(bound_nodes(json));
+        meshes.push_back(bound_meshes(json));
+    }
+    for (std::size_t i = 0; i < bound.size(); ++i) {
+        const Part& part = scene.parts[i];
+        const auto d = static_cast<std::size_t>(part.document);
+        bound[i] = bound[i] || part.skinned ||
+                   (part.document >= 0 && part.node >= 0 &&
+                    nodes[d].contains(static_cast<std::size_t>(part.node))) ||
+                   (part.document >= 0 && part.source_mesh >= 0 &&
+                    meshes[d].contains(static_cast<std::size_t>(part.source_mesh)));
+    }
+    return bound;
+}
+
+} // namespace facetmill::io

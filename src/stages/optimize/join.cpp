@@ -1,0 +1,94 @@
+#include "stages/optimize/join.hpp"
+
+#include "mesh/transform.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace facetmill::optimize_stage {
+
+namespace {
+
+/// By primitive, whether faces have it.
+std::vector<char> used_primitives(const Mesh& mesh) {
+    std::vector<char> used(std::max<std::size_t>(mesh.primitives.size(), 1));
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (const Index p = mesh.primitive_of(f); p < used.size()) used[p] = true;
+    return used;
+}
+
+/// What two meshes have to have in common to be one: materials, and the kinds of their attributes. Empty for
+/// those whose primitives say more than that.
+std::string kind_of(const Mesh& mesh) {
+    std::set<Index> materials;
+    for (const Primitive& p : mesh.primitives) {
+        if (!p.json.empty()) return "";
+        materials.insert(p.material);
+    }
+    if (materials.empty()) materials.insert(none);
+    std::set<std::string> attributes; // in whatever order they stand
+    for (const Attribute& a : mesh.attributes)
+        if (a.name != primitive_attribute)
+            attributes.insert(fmt::format("{} {} {} {} {} {}", a.name, int(a.domain), int(a.role),
+                                          a.components, a.normalised, a.data.index()));
+    return fmt::format("{} | {}", fmt::join(materials, " "), fmt::join(attributes, ", "));
+}
+
+} // namespace
+
+std::size_t draw_calls(const Mesh& mesh) {
+    const auto used = used_primitives(mesh);
+    return mesh.face_count() == 0 ? 0 : static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
+}
+
+bool join_primitives(Mesh& mesh) {
+    Attribute* of_face = mesh.find(primitive_attribute, Domain::face);
+    if (!of_face || mesh.primitives.size() < 2) return false;
+    std::vector<Primitive> table;
+    std::vector<std::uint32_t> number;
+    for (const Primitive& p : mesh.primitives) {
+        const auto same = p.json.empty() ? std::find(table.begin(), table.end(), p) : table.end();
+        number.push_back(static_cast<std::uint32_t>(same - table.begin()));
+        if (same == table.end()) table.push_back(p);
+    }
+    if (table.size() == mesh.primitives.size()) return false;
+    mesh.primitives = std::move(table);
+    for (std::uint32_t& p : std::get<std::vector<std::uint32_t>>(of_face->data))
+        if (p < number.size()) p = number[p];
+    return true;
+}
+
+std::vector<JoinedParts> groups_to_join(const Scene& scene, const std::vector<std::size_t>& candidates) {
+    std::map<std::string, JoinedParts> by_kind;
+    for (const std::size_t i : candidates) {
+        const std::string kind = kind_of(scene.parts[i].mesh);
+        if (kind.empty()) continue;
+        const auto [group, first] = by_kind.try_emplace(kind, JoinedParts{i, {}});
+        if (!first) group->second.others.push_back(i);
+    }
+    std::vector<JoinedParts> groups;
+    for (auto& [kind, group] : by_kind)
+        if (!group.others.empty()) groups.push_back(std::move(group));
+    std::sort(groups.begin(), groups.end(),
+              [](const JoinedParts& a, const JoinedParts& b) { return a.first < b.first; });
+    return groups;
+}
+
+void join(Scene& scene, const JoinedParts& group) {
+    Part& first = scene.parts[group.first];
+    const auto into = inverse(first.transform);
+    for (const std::size_t i : group.others) {
+        Part& other = scene.parts[i];
+        // Parts of one place stay as they are, to the bit.
+        if (into && other.transform != first.transform) apply(other.mesh, *into * other.transform);
+        append(first.mesh, other.mesh);
+        other.mesh = {};
+    }
+    first.changed = true;
+    first.cuts.reset();
+    join_primitives(first.mesh);
+}
+
+} // namespace facetmill::optimize_stage

@@ -1,0 +1,289 @@
+#include "base/readable_numbers.hpp"
+#include "io/gltf/tidy.hpp"
+#include "mesh/equal_meshes.hpp"
+#include "mesh/transform.hpp"
+#include "stage/stage.hpp"
+#include "stages/optimize/help.hpp"
+#include "stages/optimize/join.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::optimize_stage {
+
+namespace {
+
+struct OptimizeOptions {
+    bool dedup = true, join = true, join_shared = false, prune = true, keep_names = false;
+};
+
+void declare(Declare<OptimizeOptions>& d) {
+    d.option("dedup", &OptimizeOptions::dedup,
+             "Makes one of equal images, samplers, textures, materials and meshes.");
+    d.option("join", &OptimizeOptions::join, "Joins parts that share their materials.");
+    d.option("join_shared", &OptimizeOptions::join_shared,
+             "Joins parts that share their mesh with others, too: fewer draw calls, but more bytes.");
+    d.option("prune", &OptimizeOptions::prune, "Erases what nothing uses.");
+    d.option("keep_names", &OptimizeOptions::keep_names,
+             "Keeps apart what has different names: materials, meshes, and the parts that join would join.");
+}
+
+struct OptimizeReport {
+    std::size_t draw_calls_before = 0, draw_calls_after = 0, parts_before = 0, parts_after = 0;
+    std::size_t equal_materials = 0, equal_meshes = 0, joined_parts = 0;
+    std::vector<std::string> joined;
+    io::TidyCounts erased;
+};
+
+std::size_t draw_calls_of(const Scene& scene) {
+    std::size_t calls = 0;
+    for (const Part& part : scene.parts) calls += draw_calls(part.mesh);
+    return calls;
+}
+
+/// The scene while its documents are worked on.
+class Optimizing {
+  public:
+    Optimizing(Scene& scene, const OptimizeOptions& o, Context& context, OptimizeReport& report)
+        : scene_(scene), o_(o), context_(context), report_(report), requests_(scene.documents.size()) {
+        for (const auto& document : scene.documents) tidies_.emplace_back(*document);
+    }
+
+    void run() {
+        report_.draw_calls_before = draw_calls_of(scene_);
+        report_.parts_before = scene_.parts.size();
+        bound_ = io::bound_parts(scene_);
+        if (o_.dedup) merge_materials();
+        if (o_.dedup) merge_meshes();
+        if (o_.join) join_parts();
+        erase();
+        report_.draw_calls_after = draw_calls_of(scene_);
+        report_.parts_after = scene_.parts.size();
+    }
+
+  private:
+    static std::size_t number(int i) { return static_cast<std::size_t>(i); }
+
+    void merge_materials() {
+        std::vector<std::vector<std::size_t>> stands_for;
+        for (auto& tidy : tidies_) stands_for.push_back(tidy.merge_equal(o_.keep_names));
+        const auto& all = scene_.materials;
+        std::vector<Index> instead(all.size());
+        for (std::size_t m = 0; m < all.size(); ++m) {
+            const auto equal =
+                std::find_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(m),
+                             [&](const Material& other) { return same_material(other, all[m], stands_for); });
+            instead[m] = static_cast<Index>(equal - all.begin());
+            report_.equal_materials += instead[m] != m;
+        }
+        for (Part& part : scene_.parts)
+            for (Primitive& p : part.mesh.primitives)
+                if (p.material < instead.size()) p.material = instead[p.material];
+    }
+
+    bool same_material(const Material& a, const Material& b,
+                       const std::vector<std::vector<std::size_t>>& stands_for) const {
+        if (a.document != b.document || a.double_sided != b.double_sided ||
+            !std::equal(std::begin(a.base_colour), std::end(a.base_colour), std::begin(b.base_colour)))
+            return false;
+        if (a.document < 0) return a.name == b.name || !o_.keep_names;
+        const auto& of_document = stands_for[number(a.document)];
+        return a.index >= 0 && b.index >= 0 && of_document[number(a.index)] == of_document[number(b.index)];
+    }
+
+    /// Nodes whose meshes are equal name the first of them. A mesh of which one part is bound stays its own.
+    void merge_meshes() {
+        const auto first = first_with_equal_mesh(scene_);
+        using Source = std::pair<int, int>;
+        const auto source = [&](std::size_t i) {
+            return Source{scene_.parts[i].document, scene_.parts[i].source_mesh};
+        };
+        std::map<Source, std::set<std::size_t>> variants; // the different meshes that one has become
+        std::set<Source> bound;
+        for (std::size_t i = 0; i < first.size(); ++i) {
+            variants[source(i)].insert(first[i]);
+            if (bound_[i]) bound.insert(source(i));
+        }
+        for (std::size_t i = 0; i < first.size(); ++i) {
+            const Source own = source(i), other = source(first[i]);
+            const Part &part = scene_.parts[i], &example = scene_.parts[first[i]];
+            const bool fits = own != other && own.first >= 0 && own.first == other.first && own.second >= 0 &&
+                              other.second >= 0 && variants[own].size() == 1 && variants[other].size() == 1 &&
+                              !bound.contains(own) && !bound.contains(other) &&
+                              part.changed == example.changed && part.node >= 0 && example.node >= 0;
+            if (!fits || (o_.keep_names && part.name != example.name)) continue;
+            report_.equal_meshes +=
+                requests_[number(own.first)].equal_meshes.emplace(own.second, other.second).second;
+        }
+        for (Part& part : scene_.parts) {
+            if (part.document < 0 || part.source_mesh < 0) continue;
+            const auto& equal = requests_[number(part.document)].equal_meshes;
+            const auto found = equal.find(number(part.source_mesh));
+            if (found != equal.end()) part.source_mesh = static_cast<int>(found->second);
+        }
+    }
+
+    /// Parts that are drawn by themselves only because they are parts by themselves.
+    std::vector<std::size_t> candidates() const {
+        std::map<std::pair<int, int>, std::size_t> of_mesh, of_node;
+        for (const Part& part : scene_.parts) {
+            ++of_mesh[{part.document, part.source_mesh}];
+            ++of_node[{part.document, part.node}];
+        }
+        std::vector<std::size_t> all;
+        for (std::size_t i = 0; i < scene_.parts.size(); ++i) {
+            const Part& part = scene_.parts[i];
+            const bool shared = (part.source_mesh >= 0 && of_mesh[{part.document, part.source_mesh}] > 1 &&
+                                 !o_.join_shared) ||
+                                (part.node >= 0 && of_node[{part.document, part.node}] > 1);
+            if (!bound_[i] && !shared && part.mesh.face_count() > 0 && inverse(part.transform) &&
+                context_.selects(part, scene_))
+                all.push_back(i);
+        }
+        return all;
+    }
+
+    void join_parts() {
+        const auto able = candidates();
+        for (const std::size_t i : able)
+            if (join_primitives(scene_.parts[i].mesh)) scene_.parts[i].changed = true;
+        if (o_.keep_names) return;
+        for (const JoinedParts& group : groups_to_join(scene_, able)) {
+            report_.joined.push_back(scene_.parts[group.first].name);
+            report_.joined_parts += group.others.size();
+            join(scene_, group);
+            for (const std::size_t i : group.others) {
+                const Part& other = scene_.parts[i];
+                if (other.document >= 0 && other.node >= 0)
+                    requests_[number(other.document)].emptied.insert(number(other.node));
+                gone_.insert(i);
+            }
+        }
+        std::size_t i = 0;
+        std::erase_if(scene_.parts, [&](const Part&) { return gone_.contains(i++); });
+    }
+
+    void erase() {
+        for (const Part& part : scene_.parts)
+            if (part.document >= 0 && part.source_mesh >= 0)
+                requests_[number(part.document)].meshes.insert(number(part.source_mesh));
+        if (o_.prune) drop_materials();
+        for (const Material& m : scene_.materials)
+            if (m.document >= 0 && m.index >= 0)
+                requests_[number(m.document)].materials.insert(number(m.index));
+        for (std::size_t d = 0; d < tidies_.size(); ++d) {
+            requests_[d].all = o_.prune;
+            renumber(static_cast<int>(d), tidies_[d].erase_unused(requests_[d]));
+            add(tidies_[d].erased());
+            if (!tidies_[d].numbers_are_known())
+                context_.warn("W-OPTIMIZE",
+                              fmt::format("optimize: nothing is erased from '{}' or joined in it: it has an "
+                                          "extension that may name things by their numbers",
+                                          scene_.documents[d]->name));
+            scene_.documents[d] = tidies_[d].finish(scene_.documents[d]);
+        }
+    }
+
+    /// Materials of the scene that no part has, those of dropped duplicates among them.
+    void drop_materials() {
+        std::vector<Index> number_of(scene_.materials.size(), none);
+        for (const Part& part : scene_.parts)
+            for (const Primitive& p : part.mesh.primitives)
+                if (p.material < number_of.size()) number_of[p.material] = 0;
+        std::vector<Material> kept;
+        for (std::size_t m = 0; m < number_of.size(); ++m) {
+            const Material& material = scene_.materials[m];
+            const bool unknown =
+                material.document >= 0 && !tidies_[number(material.document)].numbers_are_known();
+            if (number_of[m] == none && !unknown) continue;
+            number_of[m] = static_cast<Index>(kept.size());
+            kept.push_back(material);
+        }
+        scene_.materials = std::move(kept);
+        for (Part& part : scene_.parts)
+            for (Primitive& p : part.mesh.primitives)
+                if (p.material < number_of.size()) p.material = number_of[p.material];
+    }
+
+    void renumber(int document, const io::TidyNumbers& numbers) {
+        const auto follow = [](int& i, const std::vector<int>& all) {
+            if (i >= 0 && number(i) < all.size()) i = all[number(i)];
+        };
+        for (Part& part : scene_.parts) {
+            if (part.document != document) continue;
+            follow(part.node, numbers.nodes);
+            follow(part.source_mesh, numbers.meshes);
+        }
+        for (Material& material : scene_.materials)
+            if (material.document == document) follow(material.index, numbers.materials);
+    }
+
+    void add(const io::TidyCounts& c) {
+        io::TidyCounts& all = report_.erased;
+        for (const auto member : {&io::TidyCounts::nodes, &io::TidyCounts::meshes, &io::TidyCounts::materials,
+                                  &io::TidyCounts::textures, &io::TidyCounts::samplers,
+                                  &io::TidyCounts::images, &io::TidyCounts::accessors})
+            all.*member += c.*member;
+    }
+
+    Scene& scene_;
+    const OptimizeOptions& o_;
+    Context& context_;
+    OptimizeReport& report_;
+    std::vector<io::DocumentTidy> tidies_;
+    std::vector<io::TidyRequest> requests_;
+    std::vector<bool> bound_;
+    std::set<std::size_t> gone_;
+};
+
+void declare_erased(DeclareFields<io::TidyCounts>& d) {
+    d.field("nodes", &io::TidyCounts::nodes, "That join has emptied, and the groups above them.");
+    d.field("meshes", &io::TidyCounts::meshes, "Joined, equal to others, or unused.");
+    d.field("materials", &io::TidyCounts::materials, "Equal to others, or unused.");
+    d.field("textures", &io::TidyCounts::textures, "Equal to others, or unused.");
+    d.field("samplers", &io::TidyCounts::samplers, "Equal to others, or unused.");
+    d.field("images", &io::TidyCounts::images, "Equal to others, or unused.");
+    d.field("accessors", &io::TidyCounts::accessors, "Of what was erased, or unused.");
+}
+
+void declare_report(DeclareFields<OptimizeReport>& d) {
+    d.field("draw_calls_before", &OptimizeReport::draw_calls_before,
+            "Primitives of all parts that entered: each is drawn by itself.");
+    d.field("draw_calls_after", &OptimizeReport::draw_calls_after, "Primitives of all parts that left.");
+    d.field("parts_before", &OptimizeReport::parts_before, "Parts that entered.");
+    d.field("parts_after", &OptimizeReport::parts_after, "Parts that left.");
+    d.field("equal_materials", &OptimizeReport::equal_materials,
+            "Materials that another one stands for now.");
+    d.field("equal_meshes", &OptimizeReport::equal_meshes, "Meshes that another one stands for now.");
+    d.field("joined_parts", &OptimizeReport::joined_parts, "Parts that went into another one.");
+    d.field("joined", &OptimizeReport::joined, "The names of the parts that others went into.");
+    d.object("erased", &OptimizeReport::erased, "What the documents lost.", declare_erased);
+    d.tell([](const OptimizeReport& r) {
+        const auto& e = r.erased;
+        return std::vector<std::string>{
+            fmt::format("{} -> {} draw calls, {} -> {} parts", grouped(r.draw_calls_before),
+                        grouped(r.draw_calls_after), grouped(r.parts_before), grouped(r.parts_after)),
+            fmt::format("erased: nodes {}, meshes {}, materials {}, textures {}, images {}, accessors {}",
+                        e.nodes, e.meshes, e.materials, e.textures, e.images, e.accessors)};
+    });
+}
+
+Scene run(Scene scene, const OptimizeOptions& o, Context& context, OptimizeReport& report) {
+    try {
+        Optimizing(scene, o, context, report).run();
+    } catch (const Json::exception& e) {
+        throw Error(ErrorKind::malformed, "E-GLTF", e.what(), {}, context.where());
+    }
+    return scene;
+}
+
+const RegisterStage registered = make_stage<OptimizeOptions>(
+    {.name = "optimize",
+     .about = help::optimize::about,
+     .details = help::optimize::details,
+     .examples = {"optimize", "optimize: {join: false}", "optimize: {keep_names: true}"}},
+    declare, declare_report, run);
+
+} // namespace
+
+} // namespace facetmill::optimize_stage
