@@ -20,9 +20,12 @@ constexpr float pull_of_cost = 1e-6f;
 constexpr float shortness = 1e-6f, fine_shortness = 1e-10f;
 // A best place farther off the edge's middle than so many times half its length (squared) is not trusted.
 constexpr float max_off = 16;
-// The order is that of the sum of squared distances over the area^(3/4): between the sum, which lets small
-// parts go far off, and the mean, which spends faces on them. Over scans the maximum is a third below the
-// sum's, and the root mean square a few percent above.
+// The order is that of the sum of squared distances over the area^(3/8): between the sum, which lets small
+// parts go far off, and the mean, which spends faces on them and lets narrow strips of long edges, as fillets
+// and bores are, go far off. The area counts as far as the edge reaches, up to so many times its squared
+// length (5 in an even mesh): large flat faces beside a rim would else make it cheap, as their corners chance
+// to lie.
+constexpr float reach = 12;
 
 /// Chooses where two ends that are both free to move should meet, as seen from the middle; half: from there
 /// to the second end.
@@ -192,6 +195,7 @@ Four root(Four x) {
 }
 
 Four larger(Four x, Four y) { return x > y ? x : y; }
+Four smaller(Four x, Four y) { return x < y ? x : y; }
 
 /// The costs of four edges; and which of them are below what single precision can tell.
 Four costs_of(const State& s, const PricedEdge* e, Mask& unsure) {
@@ -217,8 +221,9 @@ Four costs_of(const State& s, const PricedEdge* e, Mask& unsure) {
     }
     value = held == 1 ? at_first : held == 2 ? at_second : value;
     unsure = value < quarter * static_cast<float>(4 * doubtful);
-    return (larger(value, Four{}) + quarter * (4 * (s.fine ? fine_shortness : shortness))) *
-           root(root(weight));
+    const Four sum = (larger(value, Four{}) + quarter * (4 * (s.fine ? fine_shortness : shortness))) * weight;
+    const Four fourth = root(root(smaller(weight, quarter * (4 * reach))));
+    return fourth > 0 ? sum / (fourth * root(fourth)) : sum;
 }
 
 } // namespace
@@ -243,7 +248,8 @@ float cost_of(const State& s, Index corner, std::uint8_t flags) {
     if (!s.quadrics) return static_cast<float>(squared);
     Placement p;
     const double value = edge.all(edge.choose(s, p)), weight = edge.shape.weight;
-    const double root = std::sqrt(weight), share = root * std::sqrt(root);
+    const double fourth = std::sqrt(std::sqrt(std::min(weight, reach * squared))),
+                 share = fourth * std::sqrt(fourth);
     return static_cast<float>(
         share > 0 ? (value + (s.fine ? fine_shortness : shortness) * weight * squared) / share : value);
 }

@@ -21,8 +21,7 @@ void set_quadrics(State& s);
 
 /// Whether an edge between vertices of these kinds may be collapsed.
 inline bool may_go(Kind u, Kind v, std::uint8_t flags) {
-    if (u == Kind::pinned || v == Kind::pinned) return false;
-    if (u == Kind::corner && v == Kind::corner) return false;
+    if (u >= Kind::corner && v >= Kind::corner) return false;
     return u == Kind::smooth || v == Kind::smooth || (flags & feature_edge); // not across a feature
 }
 

@@ -47,7 +47,7 @@ class Classifier {
     Kind operator()(Index v) {
         if (is_plain(v)) return Kind::smooth;
         const Kind kind = look(v);
-        if (kind == Kind::pinned) flag_open_edges(v);
+        if (kind == Kind::pinned) flag_around_pinned(v);
         return kind;
     }
 
@@ -93,19 +93,31 @@ class Classifier {
         return walk();
     }
 
-    /// Flags the edges that lead out of a pinned vertex and have one face: its neighbours' loops need to
-    /// know.
-    void flag_open_edges(Index v) {
+    /// Flags the edges that lead out of a pinned vertex as a walk around it would, those between two faces
+    /// that agree: its neighbours' edges are such, and may be collapsed into it.
+    void flag_around_pinned(Index v) {
+        spokes_.clear();
+        for (Index c = s_.first[v]; c != none; c = s_.next[c])
+            spokes_.push_back({s_.tri[after(c)], s_.tri[before(c)], c});
+        std::sort(spokes_.begin(), spokes_.end(), [](const FanSpoke& a, const FanSpoke& b) {
+            return a.out != b.out ? a.out < b.out : a.corner < b.corner;
+        });
         ins_.clear();
-        for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
-            ins_.push_back(s_.tri[after(c)]);
-            ins_.push_back(s_.tri[before(c)]);
-        }
+        for (const FanSpoke& spoke : spokes_) ins_.push_back(spoke.in);
         std::sort(ins_.begin(), ins_.end());
-        for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
-            const auto [low, high] = std::equal_range(ins_.begin(), ins_.end(), s_.tri[after(c)]);
-            if (high - low == 1) s_.flags[c] |= boundary_edge | feature_edge;
+        for (const FanSpoke& spoke : spokes_)
+            if (!std::binary_search(ins_.begin(), ins_.end(), spoke.out) && !leads_twice(spoke.out))
+                s_.flags[spoke.corner] |= boundary_edge | feature_edge;
+        for (const FanSpoke& spoke : spokes_) {
+            const FanSpoke* then = leading_to(spoke.in);
+            if (then && differ(spoke, *then)) s_.flags[then->corner] |= feature_edge;
         }
+    }
+
+    /// Whether several faces run from the vertex to this one.
+    bool leads_twice(Index out) const {
+        const FanSpoke* first = leading_to(out);
+        return first + 1 != spokes_.data() + spokes_.size() && first[1].out == out;
     }
 
     /// Goes around the fan; flags the edges that lead out of the vertex.

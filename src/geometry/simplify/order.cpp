@@ -73,11 +73,10 @@ class Passes {
 
   private:
     /// What brings a state's costs to the common unit. ratio: of its unit to that. Costs by quadrics are
-    /// squared lengths times the fourth root of an area, see cost.cpp; others are squared lengths.
+    /// squared lengths times the (5/8)th power of an area, see cost.cpp; others are squared lengths.
     static float factor(const Member& m, double ratio) {
-        const double squared = ratio * ratio;
-        return static_cast<float>(
-            std::max(least_factor, m.state->quadrics ? squared * std::sqrt(ratio) : squared));
+        const double squared = ratio * ratio, power = squared * ratio * std::sqrt(std::sqrt(ratio));
+        return static_cast<float>(std::max(least_factor, m.state->quadrics ? power : squared));
     }
 
     /// Sums up what is there.

@@ -20,7 +20,7 @@ enum class Kind : std::uint8_t {
     smooth, ///< no feature edge: moves freely
     curve,  ///< on one feature line: moves along it
     corner, ///< an end or a crossing of feature lines: stays, others may be collapsed into it
-    pinned, ///< not manifold: stays, and so do all its edges
+    pinned, ///< not manifold: stays as a corner does, and so do the edges between two of them
 };
 
 // Bits per corner.

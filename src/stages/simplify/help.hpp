@@ -42,9 +42,9 @@ materials and groups are collapsed only along these lines, and both sides stay m
 where several such lines meet stays in place. The same holds for boundaries at exactly the same
 position, within a part and between parts: parts with the same node transform, attributes and
 shading whose boundaries coincide are simplified as one. Where a part meets another that differs in
-these, or that is not selected, its vertices stay in place. Non-manifold regions are left as they
-are. Neighbouring faces that are oriented inconsistently are simplified as if they were consistent,
-and each face keeps its orientation. With shortest-edge, vertices at which a boundary turns by more
+these, or that is not selected, its vertices stay in place. Non-manifold vertices stay in
+place, with the edges between them; others may be collapsed into them. Neighbouring faces that are
+oriented inconsistently are simplified as if they were consistent, and each face keeps its orientation. With shortest-edge, vertices at which a boundary turns by more
 than the feature angle stay in place. Isolated vertices are removed. With topology: allow,
 components may vanish, holes may close and handles may be pinched off, which can leave edges of four
 faces; the report gives the counts before and after. The method cluster keeps neither topology nor

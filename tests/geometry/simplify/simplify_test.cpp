@@ -5,6 +5,7 @@
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/closest_point.hpp"
+#include "mesh/face.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
 #include "support/catch.hpp"
@@ -187,6 +188,28 @@ TEST_CASE("what is not manifold stays, the rest is simplified", "[geometry]") {
     CHECK(after.pinched == before.pinched);
     CHECK(after.duplicates == 0);
     CHECK(broken_invariants(r.mesh).empty());
+}
+
+TEST_CASE("what lies around vertices that are not manifold is simplified", "[geometry]") {
+    // Two sheets joined at every second vertex of a row: a chain of slits, each with two vertices between.
+    constexpr Index cells = 16, row = cells + 1;
+    Mesh m = shapes::grid(cells, cells);
+    for (Index x = 1; x < cells; x += 2) {
+        const Index v = cells / 2 * row + x, twin = static_cast<Index>(m.vertex_count());
+        m.positions.push_back(m.positions[v] + Vec3{0, 1e-3, 0});
+        for (Index f = 0; f < m.face_count(); ++f)
+            for (Index c = 3 * f; c < 3 * f + 3; ++c)
+                if (m.corners[c] == v && corner_mean(m, f).y > m.positions[v].y) m.corners[c] = twin;
+    }
+    const auto before = count(m);
+    REQUIRE(before.pinched > 0);
+    const auto r = simplify(m, {.ratio = 32.0 / 512});
+    CHECK(r.stop == Stop::ratio); // with both vertices of each slit there are at least 34
+    const auto after = count(r.mesh);
+    CHECK(after.euler == before.euler);
+    CHECK(after.pinched == before.pinched);
+    CHECK(broken_invariants(r.mesh).empty());
+    CHECK(deviation(m, r.mesh).maximum() < 2e-3);
 }
 
 TEST_CASE("doubled and degenerate faces are carried along", "[geometry]") {
@@ -428,10 +451,11 @@ TEST_CASE("simplification refuses to guess a target", "[geometry]") {
 }
 
 TEST_CASE("simplification avoids new self-intersections on request", "[geometry]") {
-    // Two sheets, one close above the other and rough: alone each simplifies, together they would cross.
+    // Two sheets, one close above the other and rough: alone each simplifies, together they would cross. The
+    // upper one is half as rough, so that the two are not simplified alike.
     Mesh m = rough(shapes::grid(24, 24), 0.1);
     Mesh above = m;
-    for (auto& p : above.positions) p.z += 0.02;
+    for (auto& p : above.positions) p.z = (p.z + m.bounds().max.z) / 2 + 0.02;
     append(m, above);
     using Intersections = SimplifySettings::Intersections;
     const auto free = simplify(m, {.self_intersections = Intersections::count, .ratio = 0.2});
