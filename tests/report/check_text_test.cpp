@@ -9,8 +9,8 @@ using Of = report::EvidenceEntry::Of;
 
 namespace {
 
-std::string told(std::optional<report::CheckEvidence> evidence, std::optional<std::size_t> locations = {},
-                 std::optional<std::size_t> fresh = {}) {
+std::string in_words(std::optional<report::CheckEvidence> evidence, std::optional<std::size_t> locations = {},
+                     std::optional<std::size_t> fresh = {}) {
     report::Check check;
     check.evidence = std::move(evidence);
     check.locations = locations;
@@ -24,14 +24,14 @@ TEST_CASE("what speaks against an assertion, in words", "[report]") {
     const EvidenceEntry place{
         .of = Of::part, .name = "a", .at = Vec3{1, 2.5, 3}, .face = 7, .with = 9, .attribute = "NORMAL"};
     using Places = report::CheckEvidence;
-    CHECK(told(Places{place}) == "first face 7 and 9 of 'a' at 1 2.5 3 in NORMAL");
-    CHECK(told(Places{place}, 12).starts_with("12 locations, the first face 7"));
-    CHECK(told(Places{place}, 1).starts_with("1 location, the first face 7"));
-    CHECK(told(Places{place}, 12, 2).starts_with("12 locations, 2 new, the first face 7"));
-    CHECK(told(Places{place}, {}, 2).starts_with("2 new, the first face 7"));
-    CHECK(told(Places{place}, 12, 0).starts_with("12 locations, the first face 7"));
-    CHECK(told({}) == "");
-    CHECK(told(Places{}) == "");
+    CHECK(in_words(Places{place}) == "first face 7 and 9 of 'a' at 1 2.5 3 in NORMAL");
+    CHECK(in_words(Places{place}, 12).starts_with("12 locations, the first face 7"));
+    CHECK(in_words(Places{place}, 1).starts_with("1 location, the first face 7"));
+    CHECK(in_words(Places{place}, 12, 2).starts_with("12 locations, 2 new, the first face 7"));
+    CHECK(in_words(Places{place}, {}, 2).starts_with("2 new, the first face 7"));
+    CHECK(in_words(Places{place}, 12, 0).starts_with("12 locations, the first face 7"));
+    CHECK(in_words({}) == "");
+    CHECK(in_words(Places{}) == "");
 }
 
 TEST_CASE("what was found, in words", "[report]") {
@@ -53,16 +53,17 @@ TEST_CASE("what was found, in words", "[report]") {
 
 TEST_CASE("what counts towards a limit, in words", "[report]") {
     using Shares = report::CheckEvidence;
-    CHECK(told(Shares{{.of = Of::part, .name = "wheel", .amount = 1200000},
-                      {.of = Of::part, .name = "body", .amount = 0.5}}) ==
+    CHECK(in_words(Shares{{.of = Of::part, .name = "wheel", .amount = 1200000},
+                          {.of = Of::part, .name = "body", .amount = 0.5}}) ==
           "part 'wheel' 1200000, part 'body' 0.5");
-    CHECK(told(Shares{{.of = Of::image, .name = "wood", .width = 2048, .height = 1024, .amount = 2097152}}) ==
+    CHECK(in_words(
+              Shares{{.of = Of::image, .name = "wood", .width = 2048, .height = 1024, .amount = 2097152}}) ==
           "image 'wood' 2048 x 1024");
-    CHECK(told(Shares{{.of = Of::extension, .name = "KHR_a", .document = "b.glb"}}) ==
+    CHECK(in_words(Shares{{.of = Of::extension, .name = "KHR_a", .document = "b.glb"}}) ==
           "extension 'KHR_a' of 'b.glb'");
-    CHECK(told(Shares{{.of = Of::bytes, .name = "b.glb: buffer 0", .amount = 1000}}) ==
+    CHECK(in_words(Shares{{.of = Of::bytes, .name = "b.glb: buffer 0", .amount = 1000}}) ==
           "b.glb: buffer 0, 1000 bytes");
     Shares parts;
     for (const char* name : {"a", "b", "c", "d"}) parts.push_back({.of = Of::part, .name = name});
-    CHECK(told(parts) == "part 'a', part 'b', part 'c' ...");
+    CHECK(in_words(parts) == "part 'a', part 'b', part 'c' ...");
 }

@@ -295,7 +295,7 @@ TEST_CASE("validate says which parts have most of what is too much", "[stages]")
     scene.parts[1].mesh = shapes::icosphere(1);
     const auto run =
         run_stage("validate", "{faces: {max: 50}, vertices: {max: 60}, joint_count: {max: 3}}", scene);
-    CHECK(run.state->record.checks.at(0).evidence.dump() ==
+    CHECK(report::evidence_json(run.state->record.checks.at(0).evidence).dump() ==
           R"([{"part":"ball","amount":80},{"part":"part","amount":12}])");
     CHECK(run.state->record.checks.at(1).passed);
     CHECK(run.state->record.checks.at(2).found.is_null());
@@ -363,8 +363,8 @@ TEST_CASE("validate shows where Euler's number and the components come from", "[
     Mesh mesh = shapes::hourglass();
     append(mesh, shapes::tetrahedron());
     const auto run = run_stage("validate", "{euler: 2, components: 1}", scene_of(mesh));
-    CHECK(run.state->record.checks.at(0).evidence.size() == 1); // the vertex of two fans
-    CHECK(run.state->record.checks.at(1).evidence.size() == 2); // a face of each piece
+    CHECK(run.state->record.checks.at(0).evidence.value().size() == 1); // the vertex of two fans
+    CHECK(run.state->record.checks.at(1).evidence.value().size() == 2); // a face of each piece
 }
 
 TEST_CASE("validate writes a copy that shows where it failed", "[stages]") {

@@ -203,7 +203,7 @@ TEST_CASE("a section where a clip was sees the cap as one face in the plane", "[
     const Plane plane{{0.3, -0.7, 0.61}, {0.11, 0.07, 0.05}, 0};
     ClipSettings settings;
     settings.planes = {plane};
-    settings.keep = Keep::both;
+    settings.keep = facetmill::Keep::both;
     settings.cap = true;
     const Mesh sphere = shapes::icosphere(3);
     const ClipResult sides = clip(sphere, settings);
