@@ -272,6 +272,7 @@ class Declare {
         Declare<G> nested;
         fill(nested);
         Option& o = start_option(declaration, name, OptionKind::group, help);
+        if constexpr (requires { OptionType<G>::kind; }) o.one = OptionType<G>::kind; // of lists elsewhere
         o.fields = std::make_shared<const Declaration>(std::move(nested.declaration));
         o.schema = o.fields->schema();
         o.parse = [at = offset_of(member)](const Option& self, const Value& v, void* target,

@@ -89,7 +89,7 @@ TEST_CASE("a stage is no command", "[cli]") {
         "command line:1:11: error[E-COMMAND]: 'relax' is a stage, not a command\n"
         "  facetmill relax a.ply\n"
         "            ^~~~~\n"
-        "  hint: facetmill pipe load IN ! relax ... ! write OUT; facetmill stages relax tells its options\n");
+        "  hint: facetmill pipe load IN ! relax ... ! write OUT; facetmill stages relax lists its options\n");
 }
 
 TEST_CASE("render takes the options of the stage, and says what it needs", "[cli]") {

@@ -79,8 +79,8 @@ RunRecord full_record() {
          .locations = 12,
          .waived = true}};
     record.errors = {
-        {Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), "", true},
-        {Severity::error, "E-WRITE", "the disk is full", {}, "make room"}};
+        {{Severity::error, "E-CHECK", "'euler' must be 2, found 0", file_mark("p.yaml"), ""}, true},
+        {{Severity::error, "E-WRITE", "the disk is full", {}, "make room"}}};
     record.exit_code = 4;
     record.seconds = 1.5;
     record.peak_memory = 123456789;

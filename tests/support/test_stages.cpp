@@ -11,12 +11,13 @@ namespace facetmill {
 namespace {
 
 enum class Sort { works, loads, checks };
-StageInfo info(const char* name, const char* about, Sort sort = Sort::works) {
+StageInfo info(const char* name, const char* about, Sort sort = Sort::works, bool tells = false) {
     StageInfo out;
     out.name = name;
     out.about = about;
     out.loads = sort == Sort::loads;
     out.checks = sort == Sort::checks;
+    out.tells = tells;
     return out;
 }
 
@@ -109,8 +110,9 @@ Scene run_write(Scene scene, const WriteOptions& o, Context& context) {
     return scene;
 }
 StageFiles write_files(const WriteOptions& o) { return {{}, {o.path}}; }
-const RegisterStage write(make_stage<WriteOptions>(info("test-write", "Writes a list of parts"),
-                                                   declare_write, run_write, {.files = write_files}));
+const RegisterStage
+    write(make_stage<WriteOptions>(info("test-write", "Writes a list of parts", Sort::works, true),
+                                   declare_write, run_write, {.files = write_files}));
 
 // --- test-judge, test-warn, test-fail
 

@@ -269,7 +269,21 @@ class Collapse {
                 r_.changes_topology = true;
                 if (!(both & boundary_edge)) return false; // of a seam or border, not a lone triangle
             }
-        return s_.rules.changes_topology || !r_.changes_topology;
+        return s_.rules.changes_topology || (!r_.changes_topology && keeps_non_manifold_edges());
+    }
+
+    /// The two edges to an opposite vertex become one, between the faces of both that stay: an edge of more
+    /// than two faces must keep their number.
+    bool keeps_non_manifold_edges() const {
+        if (s_.kind.empty() || (s_.kind[r_.a] != Kind::pinned && s_.kind[r_.b] != Kind::pinned)) return true;
+        const auto faces = [](const Ring& ring, Index v) {
+            return std::count_if(ring.begin(), ring.end(), [v](const RingCorner& k) { return k.has(v); });
+        };
+        const auto found = sides();
+        return std::all_of(found.begin(), found.end(), [&](const Side& side) {
+            const auto at_a = faces(r_.at_a, side.opposite), at_b = faces(r_.at_b, side.opposite);
+            return at_a == 2 || at_b == 2 || (at_a < 2 && at_b < 2);
+        });
     }
 
     /// Whether a face of the ring has both opposite vertices.
