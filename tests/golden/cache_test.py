@@ -369,9 +369,11 @@ class Trouble(Cache):
     def test_without_memory(self):
         """Exit code 7, or all as it should be, whatever the cache has when memory ends."""
         self.write("p.yaml", PIPELINE.replace("relax: 1", "split: midpoint"))  # much more than the libraries take
-        expected = self.run_it("-j1")
-        run = ("run", "p.yaml", "-D", f"input={SCAN}", *ALL, "-q", "-j1", "-o", "out")
-        least = self.least_memory("run", "p.yaml", "-D", f"input={SCAN}", "--no-cache")
+        scan = SOURCE / "examples/data/nefertiti.ply"
+        command = ("run", "p.yaml", "-D", f"input={scan}")
+        expected = self.told(*command, *ALL, "-j1")
+        run = (*command, *ALL, "-q", "-j1", "-o", "out")
+        least = self.least_memory(*command, "--no-cache")
         codes = set()
         for suffix in ("", ".scene"):
             for entry in self.entries(suffix) if suffix else ():
@@ -382,7 +384,7 @@ class Trouble(Cache):
                 self.assertIn(code, (0, 7))
                 self.assertFalse([p for p in self.cache.rglob("*.part")])
         self.assertIn(7, codes)
-        self.assertEqual(self.run_it("-j1"), expected)
+        self.assertEqual(self.told(*command, *ALL, "-j1"), expected)
 
     def limited(self, addresses, *arguments):
         """A run that may take so many bytes of addresses."""
