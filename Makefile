@@ -6,6 +6,7 @@
 #   make test     build and run all tests                    (PRESET=debug, asan, tsan or ci for other builds)
 #   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
 #   make tsan     the same with ThreadSanitizer, on plain threads in the place of TBB (slow)
+#   make faults   make calls of the system fail, one in each of some thousand runs (tests/faults/faults.py)
 #   make bench    build and run the benchmarks               (FILTER=clip for some of them)
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
@@ -19,7 +20,7 @@ FILTER ?= .
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan bench install deb format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults bench install deb format check-layers check-style clean
 all: build
 
 deps:
@@ -50,6 +51,12 @@ asan:
 
 tsan:
 	@$(MAKE) --no-print-directory test PRESET=tsan
+
+faults: build
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target facetmill_inject
+	python3 tests/faults/faults.py
+	python3 tests/faults/faults.py --kill
+	python3 tests/faults/faults.py --stages
 
 bench:
 	@tools/deps.sh --bench

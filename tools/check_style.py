@@ -4,7 +4,7 @@ about statements separated by commas, which read as one.
 
 Versions of these tools differ in what they say, so only the ones of Debian 12 judge; elsewhere the script says that it
 is skipped. BUILD is a configured build directory (build/release), whose list of compilations is used, rooms together as
-it compiles them; files of CGAL and OpenMesh are left out, because clang takes minutes for them."""
+it compiles them; files of CGAL and OpenMesh are left out, because clang takes minutes for them, and C."""
 
 import concurrent.futures
 import json
@@ -43,7 +43,7 @@ def compilations(build):
     """(directory, arguments for clang, precompiled header, file) of what the build compiles without CGAL and OpenMesh."""
     for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8")):
         made = re.search(r" -o (\S+)", entry["command"]).group(1)
-        if re.search(r"facetmill_(cgal|openmesh|oracle)\.dir/|cmake_pch", made):
+        if re.search(r"facetmill_(cgal|openmesh|oracle)\.dir/|cmake_pch|\.c\.o$", made):
             continue
         words, kept, header = iter(shlex.split(entry["command"])[1:]), [], None
         for word in words:

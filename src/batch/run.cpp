@@ -4,6 +4,7 @@
 #include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "base/want_of_memory.hpp"
 #include "batch/batch.hpp"
 #include "batch/interrupts.hpp"
 #include "batch/jobserver.hpp"
@@ -162,13 +163,12 @@ class BatchRun {
         Outcome out;
         try {
             out = run_asset(works_[job.index], done);
-        } catch (const std::bad_alloc&) {
-            out = failure(out_of_memory("not enough memory"));
         } catch (const Error& e) {
             out = failure(e);
         } catch (const std::exception& e) {
-            out = failure(Error(ErrorKind::bug, "E-BUG", e.what(),
-                                "please report it, with the pipeline and the input"));
+            out = failure(is_want_of_memory(e) ? out_of_memory("not enough memory")
+                                               : Error(ErrorKind::bug, "E-BUG", e.what(),
+                                                       "please report it, with the pipeline and the input"));
         }
         const bool for_memory = std::any_of(out.errors.begin(), out.errors.end(),
                                             [](const Diagnostic& d) { return d.out_of_memory; });

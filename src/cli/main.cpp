@@ -1,11 +1,12 @@
 // The only place that catches exceptions, and the exit codes.
 
 #include "base/error.hpp"
+#include "base/want_of_memory.hpp"
 #include "cli/command.hpp"
+#include "cli/exhaustion.hpp"
 #include "io/outputs.hpp"
 
 #include <algorithm>
-#include <new>
 
 namespace facetmill::cli {
 
@@ -20,12 +21,12 @@ int entry(int argc, char** argv) {
     Console console;
     try {
         io::clean_up_on_signals();
+        prepare_for_exhaustion();
         return program({argv + 1, argv + std::max(argc, 1)}, console);
     } catch (const Error& e) {
         return fail(console, e);
-    } catch (const std::bad_alloc&) {
-        return fail(console, out_of_memory("not enough memory"));
     } catch (const std::exception& e) {
+        if (is_want_of_memory(e)) return fail(console, out_of_memory("not enough memory"));
         return fail(console, Error(ErrorKind::bug, "E-BUG", e.what(), "this is a bug in facetmill"));
     }
 }

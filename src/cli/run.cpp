@@ -77,7 +77,8 @@ int run_all(const std::vector<std::string>& pipelines, const Planned& all, const
     if (refused(all.plans, all.problems, console)) return static_cast<int>(ErrorKind::usage);
     int worst = 0;
     for (std::size_t i = 0; i < all.plans.size(); ++i) {
-        const bool file = pipelines[i] != "-" && std::filesystem::exists(pipelines[i]);
+        std::error_code ignored;
+        const bool file = pipelines[i] != "-" && std::filesystem::exists(pipelines[i], ignored);
         std::vector<std::filesystem::path> written;
         const int code = run_with_messages(all.plans[i], options, console, file ? pipelines[i] : "",
                                            on_written ? &written : nullptr);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <new>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -149,6 +150,7 @@ Bytes inflated(Span bytes, std::size_t limit, const std::string& name) {
                                     limit, bytes.size()),
                         "if it is one all the same, inflate it first: gzip -d");
         if (size > limit) too_large(name, limit);
+        if (state == Z_MEM_ERROR) throw std::bad_alloc();
         if (state == Z_STREAM_END) {
             if (!is_gzip(bytes.subspan(at))) break;
             if (::inflateReset(&z.stream) != Z_OK) broken();

@@ -100,6 +100,17 @@ void keep(CleanUp* entry) {
     if (entry) entry->active = false;
 }
 
+void end_at_once(int exit_code, std::string_view message) {
+    int expected = idle;
+    if (!state.compare_exchange_strong(expected, dying)) {
+        if (expected == dying) wait_for_the_end();
+        return;
+    }
+    undo_all();
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message.data(), message.size());
+    ::_exit(exit_code);
+}
+
 namespace {
 std::mutex holders; ///< runs of several threads commit one after another
 }

@@ -2,6 +2,7 @@
 // What must be undone when a signal ends the process: a list that a signal handler may walk at any time.
 
 #include <filesystem>
+#include <string_view>
 
 namespace facetmill::io {
 
@@ -15,6 +16,11 @@ CleanUp* clean_up_restore(const std::filesystem::path& aside, const std::filesys
 CleanUp* clean_up_directory(const std::filesystem::path& path);
 /// The entry is done with: a signal leaves it alone from now on.
 void keep(CleanUp* entry);
+
+/// Ends the process as a signal does, from where nothing can be thrown or allocated: removes what is staged,
+/// writes the message to standard error. Returns only while a commit renames: it will end by itself, or
+/// throws.
+void end_at_once(int exit_code, std::string_view message);
 
 /// While one lives, a signal waits: the process ends when it goes. For the renames of a commit. A second
 /// thread that makes one waits for the first; a thread has one at a time.

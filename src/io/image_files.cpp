@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace facetmill::io {
 
@@ -91,6 +92,8 @@ std::optional<Bytes> read_image(const Input& input, const std::optional<fs::path
         log.files.push_back({*path, bytes.size(), sha256(bytes)});
         return bytes;
     } catch (const Error& error) {
+        // A fault of the disk or too many open files: without its picture the result would be another one.
+        if (error.kind() == ErrorKind::missing && ::access(path->c_str(), R_OK) == 0) throw;
         log.unrepeatable = true; // it is there, and may be readable the next time
         return refuse(error.diagnostics().front().message);
     }

@@ -3,10 +3,10 @@
 // --strict turns into failures.
 
 #include "base/error.hpp"
+#include "base/want_of_memory.hpp"
 #include "pipeline/run.hpp"
 
 #include <fmt/format.h>
-#include <new>
 
 namespace facetmill::pipeline {
 
@@ -37,13 +37,14 @@ class Failures {
             return true;
         } catch (Error& e) {
             add(e.at(where));
-        } catch (const std::bad_alloc&) {
-            add(out_of_memory(fmt::format("not enough memory for {}", what),
-                              "simplify earlier, or use a machine with more memory", where));
         } catch (const std::exception& e) {
-            add(ErrorKind::bug, {{Severity::error, "E-BUG",
-                                  fmt::format("{} failed in a way it never should: {}", what, e.what()),
-                                  where, "please report it, with the pipeline and the input"}});
+            if (is_want_of_memory(e))
+                add(out_of_memory(fmt::format("not enough memory for {}", what),
+                                  "simplify earlier, or use a machine with more memory", where));
+            else
+                add(ErrorKind::bug, {{Severity::error, "E-BUG",
+                                      fmt::format("{} failed in a way it never should: {}", what, e.what()),
+                                      where, "please report it, with the pipeline and the input"}});
         }
         return false;
     }

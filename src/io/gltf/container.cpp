@@ -6,11 +6,15 @@
 #include "io/gltf/accessor.hpp"
 #include "io/image_files.hpp"
 
+#include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <fstream>
+#include <sys/stat.h>
 #include <system_error>
 #include <tiny_gltf.h>
+#include <unistd.h>
 
 namespace facetmill::io::gltf {
 
@@ -100,6 +104,7 @@ namespace {
 struct Neighbour {
     fs::path path;
     std::size_t bytes = 0;
+    int error = 0; ///< an errno: why it could not be read
 };
 
 bool file_exists(const std::string&, void* user) {
@@ -109,20 +114,37 @@ bool file_exists(const std::string&, void* user) {
 
 std::string same_path(const std::string& path, void*) { return path; }
 
-bool read_file(std::vector<unsigned char>* out, std::string* error, const std::string&, void* user) {
-    const auto& neighbour = *static_cast<const Neighbour*>(user);
-    std::error_code failed;
-    const auto size = fs::file_size(neighbour.path, failed);
-    std::ifstream file(neighbour.path, std::ios::binary);
-    if (failed || !file) {
-        *error = "cannot be opened";
-        return false;
-    }
+/// Closes what was opened for reading, where an error of close tells nothing.
+struct OpenNeighbour {
+    const int fd;
+    ~OpenNeighbour() { ::close(fd); }
+};
+
+/// At most so many bytes of the file; what kept it from being read is an errno, 0 for nothing.
+int read_prefix(const fs::path& path, std::size_t most, std::vector<unsigned char>& out) {
+    const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (fd < 0) return errno;
+    const OpenNeighbour closing{fd};
+    int why = 0;
+    struct stat about {};
+    if (::fstat(fd, &about) != 0) why = errno;
     // glTF allows files longer than byteLength; tinygltf does not. The file may be sparse: its size costs
     // nothing.
-    out->resize(std::min<std::size_t>(size, neighbour.bytes));
-    file.read(reinterpret_cast<char*>(out->data()), static_cast<std::streamsize>(out->size()));
-    return static_cast<bool>(file);
+    if (why == 0) out.resize(std::min(static_cast<std::size_t>(about.st_size), most));
+    for (std::size_t at = 0; why == 0 && at < out.size();) {
+        const ssize_t got = ::read(fd, out.data() + at, std::min(out.size() - at, std::size_t{1} << 30));
+        if (got > 0) at += static_cast<std::size_t>(got);
+        if (got < 0 && errno != EINTR) why = errno;
+        if (got == 0) out.resize(at); // it has become shorter
+    }
+    return why;
+}
+
+bool read_file(std::vector<unsigned char>* out, std::string* error, const std::string&, void* user) {
+    auto& neighbour = *static_cast<Neighbour*>(user);
+    neighbour.error = read_prefix(neighbour.path, neighbour.bytes, *out);
+    if (neighbour.error != 0) *error = "cannot be read";
+    return neighbour.error == 0;
 }
 
 bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
@@ -182,6 +204,10 @@ Bytes resolve_with_tinygltf(const Place& buffer, const std::string& uri, Neighbo
         text.size() <= UINT32_MAX &&
         loader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()),
                                    "", tinygltf::NO_REQUIRE);
+    if (neighbour.error != 0)
+        throw Error(ErrorKind::missing, "E-FILE",
+                    fmt::format("{}.uri: the file \"{}\" cannot be read: {}", buffer.path(),
+                                neighbour.path.string(), std::strerror(neighbour.error)));
     if (!loaded || model.buffers.size() != 1)
         buffer.fail(fmt::format("expected {} bytes, and {} does not hold as many", neighbour.bytes,
                                 is_data_uri(uri) ? "the data URI" : "the file \"" + uri + "\""),

@@ -1,0 +1,58 @@
+"""Calls of the system that fail, in a few runs; `make faults` takes every call of more."""
+
+import errno
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+from support import main
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "faults"))
+import faults  # noqa: E402
+import scenarios  # noqa: E402
+
+
+@unittest.skipUnless(os.environ.get("FACETMILL_INJECTOR"),
+                     "no tests/faults/inject.c in this build: sanitizers replace the same calls, and it needs GCC on Linux")
+class Faults(unittest.TestCase):
+    def trial(self, scenario):
+        room = tempfile.TemporaryDirectory(prefix="facetmill-faults-")
+        self.addCleanup(room.cleanup)
+        return faults.Trial(scenario, room.name)
+
+    def check(self, runs, findings, least):
+        self.assertEqual(findings, [], "\n".join(findings))
+        self.assertGreaterEqual(sum(runs.values()), least, runs)
+
+    def test_a_call_fails(self):
+        self.check(*faults.run(["several"], points=3, malloc_points=4), least=35)
+
+    def test_the_process_is_killed(self):
+        self.check(*faults.run(["several"], points=12, kill=True), least=12)
+
+    def test_a_neighbour_that_cannot_be_read(self):
+        """Neither is a buffer malformed nor a texture left out because the disk has a fault."""
+        trial = self.trial(next(s for s in scenarios.scenarios() if s.name == "textures"))
+        judged = set()
+        for name, error in (("open", errno.EMFILE), ("read", errno.EIO)):
+            for number, path in enumerate(trial.calls(name), 1):
+                neighbour = pathlib.Path(path).name
+                if neighbour in ("t.bin", "tex.png"):
+                    self.assertEqual(trial.judge(f"{name} {number} {error}")[0], [])
+                    judged.add((name, neighbour))
+        self.assertEqual(len(judged), 4, judged)
+
+    def test_what_is_wrong_is_found(self):
+        """What the judgement is worth: half of the outputs, a changed input, a temporary that stays."""
+        trial = self.trial(scenarios.Scenario("broken", {"c.off": scenarios.CUBE},
+                                              ["pipe", "load", "c.off", "!", "write", "a.ply"], [["a.ply", "b.ply"]]))
+        self.assertEqual(list(trial.group_problems({"a.ply": trial.new["a.ply"], "b.ply": b""})),
+                         ["neither old nor new: a.ply, b.ply"])
+        self.assertEqual(list(trial.left_problems({"c.off": b"", ".a.ply.facetmill-1~": b""}, False)),
+                         ["changed: c.off", "left: .a.ply.facetmill-1~"])
+
+
+if __name__ == "__main__":
+    main()
