@@ -73,7 +73,7 @@ io::Bytes encoded(const Pixels& image, const std::string& format, const ImageSet
     return io::encoded_png(image);
 }
 
-Worked kept(ImageState state, std::string why, bool warn) {
+Worked kept(const ImageState& state, std::string why, bool warn) {
     Worked out{state, state, {}, std::move(why), warn};
     return out;
 }
