@@ -1,6 +1,7 @@
 #include "geometry/intersect/self_intersections.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
+#include "support/capped.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/run_stage.hpp"
@@ -183,4 +184,19 @@ TEST_CASE("a mask that selects nothing is warned of", "[stages]") {
               std::string(stage) + ": the mask selects none of 42 vertices: nothing moves");
         CHECK(r.mesh().positions == shapes::icosphere(1).positions);
     }
+}
+
+TEST_CASE("crumple: caps of cuts stay planar unless they are free", "[stages]") {
+    const Scene capped = test::capped_sphere();
+    CHECK(test::cap_unevenness(capped.parts[0].mesh) == 0);
+    const auto fixed = run_stage("crumple", "{amplitude: 1%}", capped);
+    CHECK(test::cap_unevenness(fixed.mesh()) == 0);
+    CHECK(fixed.record.result["parts"][0]["held_vertices"] > 10);
+    CHECK(fixed.record.result["parts"][0]["moved_vertices"] > 100);
+    const auto free = run_stage("crumple", "{amplitude: 1%, caps: free}", capped);
+    CHECK(test::cap_unevenness(free.mesh()) > 0.001);
+    CHECK(free.record.result["parts"][0]["held_vertices"] == 0);
+    const auto only_caps = run_stage("crumple", "{amplitude: 1%, mask: {attribute: cut_id}}", capped);
+    CHECK(only_caps.warnings() == std::vector<std::string>{"W-MASK"});
+    CHECK(only_caps.record.result["parts"][0]["moved_vertices"] == 0);
 }

@@ -1,6 +1,7 @@
 #include "geometry/intersect/self_intersections.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/shapes.hpp"
+#include "support/capped.hpp"
 #include "support/catch.hpp"
 #include "support/failure.hpp"
 #include "support/run_stage.hpp"
@@ -74,4 +75,19 @@ TEST_CASE("relax: area and volume before and after; options that go with methods
           "E-RANGE ");
     CHECK(problems_of("relax", options({{"pass_band", "0.2"}})) ==
           "E-CONFLICT relax: 'pass_band' goes with the method taubin only");
+}
+
+TEST_CASE("relax: caps of cuts stay planar unless they are free", "[stages]") {
+    const Scene capped = test::capped_sphere();
+    CHECK(test::cap_unevenness(capped.parts[0].mesh) == 0);
+    const auto fixed = run_stage("relax", "{iterations: 3}", capped);
+    CHECK(test::cap_unevenness(fixed.mesh()) == 0);
+    CHECK(fixed.record.result["parts"][0]["held_vertices"] > 10);
+    CHECK(fixed.record.result["parts"][0]["moved_vertices"] > 100);
+    const auto free = run_stage("relax", "{iterations: 3, caps: free}", capped);
+    CHECK(test::cap_unevenness(free.mesh()) > 0.001);
+    CHECK(free.record.result["parts"][0]["held_vertices"] == 0);
+    const auto only_caps = run_stage("relax", "{iterations: 3, mask: {attribute: cut_id}}", capped);
+    CHECK(only_caps.warnings() == std::vector<std::string>{"W-MASK"});
+    CHECK(only_caps.record.result["parts"][0]["moved_vertices"] == 0);
 }

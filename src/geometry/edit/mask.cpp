@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/glob.hpp"
 #include "base/spelling.hpp"
+#include "geometry/cut/cap_paint.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,7 +24,7 @@ std::vector<std::uint8_t> chosen_faces(const Part& part, const Scene& scene, con
     const Mesh& mesh = part.mesh;
     std::vector<std::uint8_t> chosen(mesh.face_count(), 1);
     if (s.group) {
-        const Attribute* group = mesh.find("group", Domain::face);
+        const Attribute* group = mesh.find(group_attribute, Domain::face);
         if (!group) refuse(part, "face attribute 'group'");
         for (std::size_t f = 0; f < chosen.size(); ++f)
             chosen[f] = group->value(f, 0) == static_cast<double>(*s.group);
@@ -76,6 +77,14 @@ std::vector<double> vertex_mask(const Part& part, const Scene& scene, const Mask
     if (s.invert)
         for (double& x : shares) x = 1 - x;
     return shares;
+}
+
+void hold_caps(const Mesh& mesh, std::vector<double>& shares) {
+    const Attribute* cut = mesh.find(cut_id_attribute, Domain::face);
+    if (!cut || largest_number(mesh, cut_id_attribute) == 0) return;
+    if (shares.empty()) shares.assign(mesh.vertex_count(), 1);
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (cut->value(f, 0) > 0) lower(mesh, f, 0, shares);
 }
 
 } // namespace facetmill

@@ -21,4 +21,8 @@ struct MaskSettings {
 /// attribute or group attribute.
 std::vector<double> vertex_mask(const Part& part, const Scene& scene, const MaskSettings& settings);
 
+/// Sets the share of each vertex of a cap to 0: of the faces that face attribute `cut_id` numbers, as clip,
+/// crop and tile do. Empty shares (all 1) stay empty when the mesh has no caps.
+void hold_caps(const Mesh& mesh, std::vector<double>& shares);
+
 } // namespace facetmill

@@ -20,16 +20,28 @@ void declare_mask(Declare<MaskSettings>& d) {
 }
 
 std::vector<double> MaskOfParts::of(const Part& part) {
-    if (!settings_) return {};
-    auto shares = vertex_mask(part, scene_, *settings_);
-    vertices_ += shares.size();
-    selected_ += static_cast<std::size_t>(
-        std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0; }));
+    const auto moving = [](const std::vector<double>& shares) {
+        return static_cast<std::size_t>(
+            std::count_if(shares.begin(), shares.end(), [](double share) { return share > 0; }));
+    };
+    std::vector<double> shares;
+    if (settings_) {
+        shares = vertex_mask(part, scene_, *settings_);
+        vertices_ += shares.size();
+        selected_ += moving(shares);
+    }
+    if (caps_ == Caps::fixed) hold_caps(part.mesh, shares);
+    if (settings_) moving_ += moving(shares);
     return shares;
 }
 
 void MaskOfParts::warn_if_idle(Context& context) const {
-    if (vertices_ == 0 || selected_ > 0) return;
+    if (vertices_ == 0 || moving_ > 0) return;
+    if (selected_ > 0)
+        return context.warn(
+            "W-MASK",
+            fmt::format("{}: the mask selects only vertices of caps: nothing moves", context.name()),
+            "use caps: free");
     std::string materials;
     for (const auto& m : scene_.materials) append_item(materials, m.name);
     context.warn(

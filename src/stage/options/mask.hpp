@@ -1,5 +1,5 @@
 #pragma once
-// The option `mask` of the shaping stages.
+// The options `mask` and `caps` of the shaping stages: which vertices move.
 
 #include "geometry/edit/mask.hpp"
 #include "options/declaration.hpp"
@@ -15,21 +15,35 @@ inline constexpr const char* mask_help =
     "Which vertices move, and what share of the way: those whose faces all have the material and the group, "
     "times the attribute.";
 
+/// How the caps of cuts move.
+enum class Caps { fixed, free };
+
+template <class Options>
+void declare_caps(Declare<Options>& d, Caps Options::*caps) {
+    d.template choice<Caps>(
+        "caps", caps,
+        {{"fixed", Caps::fixed, "they stay planar, and so does the edge of the cut"},
+         {"free", Caps::free, "they move like all others"}},
+        "How the vertices of caps move: those of the faces with which clip, crop and tile "
+        "close their cuts (face attribute cut_id).");
+}
+
 /// The masks of the parts that a stage works on, and a warning when they leave nothing to move anywhere.
 class MaskOfParts {
   public:
-    MaskOfParts(const Scene& scene, const std::optional<MaskSettings>& settings)
-        : scene_(scene), settings_(settings) {}
+    MaskOfParts(const Scene& scene, const std::optional<MaskSettings>& settings, Caps caps)
+        : scene_(scene), settings_(settings), caps_(caps) {}
 
-    /// vertex_mask of the part; empty without settings.
+    /// vertex_mask of the part, with 0 for fixed caps; empty when all vertices move.
     std::vector<double> of(const Part& part);
-    /// Warns (W-MASK) when no vertex of any part was selected.
+    /// Warns (W-MASK) when there is a mask and no vertex of any part moves.
     void warn_if_idle(Context& context) const;
 
   private:
     const Scene& scene_;
     const std::optional<MaskSettings>& settings_;
-    std::size_t vertices_ = 0, selected_ = 0;
+    Caps caps_;
+    std::size_t vertices_ = 0, selected_ = 0, moving_ = 0; ///< of parts with a mask
 };
 
 } // namespace facetmill

@@ -9,8 +9,9 @@ inline constexpr const char* about =
 inline constexpr const char* details =
     R"(Each vertex moves once, by normally distributed amounts with mean 0 and the given standard
 deviation, cut off at `truncate`. Faces that share a vertex move together, so nothing tears and the
-topology is kept. This also holds with boundary: fixed and with a mask, where all vertices at one
-position move by the smallest share of any of them. Faces may intersect when the amplitude is large
+topology is kept. This also holds with boundary: fixed, with caps and with a mask, where all
+vertices at one position move by the smallest share of any of them. The caps of cuts stay planar
+(caps: free moves them as well). Faces may intersect when the amplitude is large
 compared with their size.
 
 The noise at a vertex depends only on the seed and on its world position rounded to float32:

@@ -63,6 +63,7 @@ void declare_crumple(Declare<CrumpleOptions>& d) {
                              {"forbid", Intersections::forbid, "fails when faces would intersect"}},
                             "What is done when faces of a part would intersect or fold over. With avoid and "
                             "forbid, positions are rounded to float32, the precision of most files.");
+    declare_caps(d, &CrumpleOptions::caps);
     d.group("mask", &CrumpleOptions::mask, mask_help, declare_mask);
     declare_noise(d);
     d.option("triangulate", &CrumpleOptions::triangulate,

@@ -20,6 +20,7 @@ struct CrumpleOptions {
     std::int64_t octaves = 1;
     double roughness = 0.5;
     Intersections self_intersections = Intersections::allow;
+    Caps caps = Caps::fixed;
     std::optional<MaskSettings> mask;
 };
 

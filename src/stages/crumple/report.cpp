@@ -54,7 +54,7 @@ void declare_part(DeclareFields<CrumpleReportPart>& d) {
     d.field("added_faces", &CrumpleReportPart::added_faces, "The number of faces added.");
     d.field("moved_vertices", &CrumpleReportPart::moved, "Vertices that moved.");
     d.field("held_vertices", &CrumpleReportPart::held_vertices,
-            "Vertices that were held: on the boundary or outside the mask.");
+            "Vertices that were held: on the boundary, on caps or outside the mask.");
     d.field("largest_move", &CrumpleReportPart::largest_move, "The largest move of a vertex.")
         .unit("scene units");
     d.field("root_mean_square_move", &CrumpleReportPart::root_mean_square, "Of all vertices.")

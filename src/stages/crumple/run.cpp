@@ -66,7 +66,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
     warn_of_crossing_faces_in_grid(scene, context);
     std::vector<CrumpledPart> works;
     std::vector<CrumpleSheet> sheets;
-    MaskOfParts masks(scene, o.mask);
+    MaskOfParts masks(scene, o.mask, o.caps);
     context.for_each_part(scene, [&](Part& part) {
         settings.amplitude = context.resolve(o.amplitude, scene, "amplitude", &part);
         settings.to_world = part.transform;

@@ -16,6 +16,9 @@ method that shrinks the surface is stopped before a third of the area is lost (W
 Open, non-manifold and degenerate input is accepted as it is: faces without area have no weight, and
 a vertex without neighbours stays in place.
 
+The caps of cuts stay planar (caps: free moves them as well). Other sharp edges become round unless
+feature_angle is given.
+
 Faces, wedges and topology are kept, and with them the Euler number and closedness. Normals are
 recomputed, and tangents are made perpendicular to them. Morph targets of positions are relaxed
 together with the surface, each as the surface that it represents; all other attributes are kept.

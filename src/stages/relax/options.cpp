@@ -76,6 +76,7 @@ void declare_limits(Declare<RelaxOptions>& d) {
              "when relaxation stopped early: laplacian, cotangent and implicit would shrink a closed surface "
              "to a point, so they stop before a third of its area is lost.")
         .above(0);
+    declare_caps(d, &RelaxOptions::caps);
     d.group("mask", &RelaxOptions::mask, mask_help, declare_mask);
 }
 

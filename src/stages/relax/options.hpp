@@ -17,6 +17,7 @@ struct RelaxOptions {
     double pass_band = RelaxSettings{}.pass_band;
     std::optional<double> alpha; ///< none: 0, or 0.1 with until, so that there is a place to come to rest at
     double beta = RelaxSettings{}.beta;
+    Caps caps = Caps::fixed;
     std::optional<MaskSettings> mask;
 };
 

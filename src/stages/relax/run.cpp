@@ -32,8 +32,9 @@ void declare_part(DeclareFields<RelaxedPart>& d) {
     d.field("part", &RelaxedPart::part, "Its name.");
     d.field("iterations", &RelaxedPart::iterations, "The number of iterations.");
     d.field("moved_vertices", &RelaxedPart::moved, "Vertices that moved.");
-    d.field("held_vertices", &RelaxedPart::held,
-            "Vertices that were held: on the boundary, at corners of feature lines, outside the mask.");
+    d.field(
+        "held_vertices", &RelaxedPart::held,
+        "Vertices that were held: on the boundary, on caps, at corners of feature lines, outside the mask.");
     d.field("largest_move", &RelaxedPart::largest_move,
             "The largest distance of a vertex from its original position.")
         .unit("scene units");
@@ -57,7 +58,7 @@ void declare_report(DeclareFields<RelaxReport>& d) {
 
 Scene run(Scene scene, const RelaxOptions& o, Context& context, RelaxReport& report) {
     RelaxSettings settings = relax_settings(o);
-    MaskOfParts masks(scene, o.mask);
+    MaskOfParts masks(scene, o.mask, o.caps);
     context.for_each_part(scene, [&](Part& part) {
         settings.to_world = part.transform;
         if (o.until) // above 0 in a part that is a single point too, which settles at once

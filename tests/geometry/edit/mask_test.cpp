@@ -31,3 +31,20 @@ TEST_CASE("a mask by material, group and attribute", "[geometry]") {
     CHECK(test::failure([&] { vertex_mask(part, scene, {.attribute = "cold"}); }) ==
           "stage [E-MASK] mask: part 'head' has no attribute 'cold' | it has primitive, group, heat");
 }
+
+TEST_CASE("hold_caps holds the vertices of faces that a cut numbers", "[geometry]") {
+    Mesh mesh = shapes::grid(2, 1); // faces 0, 1 left, 2, 3 right
+    std::vector<double> shares;
+    hold_caps(mesh, shares);
+    CHECK(shares.empty());
+    mesh.attributes.push_back(
+        {"cut_id", Domain::face, Role::index, 1, false, std::vector<std::uint32_t>{0, 0, 0, 0}});
+    hold_caps(mesh, shares);
+    CHECK(shares.empty());
+    mesh.attributes[0].data = std::vector<std::uint32_t>{0, 0, 3, 3};
+    hold_caps(mesh, shares);
+    CHECK(shares == std::vector<double>{1, 0, 0, 1, 0, 0});
+    shares = {0.5, 0.5, 0.5, 0, 0.5, 0.5};
+    hold_caps(mesh, shares);
+    CHECK(shares == std::vector<double>{0.5, 0, 0, 0, 0, 0});
+}
