@@ -10,8 +10,12 @@
 namespace facetmill {
 
 namespace {
-std::unique_ptr<tbb::global_control> control;
+
+/// Never destroyed: TBB may want a thread for that, and at the end of the process nobody could be told that
+/// there is none.
+std::unique_ptr<tbb::global_control>& control = *new std::unique_ptr<tbb::global_control>;
 int count = 0;
+
 } // namespace
 
 void set_threads(int wanted) {

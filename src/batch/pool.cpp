@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 #include <tbb/task_arena.h>
 #include <thread>
 
@@ -84,7 +85,12 @@ void Pool::run() {
     };
     std::vector<std::thread> threads;
     const auto count = std::min(static_cast<std::size_t>(settings_.jobs), waiting_.size());
-    for (std::size_t t = 0; t < count; ++t) threads.emplace_back(on_thread);
+    threads.reserve(count);
+    try {
+        for (std::size_t t = 0; t < count; ++t) threads.emplace_back(on_thread);
+    } catch (const std::system_error&) { // no further thread: those that there are do all of it
+        if (threads.empty()) throw;
+    }
     for (auto& thread : threads) thread.join();
 }
 

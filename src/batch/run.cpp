@@ -166,9 +166,10 @@ class BatchRun {
         } catch (const Error& e) {
             out = failure(e);
         } catch (const std::exception& e) {
-            out = failure(is_want_of_memory(e) ? out_of_memory("not enough memory")
-                                               : Error(ErrorKind::bug, "E-BUG", e.what(),
-                                                       "please report it, with the pipeline and the input"));
+            const auto limit = told_as_limit(e);
+            out = failure(limit ? *limit
+                                : Error(ErrorKind::bug, "E-BUG", e.what(),
+                                        "please report it, with the pipeline and the input"));
         }
         const bool for_memory = std::any_of(out.errors.begin(), out.errors.end(),
                                             [](const Diagnostic& d) { return d.out_of_memory; });

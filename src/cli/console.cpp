@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <unistd.h>
 
@@ -75,7 +76,11 @@ class Bar : public Progress {
         start_ = Clock::now();
         share = -1;
         draw();
-        if (!drawer_.joinable()) drawer_ = std::thread([this] { draw_until_done(); });
+        if (drawer_.joinable()) return;
+        try {
+            drawer_ = std::thread([this] { draw_until_done(); });
+        } catch (const std::system_error&) { // no further thread: it is drawn less often
+        }
     }
 
     void draw_until_done() {

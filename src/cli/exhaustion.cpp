@@ -1,10 +1,12 @@
 #include "cli/exhaustion.hpp"
 
 #include "base/error.hpp"
+#include "base/want_of_memory.hpp"
 #include "io/clean_up.hpp"
 
 #include <atomic>
 #include <cstdlib>
+#include <exception>
 #include <new>
 
 namespace facetmill::cli {
@@ -24,13 +26,37 @@ bool small_requests_succeed() {
     return probe != nullptr;
 }
 
+void end_for_memory() {
+    io::end_at_once(static_cast<int>(ErrorKind::limit), "facetmill: error[E-MEMORY]: not enough memory\n");
+}
+
+std::terminate_handler usual_end = nullptr;
+
+/// Where nothing catches: before main, or where a destructor throws.
+[[noreturn]] void on_terminate() {
+    try {
+        if (const auto why = std::current_exception()) std::rethrow_exception(why);
+    } catch (const std::exception& e) {
+        if (is_want_of_memory(e) || is_want_of_threads(e)) end_for_memory();
+    } catch (...) {
+    }
+    if (usual_end) usual_end();
+    std::abort();
+}
+
+/// Before the registries of stages and codecs are made, which is before main.
+struct BeforeRegistries {
+    BeforeRegistries() { usual_end = std::set_terminate(on_terminate); }
+};
+[[gnu::init_priority(101)]] const BeforeRegistries before_registries;
+
 void on_failed_request() {
     if (small_requests_succeed()) throw std::bad_alloc();
     if (void* const given = reserve.exchange(nullptr)) {
         std::free(given);
         return; // the request is tried again
     }
-    io::end_at_once(static_cast<int>(ErrorKind::limit), "facetmill: error[E-MEMORY]: not enough memory\n");
+    end_for_memory();
     throw std::bad_alloc();
 }
 

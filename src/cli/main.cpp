@@ -26,7 +26,7 @@ int entry(int argc, char** argv) {
     } catch (const Error& e) {
         return fail(console, e);
     } catch (const std::exception& e) {
-        if (is_want_of_memory(e)) return fail(console, out_of_memory("not enough memory"));
+        if (const auto limit = told_as_limit(e)) return fail(console, *limit);
         return fail(console, Error(ErrorKind::bug, "E-BUG", e.what(), "this is a bug in facetmill"));
     }
 }

@@ -38,9 +38,8 @@ class Failures {
         } catch (Error& e) {
             add(e.at(where));
         } catch (const std::exception& e) {
-            if (is_want_of_memory(e))
-                add(out_of_memory(fmt::format("not enough memory for {}", what),
-                                  "simplify earlier, or use a machine with more memory", where));
+            if (const auto limit = told_as_limit(e, what, where))
+                add(*limit);
             else
                 add(ErrorKind::bug, {{Severity::error, "E-BUG",
                                       fmt::format("{} failed in a way it never should: {}", what, e.what()),

@@ -6,14 +6,17 @@ import os
 import pathlib
 import pty
 import re
+import resource
 import select
+import shutil
 import signal
 import struct
 import subprocess
 import threading
 import time
+import unittest
 
-from support import FACETMILL, SCAN, Case, main
+from support import FACETMILL, SCAN, SLOW, Case, main
 
 # Writes early and works long, so that a signal finds a temporary.
 LONG = """facetmill: 1
@@ -355,6 +358,31 @@ class Process(Case):
         self.mill("stages", "relux", expect=2)
         self.mill("pipe", "load", "t.off", "!", "relux", expect=2)
         self.assertEqual(self.mill(expect=2).stdout, "")
+
+    @unittest.skipIf(SLOW, "the limit of addresses does not go with AddressSanitizer")
+    def test_hardly_any_memory(self):
+        """From where the libraries just fit, and where there is too little for the stack of a thread."""
+        self.write("p.yaml", "facetmill: 1\nparams: {input: path}\nstages: [{load: '${input}'}, {relax: 1}, "
+                             "{write: '${input.stem}.ply'}]\n")
+        self.mill("pipe", "generate", "icosphere", "--subdivisions", "5", "!", "write", "a.off")
+        shutil.copy(self.dir / "a.off", self.dir / "b.off")
+        run = ("run", "p.yaml", "-D", "input=a.off", "-o", "out")
+        seen = set()
+        for command in ((*run, "-j1"), (*run, "-j3"), ("batch", "p.yaml", "--input", "*.off", "-j2", "-o", "out2")):
+            before_main = range(26000, 32000, 150) if "-j1" in command else ()
+            for kib in (*before_main, *range(32000, 90000, 3000)):
+                limit = kib << 10
+                done = subprocess.run([str(FACETMILL), *command], cwd=self.dir, capture_output=True, text=True, timeout=600,
+                                      preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+                # 127 is the loader's: without its libraries the program does not begin. Nor does it when they
+                # have no room to begin, not even for an exception.
+                if done.returncode == -6 and "without an active exception" in done.stderr and kib < 32000:
+                    continue
+                self.assertIn(done.returncode, (0, 7, 127), f"{kib} KiB, {command}\n{done.stderr}")
+                if done.returncode == 7:
+                    self.assertIn("E-MEMORY", done.stderr)
+                seen.add(done.returncode)
+        self.assertLessEqual({0, 7}, seen)
 
     def test_standard_input_and_output(self):
         run = self.mill("pipe", "load", "-", "!", "write", "-", "--format", "ply", stdin=TRIANGLE.encode(), text=False)
