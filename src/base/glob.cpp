@@ -106,7 +106,8 @@ std::vector<fs::path> expand_glob(const fs::path& pattern) {
     std::error_code ignored;
     if (!is_glob(pattern.string()) || fs::exists(pattern, ignored)) return {pattern};
     const fs::path below = pattern.relative_path();
-    const std::vector<fs::path> components(below.begin(), below.end());
+    std::vector<fs::path> components(below.begin(), below.end());
+    if (components.back() == "**") components.emplace_back("*"); // all files below
     std::vector<fs::path> found;
     expand(pattern.root_path(), components.begin(), components.end(), found);
     std::sort(found.begin(), found.end(),

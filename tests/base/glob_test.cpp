@@ -43,6 +43,8 @@ TEST_CASE("a path with patterns names files in the order of their bytes", "[base
     };
     CHECK(names("*.ply") == std::vector<std::string>{"a.ply", "b.ply"});
     CHECK(names("**/*.ply") == std::vector<std::string>{"a.ply", "b.ply", "deep/d.ply", "deep/er/e.ply"});
+    CHECK(names("deep/**") == std::vector<std::string>{"deep/d.ply", "deep/er/e.ply"});
+    CHECK(names("**").size() == 5);
     CHECK(names("*.obj").empty());
     CHECK(names("missing.ply") == std::vector<std::string>{"missing.ply"});
     fs::remove_all(folder);
