@@ -72,7 +72,7 @@ class FileOwners {
     explicit FileOwners(Problems& problems) : problems_(problems) {}
 
     void add_other(const fs::path& path) {
-        const auto [first, is_new] = owners_.try_emplace(key(path), Owner{"the batch itself", path, {}});
+        const auto [first, is_new] = owners_.try_emplace(key(path), Owner{"the batch itself", path, {}, {}});
         if (is_new || io::is_stream(path)) return;
         problems_.add({}, "E-DUPLICATE-OUTPUT",
                       fmt::format("the batch would write '{}' twice", path.string()),
@@ -105,7 +105,7 @@ class FileOwners {
   private:
     struct Owner {
         std::string name;
-        fs::path path;
+        fs::path path, input;
         std::optional<fs::path> beside; ///< the folder of the input that names it
     };
 
@@ -113,7 +113,7 @@ class FileOwners {
 
     void claim(const Asset& asset, const fs::path& path, bool beside) {
         if (io::is_stream(path) && path != "/dev/null") return refuse_stream(asset, path);
-        const Owner mine{asset.name, path,
+        const Owner mine{asset.name, path, asset.input,
                          beside ? std::optional(asset.input.parent_path()) : std::optional<fs::path>()};
         const auto [first, is_new] = owners_.emplace(key(path), mine);
         if (is_new || first->second.name == asset.name || (beside && first->second.beside == mine.beside))
@@ -125,8 +125,17 @@ class FileOwners {
             same ? fmt::format("'{}' is written for {} and for {}", path.string(), other.name, asset.name)
                  : fmt::format("'{}' for {} and '{}' for {} are one file where case does not count",
                                other.path.string(), other.name, path.string(), asset.name),
-            "name outputs by a param that differs: write: \"${input.stem}.glb\"; --base sets the "
-            "folder that is mirrored");
+            hint_of(other.input, asset.input));
+    }
+
+    /// What the names of the two inputs have that those of the outputs lack.
+    static std::string hint_of(const fs::path& one, const fs::path& other) {
+        if (!one.empty() && !other.empty() && one.filename() != other.filename() &&
+            lower_case(one.stem().string()) == lower_case(other.stem().string()))
+            return "their inputs differ in the suffix only: write: \"${input.name}.glb\" has it in the name; "
+                   "if one of them is no mesh, name the suffix in the pattern: --input 'scans/**/*.ply'";
+        return "name outputs by a param that differs: write: \"${input.stem}.glb\"; --base sets the folder "
+               "that is mirrored";
     }
 
     void refuse_stream(const Asset& asset, const fs::path& path) {

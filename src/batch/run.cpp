@@ -243,8 +243,14 @@ class BatchRun {
         done.digest = work.digest;
         std::map<std::string, std::string> sums;
         for (const auto& input : record.inputs) sums[absolute_name(input.path)] = input.sha256;
-        for (const auto& input : work.inputs) // a baseline is read, and no record tells it
-            if (input != "-") sums.emplace(absolute_name(input), "");
+        for (const auto& absent : record.absent) done.absent.push_back(absolute_name(absent));
+        const auto is_absent = [&](const std::string& name) {
+            return std::find(done.absent.begin(), done.absent.end(), name) != done.absent.end();
+        };
+        for (const auto& input : work.inputs) { // a baseline is read, and no record tells it
+            const std::string name = absolute_name(input);
+            if (input != "-" && !is_absent(name)) sums.emplace(name, "");
+        }
         for (auto& [path, sum] : sums) {
             Stamp stamp{path, 0, 0, sum};
             for (const auto& known : before)
@@ -252,7 +258,6 @@ class BatchRun {
             complete(stamp, path);
             done.inputs.push_back(std::move(stamp));
         }
-        for (const auto& absent : record.absent) done.absent.push_back(absolute_name(absent));
         for (const auto& file : record.outputs)
             done.outputs.push_back(complete({from_folder(work.asset, file.path), 0, 0, file.sha256}));
         for (const auto& report : record.reports)

@@ -87,6 +87,18 @@ class Batch(Case):
         self.assertEqual(self.done_anew(), [], "comments and blanks do not matter")
         self.assertEqual(len(self.done_anew("-D", "n=2")), 3)
 
+    def test_a_file_that_is_missing_beside_an_input(self):
+        """It may stay missing; when it comes, the asset is made anew."""
+        self.write("in/a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n")
+        obj = ("--input", "in/*.obj", "--allow", "W-MTL")
+        self.assertEqual(self.done_anew(*obj), ["in/a.obj"])
+        self.assertEqual(self.done_anew(*obj), [])
+        self.write("in/a.mtl", "newmtl red\nKd 1 0 0\n")
+        self.assertEqual(self.done_anew(*obj), ["in/a.obj"])
+        self.assertEqual(self.done_anew(*obj), [])
+        (self.dir / "in/a.mtl").unlink()
+        self.assertEqual(self.done_anew(*obj), ["in/a.obj"])
+
     def test_a_report_of_what_was_kept(self):
         self.write("in/bad.off", "bad")
         reports = ("--report", "s.json", "--report", "s.xml", "--report", "s.txt", "-k")
@@ -167,7 +179,11 @@ class Batch(Case):
         run = self.batch(expect=2)
         self.assertIn("E-DUPLICATE-OUTPUT", run.stderr)
         self.assertIn("one file where case does not count", run.stderr)
-        (self.dir / "in/A.off").unlink()
+        (self.dir / "in/A.off").rename(self.dir / "in/a.ply")
+        run = self.batch("--input", "in/**/*", expect=2)
+        self.assertIn("is written for in/a.off and for in/a.ply", run.stderr)
+        self.assertIn("${input.name}.glb", run.stderr)
+        (self.dir / "in/a.ply").unlink()
         self.write("p.yaml", PIPELINE.replace('"${input.stem}.ply"', "one.ply"))
         run = self.batch("--base", "nowhere", expect=2)
         self.assertIn("'out/one.ply' is written for in/a.off and for in/sub/b.off", run.stderr)
