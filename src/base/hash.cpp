@@ -38,19 +38,57 @@ void* openssl_realloc(void* old, std::size_t bytes, const char* file, int line) 
     return nullptr;
 }
 
-} // namespace
-
-std::string sha256(std::span<const std::byte> bytes) {
-    // Where memory ends while OpenSSL starts, it has no algorithms for the rest of the process, or crashes.
+/// Where memory ends while OpenSSL starts, it has no algorithms for the rest of the process, or crashes.
+void prepare_openssl() {
     [[maybe_unused]] static const int set =
         CRYPTO_set_mem_functions(openssl_malloc, openssl_realloc, openssl_free);
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned int size = 0;
-    if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1)
-        throw out_of_memory("OpenSSL does not compute SHA-256: memory has ended, or it lacks the algorithm");
+}
+
+using Digest = std::array<unsigned char, EVP_MAX_MD_SIZE>;
+
+std::string as_hexadecimal(const Digest& digest, unsigned int size) {
     std::string text;
     for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
     return text;
+}
+
+void check_openssl(int done) {
+    if (done != 1)
+        throw out_of_memory("OpenSSL does not compute SHA-256: memory has ended, or it lacks the algorithm");
+}
+
+} // namespace
+
+std::string sha256(std::span<const std::byte> bytes) {
+    prepare_openssl();
+    Digest digest{};
+    unsigned int size = 0;
+    check_openssl(EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr));
+    return as_hexadecimal(digest, size);
+}
+
+struct Sha256::State {
+    EVP_MD_CTX* context = nullptr;
+    ~State() { EVP_MD_CTX_free(context); }
+};
+
+Sha256::Sha256() : state_(std::make_unique<State>()) {
+    prepare_openssl();
+    state_->context = EVP_MD_CTX_new();
+    check_openssl(state_->context ? EVP_DigestInit_ex(state_->context, EVP_sha256(), nullptr) : 0);
+}
+
+Sha256::~Sha256() = default;
+
+void Sha256::add(std::span<const std::byte> bytes) {
+    check_openssl(EVP_DigestUpdate(state_->context, bytes.data(), bytes.size()));
+}
+
+std::string Sha256::digest() {
+    Digest digest{};
+    unsigned int size = 0;
+    check_openssl(EVP_DigestFinal_ex(state_->context, digest.data(), &size));
+    return as_hexadecimal(digest, size);
 }
 
 } // namespace facetmill

@@ -2,9 +2,29 @@
 // SHA-256 of files and bytes (OpenSSL's), as hexadecimal.
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string>
 
 namespace facetmill {
+
+/// Throws limit (E-MEMORY) when there is no memory for it.
 std::string sha256(std::span<const std::byte> bytes);
-}
+
+/// The SHA-256 of bytes that come in pieces. Throws as sha256().
+class Sha256 {
+  public:
+    Sha256();
+    ~Sha256();
+    Sha256(const Sha256&) = delete;
+    Sha256& operator=(const Sha256&) = delete;
+    void add(std::span<const std::byte> bytes);
+    /// Of all that was added; nothing may be added afterwards.
+    std::string digest();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace facetmill

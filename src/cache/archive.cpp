@@ -22,9 +22,12 @@ bool are_floats(const double* from, std::size_t n) {
 }
 
 constexpr unsigned bits_of_byte = 8;
+constexpr std::size_t at_a_time = std::size_t{1} << 16; ///< numbers, when bytes are given away in pieces
+
+using Indices = std::span<const std::uint32_t>;
 
 template <unsigned Width>
-void pack(const std::vector<std::uint32_t>& all, std::byte* to) {
+void pack(Indices all, std::byte* to) {
     for (const std::uint32_t index : all)
         for (unsigned b = 0; b < Width; ++b) *to++ = static_cast<std::byte>(index >> (bits_of_byte * b));
 }
@@ -81,11 +84,13 @@ void ByteWriter::doubles(const double* from, std::size_t n) {
     const bool small = are_floats(from, n);
     put(small);
     if (!small) return raw(from, n * sizeof(double));
-    const std::size_t begin = bytes.size();
-    bytes.resize(begin + n * sizeof(float));
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto value = static_cast<float>(from[i]);
-        std::memcpy(bytes.data() + begin + i * sizeof value, &value, sizeof value);
+    for (std::size_t begin = 0; begin < n; begin += at_a_time) {
+        const std::size_t end = std::min(n, begin + at_a_time);
+        std::byte* to = room((end - begin) * sizeof(float));
+        for (std::size_t i = begin; i < end; ++i, to += sizeof(float)) {
+            const auto value = static_cast<float>(from[i]);
+            std::memcpy(to, &value, sizeof value);
+        }
     }
 }
 
@@ -107,13 +112,11 @@ void ByteWriter::indices(const std::vector<std::uint32_t>& all) {
     const auto bits = static_cast<unsigned>(std::bit_width(std::max(largest, 1u)));
     const auto width = static_cast<std::uint8_t>((bits + bits_of_byte - 1) / bits_of_byte);
     put(width);
-    const std::size_t begin = bytes.size();
-    bytes.resize(begin + all.size() * width);
-    std::byte* to = bytes.data() + begin;
-    if (width == 1) return pack<1>(all, to);
-    if (width == 2) return pack<2>(all, to);
-    if (width == 3) return pack<3>(all, to);
-    pack<4>(all, to);
+    constexpr auto packers = std::array{pack<1>, pack<2>, pack<3>, pack<4>};
+    for (std::size_t begin = 0; begin < all.size(); begin += at_a_time) {
+        const std::size_t n = std::min(at_a_time, all.size() - begin);
+        packers[width - 1u](Indices(all).subspan(begin, n), room(n * width));
+    }
 }
 
 void ByteReader::indices(std::vector<std::uint32_t>& all) {

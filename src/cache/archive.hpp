@@ -11,6 +11,7 @@
 #include <bit>
 #include <concepts>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -55,15 +56,35 @@ class ByteWriter {
   public:
     io::Bytes bytes;
 
+    ByteWriter() = default;
+    /// Gives the bytes to take, a piece at a time, instead of keeping them all; the last with flush().
+    explicit ByteWriter(std::function<void(io::Span)> take) : take_(std::move(take)) {}
+    void flush() {
+        if (take_) take_(bytes);
+        bytes.clear();
+    }
+
     template <class... T>
     void operator()(const T&... values) {
         (put(values), ...);
     }
 
   private:
+    static constexpr std::size_t piece = std::size_t{1} << 20;
+
+    /// Room for so many bytes more, which is returned.
+    std::byte* room(std::size_t size) {
+        if (take_ && bytes.size() + size > piece) flush();
+        bytes.resize(bytes.size() + size);
+        return bytes.data() + bytes.size() - size;
+    }
     void raw(const void* from, std::size_t size) {
         const auto* begin = static_cast<const std::byte*>(from);
-        bytes.insert(bytes.end(), begin, begin + size);
+        if (take_ && size > piece) {
+            flush();
+            return take_({begin, size});
+        }
+        if (size > 0) std::memcpy(room(size), begin, size);
     }
     void count(std::size_t n) { put(static_cast<std::uint64_t>(n)); }
 
@@ -129,6 +150,8 @@ class ByteWriter {
     void doubles(const double* from, std::size_t n);
     /// In as few bytes each as the largest needs.
     void indices(const std::vector<std::uint32_t>& all);
+
+    std::function<void(io::Span)> take_;
 };
 
 /// Throws Corrupt for whatever a ByteWriter would not have written.

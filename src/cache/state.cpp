@@ -54,6 +54,13 @@ io::Bytes encoded(const Scene& scene) {
     writer(scene);
     return std::move(writer.bytes);
 }
+std::string digest_of(const Scene& scene) {
+    Sha256 sum;
+    ByteWriter writer([&](io::Span bytes) { sum.add(bytes); });
+    writer(scene);
+    writer.flush();
+    return sum.digest();
+}
 std::optional<Scene> decoded_scene(io::Span bytes) { return read_from<Scene>(bytes); }
 
 io::Bytes encoded(const Memory& memory) { return bytes_of(memory); }

@@ -9,6 +9,8 @@ namespace facetmill::cache {
 
 /// The whole scene: equal bytes for equal scenes, whatever their addresses.
 io::Bytes encoded(const Scene& scene);
+/// The SHA-256 of encoded(), without a copy of the scene.
+std::string digest_of(const Scene& scene);
 /// None for bytes that are no scene.
 std::optional<Scene> decoded_scene(io::Span bytes);
 /// About as many bytes as encoded() gives, without making them.

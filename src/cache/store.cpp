@@ -67,6 +67,24 @@ std::int64_t nanoseconds_of(const timespec& time) {
     return time.tv_sec * in_a_second + time.tv_nsec;
 }
 
+/// Of looking at all entries, by those of one folder of 256: keys are spread evenly.
+double seconds_to_count(const fs::path& folder) {
+    constexpr double folders = 256, seconds_of_an_entry = 2e-6;
+    std::error_code error;
+    std::size_t entries = 0;
+    for (fs::directory_iterator it(folder / "7f", error), end; !error && it != end; it.increment(error))
+        ++entries;
+    return static_cast<double>(entries) * folders * seconds_of_an_entry;
+}
+
+/// Whether what is too small to count is counted this time: by chance, so that it has its limit, too.
+bool is_one_in_many() {
+    constexpr int many = 64;
+    timespec now{};
+    ::clock_gettime(CLOCK_REALTIME, &now);
+    return now.tv_nsec / 1000 % many == 0;
+}
+
 /// Only what this user has put there is believed: a plain file of his own, not a link or a pipe.
 bool is_own_file(const struct stat& about) { return S_ISREG(about.st_mode) && about.st_uid == ::geteuid(); }
 
@@ -117,10 +135,23 @@ void make_folder(const fs::path& folder) {
 /// Others need the disk more than the cache does: twice the entry stays free beside this much.
 constexpr std::uint64_t reserve = std::uint64_t{64} << 20;
 
-bool has_space(const fs::path& folder, std::uint64_t bytes) {
+/// None where the system does not say.
+std::optional<std::uint64_t> free_space(const fs::path& folder) {
     struct statvfs about {};
-    if (::statvfs(folder.c_str(), &about) != 0) return true; // writing will tell
-    return static_cast<std::uint64_t>(about.f_bavail) * about.f_frsize >= 2 * bytes + reserve;
+    if (::statvfs(folder.c_str(), &about) != 0) return {};
+    return static_cast<std::uint64_t>(about.f_bavail) * about.f_frsize;
+}
+
+bool has_space(const fs::path& folder, std::uint64_t bytes) {
+    const auto space = free_space(folder);
+    return !space || *space >= 2 * bytes + reserve; // writing will tell
+}
+
+/// The folder itself, or what is there of the way to it.
+fs::path nearest_there(fs::path folder) {
+    std::error_code ignored;
+    while (!fs::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
+    return folder;
 }
 
 /// Measured on slow machines; what a store has seen takes its place.
@@ -268,7 +299,7 @@ bool Store::put(const std::string& key, Kind kind, io::Span bytes) {
     if (kind == Kind::scene && has(key, kind)) return true;
     try {
         const std::string head = head_of(path.filename().string(), bytes);
-        if (!make_room(head.size() + bytes.size())) return false;
+        if (!make_room(head.size() + bytes.size(), kind)) return false;
         if (!write(path, span_of(head), bytes)) return false;
     } catch (const Error& e) {
         cannot_write(e.diagnostics().front().message);
@@ -279,6 +310,13 @@ bool Store::put(const std::string& key, Kind kind, io::Span bytes) {
     }
     use(path);
     return true;
+}
+
+double Store::seconds_to_begin() const {
+    const std::lock_guard lock(known_->guard);
+    if (known_->total) return 0;
+    if (!known_->seconds_to_count) known_->seconds_to_count = seconds_to_count(settings_.folder);
+    return *known_->seconds_to_count;
 }
 
 double Store::seconds_for(std::size_t bytes) const {
@@ -293,23 +331,42 @@ void Store::took(std::size_t bytes, double seconds) {
     known_->bytes_per_second = (known_->bytes_per_second + static_cast<double>(bytes) / seconds) / 2;
 }
 
-bool Store::make_room(std::uint64_t bytes) {
+std::uint64_t Store::limit(std::uint64_t bytes) const {
+    if (settings_.max_share >= 1) return settings_.max_bytes;
+    const auto space = free_space(nearest_there(settings_.folder));
+    if (!space) return settings_.max_bytes;
+    const double share = settings_.max_share * static_cast<double>(*space + bytes);
+    return std::min(settings_.max_bytes, static_cast<std::uint64_t>(share));
+}
+
+std::string Store::hindrance() const {
+    const fs::path there = nearest_there(settings_.folder);
+    return ::access(there.c_str(), W_OK | X_OK) == 0
+               ? ""
+               : fmt::format("'{}': {}", there.string(), std::strerror(errno));
+}
+
+bool Store::make_room(std::uint64_t bytes, Kind kind) {
     const std::lock_guard lock(known_->guard);
     if (bytes > settings_.max_bytes) return false;
     constexpr std::uint64_t parts = 20;
     auto& total = known_->total;
-    if (!total || known_->since_counted > settings_.max_bytes / parts) {
+    auto& limit = known_->limit;
+    if (!total && kind == Kind::last_run && !is_one_in_many()) return true;
+    if (!total || known_->since_counted > limit / parts) {
         remove_leftovers();
         total = contents().bytes;
+        limit = this->limit(*total);
         known_->since_counted = 0;
     }
-    if (*total + bytes > settings_.max_bytes) {
+    if (bytes > limit) return false;
+    if (*total + bytes > limit) {
         // More than needed at a time, so that not every put looks at all entries.
-        const std::uint64_t room = std::max(bytes, settings_.max_bytes / 10);
-        shrink(settings_.max_bytes - std::min(room, settings_.max_bytes));
+        const std::uint64_t room = std::max(bytes, limit / 10);
+        shrink(limit - std::min(room, limit));
         total = contents().bytes;
     }
-    if (*total + bytes > settings_.max_bytes) return false;
+    if (*total + bytes > limit) return false;
     *total += bytes;
     known_->since_counted += bytes;
     return true;
@@ -368,7 +425,7 @@ void Store::remove_leftovers(std::int64_t older_than) const {
 Contents Store::collect() {
     remove_leftovers();
     const std::lock_guard lock(known_->guard);
-    return shrink(settings_.max_bytes);
+    return shrink(limit(contents().bytes));
 }
 
 Contents Store::clear() {

@@ -26,6 +26,7 @@ struct StoreSettings {
     /// Is told what hinders the store: W-CACHE, once, when it cannot be written; notes of corrupt entries.
     /// May be empty.
     std::function<void(const Diagnostic&)> tell = {};
+    double max_share = 1; ///< of what the entries and the free space of their disk are together
 };
 
 /// How much is there.
@@ -59,11 +60,17 @@ class Store {
 
     /// Whether a put has not failed yet.
     bool is_usable() const;
+    /// How long the first put of a process looks at what is there; 0 when it has.
+    double seconds_to_begin() const;
     /// How long a put of that many bytes takes, made ready before, as far as this object has seen.
     double seconds_for(std::size_t bytes) const;
     void took(std::size_t bytes, double seconds);
 
     Contents contents() const;
+    /// How many bytes there may be beside so many that are there: max_bytes, or less on a disk that is full.
+    std::uint64_t limit(std::uint64_t bytes) const;
+    /// Why nothing can be put; empty: it can, as far as that is seen without doing it.
+    std::string hindrance() const;
     /// Removes what a process left that ended early, and entries until all are within the limit. How much
     /// went.
     Contents collect();
@@ -75,7 +82,7 @@ class Store {
     std::filesystem::path path_of(const std::string& key, Kind kind) const;
     void use(const std::filesystem::path& path);
     bool write(const std::filesystem::path& path, io::Span head, io::Span bytes);
-    bool make_room(std::uint64_t bytes);
+    bool make_room(std::uint64_t bytes, Kind kind);
     Contents shrink(std::uint64_t limit);
     /// Of writers that ended early: no entry takes an hour to write.
     void remove_leftovers(std::int64_t older_than = 3600) const;
@@ -87,6 +94,8 @@ class Store {
         std::mutex guard;                          ///< of all that follows, and of used_ of each
         std::map<std::filesystem::path, int> used; ///< by how many of them
         std::optional<std::uint64_t> total;        ///< bytes there, as far as known
+        std::uint64_t limit = 0;                   ///< ... and how many there may be
+        std::optional<double> seconds_to_count;    ///< what is there, as long as it is not known
         std::uint64_t since_counted = 0;           ///< bytes put since then: other processes put some, too
         bool broken = false;                       ///< it cannot be written: not tried again
         double bytes_per_second = 0;

@@ -28,6 +28,8 @@ struct Flow {
     double spent_before_branch = 0; ///< what this arm has used up of them
     /// What the cache gets of these stages as soon as it gets a scene after them: by key.
     std::vector<std::pair<std::string, io::Bytes>> memories;
+    /// What a load told, by its key, as long as nobody has asked for the key of the scene that it gave.
+    std::optional<std::pair<std::string, cache::Memory>> loaded;
     bool without_cache = false;
     Flow* origin = nullptr;    ///< the flow that it branched off, which outlives it
     std::size_t inherited = 0; ///< how many of the recalled steps are the origin's
@@ -64,6 +66,7 @@ struct Flow {
     void begin_anew() {
         unsaved = before_branch = 0;
         memories.clear();
+        loaded.reset();
     }
     /// The scene has become another, which no key is known of.
     void replaced() {

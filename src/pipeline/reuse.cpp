@@ -3,6 +3,7 @@
 #include "base/build_id.hpp"
 #include "base/glob.hpp"
 #include "base/hash.hpp"
+#include "base/memory.hpp"
 #include "base/numbers.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
@@ -93,6 +94,14 @@ bool are_unchanged(const cache::Memory& memory) {
                         [&](const std::string& path) { return fs::exists(path, ignored); });
 }
 
+/// Bytes for storing are a copy of the scene: a small part of what there is, so that a run does not end for
+/// want of what only its cache took.
+bool has_memory_for(std::size_t bytes) {
+    constexpr std::uint64_t parts = 4;
+    const auto there = available_memory();
+    return !there || bytes <= *there / parts;
+}
+
 bool same_mark(const Mark& a, const Mark& b) {
     return a.source == b.source && a.line == b.line && a.column == b.column && a.length == b.length;
 }
@@ -103,8 +112,6 @@ std::vector<T> since(const std::vector<T>& all, std::size_t first) {
     return {all.begin() + static_cast<std::ptrdiff_t>(std::min(first, all.size())), all.end()};
 }
 
-std::string scene_key(const Scene& scene) { return sha256(cache::encoded(scene)); }
-
 } // namespace
 
 bool Reuse::may_recall(const Step& step) const {
@@ -113,8 +120,29 @@ bool Reuse::may_recall(const Step& step) const {
     return !names_files(step);
 }
 
+/// Of a scene that no stage with a key made it is its digest, which is computed when it is asked for: a scene
+/// that is only loaded and written needs none.
+void Reuse::know_key(Flow& flow) {
+    if (!flow.key.empty()) return;
+    flow.key = cache::digest_of(flow.scene);
+    if (!flow.loaded) return;
+    auto& [name, memory] = *flow.loaded;
+    memory.scene = flow.key;
+    flow.memories.emplace_back(name, cache::encoded(memory));
+    flow.loaded.reset();
+}
+
+void Reuse::before_arms(Flow& flow, const std::vector<Arm>& arms) const {
+    const auto asks = [&](const Arm& arm) {
+        const Steps& steps = *arm.steps;
+        return !steps.empty() && steps.front().stage && may_recall(steps.front());
+    };
+    if (store_ && flow.is_here() && !flow.without_cache && std::any_of(arms.begin(), arms.end(), asks))
+        know_key(flow);
+}
+
 std::string Reuse::key_of(const Step& step, Flow& flow, double load_diagonal) const {
-    if (flow.key.empty()) flow.key = scene_key(flow.scene);
+    know_key(flow);
     std::vector<std::string> texts{code_id(), flow.key, step.stage->name, step.name,
                                    to_string(load_diagonal)};
     spell(as_map(step), texts);
@@ -209,7 +237,7 @@ void Reuse::keep(const Step& step, Flow& flow, const RunState& run, const report
 
 void Reuse::keep_known(const Step& step, Flow& flow, const RunState& run, const report::StageRecord& stage,
                        const Before& before) {
-    flow.key = step.stage->loads ? scene_key(flow.scene) : before.key;
+    flow.key = step.stage->loads ? "" : before.key;
     flow.unsaved += stage.seconds;
     cache::Memory memory;
     memory.record = stage;
@@ -217,19 +245,24 @@ void Reuse::keep_known(const Step& step, Flow& flow, const RunState& run, const 
     memory.absent = since(run.record.absent, before.absent);
     memory.scene = flow.key;
     memory.bounds = flow.scene.bounds();
-    flow.memories.emplace_back(before.key, cache::encoded(memory));
-    store_scene(flow, flow.key);
+    if (step.stage->loads)
+        flow.loaded = {before.key, std::move(memory)};
+    else
+        flow.memories.emplace_back(before.key, cache::encoded(memory));
+    store_scene(flow);
 }
 
-void Reuse::store_scene(Flow& flow, const std::string& key) {
+void Reuse::store_scene(Flow& flow) {
     std::size_t bytes = cache::size_of(flow.scene);
-    double seconds = store_->seconds_for(bytes);
+    double seconds = store_->seconds_to_begin() + store_->seconds_for(bytes);
     for (const auto& [name, memory] : flow.memories) seconds += store_->seconds_for(memory.size());
     if (!store_->is_usable()) return;
     if (seconds > share_for_storing * flow.unsaved && !store_->settings().everything) return;
+    if (!has_memory_for(bytes)) return;
     const auto start = ReuseClock::now();
-    if (!store_->has(key, cache::Kind::scene)) {
-        if (!store_->put(key, cache::Kind::scene, cache::encoded(flow.scene))) return;
+    know_key(flow);
+    if (!store_->has(flow.key, cache::Kind::scene)) {
+        if (!store_->put(flow.key, cache::Kind::scene, cache::encoded(flow.scene))) return;
         store_->took(bytes, seconds_from(start));
     }
     for (const auto& [name, memory] : flow.memories) store_->put(name, cache::Kind::memory, memory);
@@ -272,7 +305,7 @@ void Reuse::fetch(Flow& flow) {
     flow.inherited = 0;
     if (!again) return;
     try {
-        store_scene(flow, flow.key);
+        store_scene(flow);
     } catch (const std::bad_alloc&) { // the scene itself is there
     }
 }

@@ -43,6 +43,9 @@ class Reuse {
     void keep(const Step& step, Flow& flow, const RunState& run, const report::StageRecord& stage,
               const Before& before);
 
+    /// Before a flow branches off into these arms, so that what they all would compute is computed once.
+    void before_arms(Flow& flow, const std::vector<Arm>& arms) const;
+
     /// Makes the scene of a flow be there: from the cache, or by running the steps that were recalled. Throws
     /// as they do, and malformed (E-CHANGED) when an input is another by now.
     void fetch(Flow& flow);
@@ -52,11 +55,12 @@ class Reuse {
     bool recall_known(const Step& step, Flow& flow, RunState& run, report::StageRecord& stage);
     void keep_known(const Step& step, Flow& flow, const RunState& run, const report::StageRecord& stage,
                     const Before& before);
+    static void know_key(Flow& flow);
     std::string key_of(const Step& step, Flow& flow, double load_diagonal) const;
     void run_again(Flow& flow, std::size_t first);
     void know_documents(const Scene& scene);
     void share_documents(Scene& scene);
-    void store_scene(Flow& flow, const std::string& key);
+    void store_scene(Flow& flow);
     std::optional<Scene> stored_scene(const std::string& key);
 
     cache::Store* store_;

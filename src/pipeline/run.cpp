@@ -358,6 +358,8 @@ class Runner {
         if (step.arms_of_parts) return run_part_arms(step, flow);
         std::vector<NamedScene> results;
         bool all_done = true;
+        if (!failures_.guarded(step.where, step.name, [&] { reuse_.before_arms(flow, step.arms); }))
+            return false;
         for (const auto& arm : step.arms) {
             const bool moved = &arm == &step.arms.back() && (step.join || !needed);
             Flow inside;

@@ -2,6 +2,7 @@
 
 #include "support/catch.hpp"
 
+#include "base/hash.hpp"
 #include "cache/archive.hpp"
 #include "cache/state.hpp"
 #include "mesh/cut_memory.hpp"
@@ -229,4 +230,22 @@ TEST_CASE("keys tell texts apart however they are divided", "[cache]") {
     CHECK(cache::key_of({"a", "bc"}) == cache::key_of({"a", "bc"}));
     CHECK(cache::key_of({"a", "bc"}) != cache::key_of({"ab", "c"}));
     CHECK(cache::key_of({"abc"}) != cache::key_of({"abc", ""}));
+}
+
+TEST_CASE("the digest of a scene is that of its bytes", "[cache]") {
+    Scene scene = full_scene();
+    CHECK(cache::digest_of(scene) == sha256(cache::encoded(scene)));
+    // More than is taken at a time: numbers that are floats and that are not, indices of each width.
+    Mesh& mesh = scene.parts[1].mesh;
+    constexpr Index n = 400'000;
+    for (Index i = 0; i < n; ++i) mesh.positions.push_back({i * 0.5, i * 1.0, 0});
+    for (const Index largest : {200u, 60'000u, 10'000'000u, 4'000'000'000u}) {
+        mesh.corners.assign(n, 1);
+        mesh.corners.back() = largest;
+        CHECK(cache::digest_of(scene) == sha256(cache::encoded(scene)));
+        mesh.positions.back().z += 0.1;
+    }
+    mesh.attributes.push_back(attribute("large", Domain::face, Role::generic, 1, false,
+                                        AttributeData(std::vector<std::uint8_t>(3 << 20, 7))));
+    CHECK(cache::digest_of(scene) == sha256(cache::encoded(scene)));
 }

@@ -169,3 +169,35 @@ TEST_CASE("threads and stores share a folder", "[cache]") {
     CHECK(wrong == 0);
     CHECK(shared.contents().entries == 50);
 }
+
+TEST_CASE("a store takes no more than its share of a disk", "[cache]") {
+    Shop shop;
+    auto settings = shop.settings(std::uint64_t{1} << 62);
+    settings.max_share = 0.1;
+    Store store(settings);
+    const auto space = std::filesystem::space(shop.folder.path()).available;
+    CHECK(store.limit(0) < settings.max_bytes);
+    CHECK(static_cast<double>(store.limit(0)) < 0.11 * static_cast<double>(space));
+    CHECK(store.limit(std::uint64_t{1} << 40) > store.limit(0));
+    CHECK(store.put(key(1), Kind::scene, test::bytes_of("a scene")));
+    settings.max_share = 1e-12;
+    Store poor(settings);
+    CHECK_FALSE(poor.put(key(2), Kind::scene, test::bytes_of("another")));
+    CHECK(poor.collect().entries == 1);
+    CHECK(shop.told.empty());
+}
+
+TEST_CASE("the first put of a store takes as long as counting what is there", "[cache]") {
+    Shop shop;
+    Store(shop.settings()).put(key(1), Kind::scene, test::bytes_of("a scene"));
+    Store store(shop.settings());
+    CHECK(store.seconds_to_begin() == 0);
+    std::filesystem::create_directories(shop.folder / "cache/7f");
+    for (int i = 0; i < 10; ++i) test::put(shop.folder / "cache/7f" / std::to_string(i), "");
+    Store large(shop.settings());
+    CHECK(large.seconds_to_begin() > 0.001);
+    CHECK(large.put(key(2), Kind::last_run, test::bytes_of("a run"))); // whether it counts is left to chance
+    CHECK(large.put(key(3), Kind::scene, test::bytes_of("another")));
+    CHECK(large.seconds_to_begin() == 0);
+    CHECK(large.contents().entries == 3);
+}
