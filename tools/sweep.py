@@ -11,6 +11,7 @@ import argparse
 import collections
 import fnmatch
 import json
+import os
 import pathlib
 import random
 import resource
@@ -19,6 +20,7 @@ import subprocess
 import sys
 import tempfile
 
+os.environ["FACETMILL_CACHE"] = "off"  # what is swept runs
 SECONDS, BYTES = 20, 4 << 30
 SUFFIXES = {".drc", ".glb", ".gltf", ".gz", ".obj", ".off", ".ply", ".stl"}
 

@@ -421,8 +421,8 @@ std::span<const MessageId> message_ids() {
          "The baseline may belong to another mesh; write it again with `--update-baseline`."},
         {"W-CACHE",
          {},
-         "The cache cannot be written, or one of its entries is damaged. The run goes on with the same "
-         "result; `--strict` ignores this warning.",
+         "The cache that `--cache` or FACETMILL_CACHE asked for cannot be written, or one of its entries is "
+         "damaged. The run goes on with the same result; `--strict` ignores this warning.",
          "Free some space on its disk, choose another folder with FACETMILL_CACHE, or use `--no-cache`."},
         {"W-CAP-OPEN",
          {},

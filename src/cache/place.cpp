@@ -3,8 +3,11 @@
 #include "base/error.hpp"
 #include "options/byte_count.hpp"
 
+#include <cerrno>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace facetmill::cache {
 
@@ -17,28 +20,43 @@ std::string variable(const char* name) {
     return value ? value : "";
 }
 
+/// Of this user, or not there yet.
+bool is_own_or_missing(const fs::path& folder) {
+    struct stat about {};
+    if (::stat(folder.c_str(), &about) == 0) return about.st_uid == ::geteuid();
+    return errno == ENOENT;
+}
+
+bool is_own(const fs::path& folder) {
+    struct stat about {};
+    return ::stat(folder.c_str(), &about) == 0 && about.st_uid == ::geteuid();
+}
+
 } // namespace
 
-std::optional<fs::path> folder(bool usual) {
+bool is_named() { return !variable("FACETMILL_CACHE").empty(); }
+
+std::optional<fs::path> folder() {
     const std::string named = variable("FACETMILL_CACHE");
     if (named == "off") return {};
     if (!named.empty()) return fs::absolute(named).lexically_normal();
-    if (!usual) return {};
-    const std::string caches = variable("XDG_CACHE_HOME"), home = variable("HOME");
-    if (fs::path(caches).is_absolute()) return fs::path(caches) / "facetmill"; // others are to be ignored
-    if (fs::path(home).is_absolute()) return fs::path(home) / ".cache" / "facetmill";
-    return {};
+    const fs::path caches = variable("XDG_CACHE_HOME"), home = variable("HOME");
+    if (caches.is_absolute()) // others are to be ignored
+        return is_own_or_missing(caches) ? std::optional(caches / "facetmill") : std::nullopt;
+    if (!home.is_absolute() || !is_own(home) || !is_own_or_missing(home / ".cache")) return {};
+    return home / ".cache" / "facetmill";
 }
 
-bool is_left_out_of_ci() { return variable("CI") == "true" && variable("FACETMILL_CACHE").empty(); }
+bool is_ci() { return variable("CI") == "true"; }
 
-std::uint64_t size_limit() {
+Limit size_limit() {
     constexpr std::uint64_t usual = std::uint64_t{5} << 30;
+    constexpr double usual_share = 0.1;
     const std::string text = variable("FACETMILL_CACHE_SIZE");
-    if (text.empty()) return usual;
+    if (text.empty()) return {usual, usual_share};
     Problems problems;
     const auto bytes = read_byte_count(Value::scalar(text), problems);
-    if (bytes && *bytes > 0) return static_cast<std::uint64_t>(*bytes);
+    if (bytes && *bytes > 0) return {static_cast<std::uint64_t>(*bytes)};
     throw Error(ErrorKind::usage, "E-ARGUMENT",
                 fmt::format("FACETMILL_CACHE_SIZE is an amount, found '{}'", text), "5GB, 500MiB");
 }

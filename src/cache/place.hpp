@@ -7,15 +7,24 @@
 
 namespace facetmill::cache {
 
-/// The folder that FACETMILL_CACHE names; with usual, where it names none, facetmill in XDG_CACHE_HOME or
-/// ~/.cache. None where there is no such place, and for FACETMILL_CACHE=off.
-std::optional<std::filesystem::path> folder(bool usual);
+/// The folder that FACETMILL_CACHE names, else facetmill in XDG_CACHE_HOME or ~/.cache. None for
+/// FACETMILL_CACHE=off, where there is no such place, and where the usual one is in a folder of another user,
+/// who could not remove what is put there (sudo with the HOME of whoever called it).
+std::optional<std::filesystem::path> folder();
 
-/// Whether this is a job of a CI (CI=true) that FACETMILL_CACHE names no folder for: what is kept of such a
-/// job is said there or nowhere.
-bool is_left_out_of_ci();
+/// Whether FACETMILL_CACHE names a folder: then the user asked for a cache.
+bool is_named();
 
-/// FACETMILL_CACHE_SIZE (5GB, 500MiB), by default 5 GiB. Throws usage (E-ARGUMENT) for what is no amount.
-std::uint64_t size_limit();
+/// Whether this is a job of a CI (CI=true): what is kept of such a job is said there or nowhere.
+bool is_ci();
+
+/// How large the cache may be.
+struct Limit {
+    std::uint64_t bytes = 0;
+    double share = 1; ///< of what it and free space of its disk are together
+};
+/// FACETMILL_CACHE_SIZE (5GB, 500MiB); by default 5 GiB and a tenth of the space. Throws usage (E-ARGUMENT)
+/// for what is no amount.
+Limit size_limit();
 
 } // namespace facetmill::cache

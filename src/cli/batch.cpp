@@ -221,7 +221,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     if (problems.any_errors()) return refuse(ErrorKind::usage, problems.all());
     if (!prepared.missing.empty() && !options.keep_going) return refuse(ErrorKind::missing, prepared.missing);
     settings.allowed = prepared.allowed.empty() ? options.common.allowed : prepared.allowed;
-    const auto store = store_for(options.common.cache, settings.allowed, console);
+    const auto store = store_for(options.common.cache, settings.allowed, console, console.verbose);
     settings.store = store.get();
     const auto bar = std::make_shared<BatchBar>(console);
     const auto summary = batch::run(std::move(prepared.works), settings,

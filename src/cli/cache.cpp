@@ -13,43 +13,48 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* cache_examples =
-    R"(The cache stores results of stages for run, pipe and batch with --cache, or if FACETMILL_CACHE names its folder.
-FACETMILL_CACHE_SIZE limits its size (5G); the least recently used entries are removed first. It may be deleted at any
-time. The key of a result is made of everything that it depends on: inputs, options, the previous stages, this program
-and its libraries. A result is stored if that takes at most a tenth of the time of the stages that it saves.
+    R"(The cache stores results of stages for later runs (run, pipe, batch), which give the same bytes with it as without.
+The key of a result is made of everything that it depends on: inputs, options, the previous stages, this program and its
+libraries. A result is stored if that takes at most a tenth of the time of the stages that it saves. The folder is
+$XDG_CACHE_HOME/facetmill or ~/.cache/facetmill; it may be deleted at any time. The least recently used entries are
+removed first, when there are more than 5 GiB or a tenth of the disk's free space.
+
+--no-cache leaves a run without it. FACETMILL_CACHE names another folder, or is off; FACETMILL_CACHE_SIZE is another
+limit (20G). If CI=true, there is no cache unless FACETMILL_CACHE names a folder, or with --cache.
 
   stats   shows the folder, and how much is in it
   gc      removes leftovers of runs that were killed, and entries beyond the limit
   clear   removes everything
 
 Examples
-  facetmill run scan.yaml --cache --explain
+  facetmill run scan.yaml -D input=scan.ply --explain
   facetmill cache stats
   FACETMILL_CACHE_SIZE=500M facetmill cache gc
 )";
 
 void tell_contents(const cache::Store& store, bool json) {
     const auto there = store.contents();
-    const auto& settings = store.settings();
+    const auto limit = store.limit(there.bytes);
+    const std::string folder = store.settings().folder.string(), hindrance = store.hindrance();
     if (json) {
-        const Json all = {{"folder", settings.folder.string()},
-                          {"entries", there.entries},
-                          {"scenes", there.scenes},
-                          {"bytes", there.bytes},
-                          {"limit", settings.max_bytes}};
-        return print(all.dump(2) + "\n");
+        const Json all = {{"folder", folder},       {"entries", there.entries},
+                          {"scenes", there.scenes}, {"bytes", there.bytes},
+                          {"limit", limit},         {"writable", hindrance.empty()}};
+        return print(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     }
-    print(fmt::format("{}\n{}, {} of them scenes, {} of at most {}\n", settings.folder.string(),
+    print(fmt::format("{}\n{}, {} of them scenes, {} of at most {}\n", folder,
                       counted(there.entries, "entry", "entries"), there.scenes, sized(there.bytes),
-                      sized(settings.max_bytes)));
+                      sized(limit)));
+    if (!hindrance.empty()) print(fmt::format("cannot be written: {}\n", hindrance));
 }
 
 int cache_work(const std::string& action, bool json) {
-    const auto folder = cache::folder(true);
+    const auto folder = cache::folder();
     if (!folder)
         throw Error(ErrorKind::usage, "E-ARGUMENT", "no folder for a cache is known",
-                    "FACETMILL_CACHE names one (and is not off), or HOME");
-    cache::Store store({*folder, cache::size_limit()});
+                    "FACETMILL_CACHE names one (and is not off), or HOME, which must be this user's");
+    const auto limit = cache::size_limit();
+    cache::Store store({.folder = *folder, .max_bytes = limit.bytes, .max_share = limit.share});
     if (action == "stats") {
         tell_contents(store, json);
         return 0;

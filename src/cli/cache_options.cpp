@@ -5,28 +5,36 @@
 namespace facetmill::cli {
 
 void add_cache_options(Arguments& arguments, CacheOptions& options) {
+    arguments.add("--no-cache", &options.off,
+                  "Neither takes results of stages from the cache nor stores them.");
     arguments.add("--cache", &options.on,
-                  "Takes results of stages from the cache and stores them: only what changed runs again.");
-    arguments.add("--no-cache", &options.off, "Uses no cache, even if FACETMILL_CACHE names one.");
+                  "Uses the cache even if CI=true, and warns if it cannot be written.");
     arguments.add("--cache-everything", &options.everything, "Also stores results that are cheap to compute.")
         .hidden();
 }
 
 std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::vector<std::string>& allowed,
-                                        const Console& console) {
+                                        const Console& console, bool tells_all) {
     if (options.on && options.off)
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache and --no-cache exclude each other");
-    if (options.off || cache::is_left_out_of_ci()) return nullptr;
-    const auto folder = cache::folder(options.on);
+    const bool asked = options.on || cache::is_named();
+    if (options.off || (cache::is_ci() && !asked)) return nullptr;
+    const auto folder = cache::folder();
     if (!folder && options.on)
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache finds no folder for it",
-                    "FACETMILL_CACHE names one (and is not off), or HOME");
+                    "FACETMILL_CACHE names one (and is not off), or HOME, which must be this user's");
     if (!folder) return nullptr;
-    std::function<void(const Diagnostic&)> tell = [&console, allowed](const Diagnostic& d) {
-        if (!is_allowed(d, allowed)) console.diagnostic(d);
+    const auto limit = cache::size_limit();
+    std::function<void(const Diagnostic&)> tell = [&console, allowed, asked, tells_all](const Diagnostic& d) {
+        // Nobody who did not ask for a cache wants to know why there is none.
+        const bool wanted = asked || tells_all || d.severity != Severity::warning;
+        if (wanted && !is_allowed(d, allowed)) console.diagnostic(d);
     };
-    return std::make_unique<cache::Store>(
-        cache::StoreSettings{*folder, cache::size_limit(), options.everything, std::move(tell)});
+    return std::make_unique<cache::Store>(cache::StoreSettings{.folder = *folder,
+                                                               .max_bytes = limit.bytes,
+                                                               .everything = options.everything,
+                                                               .tell = std::move(tell),
+                                                               .max_share = limit.share});
 }
 
 } // namespace facetmill::cli

@@ -13,10 +13,11 @@ struct CacheOptions {
 /// --cache and --no-cache.
 void add_cache_options(Arguments& arguments, CacheOptions& options);
 
-/// The store that the options and FACETMILL_CACHE ask for, which tells what hinders it unless W-CACHE is
-/// among the allowed warnings; null for none, and with CI=true where FACETMILL_CACHE names no folder. Throws
-/// usage when both options are given.
+/// The store for a run: by default there is one. Null with --no-cache, FACETMILL_CACHE=off, where no usual
+/// place is (cache::folder), and with CI=true unless --cache or FACETMILL_CACHE ask for it. It tells what
+/// hinders it (W-CACHE) where they do or with tells_all, unless the id is allowed, and notes always. Throws
+/// usage when both options are given, and when --cache finds no place.
 std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::vector<std::string>& allowed,
-                                        const Console& console);
+                                        const Console& console, bool tells_all = false);
 
 } // namespace facetmill::cli

@@ -238,11 +238,13 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
         tell_stage(stage, "", console);
         if (console.verbose) tell_resolved(stage, console);
     };
-    const auto store = store_for(options.cache, plan.allowed, console);
+    const auto store = store_for(options.cache, plan.allowed, console, options.explain || console.verbose);
     settings.store = store.get();
     settings.keep_unchanged = options.restat;
     if (options.explain && !store)
-        console.say("--explain has nothing to compare with: no cache is used (--cache, or FACETMILL_CACHE)");
+        console.say(
+            "--explain has nothing to compare with: no cache is used (--no-cache, FACETMILL_CACHE=off, "
+            "CI=true without --cache, or no HOME)");
     pipeline::Trace trace;
     if (store)
         settings.on_trace = [&](const pipeline::Trace& all) {

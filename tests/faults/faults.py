@@ -80,8 +80,7 @@ class Trial:
 
     def run(self, folder, command, fault=None):
         environment = {k: v for k, v in os.environ.items() if not k.startswith("FACETMILL_") and k != "CI"}
-        if matches("cache/x", self.scenario.state):
-            environment["FACETMILL_CACHE"] = "cache"
+        environment["FACETMILL_CACHE"] = "cache" if matches("cache/x", self.scenario.state) else "off"
         log = self.room / "log"
         log.unlink(missing_ok=True)
         if fault:

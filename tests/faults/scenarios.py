@@ -66,7 +66,7 @@ def pipeline(stages, more=""):
 
 
 def scenarios():
-    """Each with one thread, so that calls have an order. FACETMILL_CACHE is `cache` where that is among the state."""
+    """Each with one thread, so that calls have an order. FACETMILL_CACHE is `cache` where that is among the state, else off."""
     yield Scenario("run", {"c.off": CUBE, "o/a.ply": "old", "p.yaml": pipeline("{load: c.off}, {write: a.ply}")},
                    ["run", "p.yaml", "-o", "o", "-j", "1"], [["o/a.ply"]])
     yield Scenario("pipe", {"c.off": CUBE},

@@ -254,22 +254,69 @@ class Keys(Cache):
         self.assertEqual(self.explained(scan=scan)[:3], self.CACHED)
 
     def test_off(self):
-        self.run_it(env={"FACETMILL_CACHE": ""})
-        self.run_it(env={"FACETMILL_CACHE": "off"})
+        home = self.home()
+        self.run_it(env={**home, "FACETMILL_CACHE": "off"})
+        self.run_it("--no-cache", env=home)
+        self.run_it(env={**home, "CI": "true"})
+        self.assertEqual(list((self.dir / "home").iterdir()), [])
         self.run_it("--no-cache")
         self.assertFalse(self.cache.exists())
-        home = {"FACETMILL_CACHE": "", "CI": "", "XDG_CACHE_HOME": str(self.dir / "xdg"), "HOME": str(self.dir / "home")}
-        self.run_it("--cache", env=home)
-        self.assertTrue(list((self.dir / "xdg/facetmill").rglob("*.scene")))
-        self.run_it("--cache", env={**home, "XDG_CACHE_HOME": ""})
-        self.assertTrue(list((self.dir / "home/.cache/facetmill").rglob("*.scene")))
-        shutil.rmtree(self.dir / "home")
-        self.run_it("--cache", env={**home, "XDG_CACHE_HOME": "", "CI": "true"})
-        self.assertFalse((self.dir / "home").exists())
-        self.run_it("--cache", env={**self.env, "CI": "true"})
-        self.assertTrue(self.entries(".scene"))
         run = self.mill("run", "p.yaml", "-D", f"input={SCAN}", "--cache", "--no-cache", expect=2)
         self.assertIn("exclude each other", run.stderr)
+
+
+    def home(self):
+        """The environment of a user who says nothing about a cache, in a home of his own."""
+        (self.dir / "home").mkdir()
+        return {"FACETMILL_CACHE": "", "CI": "", "XDG_CACHE_HOME": "", "HOME": str(self.dir / "home")}
+
+    def test_usual_places(self):
+        home = self.home()
+        self.run_it(env={**home, "XDG_CACHE_HOME": str(self.dir / "xdg")})
+        self.assertTrue(list((self.dir / "xdg/facetmill").rglob("*.scene")))
+        self.assertEqual(list((self.dir / "home").iterdir()), [])
+        self.run_it(env=home)
+        usual = self.dir / "home/.cache/facetmill"
+        self.assertTrue(list(usual.rglob("*.scene")))
+        self.assertEqual(usual.stat().st_mode & 0o777, 0o700)
+        self.assertIn(str(usual), self.mill("cache", "stats", env=home).stdout)
+        for env in ({**home, "XDG_CACHE_HOME": "relative"}, {**home, "CI": "false"}):
+            run = self.mill("run", "p.yaml", "-D", f"input={SCAN}", *ALL, "--explain", "-o", "out", env=env)
+            self.assertIn("relax: from the cache", run.stderr)
+        shutil.rmtree(usual)
+        self.run_it("--cache", env={**home, "CI": "true"})
+        self.assertTrue(list(usual.rglob("*.scene")))
+        self.run_it(env={**self.env, "CI": "true"})
+        self.assertTrue(self.entries(".scene"))
+
+    def test_who_did_not_ask_is_not_bothered(self):
+        """No home, one of another user, one that cannot be written: nothing is said, and the run is as without a cache."""
+        home = self.home()
+        expected = self.run_it("--no-cache", env=home)
+        for nowhere in ("", "relative", str(self.dir / "none"), "/proc/none"):
+            self.assertEqual(self.run_it(env={**home, "HOME": nowhere}), expected)
+            self.assertFalse((self.dir / "none").exists())
+            self.assertIn("no folder for a cache", self.mill("cache", "stats", env={**home, "HOME": nowhere}, expect=2).stderr)
+            self.run_it("--cache", env={**home, "HOME": nowhere}, expect=2)
+        (self.dir / "home/.cache").write_text("a file")
+        self.assertEqual(self.run_it(env=home), expected)
+        for asked in ("--cache", "--explain", "-v"):
+            run = self.mill("run", "p.yaml", "-D", f"input={SCAN}", *ALL, asked, "-o", "out", env=home)
+            self.assertEqual(run.stderr.count("warning[W-CACHE]"), 1, run.stderr)
+        self.assertIn("cannot be written", self.mill("cache", "stats", env=home).stdout)
+        self.assertFalse(json.loads(self.mill("cache", "stats", "--json", env=home).stdout)["writable"])
+        (self.dir / "home/.cache").unlink()
+        if os.geteuid() == 0:
+            os.chown(self.dir / "home", 65534, 65534)
+            self.assertEqual(self.run_it(env=home), expected)
+            self.assertEqual(list((self.dir / "home").iterdir()), [])
+
+    def test_what_ran_is_known_whatever_was_stored(self):
+        run = ("run", "p.yaml", "-D", f"input={SCAN}", "-o", "out", "--explain")
+        self.mill(*run, env=self.env)
+        self.assertEqual(len(self.entries(".last")), 1)
+        said = self.mill(*run, "-D", "keep=40%", env=self.env).stderr
+        self.assertIn("simplify reruns: ratio 50% -> 40%", said)
 
 
 class Trouble(Cache):
