@@ -1,6 +1,7 @@
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
 #include "base/readable_numbers.hpp"
+#include "io/pixels.hpp"
 #include "stages/textures/help.hpp"
 #include "stages/textures/work.hpp"
 
@@ -25,6 +26,7 @@ struct TexturesReport {
 /// Images of equal bytes, wherever they are.
 struct Job {
     const io::DocumentImage* image = nullptr; ///< the first of them
+    ImageState before;
     io::ImageUse use;
     std::vector<std::pair<std::size_t, std::size_t>> places; ///< documents and their images
     Worked worked;
@@ -62,7 +64,7 @@ std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& imag
             const std::string key =
                 image.bytes.empty() ? fmt::format("{} {}", d, image.index) : sha256(image.bytes);
             const auto [place, fresh] = known.try_emplace(key, jobs.size());
-            if (fresh) jobs.push_back({&image, {}, {}, {}});
+            if (fresh) jobs.push_back({&image, state_of(image.bytes), {}, {}, {}});
             Job& job = jobs[place->second];
             job.use.join(image.use);
             job.places.emplace_back(d, image.index);
@@ -72,11 +74,11 @@ std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& imag
 
 /// Several images at once, but not more pixels than one image may have, which bounds the memory.
 void work(std::vector<Job>& jobs, const TexturesOptions& o) {
-    constexpr std::size_t most_pixels = std::size_t{1} << 26;
+    using io::most_pixels;
     for (std::size_t begin = 0; begin < jobs.size();) {
         std::size_t end = begin, pixels = 0;
         for (; end < jobs.size(); ++end) {
-            const ImageState state = state_of(jobs[end].image->bytes);
+            const ImageState& state = jobs[end].before;
             const std::size_t more = std::min(state.width, most_pixels) * std::min(state.height, most_pixels);
             if (end > begin && pixels + more > most_pixels) break;
             pixels += more;
@@ -85,7 +87,7 @@ void work(std::vector<Job>& jobs, const TexturesOptions& o) {
             end - begin,
             [&](std::size_t i) {
                 Job& job = jobs[begin + i];
-                job.worked = worked(job.image->bytes, job.use, o);
+                job.worked = worked(job.image->bytes, job.before, job.use, o);
             },
             1);
         begin = end;

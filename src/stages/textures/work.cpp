@@ -5,7 +5,7 @@
 #include "io/resize_image.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <fmt/format.h>
 
 namespace facetmill::textures_stage {
@@ -34,12 +34,6 @@ const char* name_of(Format format) {
     return "";
 }
 
-std::size_t power_of_two_below(std::size_t n) {
-    std::size_t power = 1;
-    while (2 * power <= n) power *= 2;
-    return power;
-}
-
 /// The width and height that the settings ask for, never more than there are.
 std::pair<std::size_t, std::size_t> size_for(const ImageState& image, const ImageSettings& s) {
     std::size_t width = image.width, height = image.height;
@@ -50,7 +44,7 @@ std::pair<std::size_t, std::size_t> size_for(const ImageState& image, const Imag
         width = scaled(width);
         height = scaled(height);
     }
-    if (s.power_of_two) return {power_of_two_below(width), power_of_two_below(height)};
+    if (s.power_of_two) return {std::bit_floor(width), std::bit_floor(height)};
     return {width, height};
 }
 
@@ -85,14 +79,13 @@ struct Reason {
 
 /// Why an image stays of which nothing but the header is read.
 Reason reason_to_keep(const ImageState& image, const io::ImageUse& use) {
-    constexpr std::size_t most_pixels = std::size_t{1} << 26; // that are decoded
-    if (image.bytes == 0) return {"it is not there"};         // which was said when it was missed
+    if (image.bytes == 0) return {"it is not there"}; // which was said when it was missed
     if (image.format.empty()) return {"it is of no kind that is read", true};
     if (use.held) return {"something else than the materials of these parts reads it"};
     if (use.textures.empty()) return {"no material uses it"};
     if (image.format == "ktx2" || image.format == "dds") return {"its format is not read"};
     if (image.width == 0) return {"it is broken", true};
-    if (image.height > most_pixels / image.width) return {"it has more than 2^26 pixels", true};
+    if (image.height > io::most_pixels / image.width) return {"it has more than 2^26 pixels", true};
     return {};
 }
 
@@ -107,8 +100,8 @@ ImageState state_of(const io::Bytes& bytes) {
     return state;
 }
 
-Worked worked(const io::Bytes& bytes, const io::ImageUse& use, const TexturesOptions& o) {
-    const ImageState before = state_of(bytes);
+Worked worked(const io::Bytes& bytes, const ImageState& before, const io::ImageUse& use,
+              const TexturesOptions& o) {
     if (const Reason r = reason_to_keep(before, use); r.why) return kept(before, r.why, r.warn);
     const ImageSettings s = settings_for(use, o);
     std::string format = s.format == Format::keep ? before.format : name_of(s.format);

@@ -22,7 +22,8 @@ struct Worked {
 /// What its format and size are, of which the header is read.
 ImageState state_of(const io::Bytes& bytes);
 
-/// The image scaled and written as the options of its role say, or why it stays.
-Worked worked(const io::Bytes& bytes, const io::ImageUse& use, const TexturesOptions& o);
+/// The image, whose state_of is `before`, scaled and written as the options of its role say, or why it stays.
+Worked worked(const io::Bytes& bytes, const ImageState& before, const io::ImageUse& use,
+              const TexturesOptions& o);
 
 } // namespace facetmill::textures_stage
