@@ -10,27 +10,6 @@ namespace facetmill::io::gltf {
 
 namespace {
 
-void erase_empty(Json& document, const char* list) {
-    const auto it = document.find(list);
-    if (it != document.end() && it->empty()) document.erase(it);
-}
-
-void remove_name(Json& document, const char* list, const std::string& name) {
-    const auto it = document.find(list);
-    if (it == document.end() || !it->is_array()) return;
-    Json kept = Json::array();
-    for (auto& entry : *it)
-        if (entry != name) kept.push_back(std::move(entry));
-    *it = std::move(kept);
-    erase_empty(document, list);
-}
-
-void add_name(Json& document, const char* list, const std::string& name) {
-    Json& names = document[list];
-    if (!names.is_array()) names = Json::array();
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
 const char* name_of(const MeshoptSettings& settings) {
     return meshopt_names[settings.extension == MeshoptSettings::Extension::khr ? 1 : 0];
 }
@@ -89,8 +68,10 @@ void Builder::use_extension(const std::string& name, bool required) {
 }
 
 void Builder::drop_extension(const std::string& name) {
-    remove_name(json_, "extensionsUsed", name);
-    remove_name(json_, "extensionsRequired", name);
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        remove_name(json_, list, name);
+        erase_empty(json_, list);
+    }
 }
 
 void Builder::drop_released() {

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <set>
 #include <sys/stat.h>
 #include <system_error>
 #include <tiny_gltf.h>
@@ -335,6 +336,14 @@ std::map<std::string, Bytes> load_images(const Json& document, const Input& inpu
         if (bytes) files[uri->text()] = *std::move(bytes);
     }
     return files;
+}
+
+void drop_unnamed_files(std::map<std::string, Bytes>& files, const Json& document) {
+    std::set<std::string> named;
+    for (std::size_t i = 0; i < count_of(document, "images"); ++i)
+        if (const Json& image = document["images"][i]; image.contains("uri") && image["uri"].is_string())
+            named.insert(image["uri"].get<std::string>());
+    std::erase_if(files, [&](const auto& file) { return !named.contains(file.first); });
 }
 
 } // namespace facetmill::io::gltf

@@ -46,5 +46,7 @@ std::vector<Bytes> load_buffers(const Json& document, std::optional<Span> binary
 /// Reads the images beside the file, by their URI as spelled. What cannot be read is a warning (W-IMAGE):
 /// nothing here looks into images, so a missing one only fails to come along.
 std::map<std::string, Bytes> load_images(const Json& document, const Input& input, ReadLog& log);
+/// Drops the files that no image of the document names any more.
+void drop_unnamed_files(std::map<std::string, Bytes>& files, const Json& document);
 
 } // namespace facetmill::io::gltf

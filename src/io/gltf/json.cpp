@@ -1,5 +1,6 @@
 #include "io/gltf/json.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -152,6 +153,40 @@ std::size_t count_of(const Json& document, const char* name) {
 
 Place item(const Json& document, const char* name, std::size_t i) {
     return Place(document, "").at(name).at(i);
+}
+
+std::optional<std::size_t> index_at(const Json& owner, const char* key, std::size_t count) {
+    if (!owner.is_object()) return {};
+    const auto found = owner.find(key);
+    if (found == owner.end() || !found->is_number_unsigned()) return {};
+    const auto index = found->get<std::size_t>();
+    return index < count ? std::optional(index) : std::nullopt;
+}
+
+bool uses_extension(const Json& document, std::string_view name) {
+    const auto used = document.find("extensionsUsed");
+    return used != document.end() && used->is_array() &&
+           std::find(used->begin(), used->end(), name) != used->end();
+}
+
+void add_name(Json& document, const char* list, const std::string& name) {
+    Json& names = document[list];
+    if (!names.is_array()) names = Json::array();
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+void remove_name(Json& document, const char* list, const std::string& name) {
+    const auto it = document.find(list);
+    if (it == document.end() || !it->is_array()) return;
+    Json kept = Json::array();
+    for (auto& entry : *it)
+        if (entry != name) kept.push_back(std::move(entry));
+    *it = std::move(kept);
+}
+
+void erase_empty(Json& document, const char* list) {
+    const auto it = document.find(list);
+    if (it != document.end() && it->empty()) document.erase(it);
 }
 
 } // namespace facetmill::io::gltf

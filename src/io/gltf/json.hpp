@@ -56,5 +56,18 @@ std::optional<Place> list(const Json& document, const char* name);
 std::size_t count_of(const Json& document, const char* name);
 /// Item i of a top-level array; i must have been checked against count_of.
 Place item(const Json& document, const char* name, std::size_t i);
+/// The index below count that owner[key] is; none for anything else. For documents of which nothing but the
+/// meshes was checked.
+std::optional<std::size_t> index_at(const Json& owner, const char* key, std::size_t count = SIZE_MAX);
+
+/// Whether "extensionsUsed" has the extension.
+bool uses_extension(const Json& document, std::string_view name);
+/// Puts a name into a top-level list of names ("extensionsUsed"), which is made when missing; one that is
+/// there stays where it is.
+void add_name(Json& document, const char* list, const std::string& name);
+/// Takes a name out of such a list, which may then be empty.
+void remove_name(Json& document, const char* list, const std::string& name);
+/// Erases a top-level array that is empty, as glTF allows none.
+void erase_empty(Json& document, const char* list);
 
 } // namespace facetmill::io::gltf

@@ -70,9 +70,7 @@ EncodeSettings settings_for(Patch& patch, const Part& part) {
     s.name = part.name;
     s.material = [&patch](Index m) { return patch_material(patch, m); };
     s.columns.skinned = part.document < 0 || part.document == patch.base;
-    const Json& json = patch.builder.json();
-    if (const auto used = json.find("extensionsUsed"); used != json.end())
-        s.columns.quantised = std::find(used->begin(), used->end(), "KHR_mesh_quantization") != used->end();
+    s.columns.quantised = uses_extension(patch.builder.json(), "KHR_mesh_quantization");
     return s;
 }
 

@@ -131,8 +131,7 @@ std::optional<Stored> Store::as_floats(const Attribute& numbers, int exponent, b
 
 /// Why a mesh cannot have its grid in a node; null when it can.
 const char* Store::reason_for_floats(std::size_t mesh) const {
-    const Json used = json_.value("extensionsUsed", Json::array());
-    if (std::find(used.begin(), used.end(), "KHR_animation_pointer") != used.end())
+    if (uses_extension(json_, "KHR_animation_pointer"))
         return "stays float32, because KHR_animation_pointer may drive its nodes";
     if (nodes_[mesh].empty()) return "stays float32, because no node could hold its grid";
     for (const std::size_t n : nodes_[mesh]) {

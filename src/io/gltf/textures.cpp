@@ -15,15 +15,6 @@ namespace {
 
 constexpr const char* webp_extension = "EXT_texture_webp";
 
-/// The index below count that owner[key] is; none for anything else.
-std::optional<std::size_t> index_at(const Json& owner, const char* key, std::size_t count) {
-    if (!owner.is_object()) return {};
-    const auto found = owner.find(key);
-    if (found == owner.end() || !found->is_number_unsigned()) return {};
-    const auto index = found->get<std::size_t>();
-    return index < count ? std::optional(index) : std::nullopt;
-}
-
 /// owner[key] where that is an object, else nothing.
 const Json* object_at(const Json& owner, const char* key) {
     if (!owner.is_object()) return nullptr;
@@ -188,7 +179,8 @@ class Replacing {
             else
                 put_view(image, bytes, types_[index]);
         }
-        drop_files();
+        for (auto& [uri, bytes] : files_) out_.files[uri] = std::move(bytes);
+        drop_unnamed_files(out_.files, json_);
         for (std::size_t t = 0; t < count_of(json_, "textures"); ++t) point(json_["textures"][t]);
         if (!types_.empty()) list_extension();
         out_.json = to_string(json_);
@@ -258,16 +250,6 @@ class Replacing {
         return all == ours;
     }
 
-    /// Bytes of files that are others now, and files that no image names any more.
-    void drop_files() {
-        for (auto& [uri, bytes] : files_) out_.files[uri] = std::move(bytes);
-        std::set<std::string> named;
-        for (const Json& image : json_["images"])
-            if (image.is_object() && image.contains("uri") && image["uri"].is_string())
-                named.insert(image["uri"].get<std::string>());
-        std::erase_if(out_.files, [&](const auto& file) { return !named.contains(file.first); });
-    }
-
     /// Names the images of a texture where their kinds belong.
     void point(Json& texture) {
         if (!texture.is_object()) return;
@@ -298,20 +280,12 @@ class Replacing {
             used = true;
             required |= !json_["textures"][t].contains("source");
         }
-        set_name("extensionsUsed", used);
-        set_name("extensionsRequired", required);
-    }
-
-    void set_name(const char* list, bool listed) {
-        Json names = Json::array();
-        if (json_.contains(list) && json_[list].is_array())
-            for (const Json& name : json_[list])
-                if (name != webp_extension) names.push_back(name);
-        if (listed) names.push_back(webp_extension);
-        if (names.empty())
-            json_.erase(list);
-        else
-            json_[list] = std::move(names);
+        for (const auto& [list, listed] :
+             {std::pair("extensionsUsed", used), {"extensionsRequired", required}}) {
+            remove_name(json_, list, webp_extension);
+            if (listed) add_name(json_, list, webp_extension);
+            erase_empty(json_, list);
+        }
     }
 
     Document out_;
@@ -319,8 +293,8 @@ class Replacing {
     const std::map<std::size_t, Bytes>& replaced_;
     std::map<std::size_t, std::string> types_;                           ///< of what is replaced
     std::map<std::pair<std::string, std::string>, std::string> renamed_; ///< by the old name and the new type
-    std::map<std::string, Bytes> files_;
-    std::map<std::size_t, std::size_t> views_; ///< by the old one
+    std::map<std::string, Bytes> files_;                                 ///< whose bytes are others now
+    std::map<std::size_t, std::size_t> views_;                           ///< by the old one
 };
 
 } // namespace

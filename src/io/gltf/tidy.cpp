@@ -17,15 +17,11 @@ namespace {
 
 using Visit = std::function<void(Json&)>;
 
-bool is_index(const Json& json, const char* key) {
-    return json.is_object() && json.contains(key) && json[key].is_number_unsigned();
-}
-
 /// Calls visit for references in members of the objects of a list: list[i][key].
 void visit_members(Json& document, const char* list, const char* key, const Visit& visit) {
     if (!document.contains(list)) return;
     for (Json& item : document[list])
-        if (is_index(item, key)) visit(item[key]);
+        if (index_at(item, key)) visit(item[key]);
 }
 
 /// Textures are named by materials, "...Texture", and by whatever reads channels of them.
@@ -35,7 +31,7 @@ void visit_texture_references(Json& json, const Visit& visit) {
         if (key == "extras") continue;
         const bool texture =
             std::string_view(key).ends_with("Texture") || (value.is_object() && value.contains("channels"));
-        if (texture && is_index(value, "index")) visit(value["index"]);
+        if (texture && index_at(value, "index")) visit(value["index"]);
         visit_texture_references(value, visit);
     }
 }
@@ -46,14 +42,14 @@ void visit_image_references(Json& document, const Visit& visit) {
     for (Json& texture : document["textures"])
         if (texture.is_object() && texture.contains("extensions"))
             for (auto& [name, value] : texture["extensions"].items())
-                if (is_index(value, "source")) visit(value["source"]);
+                if (index_at(value, "source")) visit(value["source"]);
 }
 
 void visit_material_references(Json& document, const Visit& visit) {
     if (!document.contains("meshes")) return;
     for (Json& mesh : document["meshes"])
         for (Json& primitive : mesh["primitives"])
-            if (is_index(primitive, "material")) visit(primitive["material"]);
+            if (index_at(primitive, "material")) visit(primitive["material"]);
 }
 
 void visit_sampler_references(Json& document, const Visit& visit) {
@@ -71,30 +67,29 @@ void visit_named_nodes(Json& document, const Visit& visit) {
     if (document.contains("skins"))
         for (Json& skin : document["skins"]) {
             each_number(skin, "joints", visit);
-            if (is_index(skin, "skeleton")) visit(skin["skeleton"]);
+            if (index_at(skin, "skeleton")) visit(skin["skeleton"]);
         }
     if (document.contains("animations"))
         for (Json& animation : document["animations"])
             for (Json& channel : animation["channels"])
-                if (is_index(channel["target"], "node")) visit(channel["target"]["node"]);
+                if (index_at(channel["target"], "node")) visit(channel["target"]["node"]);
     const Json::json_pointer lod("/extensions/MSFT_lod");
     if (document.contains("nodes"))
         for (Json& node : document["nodes"])
             if (node.contains(lod)) each_number(node[lod], "ids", visit);
 }
 
-void visit_node_references(Json& document, const Visit& visit) {
-    visit_named_nodes(document, visit);
-    for (const char* list : {"nodes", "scenes"})
+/// Calls with each node and scene, and the key of the nodes that it has.
+template <class Call>
+void each_parent(Json& document, Call&& call) {
+    for (const auto& [list, key] : {std::pair("nodes", "children"), {"scenes", "nodes"}})
         if (document.contains(list))
-            for (Json& owner : document[list])
-                each_number(owner, std::string_view(list) == "nodes" ? "children" : "nodes", visit);
+            for (Json& owner : document[list]) call(owner, key);
 }
 
-bool uses(const Json& document, const char* extension) {
-    const auto used = document.find("extensionsUsed");
-    return used != document.end() && used->is_array() &&
-           std::find(used->begin(), used->end(), extension) != used->end();
+void visit_node_references(Json& document, const Visit& visit) {
+    visit_named_nodes(document, visit);
+    each_parent(document, [&](Json& owner, const char* key) { each_number(owner, key, visit); });
 }
 
 /// For each item, the first that is written as it is.
@@ -133,21 +128,14 @@ void follow(const std::vector<std::size_t>& first, Json& reference) {
     if (old < first.size()) reference = first[old];
 }
 
-/// Takes nodes out of the lists of children and of scenes.
-void drop_from_hierarchy(Json& document, const std::set<std::size_t>& dead) {
-    if (dead.empty()) return;
-    for (const char* list : {"nodes", "scenes"}) {
-        const char* key = std::string_view(list) == "nodes" ? "children" : "nodes";
-        if (!document.contains(list)) continue;
-        for (Json& owner : document[list]) {
-            if (!owner.contains(key)) continue;
-            Json left = Json::array();
-            for (const Json& one : owner[key])
-                if (!dead.contains(one.get<std::size_t>())) left.push_back(one);
-            owner[key] = std::move(left);
-            if (owner[key].empty()) owner.erase(key);
-        }
-    }
+/// Takes nodes out of a node's children or a scene's nodes.
+void drop_children(Json& owner, const char* key, const std::set<std::size_t>& dead) {
+    if (!owner.contains(key)) return;
+    Json left = Json::array();
+    for (const Json& one : owner[key])
+        if (!dead.contains(one.get<std::size_t>())) left.push_back(one);
+    owner[key] = std::move(left);
+    if (owner[key].empty()) owner.erase(key);
 }
 
 bool has_more(const Json& object) { return object.contains("extras") || object.contains("extensions"); }
@@ -157,7 +145,7 @@ std::set<std::size_t> bound_nodes(Json& document) {
     std::set<std::size_t> bound;
     const auto frames = node_frames(document);
     const bool all = count_of(document, "scenes") > 1 || has_unknown_extensions(document) ||
-                     uses(document, "KHR_animation_pointer");
+                     uses_extension(document, "KHR_animation_pointer");
     visit_named_nodes(document, [&](Json& r) { bound.insert(r.get<std::size_t>()); });
     for (const std::size_t n : parents_first(frames)) {
         const Json& node = document["nodes"][n];
@@ -194,8 +182,8 @@ std::vector<int> numbers_without(std::size_t count, const std::set<std::size_t>&
 
 DocumentTidy::DocumentTidy(const Document& document)
     : document_(document), json_(parse_document(document.json)), before_(json_) {
-    known_ = !has_unknown_extensions(json_) && !uses(json_, "EXT_lights_image_based") &&
-             !uses(json_, "KHR_animation_pointer");
+    known_ = !has_unknown_extensions(json_) && !uses_extension(json_, "EXT_lights_image_based") &&
+             !uses_extension(json_, "KHR_animation_pointer");
 }
 
 std::vector<std::size_t> DocumentTidy::merge_equal(bool keep_names) {
@@ -208,7 +196,7 @@ std::vector<std::size_t> DocumentTidy::merge_equal(bool keep_names) {
     visit_sampler_references(json_, [&](Json& r) { follow(samplers, r); });
     const auto textures = first_equal(texts_of(json_, "textures", false));
     visit_texture_references(json_, [&](Json& r) { follow(textures, r); });
-    if (uses(json_, "KHR_materials_variants")) return first;
+    if (uses_extension(json_, "KHR_materials_variants")) return first;
     first = first_equal(texts_of(json_, "materials", keep_names));
     visit_material_references(json_, [&](Json& r) { follow(first, r); });
     return first;
@@ -248,13 +236,7 @@ std::set<std::size_t> DocumentTidy::empty_nodes(const std::set<std::size_t>& emp
     for (const std::size_t n : order) {
         if (!candidates.contains(n) || named.contains(n)) continue;
         Json& node = json_["nodes"][n];
-        if (node.contains("children")) {
-            Json left = Json::array();
-            for (const Json& child : node["children"])
-                if (!dead.contains(child.get<std::size_t>())) left.push_back(child);
-            node["children"] = std::move(left);
-            if (node["children"].empty()) node.erase("children");
-        }
+        drop_children(node, "children", dead);
         const bool needed = std::any_of(node.items().begin(), node.items().end(), [](const auto& member) {
             static const std::set<std::string> places = {"name", "translation", "rotation", "scale",
                                                          "matrix"};
@@ -281,11 +263,12 @@ TidyNumbers DocumentTidy::erase_unused(const TidyRequest& request) {
     std::set<std::size_t> dead_nodes, dead_meshes, dead_materials;
     if (known_) {
         dead_nodes = empty_nodes(request.emptied);
-        drop_from_hierarchy(json_, dead_nodes);
+        if (!dead_nodes.empty())
+            each_parent(json_, [&](Json& owner, const char* key) { drop_children(owner, key, dead_nodes); });
         erased_.nodes += erase("nodes", visit_node_references, dead_nodes);
         dead_meshes = unnamed("meshes", visit_mesh_references, request.meshes);
         erased_.meshes += erase("meshes", visit_mesh_references, dead_meshes);
-        if (!uses(json_, "KHR_materials_variants"))
+        if (!uses_extension(json_, "KHR_materials_variants"))
             dead_materials = unnamed("materials", visit_material_references, request.materials);
         erased_.materials += erase("materials", visit_material_references, dead_materials);
         const auto tidy = [&](const char* list, References references) {
@@ -307,11 +290,7 @@ std::shared_ptr<const Document> DocumentTidy::finish(const std::shared_ptr<const
     if (json_ == before_) return before;
     auto out = std::make_shared<Document>(document_);
     out->json = to_string(json_);
-    std::set<std::string> named;
-    for (std::size_t i = 0; i < count_of(json_, "images"); ++i)
-        if (const Json& image = json_["images"][i]; image.contains("uri") && image["uri"].is_string())
-            named.insert(image["uri"].get<std::string>());
-    std::erase_if(out->files, [&](const auto& file) { return !named.contains(file.first); });
+    drop_unnamed_files(out->files, json_);
     return out;
 }
 

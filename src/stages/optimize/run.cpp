@@ -148,6 +148,7 @@ class Optimizing {
         for (const std::size_t i : able)
             if (join_primitives(scene_.parts[i].mesh)) scene_.parts[i].changed = true;
         if (o_.keep_names) return;
+        std::set<std::size_t> gone;
         for (const JoinedParts& group : groups_to_join(scene_, able)) {
             report_.joined.push_back(scene_.parts[group.first].name);
             report_.joined_parts += group.others.size();
@@ -156,11 +157,11 @@ class Optimizing {
                 const Part& other = scene_.parts[i];
                 if (other.document >= 0 && other.node >= 0)
                     requests_[number(other.document)].emptied.insert(number(other.node));
-                gone_.insert(i);
+                gone.insert(i);
             }
         }
         std::size_t i = 0;
-        std::erase_if(scene_.parts, [&](const Part&) { return gone_.contains(i++); });
+        std::erase_if(scene_.parts, [&](const Part&) { return gone.contains(i++); });
     }
 
     void erase() {
@@ -233,7 +234,6 @@ class Optimizing {
     std::vector<io::DocumentTidy> tidies_;
     std::vector<io::TidyRequest> requests_;
     std::vector<bool> bound_;
-    std::set<std::size_t> gone_;
 };
 
 void declare_erased(DeclareFields<io::TidyCounts>& d) {
