@@ -313,19 +313,22 @@ void ImageUse::join(const ImageUse& other) {
 
 std::vector<DocumentImage> document_images(const Document& document, const std::set<int>& held) {
     const Json json = parse_document(document.json);
-    Source source(json, document.buffers);
     std::vector<ImageUse> uses = Uses(json).of_document(held);
+    std::vector<Bytes> bytes = image_bytes(document, json);
     std::vector<DocumentImage> all;
-    for (std::size_t i = 0; i < uses.size(); ++i) {
-        const Json& image = json["images"][i];
-        DocumentImage& out = all.emplace_back();
-        out.index = i;
-        out.name = name_of_image(image, i);
-        out.use = std::move(uses[i]);
+    for (std::size_t i = 0; i < uses.size(); ++i)
+        all.push_back({i, name_of_image(json["images"][i], i), std::move(bytes[i]), std::move(uses[i])});
+    return all;
+}
+
+std::vector<Bytes> image_bytes(const Document& document, const Json& json) {
+    Source source(json, document.buffers);
+    std::vector<Bytes> all(count_of(json, "images"));
+    for (std::size_t i = 0; i < all.size(); ++i) {
         try { // the document is as a file had it, and reading looks no further than meshes
-            out.bytes = bytes_of_image(document, source, image);
+            all[i] = bytes_of_image(document, source, json["images"][i]);
         } catch (const Error&) {
-            out.bytes.clear(); // told where the file is written, or by render
+            all[i].clear(); // told where the file is written, or by render
         }
     }
     return all;

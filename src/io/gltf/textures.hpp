@@ -2,6 +2,7 @@
 // The images of a glTF document and what its materials use them for, and the document with other images in
 // their place.
 
+#include "base/json.hpp"
 #include "io/bytes.hpp"
 #include "mesh/scene.hpp"
 
@@ -37,6 +38,9 @@ struct DocumentImage {
 /// EXT_structural_metadata, EXT_mesh_features and EXT_lights_image_based read from images is held, too. A
 /// reference to nothing is passed over. Throws malformed when the document is no JSON.
 std::vector<DocumentImage> document_images(const Document& document, const std::set<int>& held);
+/// The bytes of the images of the document, whose JSON is given parsed; none for those that were not read or
+/// are not there.
+std::vector<Bytes> image_bytes(const Document& document, const Json& json);
 
 /// The document with other bytes (PNG, JPEG or WebP) for some of its images, by index. Where an image's kind
 /// changes, its name, its media type and the textures do as well: WebP becomes the source of

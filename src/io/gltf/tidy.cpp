@@ -114,11 +114,11 @@ std::vector<std::string> texts_of(const Json& document, const char* list, bool k
 /// What an image is: its bytes, and whatever else the document says of it.
 std::vector<std::string> image_texts(const Document& source, const Json& document) {
     std::vector<std::string> all;
-    for (const DocumentImage& image : document_images(source, {})) {
-        Json said = document["images"][image.index];
-        if (!image.bytes.empty() && said.is_object())
+    for (const Bytes& bytes : image_bytes(source, document)) {
+        Json said = document["images"][all.size()];
+        if (!bytes.empty() && said.is_object())
             for (const char* key : {"name", "uri", "bufferView", "mimeType"}) said.erase(key);
-        all.push_back(to_string(said) + sha256(image.bytes));
+        all.push_back(to_string(said) + sha256(bytes));
     }
     return all;
 }
@@ -294,14 +294,13 @@ std::shared_ptr<const Document> DocumentTidy::finish(const std::shared_ptr<const
     return out;
 }
 
-std::vector<bool> bound_parts(const Scene& scene) {
+std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentTidy>& documents) {
     std::vector<bool> bound = animated_parts(scene);
     std::vector<std::set<std::size_t>> nodes; // of each document, that are bound
     std::vector<std::set<std::size_t>> meshes;
-    for (const auto& document : scene.documents) {
-        Json json = parse_document(document->json);
-        nodes.push_back(bound_nodes(json));
-        meshes.push_back(bound_meshes(json));
+    for (DocumentTidy& document : documents) {
+        nodes.push_back(bound_nodes(document.json_));
+        meshes.push_back(bound_meshes(document.json_));
     }
     for (std::size_t i = 0; i < bound.size(); ++i) {
         const Part& part = scene.parts[i];

@@ -51,6 +51,7 @@ class DocumentTidy {
     std::shared_ptr<const Document> finish(const std::shared_ptr<const Document>& before);
 
   private:
+    friend std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentTidy>& documents);
     using References = void (*)(Json& document, const std::function<void(Json&)>& visit);
     /// Items of a list that nothing names. `named`: by others than the document.
     std::set<std::size_t> unnamed(const char* list, References references,
@@ -66,7 +67,8 @@ class DocumentTidy {
 
 /// For each part, whether its node is more than a place for its mesh: it is skinned, animated or a joint, it
 /// has morph targets, a camera, or, as its mesh or a node above it does, extras or extensions; or the
-/// document has several scenes, or extensions that may name nodes by numbers.
-std::vector<bool> bound_parts(const Scene& scene);
+/// document has several scenes, or extensions that may name nodes by numbers. documents: the scene's, as they
+/// came.
+std::vector<bool> bound_parts(const Scene& scene, std::vector<DocumentTidy>& documents);
 
 } // namespace facetmill::io

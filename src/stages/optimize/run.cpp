@@ -7,6 +7,7 @@
 #include "stages/optimize/join.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <fmt/format.h>
 
 namespace facetmill::optimize_stage {
@@ -52,7 +53,7 @@ class Optimizing {
     void run() {
         report_.draw_calls_before = draw_calls_of(scene_);
         report_.parts_before = scene_.parts.size();
-        bound_ = io::bound_parts(scene_);
+        bound_ = io::bound_parts(scene_, tidies_);
         if (o_.dedup) merge_materials();
         if (o_.dedup) merge_meshes();
         if (o_.join) join_parts();
@@ -67,13 +68,12 @@ class Optimizing {
     void merge_materials() {
         std::vector<std::vector<std::size_t>> stands_for;
         for (auto& tidy : tidies_) stands_for.push_back(tidy.merge_equal(o_.keep_names));
-        const auto& all = scene_.materials;
-        std::vector<Index> instead(all.size());
-        for (std::size_t m = 0; m < all.size(); ++m) {
-            const auto equal =
-                std::find_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(m),
-                             [&](const Material& other) { return same_material(other, all[m], stands_for); });
-            instead[m] = static_cast<Index>(equal - all.begin());
+        std::vector<Index> instead(scene_.materials.size());
+        std::map<MaterialKey, Index> known;
+        for (Index m = 0; m < instead.size(); ++m) {
+            const Material& material = scene_.materials[m];
+            const bool unknown = material.document >= 0 && material.index < 0;
+            instead[m] = unknown ? m : known.try_emplace(key_of(material, stands_for), m).first->second;
             report_.equal_materials += instead[m] != m;
         }
         for (Part& part : scene_.parts)
@@ -81,14 +81,16 @@ class Optimizing {
                 if (p.material < instead.size()) p.material = instead[p.material];
     }
 
-    bool same_material(const Material& a, const Material& b,
-                       const std::vector<std::vector<std::size_t>>& stands_for) const {
-        if (a.document != b.document || a.double_sided != b.double_sided ||
-            !std::equal(std::begin(a.base_colour), std::end(a.base_colour), std::begin(b.base_colour)))
-            return false;
-        if (a.document < 0) return a.name == b.name || !o_.keep_names;
-        const auto& of_document = stands_for[number(a.document)];
-        return a.index >= 0 && b.index >= 0 && of_document[number(a.index)] == of_document[number(b.index)];
+    /// What equal materials have in common: the document and the material that stands for it there, or none
+    /// and the name; sides and colour.
+    using MaterialKey = std::tuple<int, std::size_t, std::string, bool, std::array<std::uint64_t, 4>>;
+
+    MaterialKey key_of(const Material& m, const std::vector<std::vector<std::size_t>>& stands_for) const {
+        std::array<std::uint64_t, 4> colour;
+        std::transform(std::begin(m.base_colour), std::end(m.base_colour), colour.begin(),
+                       [](double c) { return std::bit_cast<std::uint64_t>(c + 0.0); }); // -0 is 0
+        if (m.document < 0) return {m.document, 0, o_.keep_names ? m.name : "", m.double_sided, colour};
+        return {m.document, stands_for[number(m.document)][number(m.index)], "", m.double_sided, colour};
     }
 
     /// Nodes whose meshes are equal name the first of them. A mesh of which one part is bound stays its own.
