@@ -19,9 +19,7 @@ Examples
 int check(const std::vector<std::string>& pipelines, const PipelineOptions& options, const CommandLine& line,
           const Console& console) {
     plan_each(pipelines, options, line, console, [&](const std::string& name, const pipeline::Plan& plan) {
-        auto errors = pipeline::unmatched_patterns(plan);
-        const auto headers = pipeline::read_headers(plan);
-        errors.insert(errors.end(), headers.errors.begin(), headers.errors.end());
+        const auto errors = pipeline::input_errors(plan, pipeline::read_headers(plan));
         if (errors.empty()) console.say(name + ": ok");
         if (const auto warning = pipeline::without_effect(plan)) console.diagnostic(*warning);
         settle(errors);

@@ -30,9 +30,7 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     settle(problems, console);
     const bool files_only = options.inputs || options.outputs;
     const auto headers = pipeline::read_headers(plan);
-    auto errors = pipeline::unmatched_patterns(plan);
-    errors.insert(errors.end(), headers.errors.begin(), headers.errors.end());
-    if (!files_only) settle(errors); // names are known all the same
+    if (!files_only) settle(pipeline::input_errors(plan, headers)); // names are known all the same
     if (const auto warning = pipeline::without_effect(plan); warning && !files_only)
         console.diagnostic(*warning);
     std::string text;

@@ -177,12 +177,13 @@ std::vector<Diagnostic> missing_inputs(const Plan& plan) {
     return missing;
 }
 
-std::vector<Error> unmatched_patterns(const Plan& plan) {
-    std::vector<Error> unmatched;
+std::vector<Error> input_errors(const Plan& plan, const Headers& headers) {
+    std::vector<Error> errors;
     for (const auto& file : missing_files(plan))
         if (!file.pattern.empty())
-            unmatched.emplace_back(ErrorKind::missing, std::vector<Diagnostic>{about_missing(file)});
-    return unmatched;
+            errors.emplace_back(ErrorKind::missing, std::vector<Diagnostic>{about_missing(file)});
+    errors.insert(errors.end(), headers.errors.begin(), headers.errors.end());
+    return errors;
 }
 
 namespace {

@@ -124,8 +124,6 @@ std::vector<PlannedFile> planned_files(const Steps& steps, const Places& places)
 bool check_collisions(const std::vector<PlannedFile>& files, Problems& problems);
 /// An E-FILE for every input that does not exist, at its place; exit code 3. run_plan begins with it.
 std::vector<Diagnostic> missing_inputs(const Plan& plan);
-/// ... of them those that patterns name: what they stand for is not known before it is there.
-std::vector<Error> unmatched_patterns(const Plan& plan);
 
 /// An input and what its header says.
 struct InputHeader {
@@ -148,6 +146,9 @@ struct Headers {
 /// and units (E-UNIT, usage) of lengths and of a stage's option `unit` where what was loaded first has none.
 /// Streams and compressed files wait for the run, since they would have to be read whole.
 Headers read_headers(const Plan& plan);
+/// What is wrong with the inputs before anything runs: an E-FILE for every pattern that matches nothing,
+/// since what it stands for is not known before it is there, and the errors of the headers.
+std::vector<Error> input_errors(const Plan& plan, const Headers& headers);
 
 /// Files that the plan reads and writes, as far as they are known before it runs (globs expanded, and what
 /// the headers tell); includes and presets among the inputs, at their end, and reports among the outputs.
