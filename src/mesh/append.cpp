@@ -1,5 +1,6 @@
 #include "base/parallel.hpp"
 #include "mesh/placement.hpp"
+#include "mesh/wedges.hpp"
 
 #include <algorithm>
 
@@ -136,20 +137,6 @@ void append_shifted(std::vector<T>& to, const std::vector<T>& from, std::size_t 
     const std::size_t before = to.size();
     to.resize(before + from.size());
     parallel_for(from.size(), [&](std::size_t i) { to[before + i] = from[i] + static_cast<T>(shift); });
-}
-
-std::vector<Index> explicit_offsets(const Mesh& mesh) {
-    if (!mesh.face_offsets.empty()) return mesh.face_offsets;
-    std::vector<Index> offsets(mesh.face_count() + 1);
-    for (std::size_t f = 0; f < offsets.size(); ++f) offsets[f] = static_cast<Index>(3 * f);
-    return offsets;
-}
-
-std::vector<Index> explicit_wedges(const Mesh& mesh) {
-    if (mesh.has_seams()) return mesh.wedge_vertex;
-    std::vector<Index> wedges(mesh.wedge_count());
-    for (std::size_t w = 0; w < wedges.size(); ++w) wedges[w] = static_cast<Index>(w);
-    return wedges;
 }
 
 void append_arrays(Mesh& a, const Mesh& b) {

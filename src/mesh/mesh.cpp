@@ -1,6 +1,7 @@
 #include "mesh/mesh.hpp"
 
 #include "base/parallel.hpp"
+#include "mesh/wedges.hpp"
 
 #include <algorithm>
 
@@ -59,11 +60,7 @@ Box box_of(std::span<const Vec3> points) {
 Box Mesh::bounds() const { return box_of(positions); }
 
 void add_face(Mesh& mesh, std::span<const Index> wedges) {
-    if (mesh.face_offsets.empty() && wedges.size() != 3) {
-        mesh.face_offsets.resize(mesh.corners.size() / 3 + 1);
-        for (std::size_t f = 0; f < mesh.face_offsets.size(); ++f)
-            mesh.face_offsets[f] = static_cast<Index>(3 * f);
-    }
+    if (mesh.face_offsets.empty() && wedges.size() != 3) mesh.face_offsets = explicit_offsets(mesh);
     mesh.corners.insert(mesh.corners.end(), wedges.begin(), wedges.end());
     if (!mesh.face_offsets.empty()) mesh.face_offsets.push_back(static_cast<Index>(mesh.corners.size()));
 }

@@ -13,8 +13,6 @@ void declare_box_corners(DeclareFields<Box>& d) {
     d.field("max", &Box::max, "The corner with the largest coordinates.");
 }
 
-constexpr const char* about_bounds = "The axis-aligned box in world space; null when there is nothing";
-
 std::optional<Box> bounds_of(const Brief& brief) {
     return brief.bounds.empty() ? std::nullopt : std::optional<Box>(brief.bounds);
 }
@@ -64,12 +62,7 @@ const Fields& brief_fields() {
 
 Json box_json(const Box& box) { return box.empty() ? Json() : box_fields().json(&box); }
 
-Json box_schema() {
-    Json schema = box_fields().schema();
-    schema["type"] = Json::array({"object", "null"});
-    schema["description"] = about_bounds;
-    return schema;
-}
+Json box_schema() { return brief_fields().schema()["properties"]["bounds"]; }
 
 std::vector<AttributeEntry> attributes_of(const Scene& scene) {
     std::vector<AttributeEntry> all;

@@ -220,7 +220,7 @@ void hold_joint_vertices(std::span<CrumpleSheet> sheets) {
     }
 }
 
-double move_apart_memory(double triangles) { return 300 * triangles; }
+double avoid_intersections_memory(double triangles) { return 300 * triangles; }
 
 AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look, std::size_t max_pairs) {
     AvoidResult result;

@@ -142,6 +142,6 @@ AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look =
                                 std::size_t max_pairs = std::size_t{8} << 20);
 
 /// About the bytes that avoid_intersections takes for a mesh of so many triangles, besides the mesh.
-double move_apart_memory(double triangles);
+double avoid_intersections_memory(double triangles);
 
 } // namespace facetmill

@@ -2,19 +2,13 @@
 
 #include "base/parallel.hpp"
 #include "mesh/face.hpp"
+#include "mesh/wedges.hpp"
 
 #include <algorithm>
 #include <map>
 #include <tuple>
 
 namespace facetmill {
-
-std::vector<Index> explicit_wedges(const Mesh& mesh) {
-    if (mesh.has_seams()) return mesh.wedge_vertex;
-    std::vector<Index> wedges(mesh.wedge_count());
-    for (Index w = 0; w < wedges.size(); ++w) wedges[w] = w;
-    return wedges;
-}
 
 namespace {
 

@@ -10,9 +10,6 @@
 
 namespace facetmill {
 
-/// The vertex of each wedge, spelled out where the mesh has no seams, too.
-std::vector<Index> explicit_wedges(const Mesh& mesh);
-
 /// The mesh with these faces only, in this order. Vertices and wedges that lose their last face go; those
 /// that had none stay.
 Mesh keep_faces(const Mesh& mesh, const std::vector<Index>& faces);

@@ -16,6 +16,7 @@
 #include "mesh/placement.hpp"
 #include "mesh/topology.hpp"
 #include "mesh/transform.hpp"
+#include "mesh/wedges.hpp"
 
 #include <algorithm>
 #include <array>

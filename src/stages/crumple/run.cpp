@@ -38,7 +38,7 @@ void require_room(const Scene& scene, const CrumpleOptions& o, const Context& co
         if (context.selects(part, scene))
             triangles += static_cast<double>(part.mesh.corner_count()) - 2.0 * part.mesh.face_count();
     triangles *= static_cast<double>(o.grid) * static_cast<double>(o.grid);
-    require_memory(move_apart_memory(triangles),
+    require_memory(avoid_intersections_memory(triangles),
                    fmt::format("crumple: avoiding intersections of {:.3g} triangles", triangles),
                    "use a smaller grid, or self_intersections: allow");
 }

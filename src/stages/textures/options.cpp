@@ -38,6 +38,12 @@ ImageSettings with_role(const TexturesOptions& o, const RoleOptions& role, int q
 
 } // namespace
 
+std::string name_of(Format format) {
+    for (const auto& known : formats<Format>())
+        if (known.value == format) return known.name;
+    return {};
+}
+
 ImageSettings for_colours(const TexturesOptions& o) { return with_role(o, {}, 80); }
 ImageSettings for_normals(const TexturesOptions& o) { return with_role(o, o.normals, 90); }
 ImageSettings for_data(const TexturesOptions& o) { return with_role(o, o.data, 90); }

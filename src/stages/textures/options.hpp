@@ -6,6 +6,8 @@
 namespace facetmill::textures_stage {
 
 enum class Format { keep, png, jpeg, webp };
+/// The word of the option: "png".
+std::string name_of(Format format);
 
 /// What is asked of images of one role.
 struct RoleOptions {

@@ -20,20 +20,6 @@ std::string format_of(const io::Bytes& bytes) {
     return type.substr(std::min(type.size(), type.find('/') + 1));
 }
 
-const char* name_of(Format format) {
-    switch (format) {
-    case Format::png:
-        return "png";
-    case Format::jpeg:
-        return "jpeg";
-    case Format::webp:
-        return "webp";
-    case Format::keep:
-        break;
-    }
-    return "";
-}
-
 /// The width and height that the settings ask for, never more than there are.
 std::pair<std::size_t, std::size_t> size_for(const ImageState& image, const ImageSettings& s) {
     std::size_t width = image.width, height = image.height;
