@@ -1,8 +1,8 @@
 #include "diff/sides.hpp"
 
 #include "geometry/inspect/inspect.hpp"
+#include "mesh/component_volumes.hpp"
 #include "mesh/face.hpp"
-#include "mesh/topology.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,20 +27,19 @@ void add_part(const Part& part, std::vector<Component>& components) {
     const Components of = face_components(mesh, false);
     const std::size_t before = components.size();
     components.resize(before + of.count);
-    std::vector<Vec3> origins(of.count);
+    const auto place = [&](Index c) { return t.point(mesh.point(c)); };
+    const auto volumes = six_volumes(mesh, of, place);
+    for (std::size_t i = 0; i < of.count; ++i) components[before + i].volume = volumes[i] * sign / 3;
     for (Index f = 0; f < mesh.face_count(); ++f) {
         Component& component = components[before + of.of_face[f]];
-        const Vec3 at = t.point(mesh.point(mesh.face_begin(f)));
         if (component.face == none) {
             component.part = part.name;
             component.face = f;
-            origins[of.of_face[f]] = at;
         }
         const Vec3 area = area_vector(mesh, f, t) * sign;
         component.area += length(area);
         component.looks += area;
-        component.volume += dot(area, at - origins[of.of_face[f]]) / 3;
-        const Vec3 corners = corner_sum_at(mesh, f, [&](Index c) { return t.point(mesh.point(c)); });
+        const Vec3 corners = corner_sum_at(mesh, f, place);
         component.middle += corners * (length(area) / mesh.face_size(f));
     }
 }

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/spatial/rays.hpp"
+#include "mesh/component_volumes.hpp"
 #include "mesh/face.hpp"
 
 #include <algorithm>
@@ -45,21 +46,6 @@ std::vector<Fitness> fitness_of(const Mesh& mesh, const Components& components) 
         if (is_degenerate(mesh, f) || !is_finite(corner_mean(mesh, f)))
             fitness[components.of_face[f]] = Fitness::flat;
     return fitness;
-}
-
-/// Six times the volume of each component, from its first point.
-std::vector<double> volumes_of(const Mesh& mesh, const Components& components) {
-    std::vector<double> volumes(components.count, 0);
-    std::vector<Index> first(components.count, none);
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-        const Index component = components.of_face[f], begin = mesh.face_begin(f);
-        if (mesh.face_size(f) < 3) continue;
-        if (first[component] == none) first[component] = begin;
-        const Vec3 o = mesh.point(first[component]), a = mesh.point(begin) - o;
-        for (Index c = begin + 1; c + 1 < mesh.face_end(f); ++c)
-            volumes[component] += dot(a, cross(mesh.point(c) - o, mesh.point(c + 1) - o));
-    }
-    return volumes;
 }
 
 /// Of the components that are not fit, one entry for each that intersects something.
@@ -105,7 +91,7 @@ Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {
     Solids s;
     s.components = face_components(mesh, false);
     const auto fitness = fitness_of(mesh, s.components);
-    const auto volumes = volumes_of(mesh, s.components);
+    const auto volumes = six_volumes(mesh, s.components);
     for (Index p = 0; p < s.components.count; ++p) {
         s.closed.push_back(fitness[p] == Fitness::fit);
         s.inward.push_back(volumes[p] < 0);

@@ -12,9 +12,9 @@ namespace facetmill::simplification {
 
 namespace {
 
-/// A corner at a vertex: its face runs from the neighbour `in` through the vertex to the neighbour `out`, so
-/// the edge of the corner leads to `out`.
-struct FanSpoke {
+/// A face of the one-ring of a vertex: it runs from the neighbour `in` through the vertex, at `corner`, to
+/// the neighbour `out`, so the edge of the corner leads to `out`.
+struct RingFace {
     Index out, in, corner;
 };
 
@@ -57,7 +57,7 @@ class Classifier {
     /// Whether a few faces close around the vertex with no feature between them, as at most vertices: told
     /// without sorting.
     bool is_plain(Index v) {
-        std::array<FanSpoke, few> ring;
+        std::array<RingFace, few> ring;
         std::size_t size = 0;
         for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
             const Index out = s_.tri[after(c)], in = s_.tri[before(c)];
@@ -76,68 +76,68 @@ class Classifier {
     }
 
     Kind look(Index v) {
-        spokes_.clear();
+        ring_.clear();
         ins_.clear();
         for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
             const Index out = s_.tri[after(c)], in = s_.tri[before(c)];
             if (out == v || in == v || out == in) return Kind::pinned;
-            spokes_.push_back({out, in, c});
+            ring_.push_back({out, in, c});
             ins_.push_back(in);
         }
-        std::sort(spokes_.begin(), spokes_.end(), [](const FanSpoke& a, const FanSpoke& b) {
+        std::sort(ring_.begin(), ring_.end(), [](const RingFace& a, const RingFace& b) {
             return a.out != b.out ? a.out < b.out : a.corner < b.corner;
         });
         std::sort(ins_.begin(), ins_.end());
-        for (std::size_t i = 1; i < spokes_.size(); ++i)
-            if (spokes_[i].out == spokes_[i - 1].out || ins_[i] == ins_[i - 1]) return Kind::pinned;
+        for (std::size_t i = 1; i < ring_.size(); ++i)
+            if (ring_[i].out == ring_[i - 1].out || ins_[i] == ins_[i - 1]) return Kind::pinned;
         return walk();
     }
 
     /// Flags the edges that lead out of a pinned vertex as a walk around it would, those between two faces
     /// that agree: its neighbours' edges are such, and may be collapsed into it.
     void flag_around_pinned(Index v) {
-        spokes_.clear();
+        ring_.clear();
         for (Index c = s_.first[v]; c != none; c = s_.next[c])
-            spokes_.push_back({s_.tri[after(c)], s_.tri[before(c)], c});
-        std::sort(spokes_.begin(), spokes_.end(), [](const FanSpoke& a, const FanSpoke& b) {
+            ring_.push_back({s_.tri[after(c)], s_.tri[before(c)], c});
+        std::sort(ring_.begin(), ring_.end(), [](const RingFace& a, const RingFace& b) {
             return a.out != b.out ? a.out < b.out : a.corner < b.corner;
         });
         ins_.clear();
-        for (const FanSpoke& spoke : spokes_) ins_.push_back(spoke.in);
+        for (const RingFace& face : ring_) ins_.push_back(face.in);
         std::sort(ins_.begin(), ins_.end());
-        for (const FanSpoke& spoke : spokes_)
-            if (!std::binary_search(ins_.begin(), ins_.end(), spoke.out) && !leads_twice(spoke.out))
-                s_.flags[spoke.corner] |= boundary_edge | feature_edge;
-        for (const FanSpoke& spoke : spokes_) {
-            const FanSpoke* then = leading_to(spoke.in);
-            if (then && differ(spoke, *then)) s_.flags[then->corner] |= feature_edge;
+        for (const RingFace& face : ring_)
+            if (!std::binary_search(ins_.begin(), ins_.end(), face.out) && !leads_twice(face.out))
+                s_.flags[face.corner] |= boundary_edge | feature_edge;
+        for (const RingFace& face : ring_) {
+            const RingFace* then = leading_to(face.in);
+            if (then && differ(face, *then)) s_.flags[then->corner] |= feature_edge;
         }
     }
 
     /// Whether several faces run from the vertex to this one.
     bool leads_twice(Index out) const {
-        const FanSpoke* first = leading_to(out);
-        return first + 1 != spokes_.data() + spokes_.size() && first[1].out == out;
+        const RingFace* first = leading_to(out);
+        return first + 1 != ring_.data() + ring_.size() && first[1].out == out;
     }
 
     /// Goes around the fan; flags the edges that lead out of the vertex.
     Kind walk() {
-        const FanSpoke* start = nullptr;
-        for (const FanSpoke& spoke : spokes_) {
-            if (std::binary_search(ins_.begin(), ins_.end(), spoke.out)) continue;
+        const RingFace* start = nullptr;
+        for (const RingFace& face : ring_) {
+            if (std::binary_search(ins_.begin(), ins_.end(), face.out)) continue;
             if (start) return Kind::pinned; // two fans
-            start = &spoke;
+            start = &face;
         }
         const bool open = start != nullptr;
-        if (!open) start = spokes_.data();
+        if (!open) start = ring_.data();
         int features = open ? 2 : 0;
-        const FanSpoke* now = start;
+        const RingFace* now = start;
         features_.clear();
         locked_ = open && lock_.boundary;
         for (std::size_t steps = 1;; ++steps) {
-            const FanSpoke* then = leading_to(now->in);
+            const RingFace* then = leading_to(now->in);
             if (!then || (then == start && !open)) {
-                if (steps != spokes_.size()) return Kind::pinned; // a fan and more
+                if (steps != ring_.size()) return Kind::pinned; // a fan and more
                 if (then && differ(*now, *then)) features_.push_back(then->corner);
                 break;
             }
@@ -161,14 +161,14 @@ class Classifier {
         return exceeds_feature_angle(dot(in, out), *corner_cosine_);
     }
 
-    const FanSpoke* leading_to(Index other) const {
-        const auto at = std::lower_bound(spokes_.begin(), spokes_.end(), other,
-                                         [](const FanSpoke& a, Index o) { return a.out < o; });
-        return at != spokes_.end() && at->out == other ? &*at : nullptr;
+    const RingFace* leading_to(Index other) const {
+        const auto at = std::lower_bound(ring_.begin(), ring_.end(), other,
+                                         [](const RingFace& a, Index o) { return a.out < o; });
+        return at != ring_.end() && at->out == other ? &*at : nullptr;
     }
 
     /// Whether the edge between two neighbouring faces of the fan is a seam or a border.
-    bool differ(const FanSpoke& now, const FanSpoke& then) {
+    bool differ(const RingFace& now, const RingFace& then) {
         const Index f = now.corner / 3, g = then.corner / 3;
         const bool group = !borders_.groups.empty() && borders_.groups[f] != borders_.groups[g];
         const bool seam =
@@ -184,7 +184,7 @@ class Classifier {
     const SimplifyLocks& lock_;
     std::optional<double> corner_cosine_;
     bool locked_ = false; ///< the vertex looked at
-    std::vector<FanSpoke> spokes_;
+    std::vector<RingFace> ring_;
     std::vector<Index> ins_, features_;
 };
 

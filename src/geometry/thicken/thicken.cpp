@@ -10,6 +10,7 @@
 #include "geometry/spatial/closest_point.hpp"
 #include "geometry/spatial/rays.hpp"
 #include "geometry/thicken/moved_surface.hpp"
+#include "mesh/component_volumes.hpp"
 #include "mesh/face.hpp"
 #include "mesh/lineage.hpp"
 #include "mesh/mesh.hpp"
@@ -295,11 +296,7 @@ std::size_t buried_components(const Mesh& solid) {
     if (components.count < 2) return 0;
     std::vector<Index> first(components.count, none);
     for (Index f = static_cast<Index>(solid.face_count()); f-- > 0;) first[components.of_face[f]] = f;
-    std::vector<double> volume(components.count, 0);
-    const Vec3 middle = solid.bounds().centre();
-    for (Index f = 0; f < solid.face_count(); ++f)
-        volume[components.of_face[f]] +=
-            dot(area_vector(solid, f), solid.point(solid.face_begin(f)) - middle);
+    const std::vector<double> volume = six_volumes(solid, components);
     const FaceTree rays(surface_of(solid), FaceTree::Use::rays);
     std::vector<std::uint8_t> buried(components.count, 0);
     parallel_for(
