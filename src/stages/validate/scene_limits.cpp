@@ -24,7 +24,9 @@ struct Share {
 };
 
 /// A check of the sum of the shares, with the largest as evidence.
-LimitCheck check_number(const char* name, const Bound& bound, std::vector<Share> shares) {
+template <class Limits>
+LimitCheck check_limit(const char* name, const std::optional<Limits>& bounds, std::vector<Share> shares) {
+    const Bound& bound = *bounds;
     double sum = 0;
     for (const Share& s : shares) sum += static_cast<double>(s.amount);
     LimitCheck limit;
@@ -50,7 +52,7 @@ struct Word {
     report::EvidenceEntry entry;
 };
 
-LimitCheck check_words(const char* name, const std::vector<std::string>& patterns,
+LimitCheck check_limit(const char* name, const std::vector<std::string>& patterns,
                        const std::vector<Word>& words) {
     LimitCheck limit;
     report::Check& check = limit.check;
@@ -117,41 +119,70 @@ std::vector<Share> texture_pixels(const Scene& scene) {
     return shares;
 }
 
+std::vector<Word> names_of(const Scene& scene) {
+    std::vector<Word> words;
+    for (const auto& part : scene.parts) words.push_back({part.name, {.of = Of::part, .name = part.name}});
+    return words;
+}
+
+std::vector<Word> extension_names(const Scene& scene) {
+    std::vector<Word> words;
+    for (const auto& e : extensions_of(scene))
+        words.push_back({e.name, {.of = Of::extension, .name = e.name, .document = e.document}});
+    return words;
+}
+
+/// A limit: its option, where it is given, and what it is about, shares of a number or words.
+template <class Given, class Entry>
+struct Limit {
+    const char* name;
+    Given SceneLimits::*given;
+    const char* help;
+    std::vector<Entry> (*entries)(const Scene& scene);
+};
+
+/// Calls with each limit. These are no rows of property_table: patterns are no numbers, and geometry/ knows
+/// nothing of documents and images.
+template <class Look>
+void each_limit(Look&& look) {
+    using L = SceneLimits;
+    look(Limit{"parts", &L::parts, "How many parts; a bare number is the maximum (10).", parts_of});
+    look(Limit{"materials", &L::materials, "The number of materials.", materials_of});
+    look(Limit{"bytes", &L::documents_bytes,
+               "The size of the glTF documents as loaded, with buffers and images: 10MB, 500kB (1000 bytes "
+               "each), 1.5MiB, 500KiB or 500K (1024 bytes each) or a number of bytes.",
+               documents_bytes});
+    look(Limit{"texture_pixels", &L::texture_pixels,
+               "The number of pixels of all PNG and JPEG images together (a count).", texture_pixels});
+    look(Limit{"names", &L::names, "Patterns; the name of every part must match one of them.", names_of});
+    look(Limit{"extensions", &L::extensions, "Names or patterns of the glTF extensions that may be used.",
+               extension_names});
+}
+
+template <class Bound>
+bool is_given(const std::optional<Bound>& bound) {
+    return bound.has_value();
+}
+bool is_given(const std::vector<std::string>& patterns) { return !patterns.empty(); }
+
 } // namespace
 
+bool SceneLimits::any() const {
+    bool any = false;
+    each_limit([&](const auto& limit) { any |= is_given(this->*limit.given); });
+    return any;
+}
+
 void declare_limits(Declare<SceneLimits>& d) {
-    d.option("parts", &SceneLimits::parts, "How many parts; a bare number is the maximum (10).");
-    d.option("materials", &SceneLimits::materials, "The number of materials.");
-    d.option("bytes", &SceneLimits::documents_bytes,
-             "The size of the glTF documents as loaded, with buffers and images: 10MB, 500kB (1000 bytes "
-             "each), 1.5MiB, 500KiB or 500K (1024 bytes each) or a number of bytes.");
-    d.option("texture_pixels", &SceneLimits::texture_pixels,
-             "The number of pixels of all PNG and JPEG images together (a count).");
-    d.option("names", &SceneLimits::names, "Patterns; the name of every part must match one of them.");
-    d.option("extensions", &SceneLimits::extensions,
-             "Names or patterns of the glTF extensions that may be used.");
+    each_limit([&](const auto& limit) { d.option(limit.name, limit.given, limit.help); });
 }
 
 std::vector<LimitCheck> check_limits(const SceneLimits& limits, const Scene& scene) {
     std::vector<LimitCheck> checks;
-    if (limits.parts) checks.push_back(check_number("parts", *limits.parts, parts_of(scene)));
-    if (limits.materials) checks.push_back(check_number("materials", *limits.materials, materials_of(scene)));
-    if (limits.documents_bytes)
-        checks.push_back(check_number("bytes", *limits.documents_bytes, documents_bytes(scene)));
-    if (limits.texture_pixels)
-        checks.push_back(check_number("texture_pixels", *limits.texture_pixels, texture_pixels(scene)));
-    if (!limits.names.empty()) {
-        std::vector<Word> words;
-        for (const auto& part : scene.parts)
-            words.push_back({part.name, {.of = Of::part, .name = part.name}});
-        checks.push_back(check_words("names", limits.names, words));
-    }
-    if (!limits.extensions.empty()) {
-        std::vector<Word> words;
-        for (const auto& e : extensions_of(scene))
-            words.push_back({e.name, {.of = Of::extension, .name = e.name, .document = e.document}});
-        checks.push_back(check_words("extensions", limits.extensions, words));
-    }
+    each_limit([&](const auto& limit) {
+        const auto& given = limits.*limit.given;
+        if (is_given(given)) checks.push_back(check_limit(limit.name, given, limit.entries(scene)));
+    });
     return checks;
 }
 

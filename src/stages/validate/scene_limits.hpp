@@ -12,10 +12,7 @@ struct SceneLimits {
     std::optional<ByteLimit> documents_bytes;
     std::vector<std::string> names;      ///< patterns, one of which every part's name has to match
     std::vector<std::string> extensions; ///< glTF extensions that may be used; none given: all
-    bool any() const {
-        return parts || materials || documents_bytes || texture_pixels || !names.empty() ||
-               !extensions.empty();
-    }
+    bool any() const;
 };
 
 void declare_limits(Declare<SceneLimits>& d);
