@@ -399,7 +399,7 @@ std::optional<AttributeError> attribute_error(const State& s, const Mesh& mesh,
     parallel_chunks(s.vertex_slots(), [&](std::size_t begin, std::size_t end) {
         FaceGradients face(s, values);
         for (std::size_t v = begin; v < end; ++v)
-            for (Index c = s.first[v]; c != none; c = s.next[c]) {
+            for (Index c = s.rings.first[v]; c != none; c = s.rings.next[c]) {
                 if (!face.look(c / 3)) continue;
                 const Index e = element(s, c);
                 error.squares[e] += face.square;

@@ -38,7 +38,7 @@ FollowedPoints follow_points(const State& s) {
     f.next.assign(f.points.size(), none);
     f.first.assign(faces, none);
     for (std::size_t v = 0; v < vertices; ++v)
-        f.next[v] = std::exchange(f.first[s.first[v] / 3], static_cast<Index>(v));
+        f.next[v] = std::exchange(f.first[s.rings.first[v] / 3], static_cast<Index>(v));
     parallel_for(faces, [&](std::size_t i) {
         f.points[vertices + i] =
             (s.at[s.tri[3 * i]] + s.at[s.tri[3 * i + 1]] + s.at[s.tri[3 * i + 2]]) * (1.0 / 3);
@@ -56,7 +56,7 @@ void for_faces(const Around& r, Body&& body) {
 }
 
 bool keeps_points(const State& s, Around& r, const Vec3& to) {
-    const FollowedPoints& followed = *s.followed;
+    const FollowedPoints& followed = *s.bounds.followed;
     r.points.clear();
     r.taken_by.clear();
     r.staying.clear();
@@ -85,7 +85,7 @@ bool keeps_points(const State& s, Around& r, const Vec3& to) {
 /// Whether the new vertex and places on the faces at it are near the surface that came in: near a point of it
 /// that the face took, or else near any place.
 bool is_near(const State& s, Around& r, const Vec3& to) {
-    const FollowedPoints& followed = *s.followed;
+    const FollowedPoints& followed = *s.bounds.followed;
     r.places.assign(1, to);
     for (const RingCorner& k : r.staying) {
         const Vec3 &x = s.at[k.next], &y = s.at[k.before];
@@ -226,7 +226,7 @@ bool points_stay_near(const State& s, Around& around, const Vec3& to) {
 }
 
 void hand_over_points(State& s, const Around& around) {
-    FollowedPoints& followed = *s.followed;
+    FollowedPoints& followed = *s.bounds.followed;
     for_faces(around, [&](const RingCorner& k) { followed.first[k.corner / 3] = none; });
     for (std::size_t i = 0; i < around.points.size(); ++i) {
         const Index face = around.staying[around.taken_by[i]].corner / 3;
@@ -278,9 +278,9 @@ Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, 
     const Origin origin(s, from.vertex_count());
     const Judge judge(from, max_error, samples);
     const double limit = guarded_share * max_error * s.frame.scale;
-    s.followed = follow_points(s);
-    s.followed->input = &judge.tree();
-    s.followed->farthest = limit * limit;
+    s.bounds.followed = follow_points(s);
+    s.bounds.followed->input = &judge.tree();
+    s.bounds.followed->farthest = limit * limit;
     Ended end;
     end.outcome = run_passes(s, goal);
     Share::unknown();

@@ -96,7 +96,7 @@ double place_cell(const State& s, const Grid& grid, std::span<const CellKey> mem
     const Vec3 from = s.at[root];
     for (const CellKey& k : members) {
         const Vec3 off = s.at[k.vertex] - from;
-        q += seen_from((*s.quadrics)[k.vertex], -off);
+        q += seen_from(s.quadrics->near[k.vertex], -off);
         mean += off;
     }
     mean = mean / static_cast<double>(members.size());
@@ -241,7 +241,7 @@ template <class Count>
 std::uint32_t finest_within(const State& s, std::size_t most, Count&& count) {
     if (most == 0) return 1;
     std::uint32_t good = 1, bad = finest + 1;
-    double guess = std::sqrt(static_cast<double>(s.live_faces)) * 0.25;
+    double guess = std::sqrt(static_cast<double>(s.rings.live_faces)) * 0.25;
     while (bad - good > 1) {
         const auto n = static_cast<std::uint32_t>(std::clamp(guess, good + 1.0, bad - 1.0));
         const double now = static_cast<double>(count(Grid(n))) / static_cast<double>(most);
@@ -294,7 +294,7 @@ std::uint32_t coarsest_within(const State& s, const Judge& judge, double bound, 
 
 Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<double> max_error,
                   std::size_t samples) {
-    s.quadrics = vertex_quadrics(s);
+    s.quadrics = {.near = vertex_quadrics(s), .fine = {}, .attributes = {}};
     Ended end;
     std::uint32_t n = finest_within(s, goal);
     std::optional<Judge> judge;
@@ -305,7 +305,7 @@ Ended run_cluster(State s, const Mesh& from, const Goal& goal, std::optional<dou
         n = bound == 0 ? 0 : std::max(n, bound);
     }
     Clusters c = n == 0 ? unclustered(s) : cluster(s, Grid(n));
-    while (c.faces.empty() && s.live_faces > 0 && n < finest) c = cluster(s, Grid(++n));
+    while (c.faces.empty() && s.rings.live_faces > 0 && n < finest) c = cluster(s, Grid(++n));
     if (max_error) end.measured = judge->deviation(bare_mesh(s, c));
     end.cell = n == 0 ? 0 : Grid(n).edge() / s.frame.scale;
     end.log = std::move(s.log);

@@ -16,7 +16,7 @@ constexpr std::uint8_t outside = 64; // the territory: no reason that is kept
 /// The live faces at a vertex; false when there are too many.
 bool gather(const State& s, Index v, Ring& ring) {
     std::size_t size = 0;
-    for (Index c = s.first[v]; c != none; c = s.next[c]) {
+    for (Index c = s.rings.first[v]; c != none; c = s.rings.next[c]) {
         const Index* t = &s.tri[c - c % 3];
         if (t[0] == none) continue;
         if (size == Ring::max_size) return false;
@@ -48,12 +48,12 @@ class Vertices {
 /// Takes a face out, with the costs of its edges.
 void kill_face(State& s, Index f) {
     s.tri[3 * f] = none;
-    for (Index c = 3 * f; c < 3 * f + 3; ++c) s.cost[c] = never;
+    for (Index c = 3 * f; c < 3 * f + 3; ++c) s.edges.cost[c] = never;
 }
 
 /// Whether a vertex that stays might lose its last face.
 bool loses_corner(const State& s, const Around& r) {
-    const auto stays = [&](Index v) { return s.kind[v] >= Kind::corner; };
+    const auto stays = [&](Index v) { return s.features->kind[v] >= Kind::corner; };
     for (int i = 0; i < r.sides; ++i)
         if (stays(r.side[static_cast<std::size_t>(i)].opposite)) return true;
     for (int i = 0; i < r.cancellations; ++i) {
@@ -70,13 +70,13 @@ class Bare {
     std::size_t vertices = 1; ///< that went: the one that was collapsed, and those that were bare
 
     void look(Index v) {
-        if (s_.first[v] == none) {
+        if (s_.rings.first[v] == none) {
             if (v == a_) count_a();
             return;
         }
-        for (Index c = s_.first[v]; c != none; c = s_.next[c])
+        for (Index c = s_.rings.first[v]; c != none; c = s_.rings.next[c])
             if (s_.live(c / 3)) return;
-        s_.first[v] = none;
+        s_.rings.first[v] = none;
         if (v == a_)
             count_a();
         else
@@ -93,22 +93,23 @@ class Bare {
 
 /// A vertex of a feature line that is gone moves freely.
 void free_if_bare(State& s, Index v) {
-    if (s.kind[v] != Kind::curve) return;
-    for (Index c = s.first[v]; c != none; c = s.next[c])
-        if (s.live(c / 3) && (s.flags[c] | s.flags[before(c)]) & feature_edge) return;
-    s.kind[v] = Kind::smooth;
+    if (s.features->kind[v] != Kind::curve) return;
+    for (Index c = s.rings.first[v]; c != none; c = s.rings.next[c])
+        if (s.live(c / 3) && (s.edges.flags[c] | s.edges.flags[before(c)]) & feature_edge) return;
+    s.features->kind[v] = Kind::smooth;
 }
 
 /// The edge from a to x is no boundary when two faces run along it either way.
 void unflag_closed(State& s, Index a, Index x) {
     Index out = none, in = none;
-    for (Index c = s.first[a]; c != none; c = s.next[c]) {
+    for (Index c = s.rings.first[a]; c != none; c = s.rings.next[c]) {
         if (!s.live(c / 3)) continue;
         if (s.tri[after(c)] == x) out = c;
         if (s.tri[before(c)] == x) in = before(c);
     }
-    if (out == none || in == none || !(s.flags[out] & s.flags[in] & boundary_edge)) return;
-    for (const Index c : {out, in}) s.flags[c] &= static_cast<std::uint8_t>(~(boundary_edge | feature_edge));
+    if (out == none || in == none || !(s.edges.flags[out] & s.edges.flags[in] & boundary_edge)) return;
+    for (const Index c : {out, in})
+        s.edges.flags[c] &= static_cast<std::uint8_t>(~(boundary_edge | feature_edge));
     for (const Index v : {a, x}) free_if_bare(s, v);
 }
 
@@ -121,7 +122,7 @@ bool find_cancelled(const State& s, Around& r) {
         for (const RingCorner& other : r.at_a) {
             if (other.next == k.next && other.before == k.before) return false;
             if (other.next != k.before || other.before != k.next) continue;
-            if (r.cancellations == Around::max_sides || s.followed) return false;
+            if (r.cancellations == Around::max_sides || s.bounds.followed) return false;
             r.cancelled[static_cast<std::size_t>(r.cancellations++)] = {other.corner, k.corner, k.next,
                                                                         k.before};
         }
@@ -132,7 +133,7 @@ bool find_cancelled(const State& s, Around& r) {
 /// Whether no face at either end would be left.
 bool vanishes(const State& s, const Around& r) {
     const auto going = static_cast<std::size_t>(r.sides + r.cancellations);
-    return !s.followed && r.at_a.size == going && r.at_b.size == going;
+    return !s.bounds.followed && r.at_a.size == going && r.at_b.size == going;
 }
 
 /// After the edit: takes away the faces that lie back to back, tells closed holes and vertices that have no
@@ -151,7 +152,7 @@ std::pair<std::size_t, std::size_t> settle_topology(State& s, const Around& r, s
         bare.look(pair.from);
         bare.look(pair.to);
     }
-    for (Index c = s.first[r.a]; c != none; c = s.next[c])
+    for (Index c = s.rings.first[r.a]; c != none; c = s.rings.next[c])
         if (s.live(c / 3)) {
             unflag_closed(s, r.a, s.tri[after(c)]);
             unflag_closed(s, r.a, s.tri[before(c)]);
@@ -178,19 +179,19 @@ class Collapse {
         if (r_.changes_topology && vanishes(s_, r_)) return 0;
         if (!a_stays && !keeps_facing(r_.a, r_.at_a, r_.b, to)) return blocked_flip;
         if (!keeps_facing(r_.b, r_.at_b, r_.a, to)) return blocked_flip;
-        return !s_.followed || points_stay_near(s_, r_, to) ? 0 : blocked_error;
+        return !s_.bounds.followed || points_stay_near(s_, r_, to) ? 0 : blocked_error;
     }
 
     /// Makes it. Returns the faces and vertices that went.
     std::pair<std::size_t, std::size_t> make(const Vec3& to, double error, Collapses& log) {
-        if (s_.followed) hand_over_points(s_, r_);
+        if (s_.bounds.followed) hand_over_points(s_, r_);
         if (s_.has_seams()) hand_over_wedges(log);
         if (s_.log)
             log.steps.push_back({s_.source[r_.a], s_.source[r_.b], static_cast<Index>(log.wedges.size()),
                                  static_cast<float>(error), to});
         join_lists();
         for (const Side& side : sides()) {
-            if (s_.has_features) pass_on_features(side);
+            if (s_.features->any) pass_on_features(side);
             kill_face(s_, side.at_a / 3);
         }
         const auto faces = static_cast<std::size_t>(r_.sides);
@@ -206,7 +207,7 @@ class Collapse {
         const auto price_ring = [&](const Ring& ring, Index gone) {
             for (const RingCorner& k : ring) {
                 if (k.has(gone)) continue;
-                s_.dirty[k.next] = s_.dirty[k.before] = s_.pass;
+                s_.order.dirty[k.next] = s_.order.dirty[k.before] = s_.order.pass;
                 pricer(k.corner, r_.a, k.next);
                 pricer(simplification::before(k.corner), k.before, r_.a);
             }
@@ -275,7 +276,8 @@ class Collapse {
     /// The two edges to an opposite vertex become one, between the faces of both that stay: an edge of more
     /// than two faces must keep their number.
     bool keeps_non_manifold_edges() const {
-        if (s_.kind.empty() || (s_.kind[r_.a] != Kind::pinned && s_.kind[r_.b] != Kind::pinned)) return true;
+        const std::vector<Kind>& kind = s_.features->kind;
+        if (kind[r_.a] != Kind::pinned && kind[r_.b] != Kind::pinned) return true;
         const auto faces = [](const Ring& ring, Index v) {
             return std::count_if(ring.begin(), ring.end(), [v](const RingCorner& k) { return k.has(v); });
         };
@@ -296,7 +298,7 @@ class Collapse {
 
     /// Flags of the edge of c's face between c's vertex and v.
     std::uint8_t edge_flags(Index c, Index v) const {
-        return s_.flags[s_.tri[after(c)] == v ? c : before(c)];
+        return s_.edges.flags[s_.tri[after(c)] == v ? c : before(c)];
     }
 
     /// Finds for each wedge at b the one at a that takes its faces.
@@ -313,9 +315,10 @@ class Collapse {
             if (!a_stays)
                 for (int k = 0; k < pairs_; ++k)
                     if (pair_[k][0] == to) return false;
-            if (s_.side_of_wedge)
+            if (s_.features->side_of_wedge)
                 for (int k = 0; k < pairs_; ++k)
-                    if (pair_[k][0] == to && (*s_.side_of_wedge)[pair_[k][1]] != (*s_.side_of_wedge)[from])
+                    if (pair_[k][0] == to &&
+                        (*s_.features->side_of_wedge)[pair_[k][1]] != (*s_.features->side_of_wedge)[from])
                         return false;
             pair_[pairs_][0] = to;
             pair_[pairs_][1] = from;
@@ -365,7 +368,7 @@ class Collapse {
     /// A face that was flat has no side to keep: when it gets an area, it is to face as its neighbour across
     /// the edge that does not move, if that one has a side.
     bool faces_as_across(const RingCorner& k, const Vec3& now) const {
-        for (Index c = s_.first[k.before]; c != none; c = s_.next[c]) {
+        for (Index c = s_.rings.first[k.before]; c != none; c = s_.rings.next[c]) {
             if (!s_.live(c / 3) || s_.tri[after(c)] != k.next) continue;
             const Vec3 &x = s_.at[k.before], &y = s_.at[k.next],
                        &z = s_.at[s_.tri[simplification::before(c)]];
@@ -380,17 +383,17 @@ class Collapse {
         for (int i = 0; i < pairs_; ++i)
             if (pair_[i][0] != pair_[i][1]) {
                 if (s_.log) log.wedges.push_back({pair_[i][0], pair_[i][1]});
-                if (s_.attributes) join(*s_.attributes, pair_[i][0], pair_[i][1]);
+                if (s_.weighs_attributes()) join(*s_.quadrics->attributes, pair_[i][0], pair_[i][1]);
             }
         for (const RingCorner& k : r_.at_b) s_.wedge[k.corner] = taker(s_.wedge[k.corner]);
     }
 
     /// a's list becomes the corners that stay, b's becomes empty.
     void join_lists() {
-        Index* link = &s_.first[r_.a];
+        Index* link = &s_.rings.first[r_.a];
         const auto add = [&](Index c) {
             *link = c;
-            link = &s_.next[c];
+            link = &s_.rings.next[c];
         };
         for (const RingCorner& k : r_.at_a)
             if (!k.has(r_.b)) add(k.corner);
@@ -400,7 +403,7 @@ class Collapse {
             s_.tri[k.corner] = r_.a;
         }
         *link = none;
-        s_.first[r_.b] = none;
+        s_.rings.first[r_.b] = none;
     }
 
     /// The edges from a and b to the opposite vertex become one: a feature if either was.
@@ -409,9 +412,9 @@ class Collapse {
             (edge_flags(side.at_a, side.opposite) | edge_flags(side.at_b, side.opposite)) &
             (boundary_edge | feature_edge));
         if (!either) return;
-        for (Index c = s_.first[r_.a]; c != none; c = s_.next[c]) {
-            if (s_.tri[after(c)] == side.opposite) s_.flags[c] |= either;
-            if (s_.tri[before(c)] == side.opposite) s_.flags[before(c)] |= either;
+        for (Index c = s_.rings.first[r_.a]; c != none; c = s_.rings.next[c]) {
+            if (s_.tri[after(c)] == side.opposite) s_.edges.flags[c] |= either;
+            if (s_.tri[before(c)] == side.opposite) s_.edges.flags[before(c)] |= either;
         }
     }
 
@@ -425,29 +428,31 @@ class Collapse {
 
 Attempt collapse(State& s, Index c, Around& around, Pricer& pricer, Tally& tally) {
     const Index u = s.tri[c], v = s.tri[after(c)];
-    const std::uint8_t flags = s.flags[c];
+    const std::uint8_t flags = s.edges.flags[c];
     const Placement p = place(s, c, flags);
     const Index a = around.a = p.keep_second ? v : u, b = around.b = p.keep_second ? u : v;
     const bool stays = p.keep_first || p.keep_second;
     Collapse edit(s, around);
-    const bool held = s.limits && !(p.error < std::min((*s.limits)[a], (*s.limits)[b]));
+    const bool held = s.bounds.limits && !(p.error < std::min((*s.bounds.limits)[a], (*s.bounds.limits)[b]));
     auto why = held ? blocked_border : edit.refusal(p.at, stays, flags & feature_edge, flags & boundary_edge);
-    if (!why && p.error > s.max_squared_error) why = blocked_error;
+    if (!why && p.error > s.bounds.max_squared_error) why = blocked_error;
     if (why == outside) return Attempt::outside;
     if (why) {
-        s.flags[c] |= why;
-        s.cost[c] = never;
+        s.edges.flags[c] |= why;
+        s.edges.cost[c] = never;
         return Attempt::refused;
     }
-    s.kind[a] = std::max(s.kind[a], s.kind[b]);
-    if (s.limits) (*s.limits)[a] = std::min((*s.limits)[a], (*s.limits)[b]);
+    s.features->kind[a] = std::max(s.features->kind[a], s.features->kind[b]);
+    if (s.bounds.limits) (*s.bounds.limits)[a] = std::min((*s.bounds.limits)[a], (*s.bounds.limits)[b]);
     const auto [faces, vertices] = edit.make(p.at, p.error, tally.log);
     s.at[a] = p.at;
     s.moved[a] |= !stays;
-    s.touched[a] = s.touched[b] = s.pass;
-    if (s.quadrics) (*s.quadrics)[a] = rounded<float>(p.joined);
-    if (s.fine) (*s.fine)[a] = rounded<double>(p.joined);
-    if (s.attributes && !s.has_seams()) join(*s.attributes, a, b);
+    s.order.touched[a] = s.order.touched[b] = s.order.pass;
+    if (s.quadrics) {
+        s.quadrics->near[a] = rounded<float>(p.joined);
+        if (s.quadrics->fine) (*s.quadrics->fine)[a] = rounded<double>(p.joined);
+        if (s.quadrics->attributes && !s.has_seams()) join(*s.quadrics->attributes, a, b);
+    }
     tally.largest = std::max(tally.largest, p.error);
     edit.price(pricer);
     ++tally.collapses;

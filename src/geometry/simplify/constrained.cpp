@@ -12,8 +12,8 @@ namespace {
 std::vector<DecimatedVertex> roles_of(const State& s) {
     std::vector<DecimatedVertex> roles(s.vertex_slots(), DecimatedVertex::free);
     for (std::size_t v = 0; v < roles.size(); ++v) {
-        if (s.kind[v] != Kind::smooth) roles[v] = DecimatedVertex::stays;
-        if (s.kind[v] == Kind::pinned || (s.limits && (*s.limits)[v] < never))
+        if (s.features->kind[v] != Kind::smooth) roles[v] = DecimatedVertex::stays;
+        if (s.features->kind[v] == Kind::pinned || (s.bounds.limits && (*s.bounds.limits)[v] < never))
             roles[v] = DecimatedVertex::untouched;
     }
     return roles;
@@ -24,13 +24,13 @@ class Replay {
   public:
     Replay(State& s) : s_(s), last_(s.vertex_slots()) {
         for (std::size_t v = 0; v < last_.size(); ++v)
-            for (Index c = s.first[v]; c != none; c = s.next[c]) last_[v] = c;
+            for (Index c = s.rings.first[v]; c != none; c = s.rings.next[c]) last_[v] = c;
     }
 
     void operator()(const Decimation& d) {
         if (s_.has_seams()) hand_over_wedges(d);
-        for (Index c = s_.first[d.removed]; c != none; c = s_.next[c]) s_.tri[c] = d.kept;
-        s_.next[last_[d.kept]] = s_.first[d.removed];
+        for (Index c = s_.rings.first[d.removed]; c != none; c = s_.rings.next[c]) s_.tri[c] = d.kept;
+        s_.rings.next[last_[d.kept]] = s_.rings.first[d.removed];
         last_[d.kept] = last_[d.removed];
         s_.log->steps.push_back({s_.source[d.kept], s_.source[d.removed],
                                  static_cast<Index>(s_.log->wedges.size()), 0, s_.at[d.kept]});
@@ -46,7 +46,7 @@ class Replay {
         const Index to = s_.wedge[corner_at(d.side, d.kept)], from = s_.wedge[corner_at(d.side, d.removed)];
         if (to == from) return;
         s_.log->wedges.push_back({to, from});
-        for (Index c = s_.first[d.removed]; c != none; c = s_.next[c]) s_.wedge[c] = to;
+        for (Index c = s_.rings.first[d.removed]; c != none; c = s_.rings.next[c]) s_.wedge[c] = to;
     }
 
     State& s_;

@@ -32,7 +32,8 @@ constexpr float reach = 12;
 Vec3 choose_place(Placement& p, const Quadric& q, const Vec3& half, const State& s) {
     const bool endpoints = s.rules.endpoints;
     if (!endpoints) {
-        const Vec3 best = q.weight > 0 ? q.least({}, (s.fine ? fine_pull : pull) * q.weight) : Vec3{};
+        const Vec3 best =
+            q.weight > 0 ? q.least({}, (s.quadrics->fine ? fine_pull : pull) * q.weight) : Vec3{};
         // Far off the edge the system was near singular: its ends and middle are safer.
         if (dot(best, best) <= max_off * dot(half, half)) return best;
     }
@@ -52,7 +53,7 @@ void add_keeping_weight(Quadric& q, const Quadric& other) {
 /// The corner that runs the other way along the edge, or none.
 Index opposite(const State& s, Index corner) {
     const Index from = s.tri[after(corner)], to = s.tri[corner];
-    for (Index c = s.first[from]; c != none; c = s.next[c])
+    for (Index c = s.rings.first[from]; c != none; c = s.rings.next[c])
         if (s.live(c / 3) && s.tri[after(c)] == to) return c;
     return none;
 }
@@ -60,7 +61,7 @@ Index opposite(const State& s, Index corner) {
 /// What the attributes at both ends pay, as seen from `from`; on a seam, those of both sides.
 void add_attributes(Quadric& q, const State& s, Index corner, bool along, const Vec3& from) {
     const auto add = [&](Index a, Index b) {
-        add_keeping_weight(q, seen_from(residual(*s.attributes, a, b), from));
+        add_keeping_weight(q, seen_from(residual(*s.quadrics->attributes, a, b), from));
     };
     if (!s.has_seams()) return add(s.tri[corner], s.tri[after(corner)]);
     const Index a = s.wedge[corner], b = s.wedge[after(corner)];
@@ -80,15 +81,16 @@ struct Meeting {
     Meeting(const State& s, Index corner, std::uint8_t flags)
         : u(s.tri[corner]), v(s.tri[after(corner)]), half((s.at[v] - s.at[u]) * 0.5) {
         if (!s.quadrics) return;
-        shape = s.fine ? seen_from((*s.fine)[u], half) + seen_from((*s.fine)[v], -half)
-                       : seen_from((*s.quadrics)[u], half) + seen_from((*s.quadrics)[v], -half);
+        const auto& [near, fine, attributes] = *s.quadrics;
+        shape = fine ? seen_from((*fine)[u], half) + seen_from((*fine)[v], -half)
+                     : seen_from(near[u], half) + seen_from(near[v], -half);
         all = shape;
-        if (s.attributes) add_attributes(all, s, corner, flags & feature_edge, s.at[u] + half);
+        if (attributes) add_attributes(all, s, corner, flags & feature_edge, s.at[u] + half);
     }
 
     /// Sets which end stays, and returns the place.
     Vec3 choose(const State& s, Placement& p) const {
-        const Kind ku = s.kind[u], kv = s.kind[v];
+        const Kind ku = s.features->kind[u], kv = s.features->kind[v];
         p.keep_first = ku > kv;
         p.keep_second = kv > ku;
         if (p.keep_first) return -half;
@@ -208,8 +210,8 @@ Four costs_of(const State& s, const PricedEdge* e, Mask& unsure) {
         half.z[i] = static_cast<float>(d.z);
         held[i] = static_cast<std::int32_t>(e[i].held);
     }
-    Quadrics q = joined(quadrics_of(*s.quadrics, e[0].u, e[1].u, e[2].u, e[3].u),
-                        quadrics_of(*s.quadrics, e[0].v, e[1].v, e[2].v, e[3].v), half);
+    Quadrics q = joined(quadrics_of(s.quadrics->near, e[0].u, e[1].u, e[2].u, e[3].u),
+                        quadrics_of(s.quadrics->near, e[0].v, e[1].v, e[2].v, e[3].v), half);
     const Four weight = normalise(q);
     const Four quarter = dot(half, half);
     const Four at_first = q({-half.x, -half.y, -half.z}), at_second = q(half);
@@ -221,7 +223,8 @@ Four costs_of(const State& s, const PricedEdge* e, Mask& unsure) {
     }
     value = held == 1 ? at_first : held == 2 ? at_second : value;
     unsure = value < quarter * static_cast<float>(4 * doubtful);
-    const Four sum = (larger(value, Four{}) + quarter * (4 * (s.fine ? fine_shortness : shortness))) * weight;
+    const Four sum =
+        (larger(value, Four{}) + quarter * (4 * (s.quadrics->fine ? fine_shortness : shortness))) * weight;
     const Four fourth = root(root(smaller(weight, quarter * (4 * reach))));
     return fourth > 0 ? sum / (fourth * root(fourth)) : sum;
 }
@@ -251,7 +254,8 @@ float cost_of(const State& s, Index corner, std::uint8_t flags) {
     const double fourth = std::sqrt(std::sqrt(std::min(weight, reach * squared))),
                  share = fourth * std::sqrt(fourth);
     return static_cast<float>(
-        share > 0 ? (value + (s.fine ? fine_shortness : shortness) * weight * squared) / share : value);
+        share > 0 ? (value + (s.quadrics->fine ? fine_shortness : shortness) * weight * squared) / share
+                  : value);
 }
 
 void Pricer::finish() {
@@ -262,7 +266,7 @@ void Pricer::finish() {
     for (std::size_t i = 0; i < count_; ++i) {
         const Index corner = waiting_[i].corner;
         const auto at = static_cast<int>(i);
-        set(corner, s_.fine && unsure[at] ? cost_of(s_, corner, s_.flags[corner]) : cost[at]);
+        set(corner, s_.quadrics->fine && unsure[at] ? cost_of(s_, corner, s_.edges.flags[corner]) : cost[at]);
     }
     count_ = 0;
 }

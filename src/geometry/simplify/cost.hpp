@@ -48,19 +48,19 @@ struct PricedEdge {
 /// there; nothing at them may change before `finish`.
 class Pricer {
   public:
-    explicit Pricer(State& s) : s_(s), by_fours_(s.quadrics && !s.attributes) {}
+    explicit Pricer(State& s) : s_(s), by_fours_(s.quadrics && !s.quadrics->attributes) {}
 
     /// The edge of a corner, from u to v, as seen from its face. The cost is kept at one corner of the edge:
     /// the one that runs to the higher vertex, or the only one.
     void operator()(Index corner, Index u, Index v) {
-        const std::uint8_t flags = s_.flags[corner] & static_cast<std::uint8_t>(~blocked);
-        s_.flags[corner] = flags;
-        s_.cost[corner] = never;
+        const std::uint8_t flags = s_.edges.flags[corner] & static_cast<std::uint8_t>(~blocked);
+        s_.edges.flags[corner] = flags;
+        s_.edges.cost[corner] = never;
         if (!(u < v || (flags & boundary_edge))) return;
-        const Kind ku = s_.kind[u], kv = s_.kind[v];
+        const Kind ku = s_.features->kind[u], kv = s_.features->kind[v];
         using Held = PricedEdge::Held;
         if (!may_go(ku, kv, flags))
-            s_.flags[corner] |= blocked_border;
+            s_.edges.flags[corner] |= blocked_border;
         else if (!by_fours_)
             set(corner, cost_of(s_, corner, flags));
         else {
@@ -74,9 +74,9 @@ class Pricer {
   private:
     void set(Index corner, float cost) {
         if (cost < never)
-            s_.cost[corner] = cost; // false for what is no number too
+            s_.edges.cost[corner] = cost; // false for what is no number too
         else
-            s_.flags[corner] |= blocked_border;
+            s_.edges.flags[corner] |= blocked_border;
     }
 
     State& s_;

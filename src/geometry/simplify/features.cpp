@@ -59,7 +59,7 @@ class Classifier {
     bool is_plain(Index v) {
         std::array<RingFace, few> ring;
         std::size_t size = 0;
-        for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
+        for (Index c = s_.rings.first[v]; c != none; c = s_.rings.next[c]) {
             const Index out = s_.tri[after(c)], in = s_.tri[before(c)];
             if (size == few || out == v || in == v || out == in) return false;
             ring[size++] = {out, in, c};
@@ -78,7 +78,7 @@ class Classifier {
     Kind look(Index v) {
         ring_.clear();
         ins_.clear();
-        for (Index c = s_.first[v]; c != none; c = s_.next[c]) {
+        for (Index c = s_.rings.first[v]; c != none; c = s_.rings.next[c]) {
             const Index out = s_.tri[after(c)], in = s_.tri[before(c)];
             if (out == v || in == v || out == in) return Kind::pinned;
             ring_.push_back({out, in, c});
@@ -97,7 +97,7 @@ class Classifier {
     /// that agree: its neighbours' edges are such, and may be collapsed into it.
     void flag_around_pinned(Index v) {
         ring_.clear();
-        for (Index c = s_.first[v]; c != none; c = s_.next[c])
+        for (Index c = s_.rings.first[v]; c != none; c = s_.rings.next[c])
             ring_.push_back({s_.tri[after(c)], s_.tri[before(c)], c});
         std::sort(ring_.begin(), ring_.end(), [](const RingFace& a, const RingFace& b) {
             return a.out != b.out ? a.out < b.out : a.corner < b.corner;
@@ -107,10 +107,10 @@ class Classifier {
         std::sort(ins_.begin(), ins_.end());
         for (const RingFace& face : ring_)
             if (!std::binary_search(ins_.begin(), ins_.end(), face.out) && !leads_twice(face.out))
-                s_.flags[face.corner] |= boundary_edge | feature_edge;
+                s_.edges.flags[face.corner] |= boundary_edge | feature_edge;
         for (const RingFace& face : ring_) {
             const RingFace* then = leading_to(face.in);
-            if (then && differ(face, *then)) s_.flags[then->corner] |= feature_edge;
+            if (then && differ(face, *then)) s_.edges.flags[then->corner] |= feature_edge;
         }
     }
 
@@ -144,9 +144,9 @@ class Classifier {
             if (differ(*now, *then)) features_.push_back(then->corner);
             now = then;
         }
-        for (const Index c : features_) s_.flags[c] |= feature_edge;
+        for (const Index c : features_) s_.edges.flags[c] |= feature_edge;
         if (open) {
-            s_.flags[start->corner] |= boundary_edge | feature_edge;
+            s_.edges.flags[start->corner] |= boundary_edge | feature_edge;
             locked_ |= turns_between(now->in, s_.tri[start->corner], start->out);
         }
         features += static_cast<int>(features_.size());
@@ -198,8 +198,8 @@ struct OpenEdge {
 /// The vertices of the mesh at both ends of every boundary edge of finite length.
 std::vector<std::array<Index, 2>> open_edges(const State& s, const Mesh& mesh) {
     std::vector<std::array<Index, 2>> ends;
-    for (Index c = 0; c < s.flags.size(); ++c) {
-        if (!(s.flags[c] & boundary_edge)) continue;
+    for (Index c = 0; c < s.edges.flags.size(); ++c) {
+        if (!(s.edges.flags[c] & boundary_edge)) continue;
         const Index u = s.source[s.tri[c]], v = s.source[s.tri[after(c)]];
         if (is_finite(mesh.positions[u]) && is_finite(mesh.positions[v])) ends.push_back({u, v});
     }
@@ -253,31 +253,32 @@ void classify(State& s, const Mesh& mesh, const SimplifyLocks& lock, std::option
         return !lock.body.empty() && std::all_of(lock.body.begin(), lock.body.end(),
                                                  [&](const Plane& plane) { return side(plane, p) >= 0; });
     };
-    s.kind.resize(s.vertex_slots());
+    Features& features = s.features.emplace();
+    features.kind.resize(s.vertex_slots());
     parallel_chunks(s.vertex_slots(), [&](std::size_t begin, std::size_t end) {
         Classifier kind_of(s, borders, lock, corner_angle);
         for (std::size_t v = begin; v < end; ++v) {
-            s.kind[v] = kind_of(static_cast<Index>(v));
+            features.kind[v] = kind_of(static_cast<Index>(v));
             const Index source = s.source[v];
             if (in_body(mesh.positions[source]) || (!lock.vertices.empty() && lock.vertices[source]))
-                s.kind[v] = std::max(s.kind[v], Kind::corner);
+                features.kind[v] = std::max(features.kind[v], Kind::corner);
         }
     });
-    s.has_features = parallel_reduce(
-                         s.flags.size(), 0,
-                         [&](std::size_t begin, std::size_t end) {
-                             int any = 0;
-                             for (std::size_t c = begin; c < end; ++c) any |= s.flags[c] & feature_edge;
-                             return any;
-                         },
-                         [](int a, int b) { return a | b; }) != 0;
+    features.any = parallel_reduce(
+                       s.edges.flags.size(), 0,
+                       [&](std::size_t begin, std::size_t end) {
+                           int any = 0;
+                           for (std::size_t c = begin; c < end; ++c) any |= s.edges.flags[c] & feature_edge;
+                           return any;
+                       },
+                       [](int a, int b) { return a | b; }) != 0;
 }
 
 std::vector<std::uint8_t> feature_corners(const State& s) {
-    if (!s.has_features) return {};
-    std::vector<std::uint8_t> features(s.flags.size());
-    parallel_for(s.flags.size(), [&](std::size_t c) {
-        features[3 * s.face_source[c / 3] + c % 3] = s.flags[c] & feature_edge;
+    if (!s.features || !s.features->any) return {};
+    std::vector<std::uint8_t> features(s.edges.flags.size());
+    parallel_for(s.edges.flags.size(), [&](std::size_t c) {
+        features[3 * s.face_source[c / 3] + c % 3] = s.edges.flags[c] & feature_edge;
     });
     return features;
 }

@@ -25,7 +25,7 @@ class CoincidentBorders {
     /// wedges stay unused. Vertex attributes go to the wedges.
     CoincidentBorders(Mesh& mesh, const std::vector<Index>& target);
 
-    const std::vector<Index>& sides() const { return sides_; } ///< see State::side_of_wedge
+    const std::vector<Index>& sides() const { return sides_; } ///< see Features::side_of_wedge
     /// Separates the vertices of a simplified mesh as they were. wedges: those of the joined mesh that are
     /// left.
     void separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes) const;

@@ -16,7 +16,7 @@ struct Goal {
     bool met(std::size_t faces_now, std::size_t vertices_now) const {
         return faces_now <= faces || vertices_now <= vertices;
     }
-    bool met(const State& s) const { return met(s.live_faces, s.live_vertices); }
+    bool met(const State& s) const { return met(s.rings.live_faces, s.rings.live_vertices); }
     bool met(const Shape& s) const { return met(s.face_slots(), s.vertex_slots()); }
 };
 
@@ -110,7 +110,7 @@ struct Origin {
 Shape rolled_back(const Origin& origin, Log& log, std::size_t steps);
 
 /// Counts the self-intersections of the mesh that a shape was finished as; when there are more than allowed,
-/// lowers the limits (see State::limits) of all vertices of the input that went into the vertices of the
+/// lowers the limits (see Bounds::limits) of all vertices of the input that went into the vertices of the
 /// faces concerned: to a part of the largest error there, or to 0.
 std::size_t limit_intersecting(const Shape& shape, const Log& log, const Mesh& finished, std::size_t allowed,
                                bool to_zero, std::vector<float>& limits);

@@ -83,8 +83,8 @@ class Passes {
     void count() {
         faces_ = vertices_ = 0;
         for (const Member& m : members_) {
-            faces_ += m.uses * m.state->live_faces;
-            vertices_ += m.uses * m.state->live_vertices;
+            faces_ += m.uses * m.state->rings.live_faces;
+            vertices_ += m.uses * m.state->rings.live_vertices;
         }
     }
 
@@ -104,7 +104,7 @@ class Passes {
         std::size_t in_task = 0;
         for (std::size_t m = 0; m < members_.size(); ++m) {
             first_block_.push_back(blocks_.size());
-            const std::size_t corners = members_[m].state->cost.size();
+            const std::size_t corners = members_[m].state->edges.cost.size();
             for (std::size_t c = 0; c < corners; c += corner_chunk) {
                 const std::size_t end = std::min(corners, c + corner_chunk);
                 if (in_task > 0 && in_task + end - c > corner_chunk) {
@@ -138,7 +138,7 @@ class Passes {
         const bool all = std::exchange(refresh_all_, false);
         for_members([&](std::size_t m) {
             ++members_[m].done.passes;
-            ++members_[m].state->pass;
+            ++members_[m].state->order.pass;
             if (all) price_all(*members_[m].state);
         });
         if (all) return;
@@ -152,9 +152,9 @@ class Passes {
         State& s = *members_[block.member].state;
         Pricer pricer(s);
         for (auto c = static_cast<Index>(block.begin); c < block.end; ++c) {
-            if (!(s.flags[c] & refused) || !s.live(c / 3)) continue;
+            if (!(s.edges.flags[c] & refused) || !s.live(c / 3)) continue;
             const Index u = s.tri[c], v = s.tri[after(c)];
-            if (s.dirty[u] == s.pass - 1 || s.dirty[v] == s.pass - 1) pricer(c, u, v);
+            if (s.order.dirty[u] == s.order.pass - 1 || s.order.dirty[v] == s.order.pass - 1) pricer(c, u, v);
         }
         pricer.finish();
     }
@@ -187,7 +187,7 @@ class Passes {
                     const Member& m = members_[blocks_[b].member];
                     const float factor = factors_[blocks_[b].member];
                     for (std::size_t c = blocks_[b].begin; c < blocks_[b].end; ++c)
-                        counts[bits_of(m.state->cost[c] * factor) >> bucket_shift] += m.uses;
+                        counts[bits_of(m.state->edges.cost[c] * factor) >> bucket_shift] += m.uses;
                 }
                 counts.pop_back();
                 return counts;
@@ -207,7 +207,7 @@ class Passes {
             const float factor = factors_[blocks_[b].member];
             const int bits = stretch_bits(s);
             for (auto c = static_cast<Index>(blocks_[b].begin); c < blocks_[b].end; ++c) {
-                const float cost = s.cost[c] * factor;
+                const float cost = s.edges.cost[c] * factor;
                 if (bits_of(cost) >= limit) continue;
                 const Index home = s.tri[c] >> bits;
                 found[b].push_back({key_of(cost, c), c, s.tri[after(c)] >> bits == home ? home : none});
@@ -232,7 +232,7 @@ class Passes {
             members_[m].done.largest = std::max(members_[m].done.largest, totals[m].largest);
             since_retry_ += members_[m].uses * totals[m].collapses;
             State& s = *members_[m].state;
-            if (10 * s.live_faces < 6 * s.face_slots()) compact(s);
+            if (10 * s.rings.live_faces < 6 * s.face_slots()) compact(s);
         }
     }
 
@@ -245,11 +245,11 @@ class Passes {
             if (std::all_of(lists.begin(), lists.end(), [](const auto& list) { return list.empty(); }))
                 return;
             State& s = *members_[m].state;
-            const std::size_t uses = members_[m].uses, other_faces = faces_ - uses * s.live_faces,
-                              other_vertices = vertices_ - uses * s.live_vertices;
+            const std::size_t uses = members_[m].uses, other_faces = faces_ - uses * s.rings.live_faces,
+                              other_vertices = vertices_ - uses * s.rings.live_vertices;
             const auto most = [&] { // as if the others stayed
-                const std::size_t left =
-                    remaining(other_faces + uses * s.live_faces, other_vertices + uses * s.live_vertices);
+                const std::size_t left = remaining(other_faces + uses * s.rings.live_faces,
+                                                   other_vertices + uses * s.rings.live_vertices);
                 return (left + uses - 1) / uses;
             };
             totals[m] = collapse_by_stretches(s, lists, most);
@@ -308,19 +308,19 @@ class Passes {
 SimplifyResult::Blocked count_blocked(const State& s) {
     SimplifyResult::Blocked all;
     std::vector<std::uint8_t> at_seam(s.vertex_slots());
-    for (Index c = 0; c < s.flags.size(); ++c)
-        if (s.live(c / 3) && (s.flags[c] & feature_edge) && !(s.flags[c] & boundary_edge))
+    for (Index c = 0; c < s.edges.flags.size(); ++c)
+        if (s.live(c / 3) && (s.edges.flags[c] & feature_edge) && !(s.edges.flags[c] & boundary_edge))
             at_seam[s.tri[c]] = at_seam[s.tri[after(c)]] = 1;
-    for (Index c = 0; c < s.flags.size(); ++c) {
+    for (Index c = 0; c < s.edges.flags.size(); ++c) {
         if (!s.live(c / 3)) continue;
-        if (s.flags[c] & blocked_border) {
+        if (s.edges.flags[c] & blocked_border) {
             const Index u = s.tri[c], v = s.tri[after(c)];
-            const bool pinned = s.kind[u] == Kind::pinned || s.kind[v] == Kind::pinned;
+            const bool pinned = s.features->kind[u] == Kind::pinned || s.features->kind[v] == Kind::pinned;
             ++(pinned ? all.non_manifold : at_seam[u] || at_seam[v] ? all.seams : all.borders);
         }
-        all.topology += (s.flags[c] & blocked_topology) != 0;
-        all.flips += (s.flags[c] & blocked_flip) != 0;
-        all.error += (s.flags[c] & blocked_error) != 0;
+        all.topology += (s.edges.flags[c] & blocked_topology) != 0;
+        all.flips += (s.edges.flags[c] & blocked_flip) != 0;
+        all.error += (s.edges.flags[c] & blocked_error) != 0;
     }
     return all;
 }

@@ -37,8 +37,8 @@ class Sharer {
 
     std::size_t faces_given() const { return subject_->faces(); }
     std::size_t vertices_given() const { return vertices_given_; }
-    std::size_t faces() const { return state_ ? state_->live_faces : faces_given(); }
-    std::size_t vertices() const { return state_ ? state_->live_vertices : vertices_given(); }
+    std::size_t faces() const { return state_ ? state_->rings.live_faces : faces_given(); }
+    std::size_t vertices() const { return state_ ? state_->rings.live_vertices : vertices_given(); }
     const CoincidentBorders* borders() const { return subject_->borders(); }
 
     void lay_out() {

@@ -96,7 +96,7 @@ std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& 
     std::vector<SimplifyResult> levels;
     for (const double ratio : settings.levels) {
         const std::size_t faces = share_of(subject.faces(), ratio);
-        if ((s ? s->live_faces : subject.faces()) <= faces) {
+        if ((s ? s->rings.live_faces : subject.faces()) <= faces) {
             levels.push_back(levels.empty() ? subject.unchanged() : levels.back());
             continue;
         }

@@ -70,10 +70,10 @@ Frame frame_of(const Mesh& mesh) {
 /// The lists of corners per vertex, from tri.
 void build_lists(State& s) {
     // Serial: along the curve this is a few milliseconds per million faces, less than sorting would take.
-    s.first.assign(s.vertex_slots(), none);
-    resize_large(s.next, s.tri.size());
+    s.rings.first.assign(s.vertex_slots(), none);
+    resize_large(s.rings.next, s.tri.size());
     for (std::size_t c = s.tri.size(); c-- > 0;)
-        s.next[c] = std::exchange(s.first[s.tri[c]], static_cast<Index>(c));
+        s.rings.next[c] = std::exchange(s.rings.first[s.tri[c]], static_cast<Index>(c));
 }
 
 /// Keeps the items listed, in their order; an empty array stays empty. per: values of one item.
@@ -97,13 +97,21 @@ void keep_vertices(Shape& s, const std::vector<Index>& kept) {
     keep(s.source, kept);
 }
 
+void keep_vertices(QuadricCost& cost, bool seams, const std::vector<Index>& kept) {
+    keep(cost.near, kept);
+    if (cost.fine) keep(*cost.fine, kept);
+    if (!cost.attributes || seams) return; // those of wedges stay
+    keep(cost.attributes->squares, kept);
+    keep(cost.attributes->sums, kept, 4 * cost.attributes->channels);
+}
+
 void keep_faces(State& s, const std::vector<Index>& kept) {
     keep(s.tri, kept, 3);
     keep(s.wedge, kept, 3);
-    keep(s.flags, kept, 3);
-    keep(s.cost, kept, 3);
+    keep(s.edges.flags, kept, 3);
+    keep(s.edges.cost, kept, 3);
     keep(s.face_source, kept);
-    if (s.followed) keep(s.followed->first, kept);
+    if (s.bounds.followed) keep(s.bounds.followed->first, kept);
 }
 
 } // namespace
@@ -129,13 +137,13 @@ State lay_out(const Mesh& mesh, const UsedVertices& used) {
         s.at[i] = s.frame.inside(mesh.positions[order[i].item]);
     });
     s.moved.resize(n);
-    s.touched.resize(n);
-    s.dirty.resize(n);
+    s.order.touched.resize(n);
+    s.order.dirty.resize(n);
     const std::vector<Keyed> faces = ordered_faces(mesh, rank, n);
     resize_large(s.tri, 3 * m);
-    resize_large(s.flags, 3 * m);
+    resize_large(s.edges.flags, 3 * m);
     resize_large(s.face_source, m);
-    resize_large(s.cost, 3 * m, never);
+    resize_large(s.edges.cost, 3 * m, never);
     if (mesh.has_seams()) s.wedge.resize(3 * m);
     parallel_for(m, [&](std::size_t i) {
         s.face_source[i] = faces[i].item;
@@ -145,33 +153,28 @@ State lay_out(const Mesh& mesh, const UsedVertices& used) {
             if (mesh.has_seams()) s.wedge[3 * i + k] = mesh.corners[c];
         }
     });
-    s.live_faces = m;
-    s.live_vertices = n;
+    s.rings.live_faces = m;
+    s.rings.live_vertices = n;
     build_lists(s);
     return s;
 }
 
 void compact(State& s) {
     std::vector<Index> faces, vertices;
-    faces.reserve(s.live_faces);
-    vertices.reserve(s.live_vertices);
+    faces.reserve(s.rings.live_faces);
+    vertices.reserve(s.rings.live_vertices);
     for (Index f = 0; f < s.face_slots(); ++f)
         if (s.live(f)) faces.push_back(f);
     // A vertex that was collapsed, or lost its last face, has no list.
     for (Index v = 0; v < s.vertex_slots(); ++v)
-        if (s.first[v] != none) vertices.push_back(v);
+        if (s.rings.first[v] != none) vertices.push_back(v);
     keep_faces(s, faces);
-    if (s.attributes && !s.has_seams()) {
-        keep(s.attributes->squares, vertices);
-        keep(s.attributes->sums, vertices, 4 * s.attributes->channels);
-    }
     keep_vertices(s, vertices);
-    keep(s.kind, vertices);
-    keep(s.touched, vertices);
-    keep(s.dirty, vertices);
-    if (s.quadrics) keep(*s.quadrics, vertices);
-    if (s.fine) keep(*s.fine, vertices);
-    if (s.limits) keep(*s.limits, vertices);
+    if (s.features) keep(s.features->kind, vertices);
+    keep(s.order.touched, vertices);
+    keep(s.order.dirty, vertices);
+    if (s.quadrics) keep_vertices(*s.quadrics, s.has_seams(), vertices);
+    if (s.bounds.limits) keep(*s.bounds.limits, vertices);
     build_lists(s);
 }
 

@@ -102,34 +102,63 @@ struct Rules {
     bool changes_topology = false; ///< is allowed to
 };
 
-struct State : Shape {
-    // Per corner.
-    std::vector<Index> next;         ///< next corner at the same vertex, or none
-    std::vector<std::uint8_t> flags; ///< bits of the edge
-    std::vector<float> cost;         ///< of the edge, once per edge; never elsewhere
-    // Per vertex.
-    std::vector<Index> first;           ///< first corner at the vertex, or none
-    std::vector<Kind> kind;             ///< empty where borders are not kept, see cluster
-    std::vector<std::uint32_t> touched; ///< pass that changed the vertex last
-    std::vector<std::uint32_t> dirty;   ///< pass that changed a neighbour last: what was refused may do now
-
-    Rules rules;
-    bool has_features = false;
+/// The faces around each vertex, as lists of corners.
+struct Rings {
+    std::vector<Index> first; ///< [vertices] the first corner at the vertex, or none
+    std::vector<Index> next;  ///< [corners] the next corner at the same vertex, or none
     std::size_t live_faces = 0, live_vertices = 0;
-    std::uint32_t pass = 1; ///< the last one, in touched and dirty
+};
 
-    std::optional<std::vector<NearQuadric>> quadrics; ///< [vertices] none: edges cost their length
-    std::optional<std::vector<FineQuadric>> fine;     ///< [vertices] the same; where much is nearly flat
-    std::optional<AttributeError> attributes;         ///< none: they weigh nothing
-    std::optional<std::vector<float>> limits; ///< [vertices] squared error that a collapse there stays below
-    double max_squared_error = HUGE_VAL;      ///< squared error beyond which no collapse goes
-    std::optional<FollowedPoints> followed;   ///< with max_error
-    std::optional<Log> log;                   ///< when attributes or a rollback need it
+/// What is known of the edges that corners stand for.
+struct Edges {
+    std::vector<std::uint8_t> flags; ///< [corners] bits: features, and why it was not collapsed
+    std::vector<float> cost;         ///< [corners] once per edge; never elsewhere
+};
+
+/// Which vertices features hold.
+struct Features {
+    std::vector<Kind> kind; ///< [vertices]
+    bool any = false;       ///< edges are flagged
     /// [wedges] with coincident borders: the vertex that each wedge was at before they were joined. Two sides
     /// never end in one wedge, else a slit could close.
     const std::vector<Index>* side_of_wedge = nullptr;
+};
+
+/// What collapses cost by the planes that vertices stand for.
+struct QuadricCost {
+    std::vector<NearQuadric> near;                ///< [vertices]
+    std::optional<std::vector<FineQuadric>> fine; ///< [vertices] the same; where much is nearly flat
+    std::optional<AttributeError> attributes;     ///< none: they weigh nothing
+};
+
+/// What has changed since an edge was looked at.
+struct Order {
+    std::uint32_t pass = 1;             ///< the last one
+    std::vector<std::uint32_t> touched; ///< [vertices] pass that changed the vertex last
+    std::vector<std::uint32_t>
+        dirty; ///< [vertices] pass that changed a neighbour last: what was refused may do now
+};
+
+/// How far collapses may go.
+struct Bounds {
+    double max_squared_error = HUGE_VAL;      ///< squared error beyond which none goes
+    std::optional<std::vector<float>> limits; ///< [vertices] squared error that one there stays below
+    std::optional<FollowedPoints> followed;   ///< with max_error
+};
+
+struct State : Shape {
+    Rings rings;
+    Edges edges;
+    std::optional<Features> features;    ///< none: borders are not kept, see cluster
+    std::optional<QuadricCost> quadrics; ///< none: edges cost their length
+    Order order;
+    Rules rules;
+    Bounds bounds;
+    std::optional<Log> log; ///< when attributes or a rollback need it
 
     bool live(Index f) const { return tri[3 * f] != none; }
+    /// Whether attributes weigh in costs.
+    bool weighs_attributes() const { return quadrics && quadrics->attributes; }
 };
 
 inline Index after(Index c) { return c % 3 == 2 ? c - 2 : c + 1; }

@@ -121,7 +121,7 @@ class Stretches {
 
     void work_all(std::vector<Share>& shares) {
         parallel_for(
-            shares.size(), [&](std::size_t i) { collapse_share(s_, shares[i], s_.live_faces); }, 1);
+            shares.size(), [&](std::size_t i) { collapse_share(s_, shares[i], s_.rings.live_faces); }, 1);
         for (Share& share : shares) {
             join(s_, share.tally, totals_);
             crossing_.insert(crossing_.end(), share.crossing.begin(), share.crossing.end());
@@ -180,24 +180,24 @@ int stretch_bits(const State& s) {
 void fetch_ends(const State& s, Index corner) {
     for (const Index v : {s.tri[corner], s.tri[after(corner)]}) {
         if (v == none) continue;
-        __builtin_prefetch(&s.first[v]);
-        __builtin_prefetch(&s.touched[v]);
+        __builtin_prefetch(&s.rings.first[v]);
+        __builtin_prefetch(&s.order.touched[v]);
         __builtin_prefetch(&s.at[v]);
     }
 }
 
 void fetch_lists(const State& s, Index corner) {
     for (const Index v : {s.tri[corner], s.tri[after(corner)]}) {
-        if (v == none || s.touched[v] == s.pass || s.first[v] == none) continue;
-        __builtin_prefetch(&s.tri[s.first[v]]);
-        __builtin_prefetch(&s.next[s.first[v]]);
-        if (s.quadrics) __builtin_prefetch(&(*s.quadrics)[v]);
+        if (v == none || s.order.touched[v] == s.order.pass || s.rings.first[v] == none) continue;
+        __builtin_prefetch(&s.tri[s.rings.first[v]]);
+        __builtin_prefetch(&s.rings.next[s.rings.first[v]]);
+        if (s.quadrics) __builtin_prefetch(&s.quadrics->near[v]);
     }
 }
 
 void join(State& s, Tally& tally, PassTotals& totals) {
-    s.live_faces -= tally.faces;
-    s.live_vertices -= tally.vertices;
+    s.rings.live_faces -= tally.faces;
+    s.rings.live_vertices -= tally.vertices;
     totals.collapses += tally.collapses;
     totals.largest = std::max(totals.largest, tally.largest);
     if (s.log) join_logs(*s.log, tally.log);

@@ -39,8 +39,8 @@ PassTotals collapse_by_stretches(State& s, std::span<const std::vector<Candidate
 
 /// Whether an edge is still to be collapsed: its face lives, and the pass touched neither end.
 inline bool is_open(const State& s, Index corner) {
-    return s.live(corner / 3) && s.touched[s.tri[corner]] != s.pass &&
-           s.touched[s.tri[after(corner)]] != s.pass;
+    return s.live(corner / 3) && s.order.touched[s.tri[corner]] != s.order.pass &&
+           s.order.touched[s.tri[after(corner)]] != s.order.pass;
 }
 
 void fetch_ends(const State& s, Index corner);

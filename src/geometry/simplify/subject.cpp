@@ -58,22 +58,22 @@ Subject::Subject(Mesh given, const SimplifySettings& settings)
 
 State Subject::state(bool rollback, const std::vector<float>* limits) {
     State s = laid_out();
-    if (borders_) s.side_of_wedge = &borders_->sides();
+    if (borders_) s.features->side_of_wedge = &borders_->sides();
     if (settings_.method == Method::quadric || settings_.method == Method::quadric_endpoints) {
         set_quadrics(s);
-        s.attributes =
+        s.quadrics->attributes =
             attribute_error(s, mesh(), settings_.weights, seams_.shading != NormalSeams::Shading::faceted);
     }
     s.rules = {.endpoints = settings_.method == Method::quadric_endpoints,
                .changes_topology = settings_.topology == SimplifySettings::Topology::allow};
     if (settings_.max_quadric_error && s.quadrics) {
         const double max_error = *settings_.max_quadric_error * s.frame.scale;
-        s.max_squared_error = max_error * max_error;
+        s.bounds.max_squared_error = max_error * max_error;
     }
     if (rollback || carries_attributes(mesh())) s.log.emplace().features = feature_corners(s);
     if (limits) {
-        s.limits.emplace();
-        for (const Index v : s.source) s.limits->push_back((*limits)[v]);
+        s.bounds.limits.emplace();
+        for (const Index v : s.source) s.bounds.limits->push_back((*limits)[v]);
     }
     return s;
 }
@@ -151,7 +151,8 @@ bool Subject::join_borders(const State& s) {
 }
 
 bool Subject::orient_faces(const State& s) {
-    const bool pinned = std::find(s.kind.begin(), s.kind.end(), Kind::pinned) != s.kind.end();
+    const bool pinned =
+        std::find(s.features->kind.begin(), s.features->kind.end(), Kind::pinned) != s.features->kind.end();
     if (!pinned || !turned_.empty()) return false;
     std::vector<std::uint8_t> turned = consistent_flips(mesh());
     start_.turned = static_cast<std::size_t>(std::count(turned.begin(), turned.end(), 1));

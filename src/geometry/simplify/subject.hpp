@@ -20,7 +20,7 @@ class Subject {
     std::size_t vertices() const { return used_.count; } ///< that faces use
     const CoincidentBorders* borders() const { return borders_ ? &*borders_ : nullptr; }
 
-    /// All that the method needs. rollback: every collapse is logged. limits: see State::limits, of the
+    /// All that the method needs. rollback: every collapse is logged. limits: see Bounds::limits, of the
     /// vertices of the mesh; null: none.
     State state(bool rollback, const std::vector<float>* limits = nullptr);
 

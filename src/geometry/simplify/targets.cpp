@@ -101,8 +101,8 @@ void run_passes_separate(std::span<Member> members, std::span<const CoincidentBo
         } all;
         for (std::size_t m = 0; m < members.size(); ++m) {
             const State& s = *members[m].state;
-            all.faces += members[m].uses * s.live_faces;
-            all.vertices += members[m].uses * s.live_vertices;
+            all.faces += members[m].uses * s.rings.live_faces;
+            all.vertices += members[m].uses * s.rings.live_vertices;
             if (borders[m]) all.doubled += members[m].uses * borders[m]->doubled(s);
         }
         return all;

@@ -45,8 +45,8 @@ void add_upright(Quadric& q, const State& s, Index c, double weight) {
 }
 
 void add_feature(Quadric& q, const State& s, Index c) {
-    if (s.flags[c] & feature_edge)
-        add_upright(q, s, c, s.flags[c] & boundary_edge ? boundary_weight : feature_weight);
+    if (s.edges.flags[c] & feature_edge)
+        add_upright(q, s, c, s.edges.flags[c] & boundary_edge ? boundary_weight : feature_weight);
 }
 
 /// Whether a face may be turned against another by more than 90 degrees: none is when all are within 45
@@ -80,7 +80,7 @@ const FoldCorner* next_with_area(const std::vector<FoldCorner>& corners, Index o
 /// planes leave free: the cosine of the angle between the faces.
 void add_folds(Quadric& q, const State& s, Index v, const std::vector<Vec3>& normals) {
     std::vector<FoldCorner> corners;
-    for (Index c = s.first[v]; c != none; c = s.next[c])
+    for (Index c = s.rings.first[v]; c != none; c = s.rings.next[c])
         corners.push_back({s.tri[before(c)], s.tri[after(c)], c});
     std::sort(corners.begin(), corners.end(), [](const FoldCorner& a, const FoldCorner& b) {
         return a.in != b.in ? a.in < b.in : a.corner < b.corner;
@@ -106,13 +106,13 @@ Quadric quadric_at(const State& s, Index v, const std::vector<Vec3>& normals) {
     std::size_t size = 0;
     Quadric q;
     Vec3 mean;
-    for (Index c = s.first[v]; c != none; c = s.next[c]) {
+    for (Index c = s.rings.first[v]; c != none; c = s.rings.next[c]) {
         const Vec3& w = normals[c / 3];
         if (size < few.size()) few[size] = w;
         ++size;
         add_plane(q, w);
         mean += w;
-        if (!s.has_features) continue;
+        if (!s.features || !s.features->any) continue;
         add_feature(q, s, c);
         add_feature(q, s, before(c));
     }
@@ -140,10 +140,10 @@ bool is_mostly_flat(const State& s) {
     };
     const std::size_t stride = s.face_slots() / flat_sample + 1;
     const auto look = [&](Index c, Count& count) {
-        if (!may_go(s.kind[s.tri[c]], s.kind[s.tri[after(c)]], s.flags[c])) return;
+        if (!may_go(s.features->kind[s.tri[c]], s.features->kind[s.tri[after(c)]], s.edges.flags[c])) return;
         const Vec3 along = s.at[s.tri[after(c)]] - s.at[s.tri[c]];
         ++count.all;
-        count.flat += place(s, c, s.flags[c]).error < invisible * dot(along, along);
+        count.flat += place(s, c, s.edges.flags[c]).error < invisible * dot(along, along);
     };
     const Count found = parallel_reduce(
         s.face_slots() / stride, Count{},
@@ -166,8 +166,8 @@ bool is_mostly_flat(const State& s) {
 std::vector<NearQuadric> vertex_quadrics(const State& s) { return all_quadrics<float>(s); }
 
 void set_quadrics(State& s) {
-    s.quadrics = vertex_quadrics(s);
-    if (is_mostly_flat(s)) s.fine = all_quadrics<double>(s);
+    s.quadrics = {.near = vertex_quadrics(s), .fine = {}, .attributes = {}};
+    if (is_mostly_flat(s)) s.quadrics->fine = all_quadrics<double>(s);
 }
 
 } // namespace facetmill::simplification

@@ -23,7 +23,7 @@ namespace {
 State priced(const Mesh& mesh, bool endpoints) {
     State s = lay_out(mesh, UsedVertices(mesh));
     classify(s, mesh, {});
-    s.quadrics = vertex_quadrics(s);
+    s.quadrics = {.near = vertex_quadrics(s), .fine = {}, .attributes = {}};
     s.rules.endpoints = endpoints;
     price_all(s);
     return s;
@@ -33,10 +33,10 @@ State priced(const Mesh& mesh, bool endpoints) {
 std::size_t check_costs(const State& s) {
     std::size_t priced = 0;
     for (Index c = 0; c < s.tri.size(); ++c) {
-        if (!(s.cost[c] < never)) continue;
-        const double one = cost_of(s, c, s.flags[c]);
+        if (!(s.edges.cost[c] < never)) continue;
+        const double one = cost_of(s, c, s.edges.flags[c]);
         // Single precision, and another pull to the middle where the planes leave the place free.
-        CHECK(s.cost[c] == Approx(one).epsilon(1e-2));
+        CHECK(s.edges.cost[c] == Approx(one).epsilon(1e-2));
         ++priced;
     }
     return priced;
@@ -143,7 +143,7 @@ TEST_CASE("fine quadrics are for surfaces with much that is flat", "[geometry]")
         State s = lay_out(mesh, UsedVertices(mesh));
         classify(s, mesh, {});
         set_quadrics(s);
-        return s.fine.has_value();
+        return s.quadrics->fine.has_value();
     };
     CHECK(is_fine(shapes::grid(20, 20)));
     CHECK_FALSE(is_fine(crumple(shapes::grid(20, 20), {.amplitude = 1e-1}).mesh));
@@ -164,8 +164,8 @@ TEST_CASE("passes that meet their goal tell that all is done", "[geometry][simpl
     std::atomic<double> heard{-1};
     const Share share(&heard);
     Goal goal;
-    goal.faces = s.live_faces / 2;
+    goal.faces = s.rings.live_faces / 2;
     run_passes(s, goal);
-    CHECK(s.live_faces <= goal.faces);
+    CHECK(s.rings.live_faces <= goal.faces);
     CHECK(heard == 1);
 }
