@@ -7,6 +7,7 @@
 #   make asan     the same with AddressSanitizer and UndefinedBehaviorSanitizer
 #   make tsan     the same with ThreadSanitizer, on plain threads in the place of TBB (slow)
 #   make faults   make calls of the system fail, one in each of some thousand runs (tests/faults/faults.py)
+#   make fuzz     random meshes through random chains of stages for a while (MINUTES=10, FIRST=1, the first seed)
 #   make bench    build and run the benchmarks               (FILTER=clip for some of them)
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
@@ -17,10 +18,12 @@ PRESET ?= release
 JOBS ?= $(shell n=$$(nproc); [ $$n -gt 2 ] && echo 2 || echo $$n)
 PREFIX ?= /usr/local
 FILTER ?= .
+MINUTES ?= 10
+FIRST ?= 1
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults bench install deb format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults fuzz bench install deb format check-layers check-style clean
 all: build
 
 deps:
@@ -57,6 +60,10 @@ faults: build
 	python3 tests/faults/faults.py
 	python3 tests/faults/faults.py --kill
 	python3 tests/faults/faults.py --stages
+
+fuzz: build
+	@cmake --build --preset $(PRESET) -j $(JOBS) --target fuzz_stages
+	nice -n 19 $(BUILD)/tests/fuzz_stages $$((60 * $(MINUTES))) $(FIRST)
 
 bench:
 	@tools/deps.sh --bench

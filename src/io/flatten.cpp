@@ -3,6 +3,7 @@
 #include "base/json.hpp"
 #include "base/words.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <fmt/format.h>
@@ -10,6 +11,17 @@
 #include <set>
 
 namespace facetmill::io {
+
+void require_floats(const Mesh& mesh, const std::string& what) {
+    constexpr double max_float = 3.4028234663852886e38;
+    const Box box = mesh.bounds();
+    for (std::size_t i = 0; i < 3 && !box.empty(); ++i)
+        if (!(box.min[i] >= -max_float && box.max[i] <= max_float))
+            throw Error(ErrorKind::stage, "E-RANGE",
+                        fmt::format("{} has positions that float32 cannot hold, up to {}", what,
+                                    std::max(-box.min[i], box.max[i])),
+                        "bring the scene near 1 in size first: transform: {scale: ...}");
+}
 
 WorldMesh::WorldMesh(const Part& part) {
     if (part.transform.identity()) {

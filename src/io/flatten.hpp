@@ -20,6 +20,9 @@ class WorldMesh {
     Mesh own_;
 };
 
+/// Throws stage (E-RANGE) when a position is beyond what float32 holds. what: "part 'cube'", "the scene".
+void require_floats(const Mesh& mesh, const std::string& what);
+
 /// What a format cannot hold: its attribute changes.
 void dropped(Written& written, const Attribute& attribute, std::string why);
 

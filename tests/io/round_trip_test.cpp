@@ -65,6 +65,22 @@ TEST_CASE("PLY holds polygons and shared vertices in every encoding", "[io]") {
         }
 }
 
+TEST_CASE("positions beyond float32 are refused by whatever would round them", "[io]") {
+    Mesh mesh = shapes::tetrahedron();
+    mesh.positions[0].x = 1e39;
+    for (const char* format : {"ply", "obj", "off", "stl", "gltf", "glb"}) {
+        INFO(format);
+        const io::Codec& codec = *io::codec_named(format);
+        const std::string told = failure([&] { codec.write(scene_of(mesh), {.title = "mesh"}); });
+        CHECK(told.starts_with("stage [E-RANGE]"));
+        CHECK(told.find("float32 cannot hold, up to 1e+39") != std::string::npos);
+        if (codec.can.full_precision)
+            CHECK(failure([&] {
+                      codec.write(scene_of(mesh), {.double_positions = true, .title = "mesh"});
+                  }) == "nothing");
+    }
+}
+
 TEST_CASE("PLY holds positions with all their digits on request", "[io]") {
     Mesh mesh = shapes::tetrahedron();
     mesh.positions[0] = {1.0 / 3, std::nextafter(2.0, 3.0), 1e-300};

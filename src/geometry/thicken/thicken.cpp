@@ -445,6 +445,7 @@ WiresResult wires(const Mesh& mesh, const WiresSettings& s) {
         for (Index i = 0; i < n; ++i) *corner++ = first + n + i;
     });
     r.mesh.face_offsets.back() = static_cast<Index>(r.mesh.corners.size());
+    normalise_offsets(r.mesh); // of no edges
     return r;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
+#include "io/flatten.hpp"
 #include "io/gltf/draco/draco.hpp"
 #include "io/gltf/order.hpp"
 
@@ -48,16 +49,6 @@ std::vector<Table> tables_of(const Mesh& mesh, bool shared) {
         tables.push_back(std::move(table));
     }
     return tables;
-}
-
-void check_range(const Mesh& mesh, const std::string& name) {
-    constexpr double max_float = 3.4028234663852886e38;
-    const Box box = mesh.bounds();
-    for (std::size_t i = 0; i < 3 && !box.empty(); ++i)
-        if (!(box.min[i] >= -max_float && box.max[i] <= max_float))
-            throw Error(ErrorKind::stage, "E-RANGE",
-                        fmt::format("part '{}' has positions that float32 cannot hold, up to {}", name,
-                                    std::max(-box.min[i], box.max[i])));
 }
 
 Bytes index_bytes(const std::vector<Index>& indices, bool wide) {
@@ -315,7 +306,7 @@ EncodedMesh encode_mesh(Builder& builder, const Mesh& given, const EncodeSetting
     if (!given.all_triangles()) cut = triangles_of(given);
     const Mesh& mesh = given.all_triangles() ? given : cut;
     if (mesh.face_count() == 0) return out;
-    check_range(mesh, settings.name);
+    require_floats(mesh, fmt::format("part '{}'", settings.name));
     const auto columns = columns_of(mesh, settings.columns, written.changes);
     for (const auto& column : columns)
         out.targets = std::max(out.targets, static_cast<std::size_t>(column.target + 1));

@@ -228,6 +228,7 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     Offsets offsets;
     for (const auto& part : scene.parts) {
         const WorldMesh world(part);
+        if (!settings.double_positions) require_floats(*world, fmt::format("part '{}'", part.name));
         const auto pool = [&](const char* name, int components) {
             const Attribute* a = world->find(name, Domain::wedge);
             return a && a->components == components ? pool_of(*a, components == 2) : Pool{};

@@ -86,6 +86,7 @@ void put_rows(Bytes& bytes, const Rows& rows, const Attribute* colour, const Att
 
 Written write(const Scene& scene, const WriteSettings& settings) {
     const WorldMesh world(scene);
+    if (!settings.double_positions) require_floats(*world, "the scene");
     const Attribute* colour = colours_of(*world, Domain::wedge);
     const Attribute* face_colour = colours_of(*world, Domain::face);
     const Attribute* normal = world->has_seams() ? nullptr : world->find("NORMAL", Domain::wedge);

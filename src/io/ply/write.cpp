@@ -292,6 +292,7 @@ void write_binary(Bytes& bytes, const Layout& l) {
 
 Written write(const Scene& scene, const WriteSettings& settings) {
     const WorldMesh world(scene);
+    if (!settings.double_positions) require_floats(*world, "the scene");
     Written written;
     Layout l{*world, settings, false, false, {}, {}, {}, Type::uint8};
     std::vector<Index> first;

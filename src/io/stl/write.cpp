@@ -135,10 +135,12 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     if (settings.ascii) {
         for (const auto& part : scene.parts) {
             const WorldMesh world(part);
+            require_floats(*world, fmt::format("part '{}'", part.name));
             write_text(bytes, *Triangles(*world), one_line(part.name));
         }
     } else {
         const WorldMesh world(scene);
+        require_floats(*world, "the scene");
         write_binary(bytes, *Triangles(*world));
     }
     tell_what_is_lost(scene, settings, written);

@@ -164,6 +164,14 @@ TEST_CASE("wires makes a closed cylinder of every edge", "[geometry]") {
     CHECK(wires(shapes::grid(2, 2), {.thickness = 0.1, .sides = 3, .open_only = true}).edges == 8);
 }
 
+TEST_CASE("wires of no edges is a sound mesh without faces", "[geometry]") {
+    WiresSettings settings;
+    settings.open_only = true;
+    const Mesh none = wires(shapes::cube(), settings).mesh;
+    CHECK(none.face_count() == 0);
+    CHECK(broken_invariants(none).empty());
+}
+
 TEST_CASE("two-sided doubles faces in reversed order", "[geometry]") {
     for (const Mesh& mesh : {shapes::grid(3, 3), shapes::open_cone(8), with_uv_seams(shapes::grid(3, 2))}) {
         const auto r = two_sided(mesh);

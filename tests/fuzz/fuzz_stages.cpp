@@ -1,0 +1,113 @@
+// Random meshes through random chains of stages, for as long as it is let: fuzz_stages SECONDS [FIRST_SEED
+// [STAGE]]. Prints the seed and the chain of everything that is wrong, what was slow, and how often each
+// stage ran, and ends with 1 when anything was wrong. STAGE: all chains begin with it.
+// tests/property/stage_chains_test.cpp runs some of the seeds.
+
+#include "support/stage_chains.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <sys/resource.h>
+#include <sys/time.h>
+
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/common_interface_defs.h>
+#endif
+
+using namespace facetmill;
+
+namespace {
+
+/// Of the processor, for one chain with one and three threads and its file: what takes longer hangs.
+constexpr int most_seconds = 300;
+constexpr double slow_seconds = 10;
+constexpr std::size_t most_mib = 3000;
+
+char current[1 << 14]; ///< the chain that runs, for whoever ends the program
+
+void tell_current() {
+    [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, current, std::strlen(current));
+}
+
+void on_signal(int number) {
+    tell_current();
+    std::signal(number, SIG_DFL);
+    std::raise(number);
+}
+
+rusage used() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage;
+}
+
+double spent() {
+    const rusage usage = used();
+    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+           1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+std::size_t peak_mib() { return static_cast<std::size_t>(used().ru_maxrss) >> 10; }
+
+/// SIGPROF ends a chain that does not end; 0: none.
+void allow_seconds(int seconds) {
+    itimerval timer{};
+    timer.it_value.tv_sec = seconds;
+    ::setitimer(ITIMER_PROF, &timer, nullptr);
+}
+
+/// What is wrong with the chain, or nothing.
+std::string judge(const test::Chain& chain, const std::string& told, test::Draw& draw,
+                  const std::filesystem::path& folder) {
+    fmt::format_to_n(current, sizeof current - 1, "ended in {}\n{}", told, '\0');
+    const double start = spent();
+    const std::size_t before = peak_mib();
+    allow_seconds(most_seconds);
+    std::string wrong = test::fault_of_chain(chain, folder, draw.word({"glb", "ply", "obj", "off", "stl"}));
+    allow_seconds(0);
+    if (spent() - start > slow_seconds) std::printf("%.0f s: %s\n", spent() - start, told.c_str());
+    if (wrong.empty() && peak_mib() > std::max(before, most_mib))
+        wrong = fmt::format("{} MiB of memory", peak_mib());
+    return wrong;
+}
+
+} // namespace
+
+int main(int count, char** arguments) {
+    if (count < 2) {
+        std::fprintf(stderr, "fuzz_stages SECONDS [FIRST_SEED [STAGE]]\n");
+        return 2;
+    }
+    for (const int number : {SIGPROF, SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL})
+        std::signal(number, on_signal);
+#ifdef __SANITIZE_ADDRESS__
+    __sanitizer_set_death_callback(tell_current);
+#endif
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(std::atoi(arguments[1]));
+    const std::uint64_t first = count > 2 ? std::strtoull(arguments[2], nullptr, 10) : 1;
+    const std::string only = count > 3 ? arguments[3] : "";
+    const test::TemporaryDirectory folder;
+    test::put_files(folder.path());
+    std::map<std::string, std::size_t> stage_runs;
+    std::size_t troubles = 0;
+    std::uint64_t seed = first;
+    for (; std::chrono::steady_clock::now() < end; ++seed) {
+        test::Draw draw(seed);
+        const test::Chain chain = test::random_chain(draw, only);
+        const std::string told = fmt::format("seed {}: {}", seed, chain.described());
+        for (const auto& link : chain.links) ++stage_runs[link.stage->name];
+        const std::string wrong = judge(chain, told, draw, folder.path());
+        if (wrong.empty()) continue;
+        ++troubles;
+        std::printf("WRONG %s\n    %s\n", told.c_str(), wrong.c_str());
+    }
+    std::printf("seeds %llu to %llu, %zu troubles, %.0f s of the processor, at most %zu MiB\n",
+                static_cast<unsigned long long>(first), static_cast<unsigned long long>(seed - 1), troubles,
+                spent(), peak_mib());
+    for (const auto& [name, runs] : stage_runs) std::printf("%s %zu\n", name.c_str(), runs);
+    return troubles > 0;
+}

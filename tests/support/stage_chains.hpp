@@ -1,0 +1,209 @@
+#pragma once
+// A random scene through a random chain of stages, and what must hold whatever they are: an Error that is no
+// bug, or a sound scene; what a stage promises of closedness; the same with any number of threads; files that
+// read back.
+
+#include "base/hash.hpp"
+#include "base/parallel.hpp"
+#include "mesh/invariants.hpp"
+#include "mesh/power_scale.hpp"
+#include "support/measure.hpp"
+#include "support/random_options.hpp"
+#include "support/random_scene.hpp"
+#include "support/temporary.hpp"
+
+#include <cstring>
+#include <set>
+
+namespace facetmill::test {
+
+struct Link {
+    const StageInfo* stage;
+    Value value;
+};
+
+/// A drawn test: what goes in, and through what.
+struct Chain {
+    Scene scene;
+    std::vector<Link> links;
+
+    /// "clip: {plane: 'x=10%'} ! relax: {}"
+    std::string described() const {
+        std::string text;
+        for (const auto& link : links)
+            text += (text.empty() ? "" : " ! ") + link.stage->name + ": " + spelled(link.value);
+        return text;
+    }
+};
+
+/// One to three stages; `only` is the name of the first, where it is not empty.
+inline Chain random_chain(Draw& draw, const std::string& only = {}) {
+    std::vector<const StageInfo*> all;
+    for (const auto& stage : stages())
+        if (!stage.name.starts_with("test-")) all.push_back(&stage); // those of other tests
+    Chain chain{random_scene(draw), {}};
+    for (std::size_t n = 1 + draw.below(3); n > 0; --n) {
+        const StageInfo* stage =
+            only.empty() || !chain.links.empty() ? draw.one_of(all) : &stage_for_test(only);
+        if (auto value = random_options(draw, *stage)) chain.links.push_back({stage, std::move(*value)});
+    }
+    return chain;
+}
+
+/// A digest of all that stages may change of a scene.
+inline std::string digest(const Scene& scene) {
+    std::string bytes;
+    const auto add = [&](const auto& values) {
+        const auto size = static_cast<std::uint64_t>(values.size());
+        bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+        using T = std::decay_t<decltype(values)>::value_type;
+        bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    };
+    for (const Part& part : scene.parts) {
+        add(part.name);
+        bytes.append(reinterpret_cast<const char*>(&part.transform), sizeof part.transform);
+        add(part.mesh.positions);
+        add(part.mesh.wedge_vertex);
+        add(part.mesh.corners);
+        add(part.mesh.face_offsets);
+        for (const auto& a : part.mesh.attributes) {
+            add(a.name);
+            std::visit(add, a.data);
+        }
+        for (const auto& p : part.mesh.primitives) add(p.json + "|" + std::to_string(p.material));
+    }
+    for (const auto& m : scene.materials) add(m.name);
+    for (const auto& d : scene.documents) add(d->json);
+    return sha256(std::as_bytes(std::span(bytes)));
+}
+
+/// Files that `load` and others find in the folder of a test.
+inline void put_files(const std::filesystem::path& folder) {
+    for (const char* format : {"ply", "obj", "stl", "glb"}) {
+        io::WriteSettings settings;
+        settings.title = "in";
+        const auto files =
+            io::codec_named(format)->write(scene_of(with_uv_seams(shapes::icosphere(1))), settings).files;
+        const auto& bytes = files.front().bytes;
+        put(folder / ("in." + std::string(format)),
+            {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+}
+
+/// Stages that promise closed parts out of closed ones, whatever their options.
+inline bool keeps_closed(const std::string& stage) {
+    static const std::set<std::string> names{"crumple",   "orient",      "relax",     "split",
+                                             "transform", "triangulate", "two-sided", "textures"};
+    return names.contains(stage);
+}
+
+/// Stages that pass the scene on as it came.
+inline bool keeps_scene(const StageInfo& stage) {
+    static const std::set<std::string> names{"probe", "render", "section", "write"};
+    return stage.checks || names.contains(stage.name);
+}
+
+inline bool all_closed(const Scene& scene) {
+    return std::all_of(scene.parts.begin(), scene.parts.end(), [](const Part& p) { return closed(p.mesh); });
+}
+inline bool all_edge_manifold(const Scene& scene) {
+    return std::all_of(scene.parts.begin(), scene.parts.end(),
+                       [](const Part& p) { return edge_manifold(p.mesh); });
+}
+
+/// What a chain did, in words that must be the same with any number of threads; and what was wrong.
+struct Outcome {
+    std::string told, wrong;
+    Scene scene;
+};
+
+/// What is wrong with the scene after a stage, or nothing.
+inline std::string fault_after(const StageInfo& stage, const Scene& before, const Scene& after) {
+    const auto broken = broken_invariants(after);
+    if (!broken.empty()) return "invariant: " + broken.front();
+    if (keeps_scene(stage) && digest(before) != digest(after)) return "the scene did not pass on unchanged";
+    if (keeps_closed(stage.name)) {
+        if (all_closed(before) && !all_closed(after)) return "closed before, open after";
+        if (all_edge_manifold(before) && !all_edge_manifold(after)) return "edge-manifold before, not after";
+    }
+    return {};
+}
+
+inline bool is_finding(const Error& error) {
+    if (error.kind() == ErrorKind::bug || error.kind() == ErrorKind::malformed) return true;
+    return error.diagnostics().front().id == "E-READBACK";
+}
+
+/// Runs the chain in the folder. Ends at the first stage that refuses, or whose result is beyond all numbers.
+inline Outcome run_chain(const Chain& chain, const std::filesystem::path& folder) {
+    Outcome outcome;
+    RunState state;
+    state.places = {folder, folder};
+    Scene scene = chain.scene;
+    state.load_diagonal = diagonal(scene.bounds());
+    for (const Link& link : chain.links) {
+        report::StageRecord record;
+        record.name = record.stage = link.stage->name;
+        Problems problems;
+        const auto options = options_of(*link.stage, link.value, problems);
+        const Scene before = scene;
+        try {
+            const PartFilter all;
+            Context context(state, record, all, scene.bounds(), {});
+            scene = perform(*link.stage, std::move(scene), options.get(), context);
+        } catch (const Error& error) {
+            outcome.told += link.stage->name + ": " + error.what() + "\n";
+            if (is_finding(error)) outcome.wrong = link.stage->name + ": " + error.what();
+            return outcome;
+        } catch (const std::exception& error) {
+            outcome.wrong = link.stage->name + ": escaped: " + error.what();
+            return outcome;
+        }
+        outcome.told += link.stage->name + ": " +
+                        record.result.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
+        for (const auto& w : record.warnings) outcome.told += w.id + " " + w.message + "\n";
+        if (not_finite(scene)) { // a run refuses it
+            outcome.told += "not finite\n";
+            return outcome;
+        }
+        outcome.wrong = fault_after(*link.stage, before, scene);
+        if (!outcome.wrong.empty()) outcome.wrong = link.stage->name + ": " + outcome.wrong;
+        if (!outcome.wrong.empty()) return outcome;
+        outcome.told += digest(scene) + "\n";
+    }
+    for (const auto& file : state.outputs.files())
+        outcome.told += file->target.string() + " " + file->sha256 + "\n";
+    outcome.scene = std::move(scene);
+    return outcome;
+}
+
+/// Writes the scene in a format and reads it: what is wrong, or nothing.
+inline std::string fault_of_file(const Scene& scene, const char* format) {
+    if (scene.face_count() == 0) return {};
+    try {
+        Scene copy = scene;
+        const auto options = Value::map({{"path", {}, Value::scalar(std::string("back.") + format)}});
+        TemporaryDirectory folder;
+        const Chain chain{std::move(copy), {{&stage_for_test("write"), options}}};
+        const Outcome outcome = run_chain(chain, folder.path());
+        return outcome.wrong;
+    } catch (const Error& error) {
+        return is_finding(error) ? error.what() : "";
+    }
+}
+
+/// Runs the drawn chain with one and with three threads: what is wrong, or nothing.
+inline std::string fault_of_chain(const Chain& chain, const std::filesystem::path& folder,
+                                  const char* format) {
+    set_threads(1);
+    const Outcome one = run_chain(chain, folder);
+    std::string wrong = one.wrong;
+    if (wrong.empty()) wrong = fault_of_file(one.scene, format);
+    set_threads(3);
+    if (wrong.empty() && run_chain(chain, folder).told != one.told)
+        wrong = "another result with three threads";
+    set_threads(0);
+    return wrong;
+}
+
+} // namespace facetmill::test
