@@ -65,7 +65,7 @@ LIBRARIES = {
 }
 
 # Libraries that are met anywhere, and folders of the system's headers.
-ANYWHERE = {"fmt", "nlohmann", "tbb", "Eigen", "sys", "netinet"}
+ANYWHERE = {"fmt", "nlohmann", "tbb", "Eigen", "sys", "linux", "netinet"}
 
 # The version of a library is no use of it: these headers hold only macros.
 VERSION_HEADERS = {"CGAL/version.h", "CLI/Version.hpp", "draco/core/draco_version.h", "OpenMesh/Core/System/config.h"}

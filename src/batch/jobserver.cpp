@@ -34,12 +34,17 @@ int reopened(const std::string& descriptor, int mode) {
 
 } // namespace
 
-std::unique_ptr<Jobserver> Jobserver::offered(const std::string& makeflags) {
+std::string jobserver_file(const std::string& makeflags) {
     const std::string auth = auth_in(makeflags);
+    return auth.starts_with("fifo:") ? auth.substr(5) : "";
+}
+
+std::unique_ptr<Jobserver> Jobserver::offered(const std::string& makeflags) {
+    const std::string auth = auth_in(makeflags), fifo = jobserver_file(makeflags);
     int in = -1, out = -1;
-    if (auth.starts_with("fifo:")) {
+    if (!fifo.empty()) {
         // For both at once, since a FIFO without a reader cannot be opened to write.
-        in = ::open(auth.c_str() + 5, O_RDWR | O_NONBLOCK | O_CLOEXEC);
+        in = ::open(fifo.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
         out = in < 0 ? -1 : ::dup(in);
     } else if (const auto comma = auth.find(','); comma != auth.npos) {
         in = reopened(auth.substr(0, comma), O_RDONLY);

@@ -29,4 +29,7 @@ class Jobserver {
     std::string tokens_; ///< what was taken: a token goes back as it was
 };
 
+/// The FIFO that these MAKEFLAGS name; empty for none.
+std::string jobserver_file(const std::string& makeflags);
+
 } // namespace facetmill::batch

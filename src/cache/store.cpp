@@ -276,6 +276,14 @@ struct PartFile {
 
 } // namespace
 
+bool make_folders(const fs::path& folder) {
+    std::error_code error;
+    if (fs::is_directory(folder, error)) return true;
+    if (!folder.parent_path().empty()) fs::create_directories(folder.parent_path(), error);
+    constexpr mode_t of_the_user = 0700;
+    return ::mkdir(folder.c_str(), of_the_user) == 0 || fs::is_directory(folder, error);
+}
+
 bool Store::write(const fs::path& path, io::Span head, io::Span bytes) {
     if (!settings_.folder.parent_path().empty()) fs::create_directories(settings_.folder.parent_path());
     make_folder(settings_.folder);

@@ -34,6 +34,9 @@ struct Contents {
     std::uint64_t entries = 0, bytes = 0, scenes = 0;
 };
 
+/// Makes the folder of a store and those above it; whether it is there then.
+bool make_folders(const std::filesystem::path& folder);
+
 /// Keys are 64 hexadecimal digits; others are not there. Files that are not this user's are not either.
 /// Safe for several threads. What goes wrong is told, not thrown: a run does without its cache.
 class Store {

@@ -2,12 +2,14 @@
 
 #include "base/numbers.hpp"
 #include "base/readable_numbers.hpp"
+#include "batch/jobserver.hpp"
 #include "cli/assets.hpp"
 #include "io/outputs.hpp"
 #include "options/byte_count.hpp"
 #include "report/form.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace facetmill::cli {
@@ -55,6 +57,7 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     arguments.add("--timings", &options.common.timings,
                   "Write times, and which assets were skipped, to F.json.");
     add_cache_options(arguments, options.common.cache);
+    add_sandbox_option(arguments, options.common.sandbox);
     add_warning_options(arguments, options.common);
 }
 
@@ -193,6 +196,25 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
     return settings;
 }
 
+/// What the assets and the batch itself read and write. The output folder has the journal, and what only a
+/// run can name.
+AllowedFiles allowed_for(const std::vector<batch::Work>& works, const batch::Settings& settings,
+                         const BatchOptions& options) {
+    AllowedFiles allowed;
+    allow_output(allowed, settings.output_dir / "x");
+    for (const auto& work : works) {
+        for (const auto& input : work.inputs) allow_input(allowed, input);
+        for (const auto& output : work.outputs) allow_output(allowed, output);
+    }
+    for (const auto& output : settings.others) allow_output(allowed, output);
+    allowed.read.insert(allowed.read.end(), settings.read.begin(), settings.read.end());
+    if (const auto folder = cache_folder(options.common.cache)) allowed.written.push_back(*folder);
+    const char* makeflags = std::getenv("MAKEFLAGS");
+    if (const auto fifo = batch::jobserver_file(makeflags ? makeflags : ""); !fifo.empty())
+        allowed.written.push_back(fifo);
+    return allowed;
+}
+
 int batch_work(const BatchOptions& options, const CommandLine& line, const Console& console) {
     Problems problems;
     check_sources(options, line, problems);
@@ -208,6 +230,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     common.timings.clear();
     const auto of_all = plan_settings(common, line, problems);
     problems.throw_if_any(ErrorKind::usage);
+    confine_calls_only(common.sandbox); // the headers of all assets are read before it is known what else is
     batch::Settings settings = batch_settings(options, line, of_all.places);
     set_planner(settings, options, of_all);
     const auto assets = assets_of(options, line, options.prune);
@@ -220,6 +243,7 @@ int batch_work(const BatchOptions& options, const CommandLine& line, const Conso
     };
     if (problems.any_errors()) return refuse(ErrorKind::usage, problems.all());
     if (!prepared.missing.empty() && !options.keep_going) return refuse(ErrorKind::missing, prepared.missing);
+    confine(allowed_for(prepared.works, settings, options), common.sandbox, console);
     settings.allowed = prepared.allowed.empty() ? options.common.allowed : prepared.allowed;
     const auto store = store_for(options.common.cache, settings.allowed, console, console.verbose);
     settings.store = store.get();

@@ -13,12 +13,29 @@ void add_cache_options(Arguments& arguments, CacheOptions& options) {
         .hidden();
 }
 
+namespace {
+
+/// Whether the user asked for a cache, and does not just have one.
+bool is_asked_for(const CacheOptions& options) { return options.on || cache::is_named(); }
+
+bool is_left_out(const CacheOptions& options) {
+    return options.off || (cache::is_ci() && !is_asked_for(options));
+}
+
+} // namespace
+
+std::optional<std::filesystem::path> cache_folder(const CacheOptions& options) {
+    auto folder = is_left_out(options) ? std::nullopt : cache::folder();
+    if (folder && !cache::make_folders(*folder)) return {}; // the store tells why
+    return folder;
+}
+
 std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::vector<std::string>& allowed,
                                         const Console& console, bool tells_all) {
     if (options.on && options.off)
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache and --no-cache exclude each other");
-    const bool asked = options.on || cache::is_named();
-    if (options.off || (cache::is_ci() && !asked)) return nullptr;
+    const bool asked = is_asked_for(options);
+    if (is_left_out(options)) return nullptr;
     const auto folder = cache::folder();
     if (!folder && options.on)
         throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache finds no folder for it",

@@ -18,6 +18,7 @@ Examples
 
 int check(const std::vector<std::string>& pipelines, const PipelineOptions& options, const CommandLine& line,
           const Console& console) {
+    confine({.read_all = true}, options.sandbox, console);
     plan_each(pipelines, options, line, console, [&](const std::string& name, const pipeline::Plan& plan) {
         const auto errors = pipeline::input_errors(plan, pipeline::read_headers(plan));
         if (errors.empty()) console.say(name + ": ok");
@@ -36,6 +37,7 @@ Command check_command() {
                 auto pipelines = std::make_shared<std::vector<std::string>>();
                 arguments.add("PIPELINE", pipelines.get(), "YAML files, - or ready pipelines.").required();
                 add_value_options(arguments, *options);
+                add_sandbox_option(arguments, options->sandbox);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
                     return check(*pipelines, *options, invocation.line, console);

@@ -72,7 +72,7 @@ void add_message_options(Arguments& arguments, Console& console);
 /// for whoever catches.
 int program(std::vector<std::string> arguments, Console& console);
 
-/// Version, and the libraries with --json.
+/// Version; with --json also the libraries, and what this system has for the sandbox.
 std::string version_text(bool json);
 
 } // namespace facetmill::cli

@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "cli/command.hpp"
+#include "cli/confine.hpp"
 #include "diff/comparison.hpp"
 #include "io/codec.hpp"
 #include "io/convert.hpp"
@@ -37,6 +38,7 @@ struct DiffOptions {
     report::ComparisonSettings settings;
     bool json = false, all = false;
     int threads = 0;
+    SandboxOptions sandbox;
 };
 
 /// A length on the command line, in A's units or in percent.
@@ -77,6 +79,9 @@ bool is_named_by_file(const Scene& scene, const std::string& file) {
 }
 
 int diff(DiffOptions& options, const CommandLine& line, const Console& console) {
+    AllowedFiles allowed;
+    for (const auto& file : {options.a, options.b}) allow_input(allowed, file);
+    confine(allowed, options.sandbox, console);
     set_threads(options.threads);
     std::vector<report::LeftOut> left_out;
     const Scene a = read(options.a, true, left_out, console);
@@ -135,6 +140,7 @@ Command diff_command() {
                 arguments.add("--json", &options->json, "As JSON (facetmill schema diff).");
                 arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
                     .between(1, 4096);
+                add_sandbox_option(arguments, options->sandbox);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& i) { return diff(*options, i.line, console); };
             }};

@@ -74,6 +74,7 @@ int export_work(const ExportOptions& options, const CommandLine& line, const Con
     problems.throw_if_any(ErrorKind::usage);
     batch::Settings settings;
     set_planner(settings, options, of_all);
+    confine({.read_all = true}, options.common.sandbox, console);
     auto prepared = batch::prepare(assets_of(options, line), settings, problems);
     settle(problems, console);
     if (!prepared.missing.empty()) throw Error(ErrorKind::missing, std::move(prepared.missing));
@@ -105,6 +106,7 @@ Command export_command() {
                     .add("-j,--threads", &options->common.threads,
                          "The number of threads of each job. Default: 1.")
                     .between(1, 4096);
+                add_sandbox_option(arguments, options->common.sandbox);
                 add_warning_options(arguments, options->common);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/words.hpp"
 #include "cli/command.hpp"
+#include "cli/confine.hpp"
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "io/codec.hpp"
 #include "io/gltf/looks.hpp"
@@ -37,6 +38,7 @@ struct InfoOptions {
     std::string format, picture;
     bool json = false, self_intersections = false;
     int threads = 0;
+    SandboxOptions sandbox;
 };
 
 /// What is told of a file.
@@ -198,6 +200,10 @@ int info(const InfoOptions& options, const Console& console, const CommandLine& 
         throw Error(ErrorKind::usage, "E-PICTURE",
                     fmt::format("images are PNG, and '{}' does not end in .png", options.picture),
                     "for example --picture part.png", line.value(options.picture));
+    AllowedFiles allowed;
+    for (const auto& mesh : options.meshes) allow_input(allowed, mesh);
+    if (!options.picture.empty()) allow_output(allowed, options.picture);
+    confine(allowed, options.sandbox, console);
     set_threads(options.threads);
     Json all = Json::array();
     std::string text;
@@ -234,6 +240,7 @@ Command info_command() {
                     .one_of(io::names_of_readers());
                 arguments.add("-j,--threads", &options->threads, "The number of threads. Default: all cores.")
                     .between(1, 4096);
+                add_sandbox_option(arguments, options->sandbox);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
                     return info(*options, console, invocation.line);

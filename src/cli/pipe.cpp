@@ -83,6 +83,7 @@ int pipe(const PipelineOptions& options, const std::string& save_to, const Argum
     const auto plan = pipeline::make_plan(document, settings, problems);
     if (refused({plan}, problems, console)) return static_cast<int>(ErrorKind::usage);
     if (!save_to.empty()) save(document, options.reports, save_to);
+    confine_to({plan}, options, console);
     return run_with_messages(plan, options, console, "");
 }
 

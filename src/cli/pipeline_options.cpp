@@ -73,6 +73,7 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
     add_cache_options(arguments, options.cache);
     arguments.add("--explain", &options.explain,
                   "Says for each stage why it ran again, or that its result is from the cache.");
+    add_sandbox_option(arguments, options.sandbox);
     add_warning_options(arguments, options);
 }
 
@@ -222,6 +223,14 @@ std::vector<fs::path> newly_written(const report::RunRecord& record) {
 }
 
 } // namespace
+
+void confine_to(const std::vector<pipeline::Plan>& plans, const PipelineOptions& options,
+                const Console& console) {
+    AllowedFiles allowed;
+    for (const auto& plan : plans) allow_plan(allowed, plan);
+    if (const auto folder = cache_folder(options.cache)) allowed.written.push_back(*folder);
+    confine(allowed, options.sandbox, console);
+}
 
 int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options, const Console& console,
                       const std::string& pipeline_file, std::vector<std::filesystem::path>* written) {

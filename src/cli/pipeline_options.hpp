@@ -2,6 +2,7 @@
 // The options that run, plan, pipe and check share, and how a PIPELINE argument becomes a plan.
 
 #include "cli/cache_options.hpp"
+#include "cli/confine.hpp"
 #include "pipeline/run.hpp"
 
 #include <functional>
@@ -17,6 +18,7 @@ struct PipelineOptions {
     bool check_invariants = false, update_baseline = false;
     bool restat = false, explain = false;
     CacheOptions cache;
+    SandboxOptions sandbox;
 };
 
 /// -D, --preset and --set.
@@ -51,6 +53,10 @@ void tell_stage(const report::StageRecord& stage, const std::string& asset, cons
 
 /// Says what lengths of a stage were resolved to.
 void tell_resolved(const report::StageRecord& stage, const Console& console);
+
+/// The sandbox of a run of these plans, before the first one starts.
+void confine_to(const std::vector<pipeline::Plan>& plans, const PipelineOptions& options,
+                const Console& console);
 
 /// Runs a plan with messages and progress, and writes the depfile when all went well. Returns the exit code.
 /// pipeline_file: what the plan came from, for the depfile; empty when there is none. written: gets the

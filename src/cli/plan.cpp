@@ -29,6 +29,7 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     const auto plan = plan_of(options.pipeline, plan_settings(options.common, line, problems), problems);
     settle(problems, console);
     const bool files_only = options.inputs || options.outputs;
+    confine({.read_all = true}, options.common.sandbox, console);
     const auto headers = pipeline::read_headers(plan);
     if (!files_only) settle(pipeline::input_errors(plan, headers)); // names are known all the same
     if (const auto warning = pipeline::without_effect(plan); warning && !files_only)
@@ -59,6 +60,7 @@ Command plan_command() {
                 "-o,--output-dir", &options->common.output_dir,
                 "The folder that the paths of outputs are relative to. Default: the working directory.");
             add_value_options(arguments, options->common);
+            add_sandbox_option(arguments, options->common.sandbox);
             add_message_options(arguments, console);
             return [=, &console](const Invocation& invocation) {
                 return plan(*options, invocation.line, console);

@@ -1,4 +1,5 @@
 #include "base/json.hpp"
+#include "base/sandbox.hpp"
 #include "base/spelling.hpp"
 #include "cli/command.hpp"
 #include "docs/stages.hpp"
@@ -26,8 +27,12 @@ std::string version_text(bool json) {
     Json libraries = Json::object();
     for (const auto& library : docs::library_versions())
         libraries[std::string(library.name)] = library.version;
-    const Json all = {
-        {"name", "facetmill"}, {"version", docs::release()}, {"format", 1}, {"libraries", libraries}};
+    const Protections here = offered_protections();
+    const Json all = {{"name", "facetmill"},
+                      {"version", docs::release()},
+                      {"format", 1},
+                      {"libraries", libraries},
+                      {"sandbox", {{"landlock", here.files}, {"seccomp", here.calls}}}};
     return all.dump(2) + "\n";
 }
 

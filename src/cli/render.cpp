@@ -88,6 +88,7 @@ int render(RenderCommandOptions& options, const Arguments& arguments, const Invo
     problems.throw_if_any(ErrorKind::usage);
     const auto plan = pipeline::make_plan(document, settings, problems);
     if (refused({plan}, problems, console)) return static_cast<int>(ErrorKind::usage);
+    confine_to({plan}, options.run, console);
     return run_with_messages(plan, options.run, console, "");
 }
 
@@ -104,6 +105,7 @@ Command render_command() {
             arguments.add("-o,--output", &options->output, "The PNG file to write; - is standard output.");
             arguments.add("-j,--threads", &options->run.threads, "The number of threads. Default: all cores.")
                 .between(1, 4096);
+            add_sandbox_option(arguments, options->run.sandbox);
             add_message_options(arguments, console);
             return [=, &arguments, &console](const Invocation& invocation) {
                 return render(*options, arguments, invocation, console);

@@ -71,10 +71,11 @@ Planned plan_all(const std::vector<std::string>& pipelines, const PipelineOption
     return all;
 }
 
-/// on_written: gets the files that each run has written; may be empty.
+/// on_written: gets the files that each run has written, where others follow; else empty.
 int run_all(const std::vector<std::string>& pipelines, const Planned& all, const PipelineOptions& options,
             const Console& console, const std::function<void(const std::filesystem::path&)>& on_written) {
     if (refused(all.plans, all.problems, console)) return static_cast<int>(ErrorKind::usage);
+    if (!on_written) confine_to(all.plans, options, console);
     int worst = 0;
     for (std::size_t i = 0; i < all.plans.size(); ++i) {
         std::error_code ignored;
@@ -133,6 +134,7 @@ int code_of(const Console& console, Body&& body) {
                                 const CommandLine& line, const Console& console) {
     if (std::find(pipelines.begin(), pipelines.end(), "-") != pipelines.end())
         refuse_stream("a pipeline", line.find("--watch"));
+    confine_calls_only(options.sandbox); // which files the next plan names is not known yet
     Watch last;
     for (std::size_t number = 1;; ++number) {
         Watch watch;

@@ -1,6 +1,7 @@
 #include "io/bytes.hpp"
 
 #include "base/memory.hpp"
+#include "base/sandbox.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -33,7 +34,8 @@ struct Descriptor {
     if (error == ENOENT || error == ENOTDIR)
         throw Error(ErrorKind::missing, "E-FILE", fmt::format("there is no file '{}'", name));
     if (error == EACCES || error == EPERM)
-        throw Error(ErrorKind::missing, "E-PERMISSION", fmt::format("'{}' may not be read", name));
+        throw Error(ErrorKind::missing, "E-PERMISSION", fmt::format("'{}' may not be read", name),
+                    sandbox_hint(name, error));
     if (error == EISDIR)
         throw Error(ErrorKind::missing, "E-DIRECTORY",
                     fmt::format("'{}' is a directory, expected a file", name));

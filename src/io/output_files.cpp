@@ -1,5 +1,7 @@
 #include "io/output_files.hpp"
 
+#include "base/sandbox.hpp"
+
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -25,9 +27,10 @@ void cannot_write(const fs::path& target, int error) {
     if (error == EISDIR)
         throw Error(ErrorKind::output, "E-DIRECTORY", fmt::format("{} is a directory, expected a file", name),
                     "give the name of a file in it");
-    throw Error(ErrorKind::output, "E-WRITE",
-                fmt::format("{} cannot be written: {}", name, std::strerror(error)),
-                "write elsewhere: --output-dir sets the folder that written paths start from");
+    const std::string hint = sandbox_hint(target, error);
+    throw Error(
+        ErrorKind::output, "E-WRITE", fmt::format("{} cannot be written: {}", name, std::strerror(error)),
+        hint.empty() ? "write elsewhere: --output-dir sets the folder that written paths start from" : hint);
 }
 
 void write_all(int fd, Span bytes, const fs::path& target) {

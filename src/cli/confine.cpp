@@ -1,0 +1,107 @@
+#include "cli/confine.hpp"
+
+#include "base/glob.hpp"
+#include "cli/arguments.hpp"
+#include "io/early_folders.hpp"
+#include "io/output_files.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::cli {
+
+namespace fs = std::filesystem;
+
+void add_sandbox_option(Arguments& arguments, SandboxOptions& options) {
+    arguments.add("--no-sandbox", &options.off,
+                  "Keeps access to all files and calls of the system. Default: only what the plan names.");
+}
+
+void allow_input(AllowedFiles& allowed, const fs::path& input) {
+    if (input == "-") return;
+    std::error_code ignored;
+    if (fs::is_symlink(fs::symlink_status(input, ignored))) allowed.read.push_back(input); // to anywhere
+    fs::path folder = input.parent_path();
+    // The part before the wildcards.
+    while (is_glob(folder.string())) folder = folder.parent_path();
+    allowed.read.push_back(folder.empty() ? "." : folder);
+}
+
+void allow_output(AllowedFiles& allowed, const fs::path& output) {
+    if (output == "-") return;
+    if (io::is_stream(output)) return allowed.written.push_back(output);
+    const fs::path folder = output.parent_path();
+    allowed.written.push_back(folder.empty() ? "." : folder);
+    // A link is followed: what it leads to is written in its own folder.
+    std::error_code ignored;
+    if (!fs::is_symlink(fs::symlink_status(output, ignored))) return;
+    const fs::path target = io::followed(output).parent_path();
+    allowed.written.push_back(target.empty() ? "." : target);
+}
+
+namespace {
+
+/// What is known only at run time: a text with an expression that has no value yet.
+void allow_deferred(AllowedFiles& allowed, const Value& value, const Places& places) {
+    for (const auto& item : value.items) allow_deferred(allowed, item, places);
+    for (const auto& entry : value.entries) allow_deferred(allowed, entry.value, places);
+    if (!value.is_scalar() || !value.deferred) return;
+    const std::string known = value.text.substr(0, value.text.find("${")) + "x";
+    allow_input(allowed, places.input(known));
+    allow_output(allowed, places.output(known));
+}
+
+void allow_steps(AllowedFiles& allowed, const pipeline::Steps& steps, const Places& places) {
+    for (const auto& step : steps) {
+        if (step.stage && step.stage->files) allow_deferred(allowed, step.given, places);
+        for (const auto& arm : step.arms) allow_steps(allowed, *arm.steps, places);
+    }
+}
+
+std::string told(const Protections& on) {
+    const std::string files = on.files > 0 ? fmt::format("files (Landlock, version {})", on.files) : "";
+    const std::string calls = on.calls ? "calls of the system (seccomp)" : "";
+    return on.any() ? fmt::format("the sandbox limits {}{}{}", files, on.files > 0 && on.calls ? " and " : "",
+                                  calls)
+                    : "there is no sandbox: this kernel, or this build, has none";
+}
+
+} // namespace
+
+void allow_plan(AllowedFiles& allowed, const pipeline::Plan& plan) {
+    for (const auto& file : pipeline::planned_files(plan.steps, plan.places)) {
+        if (file.written) {
+            allow_output(allowed, file.path);
+            continue;
+        }
+        allow_input(allowed, file.path);
+        if (!file.pattern.empty()) allow_input(allowed, file.pattern);
+    }
+    for (const auto& file : plan.others) {
+        if (file.written)
+            allow_output(allowed, file.path);
+        else
+            allowed.read.push_back(file.path);
+    }
+    for (const auto& report : plan.reports) allow_output(allowed, plan.places.output(report));
+    allow_steps(allowed, plan.steps, plan.places);
+}
+
+void confine(AllowedFiles allowed, const SandboxOptions& options, const Console& console) {
+    if (options.off) return;
+    if (offered_protections().files > 0) {
+        static io::EarlyFolders folders; // they are removed at the end, unless something was written there
+        std::error_code ignored;
+        for (const auto& path : allowed.written)
+            if (!fs::exists(path, ignored) || fs::is_directory(path, ignored)) folders.make(path);
+        allowed.folders_made = folders.made_in();
+        confine_files(allowed);
+    }
+    confine_calls();
+    if (console.verbose) console.say(told(active_protections()));
+}
+
+void confine_calls_only(const SandboxOptions& options) {
+    if (!options.off) confine_calls();
+}
+
+} // namespace facetmill::cli
