@@ -9,7 +9,7 @@ using report::ComparisonSettings;
 
 namespace {
 
-Scene scene_of(Mesh mesh, const char* name = "part") {
+Scene scene_called(Mesh mesh, const char* name = "part") {
     Scene scene;
     scene.parts.emplace_back().name = name;
     scene.parts[0].mesh = std::move(mesh);
@@ -27,7 +27,7 @@ std::string different(const Comparison& comparison) {
 } // namespace
 
 TEST_CASE("a scene does not differ from itself", "[report]") {
-    const Comparison same = report::compare(scene_of(shapes::uv_cube()), scene_of(shapes::uv_cube()));
+    const Comparison same = report::compare(scene_called(shapes::uv_cube()), scene_called(shapes::uv_cube()));
     CHECK_FALSE(same.differs());
     CHECK(different(same).empty());
     CHECK(same.deviation->maximum() < 1e-15);
@@ -36,7 +36,7 @@ TEST_CASE("a scene does not differ from itself", "[report]") {
 }
 
 TEST_CASE("the same surface cut otherwise differs in counts alone", "[report]") {
-    const Scene quads = scene_of(shapes::quad_cube()), triangles = scene_of(shapes::cube());
+    const Scene quads = scene_called(shapes::quad_cube()), triangles = scene_called(shapes::cube());
     const Comparison d = report::compare(quads, triangles);
     CHECK(different(d) == "counts: edges, counts: faces, counts: triangles");
     CHECK(d.differs());
@@ -49,9 +49,9 @@ TEST_CASE("the same surface cut otherwise differs in counts alone", "[report]") 
 }
 
 TEST_CASE("surfaces may be apart by the limit", "[report]") {
-    Scene moved = scene_of(shapes::grid(4, 3)); // diagonal 5
+    Scene moved = scene_called(shapes::grid(4, 3)); // diagonal 5
     moved.parts[0].transform.m[2][3] = 0.05;
-    const Scene sheet = scene_of(shapes::grid(4, 3));
+    const Scene sheet = scene_called(shapes::grid(4, 3));
     CHECK(different(report::compare(sheet, moved)) == "geometry: deviation maximum");
     ComparisonSettings settings;
     settings.maximum = ComparisonSettings::Limit{1.01, true};
@@ -66,7 +66,7 @@ TEST_CASE("surfaces may be apart by the limit", "[report]") {
 }
 
 TEST_CASE("attributes, materials and parts are told by name, attributes by value too", "[report]") {
-    Scene a = scene_of(shapes::uv_cube()), b = a;
+    Scene a = scene_called(shapes::uv_cube()), b = a;
     b.parts[0].name = "other";
     b.materials.push_back({.name = "red"});
     Attribute* uv = b.parts[0].mesh.find("TEXCOORD_0", Domain::wedge);
@@ -85,7 +85,7 @@ TEST_CASE("attributes, materials and parts are told by name, attributes by value
 
 TEST_CASE("a surface turned inside out differs, closed or open", "[report]") {
     for (const Mesh& mesh : {shapes::cube(), shapes::grid(3, 2)}) {
-        Scene a = scene_of(mesh), b = a;
+        Scene a = scene_called(mesh), b = a;
         for (std::size_t c = 0; c < b.parts[0].mesh.corners.size(); c += 3)
             std::swap(b.parts[0].mesh.corners[c], b.parts[0].mesh.corners[c + 1]);
         CHECK(different(report::compare(a, b)) == "geometry: reversed");
@@ -93,10 +93,10 @@ TEST_CASE("a surface turned inside out differs, closed or open", "[report]") {
 }
 
 TEST_CASE("one component or part turned inside out is enough to differ", "[report]") {
-    Scene a = scene_of(shapes::icosphere(1));
+    Scene a = scene_called(shapes::icosphere(1));
     for (Vec3& p : a.parts[0].mesh.positions) p = p * 3;
     append(a.parts[0].mesh, shapes::cube());
-    a.parts.push_back(scene_of(shapes::grid(3, 2)).parts[0]);
+    a.parts.push_back(scene_called(shapes::grid(3, 2)).parts[0]);
     const auto turned = [](Mesh mesh, std::size_t from) {
         for (std::size_t c = from; c < mesh.corners.size(); c += 3)
             std::swap(mesh.corners[c], mesh.corners[c + 1]);
@@ -118,14 +118,14 @@ TEST_CASE("one component or part turned inside out is enough to differ", "[repor
 TEST_CASE("topology is compared property by property", "[report]") {
     Mesh open = shapes::cube();
     open.corners.resize(30);
-    const std::string found = different(report::compare(scene_of(shapes::cube()), scene_of(open)));
+    const std::string found = different(report::compare(scene_called(shapes::cube()), scene_called(open)));
     CHECK(found.find("topology: closed") != std::string::npos);
     CHECK(found.find("topology: boundary_loops") != std::string::npos);
     CHECK(found.find("topology: components") == std::string::npos);
 }
 
 TEST_CASE("something differs from nothing", "[report]") {
-    const Comparison d = report::compare(scene_of(shapes::cube()), scene_of({}));
+    const Comparison d = report::compare(scene_called(shapes::cube()), scene_called({}));
     CHECK(d.differs());
     CHECK(report::to_json(d, "a", "b")["deviation"]["maximum"].is_null());
 }
@@ -135,7 +135,7 @@ namespace {
 Scene cloud_of(std::vector<Vec3> points) {
     Mesh mesh;
     mesh.positions = std::move(points);
-    return scene_of(std::move(mesh));
+    return scene_called(std::move(mesh));
 }
 
 const report::Difference* line(const Comparison& comparison, const std::string& name) {
@@ -165,14 +165,14 @@ TEST_CASE("clouds of as many points differ when a point is elsewhere", "[report]
 }
 
 TEST_CASE("a cloud is measured against a surface", "[report]") {
-    const Scene sheet = scene_of(shapes::grid(4, 3)), cloud = cloud_of({{1, 1, 0.5}, {2, 1.5, 0.25}});
+    const Scene sheet = scene_called(shapes::grid(4, 3)), cloud = cloud_of({{1, 1, 0.5}, {2, 1.5, 0.25}});
     const Comparison d = report::compare(cloud, sheet);
     CHECK(d.deviation->forward.maximum == 0.5);
     CHECK(d.deviation->forward.mean == 0.375);
     CHECK(d.deviation->backward.maximum > 1);
     CHECK(report::to_json(d, "a", "b")["geometry_of"]["b"] == "surface");
-    CHECK(report::compare(cloud, scene_of({})).differs());
-    CHECK_FALSE(report::compare(scene_of({}), scene_of({})).differs());
+    CHECK(report::compare(cloud, scene_called({})).differs());
+    CHECK_FALSE(report::compare(scene_called({}), scene_called({})).differs());
 }
 
 TEST_CASE("points beside a surface are measured to all of the other scene", "[report]") {
@@ -181,20 +181,22 @@ TEST_CASE("points beside a surface are measured to all of the other scene", "[re
     with_another.positions.push_back({1, 1, 2.5});
     ComparisonSettings settings;
     settings.ignored = {"counts", "topology"};
-    CHECK(different(report::compare(scene_of(with_one), scene_of(with_another))) ==
+    CHECK(different(report::compare(scene_called(with_one), scene_called(with_another))) ==
           "geometry: isolated vertices maximum");
-    CHECK(line(report::compare(scene_of(with_one), scene_of(with_another)), "isolated vertices maximum")->a ==
-          0.5);
-    const Comparison lost = report::compare(scene_of(with_one), scene_of(shapes::grid(4, 3)), settings);
+    CHECK(
+        line(report::compare(scene_called(with_one), scene_called(with_another)), "isolated vertices maximum")
+            ->a == 0.5);
+    const Comparison lost =
+        report::compare(scene_called(with_one), scene_called(shapes::grid(4, 3)), settings);
     CHECK(line(lost, "isolated vertices maximum")->a == 2);
     CHECK(line(lost, "isolated vertices maximum")->b == 0);
     CHECK(lost.deviation->maximum() < 1e-15);
-    CHECK_FALSE(report::compare(scene_of(with_one), scene_of(with_one), settings).differs());
+    CHECK_FALSE(report::compare(scene_called(with_one), scene_called(with_one), settings).differs());
 }
 
 TEST_CASE("numbers that are none agree with themselves alone", "[report]") {
     const auto with = [](std::vector<double> values) {
-        Scene scene = scene_of(shapes::tetrahedron());
+        Scene scene = scene_called(shapes::tetrahedron());
         scene.parts[0].mesh.attributes.push_back({"q", Domain::vertex, Role::generic, 1, false, values});
         return scene;
     };
@@ -208,7 +210,7 @@ TEST_CASE("numbers that are none agree with themselves alone", "[report]") {
 }
 
 TEST_CASE("normals are compared in the world", "[report]") {
-    const Scene a = scene_of(shapes::uv_cube());
+    const Scene a = scene_called(shapes::uv_cube());
     Scene turned = a, baked = a;
     Transform quarter;
     quarter.m[0][0] = 0;
@@ -222,7 +224,7 @@ TEST_CASE("normals are compared in the world", "[report]") {
 }
 
 TEST_CASE("what could not be compared is said, and is not the same", "[report]") {
-    Scene a = scene_of(shapes::uv_cube()), b = a;
+    Scene a = scene_called(shapes::uv_cube()), b = a;
     b.parts[0].mesh.find("TEXCOORD_0", Domain::wedge)->resize(7); // as another number of wedges would
     Comparison d = report::compare(a, b);
     CHECK_FALSE(d.differs());
@@ -240,7 +242,7 @@ TEST_CASE("what could not be compared is said, and is not the same", "[report]")
 }
 
 TEST_CASE("materials differ by their looks and by the faces they are on", "[report]") {
-    Scene a = scene_of(shapes::grid(2, 1)); // four triangles
+    Scene a = scene_called(shapes::grid(2, 1)); // four triangles
     a.materials = {{.name = "red"}, {.name = "blue"}};
     Mesh& mesh = a.parts[0].mesh;
     mesh.primitives.resize(2);
