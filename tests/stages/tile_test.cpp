@@ -38,6 +38,8 @@ TEST_CASE("tile refuses what makes no grid", "[stages]") {
         "usage [E-TILE] tile: 'axes' takes each of x, y, z at most once, found 'xx' | for example axes: xy");
     CHECK(refusal_of("tile", "{size: [1, 2, 3]}", scene_of(shapes::grid(4, 3))) ==
           "usage [E-TILE] tile: 3 sizes for 2 axes | give one size, or one for each axis");
+    CHECK(refusal_of("tile", "{size: []}", scene_of(shapes::grid(4, 3))) ==
+          "usage [E-TILE] tile: 'size' is an empty list | give one size, or one for each axis");
     CHECK(refusal_of("tile", "{size: 1, origin: [1]}", scene_of(shapes::grid(4, 3))) ==
           "usage [E-TILE] tile: 1 origins for 2 axes | give one for each axis");
     CHECK(

@@ -52,6 +52,9 @@ void verify(const TileOptions& o, const Value& given, Problems& problems) {
                      fmt::format("tile: 'axes' takes each of x, y, z at most once, found '{}'", o.axes),
                      "for example axes: xy");
     const Value* sizes = given.is_map() ? given.find("size") : &given;
+    if (o.size.empty())
+        problems.add(mark_at(given, "size"), "E-TILE", "tile: 'size' is an empty list",
+                     "give one size, or one for each axis");
     for (const Length& size : o.size)
         if (!(size.amount > 0) && !(sizes && sizes->deferred))
             problems.add(mark_at(given, "size"), "E-TILE",
