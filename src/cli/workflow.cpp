@@ -126,18 +126,23 @@ void check_jobs(const std::vector<Job>& jobs, CommandOf command) {
     check_lengths(jobs, command);
 }
 
-/// Names with these cannot be spelled.
+/// Names with these cannot be spelled: all inputs that have one, or else all outputs.
 void check_names(const std::vector<Job>& jobs, const char* engine, std::string_view odd, const char* hint) {
-    for (const auto& job : jobs)
-        for (const auto* paths : {&job.inputs, &job.outputs})
-            for (const auto& path : *paths)
-                if (const auto at = path.find_first_of(odd); at != path.npos)
-                    throw Error(
-                        ErrorKind::usage, "E-EXPORT",
-                        fmt::format("{} cannot work with the {} in '{}'", engine,
-                                    path[at] == '\t' ? std::string("tab") : fmt::format("'{}'", path[at]),
-                                    path),
-                        hint);
+    for (const auto paths : {&Job::inputs, &Job::outputs}) {
+        Problems problems;
+        OnceEach<std::string> refused;
+        for (const auto& job : jobs)
+            for (const auto& path : job.*paths)
+                if (path.find_first_of(odd) != path.npos) refused.add(path);
+        for (const auto& path : refused.all()) {
+            const char c = path[path.find_first_of(odd)];
+            problems.add({}, "E-EXPORT",
+                         fmt::format("{} cannot work with the {} in '{}'", engine,
+                                     c == '\t' ? std::string("tab") : fmt::format("'{}'", c), path),
+                         hint);
+        }
+        problems.throw_if_any(ErrorKind::usage);
+    }
 }
 
 std::string joined(const std::vector<std::string>& paths, std::string (*spelled)(const std::string&)) {

@@ -123,6 +123,11 @@ class Export(Case):
         refused("E-FILE", "--to", "ninja", "p q.yaml", "--input", "none/*.off", "-o", "out", expect=3)
         self.write("gate.yaml", "facetmill: 1\nparams: {input: {type: path}}\nstages: [load: '${input}', validate: {closed: true}]\n")
         refused("E-EXPORT", "--to", "make", "gate.yaml", "--input", "in/*.off", "-o", "out")
+        for name in ("a|b", "c|d"):
+            self.write(f"odd/{name}.off", TETRAHEDRON)
+        odd = self.mill("export", "--to", "ninja", "p q.yaml", "--input", "odd/*.off", "-o", "out", expect=2).stderr
+        self.assertEqual([line.split("'")[-2] for line in odd.splitlines() if "error[E-EXPORT]" in line],
+                         ["odd/a|b.off", "odd/c|d.off"])
         rows = "".join(f"in/a.off,{'1' * 900},{i}\n" for i in range(200))
         self.write("long.csv", "input,text,n\n" + rows)
         self.write("long.yaml", PIPELINE.replace("params:", "params:\n  text: text\n  n: integer").replace("input.stem", "n"))
