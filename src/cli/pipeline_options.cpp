@@ -4,6 +4,7 @@
 #include "base/message_ids.hpp"
 #include "base/parallel.hpp"
 #include "base/spelling.hpp"
+#include "base/words.hpp"
 #include "cli/depfile.hpp"
 #include "docs/ready.hpp"
 #include "io/output_files.hpp"
@@ -222,6 +223,16 @@ std::vector<fs::path> newly_written(const report::RunRecord& record) {
     return written;
 }
 
+/// Where stages took no time, this says why.
+void tell_recalled(const pipeline::Trace& trace, const Console& console) {
+    const auto recalled = std::count_if(trace.begin(), trace.end(), [](const pipeline::TracedStep& step) {
+        return step.way == pipeline::TracedStep::Way::recalled;
+    });
+    if (recalled > 0 && !console.json)
+        console.say(fmt::format("{} of {} from the cache (--explain says which, --no-cache runs all)",
+                                recalled, counted(trace.size(), "stage")));
+}
+
 } // namespace
 
 void confine_to(const std::vector<pipeline::Plan>& plans, const PipelineOptions& options,
@@ -269,6 +280,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     if (progress) progress->done();
     for (const auto& error : record.errors) tell(error);
     summarise(record, console);
+    if (!options.explain) tell_recalled(trace, console);
     const bool writable = record.exit_code != static_cast<int>(ErrorKind::output); // else said already
     if (!options.timings.empty() && writable) {
         const std::string text = report::timings_json(record).dump(2) + "\n";

@@ -192,6 +192,13 @@ class Keys(Cache):
         self.assertEqual(self.explained(pipeline="other.yaml")[:3], self.CACHED)
         self.assertEqual(self.entries(".scene"), before)
 
+    def test_a_run_says_that_it_used_the_cache(self):
+        run = ("run", "p.yaml", "-D", f"input={SCAN}", *ALL, "-o", "out")
+        self.assertNotIn("from the cache", self.mill(*run, env=self.env).stderr)
+        self.assertIn("3 of 5 stages from the cache", self.mill(*run, env=self.env).stderr)
+        self.assertNotIn("from the cache", self.mill(*run, "-q", env=self.env).stderr)
+        self.assertNotIn("from the cache", self.mill(*run, "--no-cache", env=self.env).stderr)
+
     def test_another_folder(self):
         """The file is read, since reports name it; what comes of it is known."""
         self.run_it()
