@@ -146,15 +146,24 @@ struct Capability {
 };
 const std::vector<Capability>& capabilities();
 
+/// An image that a document names as a file.
+struct NamedImage {
+    std::filesystem::path relative; ///< to the file
+    std::string digest;             ///< equal for equal bytes
+    bool is_file = true;            ///< at that place; else it was made of others
+};
+
 /// What is known of a mesh file from its header.
 struct FileHeader {
     std::string format{};
     Unit unit = Unit::unknown;
     UpAxis up = UpAxis::unknown;
-    std::vector<std::string> parts{};            ///< their names; empty when only the whole file tells them
-    std::vector<std::filesystem::path> files{};  ///< neighbours that reading it opens, there or not
-    std::vector<std::filesystem::path> images{}; ///< those of them that are images, relative to the file
-    bool has_materials = false;
+    std::vector<std::string> parts{};           ///< their names; empty when only the whole file tells them
+    std::vector<std::filesystem::path> files{}; ///< neighbours that reading it opens, there or not
+    /// What a scene read from it has, which takes more than the header to know: so these are called only
+    /// where it matters. Empty: nothing. Images are those that can be read, as a written document names them.
+    std::function<bool()> has_materials{};
+    std::function<std::vector<NamedImage>()> images{};
 };
 
 struct Codec {

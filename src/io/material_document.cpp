@@ -1,9 +1,11 @@
 #include "io/material_document.hpp"
 
+#include "base/hash.hpp"
 #include "io/image_files.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace facetmill::io {
 
@@ -22,15 +24,19 @@ std::size_t MaterialDocument::find_or_add(const char* list, const Json& value) {
 }
 
 std::size_t MaterialDocument::texture(const std::filesystem::path& image, const std::vector<std::byte>& bytes,
-                                      bool clamp) {
+                                      bool clamp, bool is_file) {
     constexpr int repeat = 10497, clamp_to_edge = 33071;
-    std::string uri = uri_of(image);
-    for (int n = 2; !document_.files.try_emplace(uri, bytes).second && document_.files[uri] != bytes; ++n)
-        uri = uri_of(image.parent_path() /
-                     fmt::format("{}.{}{}", image.stem().string(), n, image.extension().string()));
+    std::filesystem::path path = image;
+    std::string uri = uri_of(path);
+    for (int n = 2; !document_.files.try_emplace(uri, bytes).second && document_.files[uri] != bytes; ++n) {
+        path = image.parent_path() /
+               fmt::format("{}.{}{}", image.stem().string(), n, image.extension().string());
+        uri = uri_of(path);
+    }
     const int wrap = clamp ? clamp_to_edge : repeat;
     const std::size_t sampler = find_or_add("samplers", {{"wrapS", wrap}, {"wrapT", wrap}});
     const std::size_t source = find_or_add("images", {{"uri", uri}});
+    if (source == images_.size()) images_.push_back({path, "", is_file && path == image});
     return find_or_add("textures", {{"sampler", sampler}, {"source", source}});
 }
 
@@ -55,6 +61,34 @@ Material MaterialDocument::add(Json material, std::size_t documents) {
     out.index = static_cast<int>(json_["materials"].size());
     json_["materials"].push_back(std::move(material));
     return out;
+}
+
+namespace {
+
+/// Textures of a material, in the order in which a written document takes them over.
+void add_textures(const Json& json, std::vector<std::size_t>& textures) {
+    if (!json.is_object()) return;
+    for (const auto& [key, value] : json.items()) {
+        if (key.ends_with("Texture") && value.is_object() && value.contains("index"))
+            textures.push_back(value["index"].get<std::size_t>());
+        add_textures(value, textures);
+    }
+}
+
+} // namespace
+
+std::vector<NamedImage> MaterialDocument::images() const {
+    std::vector<std::size_t> textures;
+    for (const auto& material : json_["materials"]) add_textures(material, textures);
+    std::vector<NamedImage> all;
+    std::set<std::size_t> seen;
+    for (const std::size_t texture : textures) {
+        const auto i = json_["textures"][texture]["source"].get<std::size_t>();
+        if (!seen.insert(i).second) continue;
+        all.push_back(images_[i]);
+        all.back().digest = sha256(document_.files.at(json_["images"][i]["uri"].get<std::string>()));
+    }
+    return all;
 }
 
 std::shared_ptr<const Document> MaterialDocument::finish() {

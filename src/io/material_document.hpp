@@ -3,6 +3,7 @@
 // and nothing else, so that what writes glTF has one way to take over materials.
 
 #include "base/json.hpp"
+#include "io/codec.hpp"
 #include "mesh/scene.hpp"
 
 namespace facetmill::io {
@@ -15,10 +16,14 @@ class MaterialDocument {
 
     /// The index of a texture of the image, which is named by its path relative to the file. clamp: it is not
     /// repeated outside of [0, 1]. Another image of the same name gets a number.
-    std::size_t texture(const std::filesystem::path& image, const std::vector<std::byte>& bytes, bool clamp);
+    /// is_file: the bytes are those of the file of that name.
+    std::size_t texture(const std::filesystem::path& image, const std::vector<std::byte>& bytes, bool clamp,
+                        bool is_file = true);
     /// Adds a material as glTF has it; an extension that it uses is listed. Returns it for a scene whose
     /// documents are `documents` so far.
     Material add(Json material, std::size_t documents);
+    /// What finish() would name as files.
+    std::vector<NamedImage> images() const;
     bool empty() const { return json_["materials"].empty(); }
     /// The document, to be the scene's next one.
     std::shared_ptr<const Document> finish();
@@ -29,6 +34,7 @@ class MaterialDocument {
 
     Document document_;
     Json json_;
+    std::vector<NamedImage> images_; ///< without digests
 };
 
 } // namespace facetmill::io

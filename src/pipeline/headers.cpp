@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <optional>
+#include <set>
 
 namespace facetmill::pipeline {
 
@@ -71,7 +72,11 @@ class Walk {
             if (step.when && step.when->known == false) continue;
             for (const auto& arm : step.arms) steps(*arm.steps, unit);
             if (!step.stage || !step.options) continue;
-            add_written(step);
+            try {
+                add_written(step);
+            } catch (Error& error) { // an input that can no longer be read
+                headers.errors.push_back(error.at(step.where));
+            }
             if (step.stage->header)
                 load(step, unit);
             else if (unit == Unit::unknown)
@@ -101,8 +106,7 @@ class Walk {
                     headers.inputs.push_back({file.path, header});
                 headers.more_inputs.insert(headers.more_inputs.end(), header.files.begin(),
                                            header.files.end());
-                images_.insert(images_.end(), header.images.begin(), header.images.end());
-                has_materials_ |= header.has_materials;
+                loaded_.push_back(header);
             } catch (Error& error) {
                 headers.errors.push_back(error.at(file.where));
                 first = false;
@@ -115,14 +119,25 @@ class Walk {
     void add_written(const Step& step) {
         if (!step.stage->files) return;
         const StageFiles files = step.stage->files(step.options.get());
-        if (files.materials && has_materials_)
+        const auto has_materials = [](const io::FileHeader& h) {
+            return h.has_materials && h.has_materials();
+        };
+        if (files.materials && std::any_of(loaded_.begin(), loaded_.end(), has_materials))
             headers.more_outputs.push_back(places_.output(files.materials->text));
         if (!files.images) return;
         const fs::path path = files.images->text;
         const std::string stem = path.stem().string();
         io::ImageNames names(stem, {stem + ".gltf", stem + ".glb", stem + ".bin"});
-        for (const auto& image : images_)
-            headers.more_outputs.push_back(places_.output((path.parent_path() / names.add(image)).string()));
+        std::set<std::string> copied;
+        for (auto& header : loaded_) {
+            if (!header.images) continue;
+            // Asked once, however many outputs there are.
+            header.images = [images = header.images()] { return images; };
+            for (const auto& image : header.images())
+                if ((!files.copies || files.copies(image)) && copied.insert(image.digest).second)
+                    headers.more_outputs.push_back(
+                        places_.output((path.parent_path() / names.add(image.relative)).string()));
+        }
     }
 
     void resolve_lengths(const Step& step, Unit unit) {
@@ -173,8 +188,8 @@ class Walk {
     }
 
     const Places& places_;
-    std::vector<fs::path> images_;
-    bool any_loaded_ = false, has_materials_ = false;
+    std::vector<io::FileHeader> loaded_;
+    bool any_loaded_ = false;
 };
 
 } // namespace

@@ -29,6 +29,7 @@ struct StageFiles {
     std::vector<PathText> inputs, outputs;
     std::optional<PathText> materials{}; ///< also written when the scene has materials
     std::optional<PathText> images{};    ///< the output that images of the scene are copied beside
+    std::function<bool(const io::NamedImage&)> copies{}; ///< which of them; empty: all
 };
 
 /// Options of a stage that the pipeline has to know of, by their names; empty: it has none such.

@@ -16,7 +16,7 @@ import threading
 import time
 import unittest
 
-from support import FACETMILL, SCAN, SLOW, Case, main
+from support import FACETMILL, SCAN, SLOW, Case, main, png
 
 # Writes early and works long, so that a signal finds a temporary.
 LONG = """facetmill: 1
@@ -554,6 +554,45 @@ class Process(Case):
         for mesh, inputs in (("t.ply", ["t.ply", "tex.png"]), ("t.obj", ["t.obj", "more/t.mtl", "none.mtl", "tex.png", "more/a.png"])):
             self.write("q.yaml", f"facetmill: 1\nstages: [{{load: {mesh}}}, {{write: o.glb}}]\n")
             self.assertEqual(sorted(self.mill("plan", "q.yaml", "--inputs").stdout.split()), sorted(inputs))
+
+    def test_the_plan_lists_what_a_run_writes(self):
+        """The same files, whatever the input names its images by, and the same image once."""
+        for name, colour in (("a", (200, 30, 30)), ("b", (90, 90, 90)), ("c", (90, 90, 90)), ("d", (10, 20, 30)), ("e", (200, 30, 30))):
+            self.write("in/tex/x", "")
+            (self.dir / f"in/tex/{name}.png").write_bytes(png(*colour))
+        faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+        self.write("in/m.mtl", "newmtl one\nmap_Kd tex/a.png\nmap_d tex/b.png\nmap_bump tex/b.png\nmap_Ke tex/e.png\n"
+                               "newmtl two\nmap_Kd tex/a.png\nmap_Pr tex/b.png\nmap_Pm tex/d.png\nmap_Ke tex/c.png\n"
+                               "newmtl unused\nmap_Kd tex/d.png\nnewmtl broken\nmap_Kd tex/x\nmap_Ke tex/none.png\n")
+        self.write("in/m.obj", "mtllib m.mtl\n" + faces + "usemtl one\nf 1/1 2/2 3/3\nusemtl two\nf 1/1 2/2 4/3\n"
+                               "usemtl broken\nf 2/1 3/2 4/3\n")
+        self.write("in/untextured.obj", "mtllib m.mtl\n" + faces + "usemtl one\nf 1 2 3\n")
+        self.write("in/plain.obj", "mtllib m.mtl\n" + faces + "f 1/1 2/2 3/3\n")
+        self.write("in/late.obj", "mtllib m.mtl\n" + faces + "v 1 2 3\n" * 200000 + "usemtl two\nf 1/1 2/2 3/3\n")
+        ply = ("ply\nformat ascii 1.0\n{}element vertex 3\nproperty float x\nproperty float y\nproperty float z\n{}element face 1\n"
+               "property list uchar int vertex_indices\nend_header\n{}3 0 1 2\n")
+        one = "comment TextureFile tex/a.png\n"
+        uv = "property float s\nproperty float t\n"
+        self.write("in/p.ply", ply.format(one, uv, "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n"))
+        self.write("in/two.ply", ply.format(one + one.replace("a.", "d."), uv, "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n"))
+        self.write("in/none.ply", ply.format(one, "", "0 0 0\n1 0 0\n0 1 0\n"))
+        self.gltf_with_neighbours(self.dir / "in")
+        inputs = sorted(p.name for p in (self.dir / "in").iterdir() if p.suffix in (".obj", ".ply", ".gltf"))
+        self.assertEqual(len(inputs), 8)
+        counts = {}
+        for name in inputs:
+            for how in ("", ", textures: copy", ", textures: embed", ", textures: reference"):
+                self.write("q.yaml", f"facetmill: 1\nstages:\n  - load: in/{name}\n  - write: {{path: new/o.gltf{how}}}\n"
+                                     "  - write: o.obj\n")
+                planned = self.mill("plan", "q.yaml", "--outputs", "-o", "out").stdout.splitlines()
+                self.mill("run", "q.yaml", "-o", "out")
+                written = sorted("out/" + n for n in self.files(self.dir / "out"))
+                self.assertEqual(sorted(planned), written, f"{name}{how}")
+                counts[name, how] = len(written)
+                shutil.rmtree(self.dir / "out")
+        self.assertEqual(counts["m.obj", ", textures: copy"], 4 + 5)  # two plain ones, three made of others
+        self.assertEqual(counts["p.ply", ""], counts["two.ply", ""])
+        self.assertGreater(counts["late.obj", ""], counts["late.obj", ", textures: embed"])
 
     def test_warnings_name_their_input_and_can_be_allowed(self):
         self.write("t.off", TRIANGLE)

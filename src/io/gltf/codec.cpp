@@ -1,5 +1,6 @@
 // A glTF file as a Scene and back: its document, its materials, and one part per node with triangles.
 
+#include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/words.hpp"
 #include "io/gltf/container.hpp"
@@ -206,21 +207,41 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
     });
 }
 
+namespace {
+
+std::vector<NamedImage>
+with_digests(const std::vector<std::pair<std::filesystem::path, std::filesystem::path>>& images) {
+    std::vector<NamedImage> all;
+    for (const auto& [name, path] : images) {
+        try {
+            all.push_back({name, sha256(Input::open(path).stored())});
+        } catch (const Error&) { // nor will it be copied
+        }
+    }
+    return all;
+}
+
+} // namespace
+
 void peek(const Input& input, FileHeader& header) {
     located(input, [&] {
         const Json json = parse_document(chunks_of(input).json);
         check_asset(json);
         for (const auto& placement : placements(json, node_frames(json)))
             header.parts.push_back(placement.name);
-        header.has_materials = json.contains("materials") && !json["materials"].empty();
+        if (json.contains("materials") && !json["materials"].empty())
+            header.has_materials = [] { return true; };
+        std::vector<std::pair<std::filesystem::path, std::filesystem::path>> images_there;
         for (const bool images : {false, true})
             for (const auto& name : neighbours(json, images ? "images" : "buffers")) {
                 const auto path = path_below(input, name);
                 if (!path) continue;
                 header.files.push_back(*path);
                 std::error_code ignored;
-                if (images && std::filesystem::is_regular_file(*path, ignored)) header.images.push_back(name);
+                if (images && std::filesystem::is_regular_file(*path, ignored))
+                    images_there.emplace_back(name, *path);
             }
+        if (!images_there.empty()) header.images = [images_there] { return with_digests(images_there); };
     });
 }
 

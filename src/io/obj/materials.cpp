@@ -2,6 +2,7 @@
 
 #include "io/obj/materials.hpp"
 
+#include "base/hash.hpp"
 #include "io/flatten.hpp"
 #include "io/image_files.hpp"
 
@@ -63,8 +64,20 @@ std::filesystem::path derived_name(const Map* first, const Map& second) {
 } // namespace
 
 MaterialMaker::MaterialMaker(const Input& input, std::map<std::string, Description> descriptions,
-                             ReadLog& log)
-    : input_(input), descriptions_(std::move(descriptions)), log_(log), document_(input.name()) {}
+                             ReadLog& log, bool names_only)
+    : input_(input), descriptions_(std::move(descriptions)), log_(log), names_only_(names_only),
+      document_(input.name()) {}
+
+/// Equal images made in one way make equal ones, so where only names are wanted, their digests do.
+template <class Make>
+Bytes MaterialMaker::made(const char* how, const Map* first, const Map* second, Make&& make) {
+    if (!names_only_) return make();
+    std::string text = how;
+    for (const Map* map : {first, second})
+        text += map ? " " + sha256(images_.at(map->relative)->bytes) : " none";
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
 
 void MaterialMaker::warn(const std::string& material, std::string message) {
     log_.warnings.push_back({Severity::warning, "W-MTL",
@@ -104,8 +117,9 @@ const Pixels* MaterialMaker::pixels_of(const std::string& material, const std::s
 
 /// glTF's reference to the texture. Texture points of OBJ count from the bottom: t = s (1 - v) + o there is
 /// 1 - t = s v + (1 - s - o) here.
-Json MaterialMaker::reference(const std::filesystem::path& image, const Bytes& bytes, const Map& map) {
-    Json out = {{"index", document_.texture(image, bytes, map.clamp)}};
+Json MaterialMaker::reference(const std::filesystem::path& image, const Bytes& bytes, const Map& map,
+                              bool is_file) {
+    Json out = {{"index", document_.texture(image, bytes, map.clamp, is_file)}};
     if (map.scale != std::array<double, 2>{1, 1} || map.offset != std::array<double, 2>{0, 0})
         out["extensions"]["KHR_texture_transform"] = {
             {"offset", {map.offset[0], 1 - map.scale[1] - map.offset[1]}},
@@ -117,7 +131,7 @@ std::optional<Json> MaterialMaker::texture(const std::string& material, const st
                                            const Map& map) {
     const Image* image = image_of(material, word, map);
     if (!image) return {};
-    return reference(map.relative, image->bytes, map);
+    return reference(map.relative, image->bytes, map, true);
 }
 
 void MaterialMaker::add_colour_maps(Json& json, const std::string& name, const Description& d) {
@@ -154,9 +168,14 @@ void MaterialMaker::add_opacity_map(Json& json, const std::string& name, const D
         const Pixels* base = coloured ? pixels_of(name, "map_Kd", colour->second) : nullptr;
         if (!opacity || (coloured && !base)) return;
         const Channel red{base, 0}, green{base, 1}, blue{base, 2};
+        const Map* const under = coloured ? &colour->second : nullptr;
         pbr["baseColorTexture"] =
-            reference(derived_name(coloured ? &colour->second : nullptr, map->second),
-                      combined_image({red, green, blue, {opacity, alpha ? 3 : brightness}}), map->second);
+            reference(derived_name(under, map->second),
+                      made("opacity", under, &map->second,
+                           [&] {
+                               return combined_image({red, green, blue, {opacity, alpha ? 3 : brightness}});
+                           }),
+                      map->second);
     }
     json["alphaMode"] = "BLEND";
 }
@@ -169,9 +188,13 @@ std::optional<Json> MaterialMaker::surface_texture(const std::string& name, cons
     if (rma != none) {
         const Pixels* p = pixels_of(name, "map_RMA", rma->second);
         if (!p) return {};
-        return reference(derived_name(nullptr, rma->second),
-                         combined_image({Channel{p, 2}, Channel{p, 0}, Channel{p, 1}, Channel{}}),
-                         rma->second);
+        return reference(
+            derived_name(nullptr, rma->second),
+            made("rma", &rma->second, nullptr,
+                 [&] {
+                     return combined_image({Channel{p, 2}, Channel{p, 0}, Channel{p, 1}, Channel{}});
+                 }),
+            rma->second);
     }
     const bool packed = pr != none && pm != none && pr->second == pm->second;
     if (pr != none && (packed || (pm == none && d.metalness.value_or(0) == 0)))
@@ -185,8 +208,12 @@ std::optional<Json> MaterialMaker::surface_texture(const std::string& name, cons
     const Pixels* metal = pm == none ? nullptr : pixels_of(name, "map_Pm", pm->second);
     if (!rough && !metal) return {};
     const Map& map = rough ? pr->second : pm->second;
+    const auto make = [&] {
+        return combined_image({Channel{}, {rough, brightness}, {metal, brightness}, Channel{}});
+    };
     return reference(derived_name(rough && metal ? &pm->second : nullptr, map),
-                     combined_image({Channel{}, {rough, brightness}, {metal, brightness}, Channel{}}), map);
+                     made("surface", rough ? &pr->second : nullptr, metal ? &pm->second : nullptr, make),
+                     map);
 }
 
 /// A texture counts as it is where the library gives no factor, or 0.
@@ -216,8 +243,12 @@ void MaterialMaker::add_relief_map(Json& json, const std::string& name, const De
     if (is_grey(*pixels)) {
         std::filesystem::path path = derived_name(nullptr, bump->second);
         path.replace_filename(path.stem().string() + "-normals.png");
+        const std::string how = fmt::format("relief {}", bump->second.strength);
         json["normalTexture"] =
-            reference(path, normals_of_relief(*pixels, bump->second.strength), bump->second);
+            reference(path,
+                      made(how.c_str(), &bump->second, nullptr,
+                           [&] { return normals_of_relief(*pixels, bump->second.strength); }),
+                      bump->second);
     } else {
         json["normalTexture"] = texture(name, "map_Bump", bump->second).value();
         if (bump->second.strength != 1) json["normalTexture"]["scale"] = bump->second.strength;

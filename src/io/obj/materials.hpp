@@ -45,10 +45,14 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
 /// Makes materials of a scene from descriptions, and the document that tells them.
 class MaterialMaker {
   public:
-    MaterialMaker(const Input& input, std::map<std::string, Description> descriptions, ReadLog& log);
+    /// names_only: for images(), without the work of making images of others.
+    MaterialMaker(const Input& input, std::map<std::string, Description> descriptions, ReadLog& log,
+                  bool names_only = false);
     /// The index in the materials of the one with that name; textured: for faces with texture points. What
     /// glTF cannot say is a warning (W-MTL), as are textures that cannot be read (W-IMAGE).
     Index index_of(const std::string& name, bool textured, std::vector<Material>& materials);
+    /// The images of the materials so far.
+    std::vector<NamedImage> images() const { return document_.images(); }
     /// Gives the scene the document, when there is anything in it.
     void finish(Scene& scene);
 
@@ -59,7 +63,8 @@ class MaterialMaker {
     };
     Image* image_of(const std::string& material, const std::string& word, const Map& map);
     const Pixels* pixels_of(const std::string& material, const std::string& word, const Map& map);
-    Json reference(const std::filesystem::path& image, const Bytes& bytes, const Map& map);
+    Json reference(const std::filesystem::path& image, const Bytes& bytes, const Map& map,
+                   bool is_file = false);
     std::optional<Json> texture(const std::string& material, const std::string& word, const Map& map);
     std::optional<Json> surface_texture(const std::string& name, const Description& d);
     Json material_json(const std::string& name, const Description& d, bool textured);
@@ -68,10 +73,14 @@ class MaterialMaker {
     void add_surface_maps(Json& json, const std::string& name, const Description& d);
     void add_relief_map(Json& json, const std::string& name, const Description& d);
     void warn(const std::string& material, std::string message);
+    /// What make gives, an image made of these in the way that how names.
+    template <class Make>
+    Bytes made(const char* how, const Map* first, const Map* second, Make&& make);
 
     const Input& input_;
     std::map<std::string, Description> descriptions_;
     ReadLog& log_;
+    const bool names_only_;
     MaterialDocument document_;
     std::map<std::filesystem::path, std::optional<Image>> images_;
     std::map<std::pair<std::string, bool>, Index> known_;

@@ -409,6 +409,66 @@ void add_images(const Input& input, const std::vector<Event>& libraries, FileHea
     header.files.insert(header.files.end(), images.all().begin(), images.all().end());
 }
 
+/// Materials that faces have, each with or without texture points.
+using UsedMaterials = std::vector<std::pair<std::string, bool>>;
+
+bool has_texture_point(std::string_view corner) {
+    const auto slash = corner.find('/');
+    return slash != corner.npos && slash + 1 < corner.size() && corner[slash + 1] != '/';
+}
+
+/// Calls take(statement, rest of the line) for the lines that begin materials and faces, while it gives true.
+template <class Take>
+void for_each_use(std::string_view text, Take&& take) {
+    constexpr std::string_view blanks = " \t\r";
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        std::string_view line = text.substr(at, end - at);
+        at = end + 1;
+        line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+        const std::string_view word = line.substr(0, line.find_first_of(blanks));
+        if (word != "usemtl" && word != "f" && word != "fo") continue;
+        line.remove_prefix(std::min(line.find_first_not_of(blanks, word.size()), line.size()));
+        if (!take(word, line.substr(0, line.find_last_not_of(blanks) + 1))) return;
+    }
+}
+
+UsedMaterials used_materials(const Input& input) {
+    OnceEach<std::pair<std::string, bool>> used;
+    std::string name;
+    bool seen[2] = {true, true};
+    for_each_use(as_text(input.bytes()), [&](std::string_view word, std::string_view rest) {
+        if (word == "usemtl") {
+            name = rest;
+            seen[0] = seen[1] = name.empty();
+        } else if (!(seen[0] && seen[1])) {
+            const bool with = has_texture_point(rest.substr(0, rest.find_first_of(" \t")));
+            if (!std::exchange(seen[with], true)) used.add({name, with});
+        }
+        return true;
+    });
+    return used.all();
+}
+
+bool uses_materials(const std::filesystem::path& path) {
+    bool found = false;
+    const Input input = Input::open(path);
+    for_each_use(as_text(input.bytes()), [&](std::string_view word, std::string_view rest) {
+        found = word == "usemtl" && !rest.empty();
+        return !found;
+    });
+    return found;
+}
+
+std::vector<NamedImage> images_of(const std::filesystem::path& path, const std::vector<Event>& libraries) {
+    const Input input = Input::open(path);
+    ReadLog ignored; // reading the file will tell
+    MaterialMaker maker(input, read_libraries(input, libraries, ignored), ignored, true);
+    std::vector<Material> materials;
+    for (const auto& [name, textured] : used_materials(input)) maker.index_of(name, textured, materials);
+    return maker.images();
+}
+
 /// Libraries are named near the beginning. The parts are known only when all is read.
 void peek(const Input& input, FileHeader& header) {
     std::vector<Event> libraries;
@@ -416,7 +476,6 @@ void peek(const Input& input, FileHeader& header) {
               input.name(), "E-OBJ", '#');
     do {
         const std::string_view word = text.word_on_line();
-        header.has_materials |= word == "usemtl";
         if (word != "mtllib") continue;
         std::string name(text.rest_of_line());
         if (const auto path = input.path().empty() ? std::nullopt : path_inside(name)) {
@@ -425,6 +484,10 @@ void peek(const Input& input, FileHeader& header) {
         }
     } while (text.next_line());
     add_images(input, libraries, header);
+    if (input.path().empty()) return;
+    header.has_materials = [path = input.path()] { return uses_materials(path); };
+    if (!libraries.empty())
+        header.images = [path = input.path(), libraries] { return images_of(path, libraries); };
 }
 
 const RegisterCodec codec({

@@ -239,6 +239,10 @@ void add_colours(Table& table, Mesh& mesh, Domain domain) {
     }
 }
 
+/// Names of texture coordinates of vertices.
+constexpr std::pair<const char*, const char*> texture_points[] = {
+    {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}};
+
 void add_normals(Table& table, Mesh& mesh) {
     if (const auto columns = table.take({"nx", "ny", "nz"}); !columns.empty())
         add_attribute(mesh,
@@ -246,8 +250,7 @@ void add_normals(Table& table, Mesh& mesh) {
 }
 
 void add_uvs(Table& table, Mesh& mesh) {
-    for (const auto& [u, v] : {std::pair{"s", "t"}, std::pair{"u", "v"}, std::pair{"texture_u", "texture_v"},
-                               std::pair{"texture_s", "texture_t"}}) {
+    for (const auto& [u, v] : texture_points) {
         const auto columns = table.take({u, v});
         if (columns.empty()) continue;
         auto uv = interleaved<float>(table, columns);
@@ -301,7 +304,6 @@ class Builder {
     void add_corner_uvs();
     void add_textures(Scene& scene, const Header& header);
     std::vector<Index> texture_of_faces(std::size_t textures);
-    std::optional<Material> material_of(MaterialDocument& document, const std::string& texture);
     void report_lists(const Table& table);
 
     const Input& input_;
@@ -456,6 +458,30 @@ std::vector<Index> Builder::texture_of_faces(std::size_t textures) {
     return numbers;
 }
 
+/// None, with a warning, when it cannot be read or is of no kind that glTF has.
+std::optional<Bytes> texture_bytes(const Input& input, const std::string& texture, ReadLog& log) {
+    auto bytes = read_image(input, path_inside(texture), texture, "TextureFile", log);
+    const std::string type = bytes ? media_type(*bytes) : "";
+    if (!bytes || type == "image/png" || type == "image/jpeg") return bytes;
+    log.warnings.push_back(
+        {Severity::warning, "W-IMAGE",
+         fmt::format("the texture '{}' is neither PNG nor JPEG, as glTF requires, and is not kept", texture),
+         file_mark(input.name()), ""});
+    return {};
+}
+
+std::optional<Material> material_of(MaterialDocument& document, const Input& input,
+                                    const std::string& texture, ReadLog& log) {
+    const auto bytes = texture_bytes(input, texture, log);
+    if (!bytes) return {};
+    const auto relative = path_inside(texture);
+    return document.add({{"name", relative->stem().string()},
+                         {"pbrMetallicRoughness",
+                          {{"baseColorTexture", {{"index", document.texture(*relative, *bytes, false)}}},
+                           {"metallicFactor", 0}}}},
+                        0);
+}
+
 /// Materials from the images that comments name, a primitive for each that faces use. Without texture
 /// coordinates they mean nothing.
 void Builder::add_textures(Scene& scene, const Header& header) {
@@ -477,7 +503,7 @@ void Builder::add_textures(Scene& scene, const Header& header) {
             primitive = static_cast<Index>(mesh_.primitives.size());
             Primitive& p = mesh_.primitives.emplace_back();
             if (number < header.textures.size())
-                if (auto material = material_of(document, header.textures[number])) {
+                if (auto material = material_of(document, input_, header.textures[number], log_)) {
                     p.material = static_cast<Index>(scene.materials.size());
                     scene.materials.push_back(*std::move(material));
                 }
@@ -488,25 +514,6 @@ void Builder::add_textures(Scene& scene, const Header& header) {
         mesh_.attributes.push_back(
             {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(of_face)});
     if (!document.empty()) scene.documents.push_back(document.finish());
-}
-
-std::optional<Material> Builder::material_of(MaterialDocument& document, const std::string& texture) {
-    const auto relative = path_inside(texture);
-    auto bytes = read_image(input_, relative, texture, "TextureFile", log_);
-    const std::string type = bytes ? media_type(*bytes) : "";
-    if (type == "image/png" || type == "image/jpeg")
-        return document.add({{"name", relative->stem().string()},
-                             {"pbrMetallicRoughness",
-                              {{"baseColorTexture", {{"index", document.texture(*relative, *bytes, false)}}},
-                               {"metallicFactor", 0}}}},
-                            0);
-    if (bytes)
-        log_.warnings.push_back(
-            {Severity::warning, "W-IMAGE",
-             fmt::format("the texture '{}' is neither PNG nor JPEG, as glTF requires, and is not kept",
-                         texture),
-             file_mark(input_.name()), ""});
-    return {};
 }
 
 void Builder::report_lists(const Table& table) {
@@ -565,6 +572,35 @@ Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
 }
 
 namespace {
+
+/// Texture coordinates, without which images mean nothing; and what says which face has which image.
+bool has_property(const Header& header, std::string_view element, std::string_view name) {
+    for (const auto& e : header.elements)
+        if (e.name == element)
+            for (const auto& p : e.properties)
+                if (p.name == name) return true;
+    return false;
+}
+
+bool has_texture_points(const Header& header) {
+    for (const auto& [u, v] : texture_points)
+        if (has_property(header, "vertex", u) && has_property(header, "vertex", v)) return true;
+    return has_property(header, "face", "texcoord");
+}
+
+/// Where faces are numbered, all images: which numbers there are is known only when all is read.
+std::vector<NamedImage> images_of(const std::filesystem::path& path) {
+    const Input input = Input::open(path);
+    const Header header = read_header(input);
+    ReadLog ignored; // reading the file will tell
+    MaterialDocument document(input.name());
+    const bool numbered = has_property(header, "face", "texnumber");
+    const std::size_t n =
+        numbered ? header.textures.size() : std::min<std::size_t>(header.textures.size(), 1);
+    for (std::size_t i = 0; i < n; ++i) material_of(document, input, header.textures[i], ignored);
+    return document.images();
+}
+
 const RegisterCodec codec({
     .name = "ply",
     .about = "Stanford polygon file, text or binary; all attributes are kept",
@@ -583,10 +619,14 @@ const RegisterCodec codec({
     .write = write,
     .peek =
         [](const Input& input, FileHeader& header) {
-            for (const auto& texture : read_header(input).textures)
+            const Header read = read_header(input);
+            for (const auto& texture : read.textures)
                 if (const auto relative = path_inside(texture))
                     if (const auto path = path_below(input, *relative)) header.files.push_back(*path);
             header.parts = {""};
+            if (read.textures.empty() || !has_texture_points(read) || input.path().empty()) return;
+            header.images = [path = input.path()] { return images_of(path); };
+            header.has_materials = [path = input.path()] { return !images_of(path).empty(); };
         },
 });
 } // namespace

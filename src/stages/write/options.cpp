@@ -262,9 +262,13 @@ StageFiles files_of_write(const WriteOptions& o) {
     if (!codec->can.companion.empty()) files.outputs.push_back(beside(codec->can.companion));
     if (!codec->can.library.empty()) files.materials = beside(codec->can.library);
     using io::Textures;
-    if (codec->can.textures &&
-        (o.textures == Textures::copy || (o.textures == Textures::automatic && codec->can.copies_images)))
-        files.images = o.path;
+    // What is embedded is not asked for: only images of no known kind are copied then, and named when they
+    // are.
+    const bool embeds =
+        o.textures == Textures::embed || (o.textures == Textures::automatic && !codec->can.copies_images);
+    if (codec->can.textures && !embeds) files.images = o.path;
+    if (o.textures == Textures::reference)
+        files.copies = [](const io::NamedImage& image) { return !image.is_file; };
     return files;
 }
 
