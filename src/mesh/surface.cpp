@@ -4,6 +4,7 @@
 #include "base/parallel.hpp"
 #include "mesh/placement.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -40,10 +41,14 @@ Box Surface::bounds() const {
     return parallel_reduce(
         corners.size(), Box{},
         [&](std::size_t begin, std::size_t end) {
-            Box box;
-            for (std::size_t c = begin; c < end; ++c)
-                if (is_finite(positions[corners[c]])) box.add(positions[corners[c]]);
-            return box;
+            Vec3 low = Box{}.min, high = Box{}.max;
+            for (std::size_t c = begin; c < end; ++c) {
+                const Vec3& p = positions[corners[c]];
+                if (!is_finite(p)) continue;
+                low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+                high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+            }
+            return Box{low, high};
         },
         [](Box a, const Box& b) {
             a.add(b);

@@ -189,12 +189,15 @@ class Search {
         if (hint == none) return run(query, enough_square, root, 0);
         test(hint);
         if (square_ <= enough_square) return;
-        if (enough_square >= 0)
-            for (const int level : {0, 2, 4}) {
-                if (level >= root) break;
-                run(query, enough_square, level, hint >> 2 * (level + 1));
+        if (enough_square >= 0) { // nothing farther is of use, first beside the hint, then anywhere
+            farthest_square_ = enough_square;
+            for (const int level : {0, 1, 2, 3, root}) {
+                if (level > root) continue;
+                run(query, enough_square, level, level < root ? hint >> 2 * (level + 1) : 0);
                 if (square_ <= enough_square) return;
             }
+            farthest_square_ = HUGE_VAL;
+        }
         run(query, enough_square, root, 0);
     }
 
@@ -260,7 +263,7 @@ class Search {
     template <class Query>
     typename Query::Number limit_for() const {
         using Number = typename Query::Number;
-        const double limit = square_ * (1 + (sizeof(Number) == 4 ? 1e-6 : 1e-15));
+        const double limit = std::min(square_, farthest_square_) * (1 + (sizeof(Number) == 4 ? 1e-6 : 1e-15));
         return limit < Query::most ? static_cast<Number>(limit) + std::numeric_limits<Number>::min()
                                    : Query::most;
     }
@@ -269,6 +272,7 @@ class Search {
     const Vec3 p_;
     Vec3 offset_; ///< from p to the closest point so far, in the tree's frame
     double square_ = HUGE_VAL;
+    double farthest_square_ = HUGE_VAL; ///< nothing beyond is searched
     Index triangle_ = none, face_ = none;
 };
 
