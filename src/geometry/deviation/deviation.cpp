@@ -4,6 +4,9 @@
 #include "base/random.hpp"
 #include "geometry/deviation/bound.hpp"
 #include "geometry/spatial/closest_point.hpp"
+#include "geometry/spatial/dense_box.hpp"
+#include "geometry/spatial/group_distances.hpp"
+#include "geometry/spatial/hilbert_curve.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "mesh/power_scale.hpp"
 
@@ -28,84 +31,277 @@ std::vector<double> areas_up_to(const Surface& surface) {
 
 double fraction(double x) { return x - std::floor(x); }
 
-/// The finite points that triangles use, in order along a curve.
-std::vector<Vec3> used_points(const Surface& surface) {
-    std::vector<std::uint8_t> used(surface.positions.size());
-    for (const Index v : surface.corners) used[v] = is_finite(surface.positions[v]);
-    std::vector<Vec3> points;
-    for (std::size_t v = 0; v < used.size(); ++v)
-        if (used[v]) points.push_back(surface.positions[v]);
-    const auto order = order_of_queries(points);
-    std::vector<Vec3> along(points.size());
-    parallel_for(points.size(), [&](std::size_t i) { along[i] = points[order[i]]; });
-    return along;
+/// u and v: of Roberts' additive sequence in the plane, which fills large triangles more evenly than chance.
+Vec3 sample_on(const Surface& surface, std::size_t triangle, double u, double v) {
+    if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+    }
+    const Vec3& a = surface.point(triangle, 0);
+    return a + (surface.point(triangle, 1) - a) * u + (surface.point(triangle, 2) - a) * v;
 }
+
+/// A distance that is not this many times its error is computed again, exactly.
+constexpr double most_errors = 256;
 
 struct Farthest {
     Vec3 from, to;
     double distance = -1;
+    std::size_t sample = SIZE_MAX; ///< its number, unless it is a vertex
 };
 
-/// The farthest of the points, when it is beyond `least`. A point that turns out nearer than one before it
-/// need not be searched to the end.
-Farthest farthest_of(const FaceTree& tree, const std::vector<Vec3>& points, double least) {
-    return parallel_reduce(
-        points.size(), Farthest{},
-        [&](std::size_t begin, std::size_t end) {
-            Farthest best{{}, {}, least};
-            Index hint = none;
-            for (std::size_t i = begin; i < end; ++i) {
-                const Closest c = closest_point(tree, points[i], hint, best.distance);
-                hint = c.triangle;
-                if (c.distance > best.distance) best = {points[i], c.point, c.distance};
-            }
-            return best;
-        },
-        [](const Farthest& a, const Farthest& b) { return b.distance > a.distance ? b : a; }, 1024);
+Farthest farther_of(const Farthest& a, const Farthest& b) { return b.distance > a.distance ? b : a; }
+
+/// Which triangle, of those that use it, is the first; none for vertices that are not finite.
+std::vector<Index> first_uses(const Surface& surface) {
+    std::vector<Index> first(surface.positions.size(), none);
+    for (std::size_t c = surface.corners.size(); c-- > 0;)
+        first[surface.corners[c]] = static_cast<Index>(c / 3);
+    parallel_for(first.size(), [&](std::size_t v) {
+        if (!is_finite(surface.positions[v])) first[v] = none;
+    });
+    return first;
 }
+
+/// Measures one way, the triangles in an order in which each is near the one before.
+class Walk {
+  public:
+    Walk(const Surface& from, std::span<const Index> order, const FaceTree& to)
+        : from_(from), order_(order), to_(to), first_uses_(first_uses(from)) {}
+
+    std::size_t vertex_count() const {
+        return first_uses_.size() -
+               static_cast<std::size_t>(std::count(first_uses_.begin(), first_uses_.end(), none));
+    }
+    std::vector<Vec3> vertices() const {
+        std::vector<Vec3> points;
+        for (std::size_t v = 0; v < first_uses_.size(); ++v)
+            if (first_uses_[v] != none) points.push_back(from_.positions[v]);
+        return points;
+    }
+
+    /// The farthest vertex, when it is beyond `least`. One that turns out nearer than one before it need not
+    /// be searched to the end.
+    Farthest farthest_vertex(double least) const {
+        return parallel_reduce(
+            order_.size(), Farthest{},
+            [&](std::size_t begin, std::size_t end) {
+                Vertices waiting{*this, GroupDistances(to_), {{}, {}, least}};
+                for (std::size_t i = begin; i < end; ++i)
+                    for (std::size_t k = 0; k < 3; ++k) {
+                        const Index v = from_.corners[3 * std::size_t{order_[i]} + k];
+                        if (first_uses_[v] == order_[i]) waiting.add(from_.positions[v]);
+                    }
+                waiting.finish();
+                return waiting.best;
+            },
+            farther_of, 4096);
+    }
+
+    /// The distances of all samples, and the farthest.
+    Farthest measure(const std::vector<SurfaceSample>& samples, std::vector<double>& distances) const {
+        distances.resize(samples.size());
+        const std::vector<std::size_t> firsts = first_samples(samples);
+        const std::size_t chunk = std::clamp<std::size_t>(order_.size() / 64, 1, 4096);
+        return parallel_reduce(
+            order_.size(), Farthest{},
+            [&](std::size_t begin, std::size_t end) {
+                Groups groups{*this, samples, distances, GroupDistances(to_), {{}, {}, 0}};
+                for (std::size_t i = begin; i < end; ++i)
+                    groups.add(firsts[order_[i]], firsts[order_[i] + std::size_t{1}]);
+                groups.finish();
+                return groups.best;
+            },
+            farther_of, chunk);
+    }
+
+  private:
+    /// Of each triangle its first sample; they are in the order of the triangles.
+    std::vector<std::size_t> first_samples(const std::vector<SurfaceSample>& samples) const {
+        std::vector<std::size_t> firsts(from_.size() + 1);
+        for (const SurfaceSample& s : samples) ++firsts[s.triangle];
+        exclusive_scan(firsts);
+        return firsts;
+    }
+
+    /// Raises `best` if p is farther. The coordinates of samples are rounded, those of vertices are not.
+    void consider(const Vec3& p, std::size_t sample, Index& hint, Farthest& best) const {
+        const Closest c = closest_point(to_, p, hint, best.distance);
+        hint = c.triangle;
+        const double distance = sample == SIZE_MAX ? c.distance : told_from_zero(c.distance, p);
+        if (distance > best.distance) best = {p, c.point, distance, sample};
+    }
+
+    /// Vertices that wait to be compared with the farthest together.
+    struct Vertices {
+        const Walk& walk;
+        GroupDistances together;
+        Farthest best;
+        std::vector<Vec3> points{};
+        Index hint = none;
+
+        void add(const Vec3& p) {
+            points.push_back(p);
+            if (points.size() == GroupDistances::most) finish();
+        }
+
+        void finish() {
+            if (!points.empty() && !together.all_within(points, best.distance, hint))
+                for (std::size_t i = 0; i < points.size(); ++i)
+                    if (together.distance(i) + together.error() > best.distance)
+                        walk.consider(points[i], SIZE_MAX, hint, best);
+            points.clear();
+        }
+    };
+
+    /// Samples that wait to be measured together. Only those that may be the farthest are looked up.
+    struct Groups {
+        const Walk& walk;
+        const std::vector<SurfaceSample>& samples;
+        std::vector<double>& distances;
+        GroupDistances together;
+        Farthest best;
+        std::vector<Index> waiting{};
+        std::vector<Vec3> points{};
+        Index hint = none;
+
+        void add(std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) waiting.push_back(static_cast<Index>(i));
+            if (waiting.size() >= GroupDistances::most / 2) finish();
+        }
+
+        void finish() {
+            if (!waiting.empty()) measure(waiting);
+            waiting.clear();
+        }
+
+        /// Halved across the longest side until they are few enough.
+        void measure(std::span<Index> some) {
+            if (some.size() <= GroupDistances::most) return measure_group(some);
+            Box box;
+            for (const Index i : some) box.add(samples[i].point);
+            const Vec3 sides = box.extent();
+            const std::size_t axis = sides.x >= sides.y && sides.x >= sides.z ? 0
+                                     : sides.y >= sides.z                     ? 1
+                                                                              : 2;
+            const std::size_t half = some.size() / 2;
+            std::nth_element(some.begin(), some.begin() + static_cast<std::ptrdiff_t>(half), some.end(),
+                             [&](Index a, Index b) {
+                                 const double x = samples[a].point[axis], y = samples[b].point[axis];
+                                 return x != y ? x < y : a < b;
+                             });
+            measure(some.first(half));
+            measure(some.subspan(half));
+        }
+
+        void measure_group(std::span<const Index> some) {
+            points.clear();
+            for (const Index i : some) points.push_back(samples[i].point);
+            if (!together.measure(points, hint)) {
+                for (const Index i : some) measure_alone(i, hint);
+                return;
+            }
+            for (std::size_t k = 0; k < some.size(); ++k) {
+                const double distance = together.distance(k);
+                if (together.error() * most_errors > distance) {
+                    measure_alone(some[k], together.triangle(k));
+                    continue;
+                }
+                distances[some[k]] = told_from_zero(distance, points[k]);
+                Index near = together.triangle(k);
+                if (distance + together.error() > best.distance)
+                    walk.consider(points[k], some[k], near, best);
+            }
+        }
+
+        /// Exactly.
+        void measure_alone(Index i, Index near) {
+            const Vec3& p = samples[i].point;
+            Closest c;
+            if (near != none) c = closest_on(walk.to_, near, p);
+            if (told_from_zero(c.distance, p) > 0) c = closest_point(walk.to_, p, near);
+            hint = c.triangle;
+            distances[i] = told_from_zero(c.distance, p);
+            if (distances[i] > best.distance) best = {p, c.point, distances[i], i};
+        }
+    };
+
+    const Surface& from_;
+    std::span<const Index> order_;
+    const FaceTree& to_;
+    std::vector<Index> first_uses_;
+};
 
 struct DistanceSums {
     double distances = 0, squares = 0;
 };
 
-/// The maximum, mean and rms of the distances of these points; face_of(i) is where the i-th lies.
-template <class FaceOf>
-void measure_points(DirectedDeviation& d, const std::vector<Vec3>& points, const std::vector<Closest>& found,
-                    FaceOf&& face_of) {
-    for (std::size_t i = 0; i < found.size(); ++i)
-        if (found[i].distance > d.maximum) {
-            d.maximum = found[i].distance;
-            d.from = points[i];
-            d.to = found[i].point;
-            d.face = face_of(i);
-        }
+void set_means(DirectedDeviation& d, const std::vector<double>& distances) {
     const DistanceSums sums = parallel_reduce(
-        found.size(), DistanceSums{},
+        distances.size(), DistanceSums{},
         [&](std::size_t begin, std::size_t end) {
             DistanceSums s;
             for (std::size_t i = begin; i < end; ++i) {
-                s.distances += found[i].distance;
-                s.squares += found[i].distance * found[i].distance;
+                s.distances += distances[i];
+                s.squares += distances[i] * distances[i];
             }
             return s;
         },
         [](const DistanceSums& a, const DistanceSums& b) {
             return DistanceSums{a.distances + b.distances, a.squares + b.squares};
         });
-    if (found.empty()) return;
-    d.mean = sums.distances / static_cast<double>(found.size());
-    d.rms = std::sqrt(sums.squares / static_cast<double>(found.size()));
+    if (distances.empty()) return;
+    d.mean = std::min(sums.distances / static_cast<double>(distances.size()), d.maximum);
+    d.rms = std::min(std::sqrt(sums.squares / static_cast<double>(distances.size())), d.maximum);
 }
 
-void measure_area(DirectedDeviation& d, const Surface& from, const FaceTree& to,
-                  const std::vector<SurfaceSample>& samples) {
-    std::vector<Vec3> points(samples.size());
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = samples[i].point;
+void set_maximum(DirectedDeviation& d, const Farthest& farthest, Index face) {
+    if (!(farthest.distance > d.maximum)) return;
+    d.maximum = farthest.distance;
+    d.from = farthest.from;
+    d.to = farthest.to;
+    d.face = face;
+}
+
+/// Of a surface without an area: the distances of its vertices, which are all that there is.
+void measure_vertices(DirectedDeviation& d, const std::vector<Vec3>& vertices, const FaceTree& to) {
+    const auto found = closest_points(to, vertices);
+    std::vector<double> distances(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        distances[i] = found[i].distance;
+        set_maximum(d, {vertices[i], found[i].point, found[i].distance}, none);
+    }
+    set_means(d, distances);
+}
+
+/// order: the triangles, each near the one before.
+DirectedDeviation deviation_to(const Surface& from, std::span<const Index> order, const FaceTree& to,
+                               const DeviationSettings& settings) {
+    DirectedDeviation d;
+    const Walk walk(from, order, to);
+    d.vertices = walk.vertex_count();
+    if (d.vertices == 0) {
+        if (settings.certify) d.bound = 0;
+        return d;
+    }
+    if (to.empty()) {
+        d.maximum = d.rms = d.mean = HUGE_VAL;
+        if (settings.certify) d.bound = HUGE_VAL;
+        return d;
+    }
+    const auto samples = sample_area(from, settings.samples, settings.seed);
     d.samples = samples.size();
-    auto found = closest_points(to, points);
-    parallel_for(found.size(),
-                 [&](std::size_t i) { found[i].distance = told_from_zero(found[i].distance, points[i]); });
-    measure_points(d, points, found, [&](std::size_t i) { return from.face(samples[i].triangle); });
+    if (samples.empty()) {
+        measure_vertices(d, walk.vertices(), to);
+    } else {
+        std::vector<double> distances;
+        const Farthest sample = walk.measure(samples, distances);
+        if (sample.sample != SIZE_MAX) set_maximum(d, sample, from.face(samples[sample.sample].triangle));
+        set_maximum(d, walk.farthest_vertex(d.maximum), none);
+        set_means(d, distances);
+    }
+    if (settings.certify) bound_deviation(d, from, to, settings);
+    return d;
 }
 
 } // namespace
@@ -116,22 +312,22 @@ std::vector<SurfaceSample> sample_area(const Surface& surface, std::size_t count
     std::vector<SurfaceSample> samples(count);
     const auto start = [&](std::uint64_t i) { return uniform(hashed(seed, i)); };
     const double start_u = start(0), start_v = start(1);
-    parallel_for(count, [&](std::size_t k) {
-        const auto n = static_cast<double>(k);
-        const double at = (n + start(k + 2)) / static_cast<double>(count) * areas.back();
-        // The last triangle when rounding leads past the end; it need not have an area, which does no harm.
-        const auto found = std::upper_bound(areas.begin(), areas.end(), at);
-        const auto t = static_cast<std::size_t>(found == areas.end() ? found - areas.begin() - 1
-                                                                     : found - areas.begin());
-        // Roberts' additive sequence in the plane fills large triangles more evenly than chance.
-        double u = fraction(start_u + n * 0.7548776662466927), v = fraction(start_v + n * 0.5698402909980532);
-        if (u + v > 1) {
-            u = 1 - u;
-            v = 1 - v;
+    const auto at = [&](std::size_t k) {
+        return (static_cast<double>(k) + start(k + 2)) / static_cast<double>(count) * areas.back();
+    };
+    parallel_chunks(count, [&](std::size_t begin, std::size_t end) {
+        auto t =
+            static_cast<std::size_t>(std::upper_bound(areas.begin(), areas.end(), at(begin)) - areas.begin());
+        for (std::size_t k = begin; k < end; ++k) {
+            // The last triangle when rounding leads past the end; it need not have an area, which does no
+            // harm.
+            for (const double here = at(k); t < areas.size() && areas[t] <= here;) ++t;
+            t = std::min(t, areas.size() - 1);
+            samples[k] = {sample_on(surface, t,
+                                    fraction(start_u + static_cast<double>(k) * 0.7548776662466927),
+                                    fraction(start_v + static_cast<double>(k) * 0.5698402909980532)),
+                          static_cast<Index>(t)};
         }
-        const Vec3& a = surface.point(t, 0);
-        samples[k] = {a + (surface.point(t, 1) - a) * u + (surface.point(t, 2) - a) * v,
-                      static_cast<Index>(t)};
     });
     return samples;
 }
@@ -146,33 +342,9 @@ double DeviationResult::percent(double length) const {
 }
 
 DirectedDeviation deviation_to(const Surface& from, const FaceTree& to, const DeviationSettings& settings) {
-    DirectedDeviation d;
-    const std::vector<Vec3> vertices = used_points(from);
-    d.vertices = vertices.size();
-    if (vertices.empty()) {
-        if (settings.certify) d.bound = 0;
-        return d;
-    }
-    if (to.empty()) {
-        d.maximum = d.rms = d.mean = HUGE_VAL;
-        if (settings.certify) d.bound = HUGE_VAL;
-        return d;
-    }
-    const auto samples = sample_area(from, settings.samples, settings.seed);
-    if (samples.empty()) {
-        measure_points(d, vertices, closest_points(to, vertices), [](std::size_t) { return none; });
-    } else {
-        measure_area(d, from, to, samples);
-        const Farthest vertex = farthest_of(to, vertices, d.maximum);
-        if (vertex.distance > d.maximum) {
-            d.maximum = vertex.distance;
-            d.from = vertex.from;
-            d.to = vertex.to;
-            d.face = none;
-        }
-    }
-    if (settings.certify) bound_deviation(d, from, to, settings);
-    return d;
+    const auto corner = [&](std::size_t t) { return from.point(t, 0); };
+    const Box dense = dense_box(from.size(), from.bounds(), corner);
+    return deviation_to(from, order_along_curve(from.size(), dense, corner), to, settings);
 }
 
 namespace {
@@ -204,11 +376,21 @@ bool is_far(const Surface& from, const Surface& to, const FaceTree& tree) {
     return 2 * far > looked_at;
 }
 
-DirectedDeviation deviation_between(const Surface& from, const Surface& to,
-                                    const DeviationSettings& settings) {
-    FaceTree tree(to, FaceTree::Use::near);
+/// The triangles in the order of their tree, and those that are in none.
+std::vector<Index> order_of(const Surface& surface, const FaceTree& tree) {
+    std::vector<Index> order = tree.sources;
+    if (order.size() == surface.size()) return order;
+    std::vector<std::uint8_t> known(surface.size());
+    for (const Index t : order) known[t] = 1;
+    for (std::size_t t = 0; t < known.size(); ++t)
+        if (!known[t]) order.push_back(static_cast<Index>(t));
+    return order;
+}
+
+DirectedDeviation deviation_between(const Surface& from, std::span<const Index> order, const Surface& to,
+                                    FaceTree& tree, const DeviationSettings& settings) {
     if (is_far(from, to, tree)) tree.flatten();
-    return deviation_to(from, tree, settings);
+    return deviation_to(from, order, tree, settings);
 }
 
 Surface scaled(Surface surface, const PowerScale& scale) {
@@ -227,7 +409,8 @@ void unscale(DirectedDeviation& d, const PowerScale& scale) {
 } // namespace
 
 DeviationResult deviation(const Surface& first, const Surface& second, const DeviationSettings& settings) {
-    Box both = first.bounds();
+    const Box of_first = first.bounds();
+    Box both = of_first;
     both.add(second.bounds());
     if (const PowerScale scale = even_scale(both); !scale.none()) {
         DeviationResult far = deviation(scaled(first, scale), scaled(second, scale), settings);
@@ -238,9 +421,11 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     }
     DeviationResult result;
     result.seed = settings.seed;
-    result.diagonal = diagonal(first.bounds());
-    result.forward = deviation_between(first, second, settings); // one tree at a time
-    result.backward = deviation_between(second, first, settings);
+    result.diagonal = diagonal(of_first);
+    FaceTree first_tree(first, FaceTree::Use::near), second_tree(second, FaceTree::Use::near);
+    const auto first_order = order_of(first, first_tree), second_order = order_of(second, second_tree);
+    result.forward = deviation_between(first, first_order, second, second_tree, settings);
+    result.backward = deviation_between(second, second_order, first, first_tree, settings);
     const bool one_empty = (result.forward.vertices == 0) != (result.backward.vertices == 0);
     if (one_empty)
         for (auto* d : {&result.forward, &result.backward}) d->maximum = d->rms = d->mean = HUGE_VAL;

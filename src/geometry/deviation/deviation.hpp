@@ -26,8 +26,8 @@ struct DeviationSettings {
 struct DirectedDeviation {
     std::size_t samples = 0;  ///< over the area; mean and rms are over these, without any over the vertices
     std::size_t vertices = 0; ///< that triangles use; where there are samples they enter the maximum only
-    double maximum = 0, rms = 0, mean = 0;
-    Vec3 from, to;     ///< the farthest sample and the point closest to it
+    double maximum = 0, rms = 0, mean = 0; ///< the means of distances right to 1/256, most to a millionth
+    Vec3 from, to;                         ///< the farthest sample and the point closest to it
     Index face = none; ///< a face of the surface measured from, at the farthest sample; none for a vertex
     /// No point of the surface is farther than this, up to the rounding of coordinates. At least `maximum`.
     std::optional<double> bound;

@@ -35,8 +35,7 @@ std::vector<Index> finite_triangles(const Surface& surface) {
 
 /// A frame of where most triangles are, so that float32 tells them apart whatever else there is. Rays need a
 /// frame of everything.
-void FaceTree::set_dense_frame(const Surface& surface, const std::vector<Index>& kept) {
-    const Box all = surface.bounds();
+void FaceTree::set_dense_frame(const Surface& surface, const Box& all, const std::vector<Index>& kept) {
     const Box dense = dense_box(kept.size(), all, [&](std::size_t i) { return surface.point(kept[i], 0); });
     constexpr double most = 1e20; // squares of this are float32 still
     const Vec3 whole = all.extent(), part = dense.extent();
@@ -49,8 +48,9 @@ void FaceTree::set_dense_frame(const Surface& surface, const std::vector<Index>&
 FaceTree::FaceTree(const Surface& surface, Use use) {
     const std::vector<Index> kept = finite_triangles(surface);
     if (kept.empty()) return;
-    set_frame(surface.bounds());
-    if (use == Use::near) set_dense_frame(surface, kept);
+    const Box all = surface.bounds();
+    set_frame(all);
+    if (use == Use::near) set_dense_frame(surface, all, kept);
     std::vector<CentredItem> order;
     resize_large(order, kept.size());
     parallel_for(order.size(), [&](std::size_t i) {
@@ -61,8 +61,10 @@ FaceTree::FaceTree(const Surface& surface, Use use) {
     sort_in_median_order(order);
     resize_large(triangles, kept.size());
     resize_large(faces, kept.size());
+    if (use == Use::near) resize_large(sources, kept.size());
     parallel_for(kept.size(), [&](std::size_t i) {
         const Index t = order[i].item;
+        if (use == Use::near) sources[i] = t;
         triangles[i] = {surface.point(t, 0), surface.point(t, 1), surface.point(t, 2)};
         faces[i] = surface.face(t);
     });

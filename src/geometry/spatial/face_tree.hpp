@@ -48,6 +48,7 @@ struct FaceTree : BoxLevels {
     std::vector<Triangle>
         triangles;            ///< those with finite corners, neighbours by geometry/spatial/median_order.hpp
     std::vector<Index> faces; ///< of triangles
+    std::vector<Index> sources; ///< of triangles, in a tree for near points: which of the surface's each is
     std::vector<Plates> plates; ///< of triangles 4i to 4i + 3
     int patch_levels = -1;      ///< at most 2; above, pieces are too curved to gain. -1: no plates either
     std::vector<std::size_t> patch_begin; ///< into patches
@@ -55,7 +56,7 @@ struct FaceTree : BoxLevels {
     double reach = 1; ///< of everything, in the tree's frame: above 1 some of it lies outside
 
   private:
-    void set_dense_frame(const Surface& surface, const std::vector<Index>& kept);
+    void set_dense_frame(const Surface& surface, const Box& all, const std::vector<Index>& kept);
 };
 
 } // namespace facetmill

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/random.hpp"
 #include "geometry/deviation/deviation.hpp"
+#include "geometry/spatial/closest_point.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/surface.hpp"
 #include "support/meshes.hpp"
@@ -163,4 +164,94 @@ TEST_CASE("isolated vertices are those without faces, in the world", "[geometry]
     CHECK(all.face(11) == 11);
     CHECK(all.face(12) == none);
     CHECK(all.point(13, 2) == Vec3{5, 5, 5});
+}
+
+namespace {
+
+/// What a deviation is by its definition, each point by itself.
+struct Plain {
+    double maximum = 0, rms = 0, mean = 0;
+};
+
+Plain plainly(const Surface& from, const Surface& to, std::size_t count) {
+    const FaceTree tree(to);
+    Plain plain;
+    double squares = 0;
+    const auto samples = sample_area(from, count, 1);
+    for (const SurfaceSample& s : samples) {
+        const double distance = closest_point(tree, s.point).distance;
+        plain.maximum = std::max(plain.maximum, distance);
+        plain.mean += distance / static_cast<double>(samples.size());
+        squares += distance * distance;
+    }
+    for (const Index v : from.corners)
+        if (is_finite(from.positions[v]))
+            plain.maximum = std::max(plain.maximum, closest_point(tree, from.positions[v]).distance);
+    plain.rms = std::sqrt(squares / static_cast<double>(samples.size()));
+    return plain;
+}
+
+/// A triangle far from everything else.
+Mesh with_stray(Mesh mesh, double away) {
+    const auto first = static_cast<Index>(mesh.positions.size());
+    for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{0.1, 0, 0}, Vec3{0, 0.1, 0}})
+        mesh.positions.push_back(p + Vec3{away, 0, 0});
+    for (Index k = 0; k < 3; ++k) mesh.corners.push_back(first + k);
+    return mesh;
+}
+
+} // namespace
+
+TEST_CASE("a deviation is what each point by itself says, by any number of threads", "[geometry]") {
+    Mesh thin = test::noisy_torus(30, 16, 0.03, 5);
+    for (Vec3& p : thin.positions) p.z *= 1e-5;
+    Mesh broken = test::noisy_icosphere(3, 0.05, 3);
+    broken.positions[5].x = std::nan("");
+    broken.positions[9].y = HUGE_VAL;
+    const std::pair<Mesh, Mesh> pairs[] = {
+        {shapes::icosphere(4), shapes::icosphere(2)},
+        {test::noisy_icosphere(4, 0.1, 1), test::noisy_icosphere(2, 0.1, 2)},
+        {test::noisy_torus(30, 16, 0.03, 5), shapes::cube()},
+        {thin, test::noisy_torus(12, 8, 0.01, 5)},
+        {test::moved(shapes::icosphere(3), {30, 0, 0}), shapes::icosphere(3)},
+        {test::random_triangles(300, 0.2, 1), test::random_triangles(40, 0.9, 2)},
+        {with_stray(shapes::icosphere(3), 1e4), shapes::icosphere(2)},
+        {with_stray(shapes::icosphere(3), 1e9), with_stray(shapes::icosphere(2), -1e9)},
+        {broken, shapes::icosphere(2)}};
+    for (const auto& [a, b] : pairs) {
+        const Surface x = surface_of(a), y = surface_of(b);
+        constexpr std::size_t samples = 3000;
+        const auto d = deviation(x, y, {.samples = samples});
+        for (const auto& [way, plain] :
+             {std::pair(d.forward, plainly(x, y, samples)), std::pair(d.backward, plainly(y, x, samples))}) {
+            CHECK(way.maximum == plain.maximum);
+            CHECK(way.rms == Approx(plain.rms).epsilon(1e-4));
+            CHECK(way.mean == Approx(plain.mean).epsilon(1e-4));
+            CHECK(way.samples == samples);
+            CHECK(length(way.from - way.to) == Approx(way.maximum));
+        }
+        for (const int count : {1, 3}) {
+            set_threads(count);
+            const auto again = deviation(x, y, {.samples = samples});
+            CHECK(again.rms() == d.rms());
+            CHECK(again.forward.mean == d.forward.mean);
+            CHECK(again.backward.mean == d.backward.mean);
+            CHECK(again.forward.from == d.forward.from);
+            CHECK(again.backward.to == d.backward.to);
+        }
+        set_threads(0);
+    }
+}
+
+TEST_CASE("figures keep their digits at any size", "[geometry]") {
+    const Mesh fine = test::noisy_icosphere(3, 0.05, 1), coarse = shapes::icosphere(2);
+    const auto d = deviation(fine, coarse, {.samples = 2000});
+    for (const double size : {0x1p-900, 0x1p-70, 0x1p70, 0x1p990}) {
+        Mesh x = fine, y = coarse;
+        for (Mesh* mesh : {&x, &y})
+            for (Vec3& p : mesh->positions) p *= size;
+        const auto scaled = deviation(x, y, {.samples = 2000});
+        CHECK(scaled.maximum() / size == Approx(d.maximum()).epsilon(1e-12));
+        CHECK(scaled.rms() / size == Approx(d.rms()).epsilon(1e-5));
+    }
 }

@@ -1,0 +1,235 @@
+#include "geometry/spatial/group_distances.hpp"
+
+#include "geometry/spatial/closest_point.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace facetmill {
+
+namespace {
+
+constexpr std::size_t most_nodes = 24; ///< of one level; with more, points by themselves are as fast
+constexpr double farthest_reach = 32;  ///< of the tree's frame: its float32 are too coarse for points beyond
+/// How far a sum of a few float32 numbers below 2 may be off; points that close to an edge count as beside
+/// it.
+constexpr float rounding = 0x1p-20F;
+
+Float4 four(float x) { return Float4{} + x; }
+
+Box box_around(std::span<const Vec3> points) {
+    Box box;
+    for (const Vec3& p : points) box.add(p);
+    return box;
+}
+
+} // namespace
+
+/// A triangle in the group's frame, as its plane and, for each edge, the directions out of the triangle and
+/// along the edge, all of unit length: what is near the group is then a small number and loses nothing.
+struct GroupDistances::Flat {
+    struct Edge {
+        float out[3], reach, along[3], begin, end;
+    };
+    float normal[3], offset;
+    Edge edges[3];
+
+    /// False for slivers, whose plane is uncertain, and for what is far beyond the group.
+    bool set(const Vec3& a, const Vec3& b, const Vec3& c) {
+        const Vec3 ab = b - a, ac = c - a, n = cross(ab, ac);
+        const double square = dot(n, n), size = dot(ab, ab) + dot(ac, ac);
+        if (!(square > 1e-12 * size * size) || !(size + dot(a, a) < 1e20) || !(square > 1e-60)) return false;
+        const Vec3 unit = n * (1 / std::sqrt(square));
+        for (std::size_t k = 0; k < 3; ++k) normal[k] = static_cast<float>(unit[k]);
+        offset = static_cast<float>(dot(unit, a));
+        set(edges[0], a, b, ab, unit);
+        set(edges[1], b, c, c - b, unit);
+        set(edges[2], c, a, a - c, unit);
+        return true;
+    }
+
+  private:
+    static void set(Edge& edge, const Vec3& from, const Vec3& to, const Vec3& way, const Vec3& normal) {
+        const Vec3 along = way * (1 / std::sqrt(dot(way, way))), out = cross(along, normal);
+        for (std::size_t k = 0; k < 3; ++k) {
+            edge.along[k] = static_cast<float>(along[k]);
+            edge.out[k] = static_cast<float>(out[k]);
+        }
+        edge.reach = static_cast<float>(dot(out, from));
+        edge.begin = static_cast<float>(dot(along, from));
+        edge.end = static_cast<float>(dot(along, to));
+    }
+};
+
+/// Lays the points out in a frame in which what is within `reach` of the centre is below 1. The last four are
+/// filled up with the first point. False when the tree's float32 are too coarse for that.
+bool GroupDistances::place(std::span<const Vec3> points, const Vec3& centre, double reach) {
+    const Vec3 at = tree_.local(centre);
+    if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < farthest_reach) ||
+        !(reach * tree_.scale > 1e-15 && reach * tree_.scale < farthest_reach))
+        return false;
+    centre_ = centre;
+    scale_ = 1 / reach;
+    error_ = 4 * rounding * reach;
+    fours_ = (points.size() + 3) / 4;
+    for (std::size_t i = 0; i < 4 * fours_; ++i) {
+        const Vec3 p = (points[i < points.size() ? i : 0] - centre) * scale_;
+        x_[i / 4][i % 4] = static_cast<float>(p.x);
+        y_[i / 4][i % 4] = static_cast<float>(p.y);
+        z_[i / 4][i % 4] = static_cast<float>(p.z);
+    }
+    for (std::size_t i = 0; i < fours_; ++i) {
+        least_[i] = four(HUGE_VALF);
+        nearest_[i] = Int4{};
+    }
+    return true;
+}
+
+/// Lowers the squared distances to those to one triangle.
+void GroupDistances::compare(const Flat& t, Index triangle) {
+    for (std::size_t i = 0; i < fours_; ++i) {
+        const Float4 x = x_[i], y = y_[i], z = z_[i], least = least_[i];
+        const Float4 up = x * t.normal[0] + y * t.normal[1] + z * t.normal[2] - t.offset;
+        Float4 beyond[3];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Flat::Edge& e = t.edges[k];
+            beyond[k] = x * e.out[0] + y * e.out[1] + z * e.out[2] - e.reach;
+        }
+        const Float4 farthest = greater(greater(beyond[0], beyond[1]), beyond[2]);
+        const Float4 aside = greater(farthest, Float4{});
+        if (bits_of(up * up + aside * aside < least) == 0) continue;
+        // In the plane: 0 inside, and beyond an edge the distance to that edge.
+        Float4 across = farthest <= four(-rounding) ? Float4{} : four(HUGE_VALF);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Flat::Edge& e = t.edges[k];
+            const Float4 along = x * e.along[0] + y * e.along[1] + z * e.along[2];
+            const Float4 past = greater(greater(e.begin - along, along - e.end), Float4{});
+            const Float4 out = greater(beyond[k], Float4{});
+            across = beyond[k] > four(-rounding) ? lesser(across, out * out + past * past) : across;
+        }
+        const Float4 square = up * up + across;
+        const Int4 nearer = square < least;
+        least_[i] = nearer ? square : least;
+        nearest_[i] = nearer ? Int4{} + static_cast<std::int32_t>(triangle) : nearest_[i];
+    }
+}
+
+void GroupDistances::compare_exactly(std::span<const Vec3> points, Index triangle) {
+    for (std::size_t i = 0; i < 4 * fours_; ++i) {
+        const double distance =
+            closest_on(tree_, triangle, points[i < points.size() ? i : 0]).distance * scale_;
+        const auto square = static_cast<float>(std::min(distance * distance, 1e30));
+        if (!(square < least_[i / 4][i % 4])) continue;
+        least_[i / 4][i % 4] = square;
+        nearest_[i / 4][i % 4] = static_cast<std::int32_t>(triangle);
+    }
+}
+
+void GroupDistances::compare(std::span<const Vec3> points, Index triangle) {
+    Flat flat;
+    const auto& [a, b, c] = tree_.triangles[triangle];
+    if (flat.set((a - centre_) * scale_, (b - centre_) * scale_, (c - centre_) * scale_))
+        compare(flat, triangle);
+    else
+        compare_exactly(points, triangle);
+}
+
+float GroupDistances::farthest_square() const {
+    Float4 most{};
+    for (std::size_t i = 0; i < fours_; ++i) most = greater(most, least_[i]);
+    return std::max({most[0], most[1], most[2], most[3]});
+}
+
+namespace {
+
+/// A box in the tree's frame, and which boxes are within a distance of it.
+struct BoxQuery {
+    Float4 low[3], high[3], square;
+
+    BoxQuery(const FaceTree& tree, const Box& box, double distance) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = four(rounded_down(tree.local(box.min[axis], axis)));
+            high[axis] = four(rounded_up(tree.local(box.max[axis], axis)));
+        }
+        const double farthest = distance * tree.scale * (1 + 1e-6);
+        square = four(static_cast<float>(farthest * farthest) + 1e-37F);
+    }
+    /// A bit for each of the four.
+    unsigned near(const FaceTree::Node& node) const {
+        Float4 sum{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const Float4 d = greater(
+                greater(load(node.min[axis]) - high[axis], low[axis] - load(node.max[axis])), Float4{});
+            sum += d * d;
+        }
+        return bits_of(sum * (1 - 1e-6F) <= square);
+    }
+};
+
+} // namespace
+
+/// Finds the nodes of the lowest level that are within `limit` of the box; false when they are many.
+bool GroupDistances::gather(const Box& box, double limit) {
+    const BoxQuery query(tree_, box, limit);
+    nodes_.assign(1, 0);
+    for (int level = tree_.height() - 1; level > 0; --level) {
+        children_.clear();
+        for (const std::uint32_t n : nodes_)
+            for (unsigned bits = query.near(tree_.node(level, n)); bits != 0; bits &= bits - 1)
+                children_.push_back(4 * n + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        if (children_.size() > most_nodes) return false;
+        nodes_.swap(children_);
+    }
+    return true;
+}
+
+/// Compares all points with the triangles below the gathered nodes that are within `limit` of the box, until
+/// they are near enough.
+bool GroupDistances::compare_until(float enough_square, std::span<const Vec3> points, const Box& box,
+                                   double limit) {
+    const BoxQuery query(tree_, box, limit);
+    for (const std::uint32_t leaf : nodes_)
+        for (unsigned bits = query.near(tree_.node(0, leaf)); bits != 0; bits &= bits - 1) {
+            compare(points, 4 * leaf + static_cast<Index>(std::countr_zero(bits)));
+            if (enough_square >= 0 && farthest_square() <= enough_square) return true;
+        }
+    return false;
+}
+
+void GroupDistances::take_distances(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        distances_[i] = std::sqrt(double{least_[i / 4][i % 4]}) / scale_;
+        triangles_[i] = static_cast<Index>(nearest_[i / 4][i % 4]);
+    }
+}
+
+bool GroupDistances::measure(std::span<const Vec3> points, Index& hint) {
+    const Box box = box_around(points);
+    const Closest closest = closest_point(tree_, box.centre(), hint);
+    if (closest.triangle == none) return false;
+    hint = closest.triangle;
+    if (!place(points, box.centre(), box.diagonal() + closest.distance)) return false;
+    compare(points, closest.triangle);
+    const double limit = std::sqrt(double{farthest_square()}) / scale_ + error_;
+    if (!gather(box, limit)) return false;
+    compare_until(-1, points, box, limit);
+    take_distances(points.size());
+    return true;
+}
+
+bool GroupDistances::all_within(std::span<const Vec3> points, double distance, Index& hint) {
+    distances_.fill(HUGE_VAL);
+    if (tree_.empty() || !(distance > 0)) return false;
+    const Box box = box_around(points);
+    if (!place(points, box.centre(), box.diagonal() + distance)) return false;
+    const double enough = (distance - error_) * scale_ * (1 - 1e-6);
+    const auto square = static_cast<float>(enough > 0 ? enough * enough : 0);
+    if (hint != none) compare(points, hint);
+    const bool all = (hint != none && farthest_square() <= square) ||
+                     (gather(box, distance) && compare_until(square, points, box, distance));
+    take_distances(points.size());
+    if (all) hint = triangles_[points.size() - 1];
+    return all;
+}
+
+} // namespace facetmill

@@ -1,0 +1,68 @@
+#pragma once
+// How far points that lie beside each other are from a surface. One walk of the tree gathers the triangles
+// that can be the closest to any of them; all pairs are then computed in float32, four points at a time, in a
+// frame of the group's own.
+
+#include "base/simd.hpp"
+#include "geometry/spatial/face_tree.hpp"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace facetmill {
+
+class GroupDistances {
+  public:
+    static constexpr std::size_t most = 32; ///< points in a group
+
+    /// The tree must outlive this. One object for each thread.
+    explicit GroupDistances(const FaceTree& tree) : tree_(tree) {}
+
+    /// Measures 1 to `most` finite points, the nearer to each other the faster. hint: a triangle of the tree
+    /// nearby, or none, which changes nothing but the time; becomes one for a group beside this. False when
+    /// nothing would be gained, since the surface has so many triangles there or is so far away: ask for each
+    /// point by itself then.
+    bool measure(std::span<const Vec3> points, Index& hint);
+
+    /// Tries to show that 1 to `most` finite points are all within a distance, which needs fewer triangles.
+    /// hint as above. What has been shown of each is distance(i) + error(): not less than its distance.
+    bool all_within(std::span<const Vec3> points, double distance, Index& hint);
+
+    // Of the i-th point of the last group, when that could be measured:
+
+    /// Off by no more than error(); the same on every processor.
+    double distance(std::size_t i) const { return distances_[i]; }
+    double error() const { return error_; }
+    /// In the tree's order: the closest triangle, or one that is as close up to the error.
+    Index triangle(std::size_t i) const { return triangles_[i]; }
+
+  private:
+    struct Flat;
+
+    bool place(std::span<const Vec3> points, const Vec3& centre, double reach);
+    bool gather(const Box& box, double limit);
+    bool compare_until(float enough_square, std::span<const Vec3> points, const Box& box, double limit);
+    void take_distances(std::size_t count);
+    void compare(const Flat& flat, Index triangle);
+    void compare_exactly(std::span<const Vec3> points, Index triangle);
+    void compare(std::span<const Vec3> points, Index triangle);
+    float farthest_square() const;
+
+    const FaceTree& tree_;
+    std::array<double, most> distances_{};
+    std::array<Index, most> triangles_{};
+    double error_ = 0; ///< in the surface's units
+
+    std::vector<std::uint32_t> nodes_,
+        children_; ///< of one level and the one below, that may hold the closest
+
+    // In the group's frame.
+    Vec3 centre_;
+    double scale_ = 1;
+    std::size_t fours_ = 0;
+    std::array<Float4, most / 4> x_, y_, z_, least_; ///< points, and their squared distances
+    std::array<Int4, most / 4> nearest_;             ///< triangles
+};
+
+} // namespace facetmill

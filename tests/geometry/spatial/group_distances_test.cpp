@@ -1,0 +1,101 @@
+#include "support/catch.hpp"
+#include "support/meshes.hpp"
+
+#include "geometry/spatial/closest_point.hpp"
+#include "geometry/spatial/group_distances.hpp"
+
+using namespace facetmill;
+
+namespace {
+
+/// Triangles of all shapes: random ones, slivers of every width, segments and points.
+Mesh poor_triangles() {
+    Mesh mesh = test::random_triangles(200, 0.3, 5);
+    for (std::size_t t = 0; t < 100; ++t) {
+        Vec3 *a = &mesh.positions[mesh.corners[3 * t]], *b = &mesh.positions[mesh.corners[3 * t + 1]],
+             *c = &mesh.positions[mesh.corners[3 * t + 2]];
+        const double width = t % 10 == 0 ? 0 : std::pow(10.0, -static_cast<double>(t % 20));
+        *c = mix(*a, *b, 0.3) + (*c - *a) * width;
+        if (t % 25 == 0) *b = *c = *a;
+    }
+    return mesh;
+}
+
+std::vector<Mesh> meshes() {
+    return {test::noisy_icosphere(4, 0.1, 1), test::noisy_torus(40, 24, 0.05, 2), poor_triangles(),
+            shapes::cube(), test::random_triangles(1, 0.5, 3)};
+}
+
+/// A group of points around a point of the surface, or anywhere: of any width, down to a single place.
+std::vector<Vec3> group_of(const Mesh& mesh, std::uint64_t k) {
+    const Vec3 middle =
+        k % 3 == 0 ? test::random_point(2, 8, k) : mesh.positions[hashed(9, k) % mesh.vertex_count()];
+    const double width = k % 7 == 0 ? 0 : std::pow(10.0, -static_cast<double>(k % 6));
+    std::vector<Vec3> points;
+    for (std::uint64_t i = 0; i <= k % GroupDistances::most; ++i)
+        points.push_back(middle + test::random_point(width, k, i));
+    return points;
+}
+
+} // namespace
+
+TEST_CASE("points of a group are as far as each by itself, up to the error, whatever the hint",
+          "[geometry]") {
+    for (const Mesh& mesh : meshes()) {
+        const FaceTree tree(surface_of(mesh), FaceTree::Use::near);
+        GroupDistances together(tree), elsewhere(tree);
+        std::size_t measured = 0;
+        Index hint = none;
+        for (std::uint64_t k = 0; k < 2000; ++k) {
+            const auto points = group_of(mesh, k);
+            Index wrong = static_cast<Index>(hashed(7, k) % tree.triangles.size());
+            const bool done = together.measure(points, hint);
+            REQUIRE(elsewhere.measure(points, wrong) == done);
+            if (!done) continue;
+            ++measured;
+            Box box;
+            for (const Vec3& p : points) box.add(p);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const double exact = closest_point(tree, points[i]).distance;
+                REQUIRE(std::abs(together.distance(i) - exact) <= together.error());
+                REQUIRE(closest_on(tree, together.triangle(i), points[i]).distance <=
+                        exact + 2 * together.error());
+                REQUIRE(elsewhere.distance(i) == together.distance(i));
+                REQUIRE(together.error() <= 1e-5 * (box.diagonal() + exact));
+            }
+        }
+        CHECK(measured > 500);
+    }
+}
+
+TEST_CASE("groups too far away for their frame, and without a place, are refused", "[geometry]") {
+    const FaceTree tree(surface_of(shapes::cube()), FaceTree::Use::near);
+    GroupDistances together(tree);
+    Index hint = none;
+    CHECK_FALSE(together.measure(std::vector<Vec3>{{1e6, 0, 0}}, hint));
+    const FaceTree nothing(Surface{}, FaceTree::Use::near);
+    GroupDistances with_nothing(nothing);
+    hint = none;
+    CHECK_FALSE(with_nothing.measure(std::vector<Vec3>{{0, 0, 0}}, hint));
+    CHECK_FALSE(with_nothing.all_within(std::vector<Vec3>{{0, 0, 0}}, 1, hint));
+    CHECK(with_nothing.distance(0) == HUGE_VAL);
+}
+
+TEST_CASE("a group is within a distance when each point is, whatever the hint", "[geometry]") {
+    for (const Mesh& mesh : meshes()) {
+        const FaceTree tree(surface_of(mesh), FaceTree::Use::near);
+        GroupDistances together(tree);
+        std::size_t shown = 0;
+        for (std::uint64_t k = 0; k < 2000; ++k) {
+            const auto points = group_of(mesh, k);
+            double farthest = 0;
+            for (const Vec3& p : points) farthest = std::max(farthest, closest_point(tree, p).distance);
+            Index hint = k % 2 == 0 ? none : static_cast<Index>(hashed(7, k) % tree.triangles.size());
+            REQUIRE_FALSE(together.all_within(points, farthest * (1 - 1e-9), hint));
+            for (std::size_t i = 0; i < points.size(); ++i)
+                REQUIRE(together.distance(i) + together.error() >= closest_point(tree, points[i]).distance);
+            shown += together.all_within(points, farthest * 1.5, hint);
+        }
+        CHECK(shown > 500);
+    }
+}
