@@ -4,6 +4,7 @@
 #include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
 #include "base/want_of_memory.hpp"
 #include "batch/batch.hpp"
 #include "batch/interrupts.hpp"
@@ -15,7 +16,6 @@
 #include "io/output_files.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <set>
@@ -26,12 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using BatchClock = std::chrono::steady_clock;
 using Verdict = Outcome::Verdict;
-
-double elapsed(BatchClock::time_point start) {
-    return std::chrono::duration<double>(BatchClock::now() - start).count();
-}
 
 /// From the output folder of the batch.
 std::string from_folder(const Asset& asset, const std::string& output) {
@@ -158,7 +153,7 @@ class BatchRun {
             const std::lock_guard lock(guard_);
             started_[job.index] = true;
         }
-        const auto start = BatchClock::now();
+        const Stopwatch watch;
         std::optional<Done> done;
         Outcome out;
         try {
@@ -174,7 +169,7 @@ class BatchRun {
         const bool for_memory = std::any_of(out.errors.begin(), out.errors.end(),
                                             [](const Diagnostic& d) { return d.out_of_memory; });
         if (for_memory && !job.alone && beside_others()) return Next::again_alone;
-        out.seconds = elapsed(start);
+        out.seconds = watch.seconds();
         const bool failed = out.verdict == Verdict::failed;
         finish(job.index, std::move(out), done ? &*done : nullptr);
         return failed && !settings_.keep_going ? Next::stop : Next::go_on;
@@ -302,7 +297,7 @@ class BatchRun {
         summary_.outcomes[index] = std::move(out);
         started_[index] = false;
         summary_.exit_code = graver(summary_.exit_code, summary_.outcomes[index].exit_code);
-        summary_.seconds = elapsed(start_);
+        summary_.seconds = watch_.seconds();
         if (listener_.on_finished)
             listener_.on_finished(works_[index].asset, summary_.outcomes[index], summary_);
     }
@@ -396,7 +391,7 @@ class BatchRun {
     void close_summary() {
         for (std::size_t i = 0; i < started_.size(); ++i)
             if (started_[i]) summary_.outcomes[i].verdict = Verdict::interrupted;
-        summary_.seconds = elapsed(start_);
+        summary_.seconds = watch_.seconds();
     }
 
     /// A signal ends the process after this: the guard stays locked, so that nothing is told afterwards.
@@ -410,7 +405,7 @@ class BatchRun {
 
     const Settings& settings_;
     const Listener& listener_;
-    const BatchClock::time_point start_ = BatchClock::now();
+    const Stopwatch watch_;
     const std::vector<Work> works_;
     std::unique_ptr<Jobserver> tokens_;
     std::mutex guard_; ///< of all that follows

@@ -1,6 +1,7 @@
 #include "cli/console.hpp"
 
 #include "base/readable_numbers.hpp"
+#include "base/stopwatch.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -67,13 +68,11 @@ class Bar : public Progress {
     }
 
   private:
-    using Clock = std::chrono::steady_clock;
-
     void begin(double filled, std::string what) {
         const std::lock_guard lock(guard_);
         filled_ = filled;
         what_ = std::move(what);
-        start_ = Clock::now();
+        watch_ = {};
         share = -1;
         draw();
         if (drawer_.joinable()) return;
@@ -91,7 +90,7 @@ class Bar : public Progress {
     void draw() {
         constexpr int width = 24;
         const int filled = static_cast<int>(width * filled_);
-        const double since = std::chrono::duration<double>(Clock::now() - start_).count();
+        const double since = watch_.seconds();
         tell("\r\033[K[{}{}] {}{}", std::string(static_cast<std::size_t>(filled), '#'),
              std::string(static_cast<std::size_t>(width - filled), '.'), what_, how_far(since, share));
         std::fflush(stderr);
@@ -100,7 +99,7 @@ class Bar : public Progress {
 
     double filled_ = 0;
     std::string what_;
-    Clock::time_point start_;
+    Stopwatch watch_;
     bool drawn_ = false, over_ = false;
     std::mutex guard_; ///< of what stands above
     std::condition_variable wake_;
@@ -112,26 +111,26 @@ class Lines : public Progress {
   public:
     explicit Lines(bool json) : json_(json) {}
     void stage(int number, int number_of, const std::string& name) override {
-        const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
+        const double since = watch_.seconds();
         if (json_)
             line({{"level", "info"},
                   {"event", "begin"},
                   {"name", name},
                   {"number", number},
                   {"of", number_of},
-                  {"seconds", since.count()}});
+                  {"seconds", since}});
         else
-            tell("{:7.2f}s  {}/{} {}\n", since.count(), number, number_of, name);
+            tell("{:7.2f}s  {}/{} {}\n", since, number, number_of, name);
     }
     void after_stages(const std::string& what) override {
-        const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
-        if (!json_) tell("{:7.2f}s  {}\n", since.count(), what);
+        const double since = watch_.seconds();
+        if (!json_) tell("{:7.2f}s  {}\n", since, what);
     }
     void done() override {}
 
   private:
     bool json_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    const Stopwatch watch_;
 };
 
 } // namespace

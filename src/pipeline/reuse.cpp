@@ -5,11 +5,11 @@
 #include "base/hash.hpp"
 #include "base/memory.hpp"
 #include "base/numbers.hpp"
+#include "base/stopwatch.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 
 namespace facetmill::pipeline {
@@ -17,12 +17,6 @@ namespace facetmill::pipeline {
 namespace fs = std::filesystem;
 
 namespace {
-
-using ReuseClock = std::chrono::steady_clock;
-
-double seconds_from(ReuseClock::time_point start) {
-    return std::chrono::duration<double>(ReuseClock::now() - start).count();
-}
 
 /// Storing may take this much of the time that it saves.
 constexpr double share_for_storing = 0.1;
@@ -259,14 +253,14 @@ void Reuse::store_scene(Flow& flow) {
     if (!store_->is_usable()) return;
     if (seconds > share_for_storing * flow.unsaved && !store_->settings().everything) return;
     if (!has_memory_for(bytes)) return;
-    const auto start = ReuseClock::now();
+    const Stopwatch watch;
     know_key(flow);
     if (!store_->has(flow.key, cache::Kind::scene)) {
         if (!store_->put(flow.key, cache::Kind::scene, cache::encoded(flow.scene))) return;
-        store_->took(bytes, seconds_from(start));
+        store_->took(bytes, watch.seconds());
     }
     for (const auto& [name, memory] : flow.memories) store_->put(name, cache::Kind::memory, memory);
-    flow.spend(seconds_from(start) / share_for_storing);
+    flow.spend(watch.seconds() / share_for_storing);
     flow.begin_anew();
 }
 
@@ -337,7 +331,7 @@ void Reuse::run_again(Flow& flow, std::size_t first) {
         const Recalled& recalled = flow.recalled[i];
         const Step& step = *recalled.step;
         trace_[recalled.trace].way = TracedStep::Way::again;
-        const auto start = ReuseClock::now();
+        const Stopwatch watch;
         RunState run; // what the step tells is told already
         run.places = places_;
         run.load_diagonal = recalled.load_diagonal;
@@ -353,7 +347,7 @@ void Reuse::run_again(Flow& flow, std::size_t first) {
                         recalled.memory.inputs.end(), same))
             throw Error(ErrorKind::malformed, "E-CHANGED", "an input has changed while the pipeline ran",
                         "run it again", step.where);
-        flow.unsaved += seconds_from(start);
+        flow.unsaved += watch.seconds();
     }
     know_documents(flow.scene);
 }

@@ -1,6 +1,7 @@
 #include "pipeline/run.hpp"
 
 #include "base/parallel.hpp"
+#include "base/stopwatch.hpp"
 #include "base/words.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -16,7 +17,6 @@
 #include "report/render.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fmt/format.h>
 #include <set>
 #include <sys/resource.h>
@@ -26,12 +26,6 @@ namespace facetmill::pipeline {
 namespace fs = std::filesystem;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::size_t peak_memory() {
     rusage usage{};
@@ -89,7 +83,7 @@ class Runner {
     }
 
     report::RunRecord run() {
-        const auto start = Clock::now();
+        const Stopwatch watch;
         stages_ = count_stages(plan_.steps);
         keeps_loaded_ = compares_with_load(plan_.steps);
         if (keeps_loaded_) reuse_.keep_loads();
@@ -117,7 +111,7 @@ class Runner {
             fetch({}, "a picture", flow))
             add_small_picture(flow.scene, record().stages.back());
         finish_outputs();
-        record().seconds = seconds_since(start);
+        record().seconds = watch.seconds();
         record().peak_memory = peak_memory();
         record().threads = threads();
         write_reports();
@@ -211,10 +205,10 @@ class Runner {
 
     bool run_stage(const Step& step, Flow& flow) {
         auto stage = new_record(step);
-        const auto start = Clock::now();
+        const Stopwatch watch;
         const bool recalled = reuse_.recall(step, flow, state_, stage);
         const bool done = recalled || perform_stage(step, flow, stage);
-        if (recalled) stage.seconds = seconds_since(start);
+        if (recalled) stage.seconds = watch.seconds();
         if (done && takes_pictures_ && fetch(step.where, "a picture", flow)) add_picture(flow.scene, stage);
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
@@ -228,7 +222,7 @@ class Runner {
         Scene& scene = flow.scene;
         stage.before = report::brief_of(scene);
         const auto before = reuse_.before(step, flow, state_);
-        const auto start = Clock::now();
+        const Stopwatch watch;
         const Share share(settings_.progress ? &settings_.progress->share : nullptr);
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, scene.bounds(), step.where);
@@ -238,7 +232,7 @@ class Runner {
             require_finite(scene);
             if (settings_.check_invariants) check_invariants(step, scene);
         });
-        stage.seconds = seconds_since(start);
+        stage.seconds = watch.seconds();
         if (!done) return false;
         stage.after = report::brief_of(scene);
         if (step.stage->loads) state_.load_diagonal = diagonal(scene.bounds());

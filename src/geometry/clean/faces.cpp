@@ -4,7 +4,7 @@
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/intersect/self_intersections.hpp"
-#include "geometry/spatial/rays.hpp"
+#include "geometry/spatial/components_around.hpp"
 #include "mesh/face.hpp"
 #include "mesh/topology.hpp"
 
@@ -301,12 +301,10 @@ bool remove_inner_components(Work& work) {
     std::vector<std::uint8_t> inside(components.count, 0);
     for (Index p = 0; p < components.count; ++p) {
         if (!closed[p]) continue;
-        std::map<Index, int> turns;
-        visit_along_axis(rays, mesh.point(mesh.face_begin(first[p])), 0, true, [&](Index f, int way) {
-            if (closed[components.of_face[f]]) turns[components.of_face[f]] += way;
-        });
-        for (const auto& [q, n] : turns)
-            if (q != p && n != 0 && !touching.contains({std::min(p, q), std::max(p, q)})) inside[p] = 1;
+        const auto around = components_around(rays, mesh.point(mesh.face_begin(first[p])), components.of_face,
+                                              [&](Index q) { return q != p && closed[q]; });
+        for (const Index q : around)
+            if (!touching.contains({std::min(p, q), std::max(p, q)})) inside[p] = 1;
     }
     const auto count = static_cast<std::size_t>(std::count(inside.begin(), inside.end(), 1));
     if (count == 0) return false;

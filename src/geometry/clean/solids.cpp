@@ -2,7 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/inspect/evidence.hpp"
-#include "geometry/spatial/rays.hpp"
+#include "geometry/spatial/components_around.hpp"
 #include "mesh/component_volumes.hpp"
 #include "mesh/face.hpp"
 
@@ -129,7 +129,7 @@ namespace {
 using clean_steps::Solids;
 
 /// For each closed component the closed components that it lies in, ascending.
-std::vector<std::vector<Index>> components_around(const Mesh& mesh, const Solids& solids) {
+std::vector<std::vector<Index>> around_each(const Mesh& mesh, const Solids& solids) {
     std::vector<Index> first(solids.components.count, none);
     for (Index f = mesh.face_count(); f-- > 0;) first[solids.components.of_face[f]] = f;
     const FaceTree rays(surface_of(mesh), FaceTree::Use::rays);
@@ -138,13 +138,9 @@ std::vector<std::vector<Index>> components_around(const Mesh& mesh, const Solids
         around.size(),
         [&](std::size_t p) {
             if (!solids.closed[p]) return;
-            std::map<Index, int> turns; // of each component around the point
-            visit_along_axis(rays, mesh.point(mesh.face_begin(first[p])), 0, true, [&](Index f, int way) {
-                const Index q = solids.components.of_face[f];
-                if (q != p && solids.closed[q]) turns[q] += way;
-            });
-            for (const auto& [q, n] : turns)
-                if (n != 0) around[p].push_back(q);
+            around[p] =
+                components_around(rays, mesh.point(mesh.face_begin(first[p])), solids.components.of_face,
+                                  [&](Index q) { return q != p && solids.closed[q]; });
         },
         1);
     return around;
@@ -162,7 +158,7 @@ Components solid_components(const Mesh& mesh) {
         any |= is_cavity(p);
     }
     if (!any || solid_of.size() < 2) return std::move(solids.components);
-    const auto around = components_around(mesh, solids);
+    const auto around = around_each(mesh, solids);
     for (Index p = 0; p < solid_of.size(); ++p) {
         if (!is_cavity(p)) continue;
         std::size_t depth = 0; // the innermost lies in most others itself

@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "geometry/intersect/self_intersections.hpp"
+#include "geometry/spatial/components_around.hpp"
 #include "geometry/spatial/rays.hpp"
 #include "mesh/face.hpp"
 #include "mesh/placement.hpp"
@@ -181,7 +182,11 @@ class Outside {
             around.size(),
             [&](std::size_t p) {
                 if (spread_.components[p].orientable && spread_.components[p].closed)
-                    around[p] = components_around(p);
+                    around[p] = components_around(rays_, mesh_.point(mesh_.face_begin(faces_[p][0])),
+                                                  spread_.component_of, [&](Index q) {
+                                                      const OrientedComponent& c = spread_.components[q];
+                                                      return q != p && c.closed && c.orientable;
+                                                  });
             },
             1);
         if (std::all_of(around.begin(), around.end(), [](const auto& a) { return a.empty(); })) return;
@@ -189,19 +194,6 @@ class Outside {
         for (Index p = 0; p < around.size(); ++p)
             for (const Index q : around[p])
                 spread_.components[p].depth += !meeting.contains({std::min(p, q), std::max(p, q)});
-    }
-
-    /// The other closed components that have a point of this one inside, ascending.
-    std::vector<Index> components_around(std::size_t p) const {
-        std::map<Index, int> turns; // of each component around the point
-        visit_along_axis(rays_, mesh_.point(mesh_.face_begin(faces_[p][0])), 0, true, [&](Index g, int way) {
-            const Index q = spread_.component_of[g];
-            if (q != p && spread_.components[q].closed && spread_.components[q].orientable) turns[q] += way;
-        });
-        std::vector<Index> components;
-        for (const auto& [q, n] : turns)
-            if (n != 0) components.push_back(q);
-        return components;
     }
 
     /// The pairs of components, of those that may be nested, whose faces meet.

@@ -1,26 +1,11 @@
 #include "geometry/spatial/box_pairs.hpp"
 
+#include "geometry/spatial/box_tree.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
 
 namespace facetmill {
 
-namespace {
-
-Box box_of_all(std::span<const Box> boxes) {
-    return parallel_reduce(
-        boxes.size(), Box{},
-        [&](std::size_t begin, std::size_t end) {
-            Box b;
-            for (std::size_t i = begin; i < end; ++i) b.add(boxes[i]);
-            return b;
-        },
-        [](Box a, const Box& b) {
-            a.add(b);
-            return a;
-        });
-}
-
-} // namespace
+namespace {} // namespace
 
 BoxPairs::BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among) {
     all_ = box_of_all(boxes);

@@ -35,20 +35,6 @@ struct Placed {
     Index item;
 };
 
-Box box_of_boxes(const std::vector<Box>& boxes) {
-    return parallel_reduce(
-        boxes.size(), Box{},
-        [&](std::size_t begin, std::size_t end) {
-            Box all;
-            for (std::size_t i = begin; i < end; ++i) all.add(boxes[i]);
-            return all;
-        },
-        [](Box a, const Box& b) {
-            a.add(b);
-            return a;
-        });
-}
-
 /// The nodes over groups of `many` boxes each.
 std::vector<Box> above(const std::vector<Box>& below, std::size_t many) {
     std::vector<Box> nodes((below.size() + many - 1) / many);
@@ -61,9 +47,23 @@ std::vector<Box> above(const std::vector<Box>& below, std::size_t many) {
 
 } // namespace
 
+Box box_of_all(std::span<const Box> boxes) {
+    return parallel_reduce(
+        boxes.size(), Box{},
+        [&](std::size_t begin, std::size_t end) {
+            Box b;
+            for (std::size_t i = begin; i < end; ++i) b.add(boxes[i]);
+            return b;
+        },
+        [](Box a, const Box& b) {
+            a.add(b);
+            return a;
+        });
+}
+
 BoxTree::BoxTree(std::vector<Box> boxes) {
     if (boxes.empty()) return;
-    const Box all = box_of_boxes(boxes);
+    const Box all = box_of_all(boxes);
     std::vector<Placed> placed(boxes.size());
     parallel_for(placed.size(), [&](std::size_t i) {
         placed[i] = {boxes[i].empty() ? 0 : morton(boxes[i].centre(), all), static_cast<Index>(i)};

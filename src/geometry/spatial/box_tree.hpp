@@ -5,9 +5,13 @@
 #include "mesh/mesh.hpp"
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 namespace facetmill {
+
+/// The box that holds all of them. Parallel.
+Box box_of_all(std::span<const Box> boxes);
 
 /// Built once from the items' boxes, in parallel, the same for any number of threads; then only read. Items
 /// with an empty box are never found.
