@@ -34,6 +34,7 @@ FACETMILL_STORED(Scene, parts, materials, unit, up, documents)
 
 FACETMILL_STORED(AttributeChange, attribute, domain, kind, why)
 FACETMILL_STORED(report::Brief, parts, vertices, faces, bounds)
+FACETMILL_STORED(report::ResolvedLength, option, given, is)
 FACETMILL_STORED(report::PartChange, part, change)
 FACETMILL_STORED(report::FileRecord, path, bytes, sha256, read_back)
 

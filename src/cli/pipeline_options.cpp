@@ -190,9 +190,9 @@ void summarise(const report::RunRecord& record, const Console& console) {
 } // namespace
 
 void tell_resolved(const report::StageRecord& stage, const Console& console) {
-    for (const auto& [option, length] : stage.resolved.items())
-        console.say(fmt::format("  {}: {} {} is {} in scene units", stage.name, option,
-                                length["given"].get<std::string>(), length["is"].dump()));
+    for (const auto& [option, given, is] : stage.resolved)
+        console.say(
+            fmt::format("  {}: {} {} is {} in scene units", stage.name, option, given, Json(is).dump()));
 }
 
 void tell_stage(const report::StageRecord& stage, const std::string& asset, const Console& console) {

@@ -11,14 +11,14 @@ namespace facetmill::report {
 
 namespace {
 
-struct Found {
+struct FoundAttribute {
     std::set<std::string> types; ///< of all parts that have it
     std::size_t elements = 0;
     std::vector<const Attribute*> arrays; ///< one per part that has it
 
     Json about() const { return fmt::format("{}", fmt::join(types, ", ")); }
 };
-using Attributes = std::map<std::pair<int, std::string>, Found>; ///< by domain and name
+using Attributes = std::map<std::pair<int, std::string>, FoundAttribute>; ///< by domain and name
 
 bool turns_with_part(const Attribute& a) {
     return a.role == Role::normal || a.role == Role::tangent || a.role == Role::morph_vector;
@@ -65,7 +65,8 @@ double apart(double x, double y) {
 }
 
 /// Values are compared where both sides have the same elements.
-void compare_values(const Comparing& with, const std::string& name, const Found& a, const Found& b) {
+void compare_values(const Comparing& with, const std::string& name, const FoundAttribute& a,
+                    const FoundAttribute& b) {
     const bool alike = std::equal(a.arrays.begin(), a.arrays.end(), b.arrays.begin(), b.arrays.end(),
                                   [](const Attribute* x, const Attribute* y) {
                                       return x->size() == y->size() && x->components == y->components;

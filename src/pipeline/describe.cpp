@@ -2,6 +2,7 @@
 #include "pipeline/document.hpp"
 #include "pipeline/params.hpp"
 #include "pipeline/plan.hpp"
+#include "report/contents.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -37,14 +38,21 @@ std::string extras(const Step& step) {
     return out;
 }
 
+/// {"amplitude": {"given": "0.1in", "is": 2.54, "unit": "mm"}}
+Json lengths_json(const Headers::Lengths& lengths) {
+    Json all = report::resolved_json(lengths.all);
+    for (Json& one : all) one["unit"] = to_string(lengths.unit);
+    return all;
+}
+
 /// "  (amplitude: 0.1in is 2.54 mm)".
 std::string lengths_text(const Headers& headers, const Step& step) {
     const auto lengths = headers.lengths.find(step.path);
     if (lengths == headers.lengths.end()) return "";
     std::string out;
-    for (const auto& [option, length] : lengths->second.items())
-        append_item(out, fmt::format("{}: {} is {} {}", option, length["given"].get<std::string>(),
-                                     length["is"].dump(), length["unit"].get<std::string>()));
+    for (const auto& [option, given, is] : lengths->second.all)
+        append_item(out, fmt::format("{}: {} is {} {}", option, given, Json(is).dump(),
+                                     to_string(lengths->second.unit)));
     return fmt::format("  ({})", out);
 }
 
@@ -123,7 +131,7 @@ Json steps_json(const Steps& steps, const Headers& headers) {
         } else
             one["stage"] = step.kind == Step::Kind::branch ? "branch" : "foreach";
         if (const auto lengths = headers.lengths.find(step.path); lengths != headers.lengths.end())
-            one["resolved"] = lengths->second;
+            one["resolved"] = lengths_json(lengths->second);
         if (!step.only.patterns.empty()) one["only"] = step.only.patterns;
         if (step.when)
             one["when"] = step.when->known ? Json(*step.when->known) : assertions_json(step.when->predicates);

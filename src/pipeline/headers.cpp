@@ -147,8 +147,9 @@ class Walk {
             Problems ignored; // it was found because it can be read
             Length length;
             OptionType<Length>::parse(value, length, ignored);
-            headers.lengths[step.path][option] = {
-                {"given", value.text}, {"is", length.amount / metres(unit)}, {"unit", to_string(unit)}};
+            Headers::Lengths& lengths = headers.lengths[step.path];
+            lengths.unit = unit;
+            set_resolved(lengths.all, {option, value.text, length.amount / metres(unit)});
         }
     }
 

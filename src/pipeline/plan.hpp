@@ -137,9 +137,12 @@ struct Headers {
     /// that are written, too (images, a .mtl).
     std::vector<std::filesystem::path> more_inputs, more_outputs;
     std::vector<Error> errors; ///< in the order of the plan
-    /// By the path of a step, its lengths with a physical unit where the scene's is known: {"amplitude":
-    /// {"given": "0.1in", "is": 2.54, "unit": "mm"}}.
-    std::map<std::string, Json> lengths;
+    struct Lengths {
+        Unit unit = Unit::unknown; ///< the scene's
+        std::vector<report::ResolvedLength> all;
+    };
+    /// By the path of a step, its lengths with a physical unit where the scene's is known.
+    std::map<std::string, Lengths> lengths;
 };
 
 /// Reads the headers of those inputs that exist: files that no stage could load (as their load would throw),

@@ -17,17 +17,21 @@ const char* outcome(const Check& check) {
 namespace {
 
 /// "[0, 0, 0]"
-std::string point_text(const Json& point) {
-    std::string text;
-    for (const Json& x : point) append_item(text, to_string(x.get<double>()));
-    return "[" + text + "]";
+std::string point_text(const Vec3& p) {
+    return fmt::format("[{}, {}, {}]", to_string(p.x), to_string(p.y), to_string(p.z));
 }
 
-std::string names_text(const Json& names) {
-    std::string text;
-    for (const Json& name : names) append_item(text, name.get<std::string>());
-    return text;
-}
+struct FoundText {
+    std::string operator()(std::monostate) const { return "not applicable"; }
+    std::string operator()(bool truth) const { return truth ? "true" : "false"; }
+    std::string operator()(std::int64_t count) const { return to_string(static_cast<double>(count)); }
+    std::string operator()(double number) const { return to_string(number); }
+    std::string operator()(const std::string& word) const { return word; }
+    std::string operator()(const Corners& box) const {
+        return point_text(box.min) + " to " + point_text(box.max);
+    }
+    std::string operator()(const std::vector<std::string>& names) const { return join_texts(names); }
+};
 
 /// "face 7 and 9 of 'part' at 1 2 3"
 std::string location_text(const EvidenceEntry& e) {
@@ -73,14 +77,7 @@ std::string shares_text(const CheckEvidence& evidence) {
 } // namespace
 
 std::string found_text(const Check& check) {
-    const Json& found = check.found;
-    if (!check.found_words.empty()) return check.found_words;
-    if (found.is_null()) return "not applicable";
-    if (found.is_boolean()) return found.get<bool>() ? "true" : "false";
-    if (found.is_number()) return to_string(found.get<double>());
-    if (found.is_array()) return names_text(found);
-    if (found.is_object()) return point_text(found["min"]) + " to " + point_text(found["max"]);
-    return found.get<std::string>();
+    return check.found_words.empty() ? std::visit(FoundText(), check.found) : check.found_words;
 }
 
 std::string locations_text(const Check& check) {

@@ -3,6 +3,7 @@
 #include "base/point_json.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace facetmill::report {
 
@@ -20,6 +21,28 @@ std::optional<Box> bounds_of(const Brief& brief) {
 const Fields& box_fields() {
     static const Fields fields = fields_of<Box>(declare_box_corners);
     return fields;
+}
+
+struct FoundJson {
+    Json operator()(std::monostate) const { return nullptr; }
+    Json operator()(const Corners& box) const {
+        return {{"min", FieldType<Vec3>::json(box.min)}, {"max", FieldType<Vec3>::json(box.max)}};
+    }
+    template <class T>
+    Json operator()(const T& value) const {
+        return value;
+    }
+};
+
+/// Numbers that are not finite are null in JSON.
+std::optional<Vec3> corner_of(const Json& json) {
+    if (!json.is_array() || json.size() != 3) return {};
+    double numbers[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!json[i].is_number() && !json[i].is_null()) return {};
+        numbers[i] = json[i].is_null() ? std::numeric_limits<double>::quiet_NaN() : json[i].get<double>();
+    }
+    return Vec3{numbers[0], numbers[1], numbers[2]};
 }
 
 /// Null of a place, which is nobody's.
@@ -58,6 +81,32 @@ const Fields& brief_fields() {
             .null_when("there is nothing");
     });
     return fields;
+}
+
+Json found_json(const Found& found) { return std::visit(FoundJson(), found); }
+
+std::optional<Found> found_of(const Json& json) {
+    if (json.is_null()) return Found();
+    if (json.is_boolean()) return json.get<bool>();
+    if (json.is_number_integer()) return json.get<std::int64_t>();
+    if (json.is_number()) return json.get<double>();
+    if (json.is_string()) return json.get<std::string>();
+    if (json.is_object()) {
+        const auto min = corner_of(json.value("min", Json())), max = corner_of(json.value("max", Json()));
+        return min && max ? std::optional<Found>(Corners{*min, *max}) : std::nullopt;
+    }
+    std::vector<std::string> names;
+    for (const Json& name : json) {
+        if (!name.is_string()) return {};
+        names.push_back(name.get<std::string>());
+    }
+    return names;
+}
+
+Json resolved_json(const std::vector<ResolvedLength>& lengths) {
+    Json all = Json::object();
+    for (const ResolvedLength& l : lengths) all[l.option] = {{"given", l.given}, {"is", l.is}};
+    return all;
 }
 
 Json box_json(const Box& box) { return box.empty() ? Json() : box_fields().json(&box); }

@@ -12,6 +12,13 @@ namespace facetmill::report {
 Brief brief_of(const Scene& scene);
 const Fields& brief_fields();
 
+/// What a check found, as reports and baselines have it: a box is {min, max}, none is null.
+Json found_json(const Found& found);
+/// The same back; none of what is no such JSON.
+std::optional<Found> found_of(const Json& json);
+/// {"amplitude": {"given": "0.2%", "is": 0.03}}
+Json resolved_json(const std::vector<ResolvedLength>& lengths);
+
 /// {min, max}; null of an empty box.
 Json box_json(const Box& box);
 /// Of a box that may be empty.

@@ -29,10 +29,8 @@ std::string stage_rows(const RunRecord& record) {
     std::string rows;
     for (const auto& s : record.stages) {
         std::string notes = s.skipped ? "<span class=\"soft\">skipped</span>" : "";
-        for (const auto& [option, length] : s.resolved.items())
-            notes +=
-                fmt::format("<div>{}: {} = {}</div>", escaped(option), escaped(length.value("given", "")),
-                            escaped(length.contains("is") ? length["is"].dump() : ""));
+        for (const auto& [option, given, is] : s.resolved)
+            notes += fmt::format("<div>{}: {} = {}</div>", escaped(option), escaped(given), Json(is).dump());
         for (const auto& w : s.warnings)
             notes += fmt::format("<div class=\"warn\">{}: {}</div>", escaped(w.id), escaped(w.message));
         rows += fmt::format("<tr>{}{}{}{}{}{}</tr>\n", cell(escaped(s.name)), cell(code(s.stage)),

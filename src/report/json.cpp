@@ -36,7 +36,7 @@ Json stage_json(const StageRecord& stage) {
             {"skipped", stage.skipped},
             {"before", brief_json(stage.before)},
             {"after", brief_json(stage.after)},
-            {"resolved", stage.resolved},
+            {"resolved", resolved_json(stage.resolved)},
             {"attribute_changes", std::move(changes)},
             {"warnings", diagnostics_json(stage.warnings)},
             {"result", stage.result}};
@@ -48,7 +48,7 @@ Json check_json(const Check& check) {
             {"passed", check.passed},
             {"severity", to_string(check.severity)},
             {"expected", check.expected},
-            {"found", check.found},
+            {"found", found_json(check.found)},
             {"hint", text_or_null(check.hint)},
             {"part", text_or_null(check.part)},
             {"where", text_or_null(facetmill::to_string(check.where))},

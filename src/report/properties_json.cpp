@@ -3,14 +3,21 @@
 
 namespace facetmill::report {
 
-Json property_json(const Property& property, const Properties& properties) {
-    if (property.kind == PropertyKind::box) return box_json(properties.bounds);
+Found property_value(const Property& property, const Properties& properties) {
+    if (property.kind == PropertyKind::box) {
+        const Box& box = properties.bounds;
+        return box.empty() ? Found() : Corners{box.min, box.max};
+    }
     const auto value = property.get(properties);
-    if (!value) return nullptr;
+    if (!value) return {};
     if (property.truth()) return *value != 0;
-    if (property.words) return property.words()[static_cast<std::size_t>(*value)];
+    if (property.words) return std::string(property.words()[static_cast<std::size_t>(*value)]);
     if (property.kind == PropertyKind::count) return static_cast<std::int64_t>(*value);
     return *value;
+}
+
+Json property_json(const Property& property, const Properties& properties) {
+    return found_json(property_value(property, properties));
 }
 
 std::vector<const Property*> told_properties(const Properties& properties) {

@@ -6,8 +6,11 @@
 #include "base/vec.hpp"
 #include "mesh/attribute_changes.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace facetmill::report {
@@ -32,6 +35,17 @@ struct EvidenceEntry {
 };
 using CheckEvidence = std::vector<EvidenceEntry>;
 
+/// The corners of a box.
+struct Corners {
+    Vec3 min, max;
+    bool operator==(const Corners&) const = default;
+};
+
+/// What a check found, by the kind of its property: a truth, a count, a number, a word, a box or names; none
+/// when the property does not apply.
+using Found =
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, Corners, std::vector<std::string>>;
+
 /// A validate or ensure assertion and how it went.
 struct Check {
     std::string name = {};  ///< the property: "closed"
@@ -39,9 +53,7 @@ struct Check {
     bool passed = true;
     Severity severity = Severity::error;
     std::string expected = {}; ///< "true", "2", "at most 5"
-    /// A number, a truth, a word, the corners of a box {min, max} or a list of names, by the property's kind;
-    /// null when the property does not apply.
-    Json found = {};
+    Found found = {};
     std::string found_words = {};               ///< what people read for it, where that says more
     std::optional<double> min = {}, max = {};   ///< what a number had to lie between
     std::string hint = {};                      ///< when it failed: the stage that fixes it
@@ -58,6 +70,19 @@ struct PartChange {
     AttributeChange change;
 };
 
+/// A length that depended on the scene, and what it was.
+struct ResolvedLength {
+    std::string option; ///< "amplitude", or, where parts differ in it, "amplitude (wheel)"
+    std::string given;  ///< "0.2%"
+    double is = 0;      ///< in scene units
+};
+/// Sets the length of that option.
+inline void set_resolved(std::vector<ResolvedLength>& all, ResolvedLength length) {
+    const auto known = std::find_if(all.begin(), all.end(),
+                                    [&](const ResolvedLength& l) { return l.option == length.option; });
+    (known != all.end() ? *known : all.emplace_back()) = std::move(length);
+}
+
 /// What is cheap to tell of a scene before and after every stage.
 struct Brief {
     std::size_t parts = 0, vertices = 0, faces = 0;
@@ -72,8 +97,7 @@ struct StageRecord {
     std::vector<PartChange> attribute_changes;
     std::vector<Diagnostic> warnings;
     Json result = Json::object(); ///< what the stage itself reports
-    Json resolved =
-        Json::object(); ///< lengths that depended on the scene: {"amplitude": {"given": "0.2%", "is": 0.03}}
+    std::vector<ResolvedLength> resolved;
     std::vector<std::string> said; ///< the main numbers of the result, a line each, for the terminal
     bool skipped = false;          ///< its `when` did not hold
     double seconds = 0;

@@ -6,7 +6,9 @@
 
 namespace facetmill::report {
 
-/// One value by the property's kind; null where it does not apply or was not asked for.
+/// One value by the property's kind; none where it does not apply or was not asked for.
+Found property_value(const Property& property, const Properties& properties);
+/// The same as JSON; null of none.
 Json property_json(const Property& property, const Properties& properties);
 /// The rows of the table that are told of these properties, in order, but for the box and what only scenes
 /// have.

@@ -133,8 +133,8 @@ std::vector<report::Check> evaluate(const Assertions& assertions, const Properti
         check.name = assertion.property;
         check.stage = stage;
         check.expected = expectation(property, assertion);
-        check.found = report::property_json(property, properties);
-        if (check.found.is_null() && property.costly) check.found_words = "not computed";
+        check.found = report::property_value(property, properties);
+        if (check.found.index() == 0 && property.costly) check.found_words = "not computed";
         if (!property.truth()) {
             check.min = assertion.bound.min;
             check.max = assertion.bound.max;

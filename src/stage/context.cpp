@@ -104,9 +104,10 @@ double Context::resolve(const Length& length, const Scene& scene, std::string_vi
             ErrorKind::stage, "E-RANGE",
             fmt::format("'{}' is {}, and that is beyond 1.8e308, the largest number", option, length.text),
             "transform: {scale: 1e-300} first");
-    const Json resolved = {{"given", length.text}, {"is", is}};
     const bool of_part = length.kind == Length::Kind::percent && length.of == Length::Of::part && part;
-    record_.resolved[of_part ? fmt::format("{} ({})", option, part->name) : std::string(option)] = resolved;
+    set_resolved(
+        record_.resolved,
+        {of_part ? fmt::format("{} ({})", option, part->name) : std::string(option), length.text, is});
     return is;
 }
 

@@ -35,7 +35,7 @@ TEST_CASE("what speaks against an assertion, in words", "[report]") {
 }
 
 TEST_CASE("what was found, in words", "[report]") {
-    const auto found = [](Json value, std::string words = {}) {
+    const auto found = [](report::Found value, std::string words = {}) {
         report::Check check;
         check.found = std::move(value);
         check.found_words = std::move(words);
@@ -45,9 +45,9 @@ TEST_CASE("what was found, in words", "[report]") {
     CHECK(found(0.1) == "0.1");
     CHECK(found(false) == "false");
     CHECK(found("mm") == "mm");
-    CHECK(found({{"min", {0, 0, 0.5}}, {"max", {1, 1, 1}}}) == "[0, 0, 0.5] to [1, 1, 1]");
-    CHECK(found(Json::array({"a", "b"})) == "a, b");
-    CHECK(found(Json()) == "not applicable");
+    CHECK(found(report::Corners{{0, 0, 0.5}, {1, 1, 1}}) == "[0, 0, 0.5] to [1, 1, 1]");
+    CHECK(found(std::vector<std::string>{"a", "b"}) == "a, b");
+    CHECK(found({}) == "not applicable");
     CHECK(found(0.05, "0.05 (1 % of the diagonal)") == "0.05 (1 % of the diagonal)");
 }
 

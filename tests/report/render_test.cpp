@@ -44,7 +44,7 @@ RunRecord full_record() {
     cut.attribute_changes = {
         {"cube", {"NORMAL", Domain::wedge, AttributeChange::Kind::dropped, "the format has none"}}};
     cut.warnings = {{Severity::warning, "W-CAP", "one loop stays open", file_mark("p.yaml"), "close it"}};
-    cut.resolved = {{"depth", {{"given", "1%"}, {"is", 0.01}}}};
+    cut.resolved = {{"depth", "1%", 0.01}};
     cut.seconds = 0.25;
     StageRecord skipped;
     skipped.name = skipped.stage = "relax";

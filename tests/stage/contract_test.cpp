@@ -67,7 +67,7 @@ TEST_CASE("a lift within the limit passes, one beyond it fails with its place", 
     CHECK(passed[0].passed);
     CHECK(passed[0].name == "deviation");
     CHECK(passed[0].expected == "at most 1.1% (0.055)");
-    CHECK(passed[0].found.get<double>() == Approx(0.05));
+    CHECK(std::get<double>(passed[0].found) == Approx(0.05));
     CHECK(passed[0].found_words == "0.05 (1 % of the diagonal)");
     CHECK_FALSE(passed[0].evidence);
     const auto failed = judged_deviation(map("max", Value::scalar("0.04")));

@@ -111,7 +111,8 @@ TEST_CASE("the thickness of lines may be a share of the file, and must be more t
     b.run("load", options({{"path", "w.obj"}, {"lines", "2%"}, {"line_sides", "4"}}));
     REQUIRE(b.scene.parts.size() == 1);
     CHECK(b.scene.parts[0].name == "w");
-    CHECK(b.record.resolved["lines"]["is"].get<double>() == Approx(0.1));
+    CHECK(b.record.resolved.at(0).option == "lines");
+    CHECK(b.record.resolved.at(0).is == Approx(0.1));
     CHECK(b.scene.parts[0].mesh.face_count() == 10);
     b.run("load", options({{"path", "t.stl"}, {"lines", "1"}}));
     REQUIRE(b.record.warnings.size() == 1);

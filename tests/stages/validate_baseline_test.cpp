@@ -289,7 +289,9 @@ TEST_CASE("what is no baseline is refused", "[stages]") {
           R"({"facetmill_baseline":1,"failures":[{)" + entry +
               R"(,"locations":1,"known":["0123456789abcdef x99999999999"]}]})",
           R"({"facetmill_baseline":1,"failures":[{)" + entry +
-              R"(,"locations":-1,"known":["0123456789abcdef"]}]})"}) {
+              R"(,"locations":-1,"known":["0123456789abcdef"]}]})",
+          std::string(R"({"facetmill_baseline":1,"failures":[{"check":"closed","part":"","component":"",)") +
+              R"("expected":"true","found":{"min":[0,0]},"locations":0,"known":[]}]})"}) {
         CAPTURE(text);
         gate.put(text);
         CHECK(reason() == no + "is not a baseline of validate" + hint);
@@ -342,7 +344,7 @@ TEST_CASE("equal locations are counted, however many they are", "[stages]") {
         return Failure{.check = "duplicate_faces",
                        .part = "",
                        .expected = "0",
-                       .found = copies,
+                       .found = static_cast<std::int64_t>(copies),
                        .min = 0,
                        .max = 0,
                        .keys = std::vector<std::uint64_t>(copies, 12345)};

@@ -304,8 +304,10 @@ TEST_CASE("bounds that make no sense are refused, each with its reason", "[stage
         }
         CHECK(message.find(reason) != std::string::npos);
     }
-    CHECK(only_check(run_stage("validate", "{euler: {max: -1}}", scene_of(shapes::cube()))).found == 2);
-    CHECK(only_check(run_stage("validate", "{volume: {max: -1}}", scene_of(shapes::cube()))).found == 1);
+    CHECK(only_check(run_stage("validate", "{euler: {max: -1}}", scene_of(shapes::cube()))).found ==
+          report::Found(std::int64_t{2}));
+    CHECK(only_check(run_stage("validate", "{volume: {max: -1}}", scene_of(shapes::cube()))).found ==
+          report::Found(1.0));
 }
 
 TEST_CASE("empty scenes, points, and faces without area are judged", "[stages]") {
@@ -355,7 +357,8 @@ TEST_CASE("every property names the stage that fixes it, and is in the manual an
 TEST_CASE("what a check found has the type of its property's kind", "[stages]") {
     for (const Row& row : rows()) {
         CAPTURE(row.assertion);
-        const Json found = only_check(run_stage("validate", "{" + row.assertion + "}", row.fails)).found;
+        const Json found =
+            report::found_json(only_check(run_stage("validate", "{" + row.assertion + "}", row.fails)).found);
         switch (property_named(row.property())->kind) {
         case PropertyKind::truth:
             CHECK(found.is_boolean());

@@ -2,6 +2,7 @@
 
 #include "base/json.hpp"
 #include "base/random.hpp"
+#include "report/contents.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -16,13 +17,19 @@ using Keys = std::vector<std::uint64_t>;
 
 constexpr int form = 1;
 
+std::optional<double> number_of(const report::Found& found) {
+    if (const auto* count = std::get_if<std::int64_t>(&found)) return static_cast<double>(*count);
+    const auto* number = std::get_if<double>(&found);
+    return number ? std::optional(*number) : std::nullopt;
+}
+
 /// Whether what is found now is no worse; what is no number is as good as its locations say, if it has any.
 bool is_no_worse(const Failure& before, const Failure& now) {
     if (before.found == now.found) return true;
-    if (!before.found.is_number() && !now.found.is_number()) return now.locations() > 0;
-    if (!before.found.is_number() || !now.found.is_number()) return false;
-    const auto was = before.found.get<double>(), is = now.found.get<double>();
-    return now.max && is > *now.max ? is <= was : is >= was;
+    const auto was = number_of(before.found), is = number_of(now.found);
+    if (!was && !is) return now.locations() > 0;
+    if (!was || !is) return false;
+    return now.max && *is > *now.max ? *is <= *was : *is >= *was;
 }
 
 std::uint64_t hash_of(std::span<const std::uint64_t> keys) {
@@ -86,8 +93,9 @@ bool read_failure(const Json& json, Failure& failure) {
         if (!json.contains(name) || !json[name].is_string()) return false;
         *slot = json[name].get<std::string>();
     }
-    if (!json.contains("found")) return false;
-    failure.found = json["found"];
+    auto found = json.contains("found") ? report::found_of(json["found"]) : std::nullopt;
+    if (!found) return false;
+    failure.found = *std::move(found);
     if (!json.contains("locations") || !json["locations"].is_number_unsigned()) return false;
     if (!json.contains("known") || !json["known"].is_array()) return false;
     for (const auto& key : json["known"])
@@ -150,7 +158,7 @@ void KnownFailures::write(io::Outputs& outputs, const std::filesystem::path& pat
                       {"part", f.part},
                       {"component", f.component},
                       {"expected", f.expected},
-                      {"found", f.found},
+                      {"found", report::found_json(f.found)},
                       {"locations", f.keys.size()},
                       {"known", keys_json({f.keys.data(), count})}};
         if (count < f.keys.size())

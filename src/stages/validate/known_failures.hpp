@@ -16,7 +16,7 @@ struct Failure {
     std::string check, part;    ///< part is empty: the scene
     std::string component = {}; ///< of per: component, what it is known by
     std::string expected;
-    Json found;
+    report::Found found = {};
     std::optional<double> min = {}, max = {}; ///< what a number had to lie between
     std::vector<std::uint64_t> keys =
         {};                      ///< of all its locations (stages/validate/check_evidence.hpp), ascending
