@@ -1,6 +1,7 @@
 // The JSON Schemas of what a batch writes.
 
 #include "batch/batch.hpp"
+#include "report/record_fields.hpp"
 #include "report/schema_forms.hpp"
 
 namespace facetmill::batch {
@@ -48,7 +49,7 @@ Json summary_schema() {
          {"assets", list_of(asset_schema(), "The most severe failures first")}});
     out["$schema"] = report::schema_dialect;
     out["title"] = "facetmill batch";
-    out["$defs"] = {{"diagnostic", report::diagnostic_schema()}};
+    out["$defs"] = {{"diagnostic", report::diagnostic_fields().schema()}};
     return out;
 }
 

@@ -5,7 +5,7 @@
 #include "base/words.hpp"
 #include "batch/batch.hpp"
 #include "batch/words.hpp"
-#include "report/diagnostics_json.hpp"
+#include "report/record_fields.hpp"
 
 #include <algorithm>
 #include <array>

@@ -124,14 +124,17 @@ std::vector<AttributeEntry> attributes_of(const Scene& scene) {
     return all;
 }
 
+std::vector<NamedChoice<Domain>> domain_choices() {
+    std::vector<NamedChoice<Domain>> all;
+    for (const Domain domain : {Domain::vertex, Domain::wedge, Domain::face})
+        all.push_back({to_string(domain), domain, ""});
+    return all;
+}
+
 const Fields& attribute_fields() {
     static const Fields fields = fields_of<AttributeEntry>([](DeclareFields<AttributeEntry>& d) {
         d.field("name", &AttributeEntry::name, "");
-        d.choice("domain", &AttributeEntry::domain,
-                 {{to_string(Domain::vertex), Domain::vertex, ""},
-                  {to_string(Domain::wedge), Domain::wedge, ""},
-                  {to_string(Domain::face), Domain::face, ""}},
-                 "");
+        d.choice("domain", &AttributeEntry::domain, domain_choices(), "");
         d.field("type", &AttributeEntry::type, "");
         d.field("components", &AttributeEntry::components, "");
     });

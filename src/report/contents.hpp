@@ -36,6 +36,8 @@ struct AttributeEntry {
 /// Each attribute once, in order of first appearance.
 std::vector<AttributeEntry> attributes_of(const Scene& scene);
 const Fields& attribute_fields();
+/// "vertex", "wedge" and "face".
+std::vector<NamedChoice<Domain>> domain_choices();
 
 struct PartEntry {
     std::string name;

@@ -41,14 +41,6 @@ inline Json list_of(Json items, const char* about) {
 }
 inline Json reference(const char* name) { return {{"$ref", std::string("#/$defs/") + name}}; }
 
-/// An error or a warning, as diagnostics_json has it.
-inline Json diagnostic_schema() {
-    return closed_object({{"id", typed("string")},
-                          {"message", typed("string")},
-                          {"where", nullable("string")},
-                          {"hint", nullable("string")}});
-}
-
 inline constexpr const char* schema_dialect = "https://json-schema.org/draft/2020-12/schema";
 
 } // namespace facetmill::report
