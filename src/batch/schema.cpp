@@ -1,6 +1,7 @@
-// The JSON Schemas of what a batch writes.
+// What a batch writes as JSON, declared once: its documents and their schema.
 
 #include "batch/batch.hpp"
+#include "batch/words.hpp"
 #include "report/record_fields.hpp"
 #include "report/schema_forms.hpp"
 
@@ -8,45 +9,93 @@ namespace facetmill::batch {
 
 namespace {
 
-using report::closed_object;
-using report::list_of;
-using report::typed;
+using report::refer;
 
-Json count_schema(const char* about = nullptr) {
-    Json schema = typed("integer", about);
-    schema["minimum"] = 0;
-    return schema;
+/// An asset of a batch and what became of it.
+struct AssetOutcome {
+    const Asset* asset;
+    const Outcome* out;
+};
+
+std::vector<AssetOutcome> outcomes_of(const Summary& summary, const std::vector<std::size_t>& order) {
+    std::vector<AssetOutcome> all;
+    all.reserve(order.size());
+    for (const std::size_t i : order) all.push_back({&summary.assets[i], &summary.outcomes[i]});
+    return all;
 }
 
-Json asset_schema() {
-    const Json warning = closed_object({{"id", typed("string")}, {"message", typed("string")}});
-    return closed_object({{"asset", typed("string", "Its input, or what names its row of the table")},
-                          {"verdict", report::choice({"ok", "failed", "interrupted", "not run"})},
-                          {"exit_code", typed("integer")},
-                          {"faces_in", count_schema("As loaded first")},
-                          {"faces_out", count_schema("At the end")},
-                          {"bytes", count_schema("Of all outputs, without reports")},
-                          {"outputs", list_of(typed("string"), "From the output folder")},
-                          {"errors", list_of(report::reference("diagnostic"), "Why it failed")},
-                          {"warnings", list_of(warning, "What its run warned of")}});
+/// A getter of a member of what became of the asset.
+template <class T>
+auto of_outcome(T Outcome::*member) {
+    return [member](const AssetOutcome& one) -> const T& { return one.out->*member; };
+}
+std::string asset_name(const AssetOutcome& one) { return one.asset->name; }
+
+void declare_asset(DeclareFields<AssetOutcome>& d) {
+    using Verdict = Outcome::Verdict;
+    std::vector<NamedChoice<Verdict>> verdicts;
+    for (const Verdict v : {Verdict::ok, Verdict::failed, Verdict::interrupted, Verdict::not_run})
+        verdicts.push_back({verdict_word(v), v, ""});
+    d.field("asset", asset_name, "Its input, or what names its row of the table");
+    d.choice("verdict", of_outcome(&Outcome::verdict), verdicts, "");
+    d.field("exit_code", of_outcome(&Outcome::exit_code), "");
+    d.field("faces_in", of_outcome(&Outcome::faces_in), "As loaded first");
+    d.field("faces_out", of_outcome(&Outcome::faces_out), "At the end");
+    d.field("bytes", of_outcome(&Outcome::bytes), "Of all outputs, without reports");
+    d.field("outputs", of_outcome(&Outcome::outputs), "From the output folder");
+    refer(d.list("errors", of_outcome(&Outcome::errors), "Why it failed",
+                 report::declare_diagnostic<Diagnostic>),
+          "diagnostic");
+    // Without places, which are not known of an asset that was kept.
+    d.list("warnings", of_outcome(&Outcome::warnings), "What its run warned of",
+           [](DeclareFields<Diagnostic>& w) {
+               w.field("id", &Diagnostic::id, "");
+               w.field("message", &Diagnostic::message, "");
+           });
+}
+
+void declare_counts(DeclareFields<Summary>& d) {
+    using Verdict = Outcome::Verdict;
+    const auto with = [](Verdict verdict) {
+        return [verdict](const Summary& summary) { return count(summary, verdict); };
+    };
+    d.field(
+        "assets", [](const Summary& summary) { return summary.assets.size(); }, "");
+    d.field("ok", with(Verdict::ok), "");
+    d.field("failed", with(Verdict::failed), "");
+    d.field("interrupted", with(Verdict::interrupted), "");
+    d.field("not_run", with(Verdict::not_run), "");
+}
+
+bool is_passed(const Summary& summary) {
+    return summary.exit_code == 0 && count(summary, Outcome::Verdict::ok) == summary.assets.size();
+}
+
+const Fields& summary_fields() {
+    static const Fields fields = fields_of<Summary>([](DeclareFields<Summary>& d) {
+        report::declare_format(d);
+        report::declare_tool(d);
+        d.field("pipeline", &Summary::pipeline, "");
+        d.field("passed", is_passed, "All assets are ok, and so is the batch");
+        d.field("exit_code", &Summary::exit_code, "The most severe of all assets");
+        d.object(
+            "counts", [](const Summary& summary) -> const Summary& { return summary; }, "", declare_counts);
+        refer(d.list("errors", &Summary::errors, "Of the batch as a whole",
+                     report::declare_diagnostic<Diagnostic>),
+              "diagnostic");
+        d.list(
+            "assets", [](const Summary& summary) { return outcomes_of(summary, worst_first(summary)); },
+            "The most severe failures first", declare_asset);
+    });
+    return fields;
 }
 
 } // namespace
 
+Json to_json(const Summary& summary) { return summary_fields().json(&summary); }
+
 Json summary_schema() {
-    Json out = closed_object(
-        {{"format", {{"const", 1}}},
-         {"tool", closed_object({{"name", {{"const", "facetmill"}}}, {"version", typed("string")}})},
-         {"pipeline", typed("string")},
-         {"passed", typed("boolean", "All assets are ok, and so is the batch")},
-         {"exit_code", typed("integer", "The most severe of all assets")},
-         {"counts", closed_object({{"assets", count_schema()},
-                                   {"ok", count_schema()},
-                                   {"failed", count_schema()},
-                                   {"interrupted", count_schema()},
-                                   {"not_run", count_schema()}})},
-         {"errors", list_of(report::reference("diagnostic"), "Of the batch as a whole")},
-         {"assets", list_of(asset_schema(), "The most severe failures first")}});
+    Json out = summary_fields().schema();
     out["$schema"] = report::schema_dialect;
     out["title"] = "facetmill batch";
     out["$defs"] = {{"diagnostic", report::diagnostic_fields().schema()}};

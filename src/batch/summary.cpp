@@ -1,11 +1,10 @@
-// What a batch did, as text, JSON and JUnit.
+// What a batch did, as text and JUnit.
 
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "batch/batch.hpp"
 #include "batch/words.hpp"
-#include "report/record_fields.hpp"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +48,7 @@ std::string paint(bool colour, const char* code, const std::string& text) {
 /// A line of the table, and the errors below it.
 std::string line_of(const Asset& asset, const Outcome& out, BatchForm form, bool colour) {
     const bool terminal = form == BatchForm::terminal;
-    const std::string word = terminal && out.kept ? "kept" : verdict_word(out);
+    const std::string word = terminal && out.kept ? "kept" : verdict_word(out.verdict);
     const bool bad = out.verdict == Outcome::Verdict::failed || out.verdict == Outcome::Verdict::interrupted;
     std::string text = fmt::format(
         "  {}  {}", paint(colour, bad ? "1;31" : "32", fmt::format("{:<11}", word)), one_line(asset.name));
@@ -73,10 +72,10 @@ std::string totals(const Summary& summary, BatchForm form) {
     std::string text = fmt::format("{}: {} ok", counted(summary.assets.size(), "asset"),
                                    count(summary, Outcome::Verdict::ok));
     if (form == BatchForm::terminal && kept > 0) text += fmt::format(" ({} kept from before)", kept);
-    for (const auto& [verdict, word] : {std::pair{Outcome::Verdict::failed, "failed"},
-                                        std::pair{Outcome::Verdict::interrupted, "interrupted"},
-                                        std::pair{Outcome::Verdict::not_run, "not run"}})
-        if (const auto n = count(summary, verdict); n > 0) text += fmt::format(", {} {}", n, word);
+    for (const auto verdict :
+         {Outcome::Verdict::failed, Outcome::Verdict::interrupted, Outcome::Verdict::not_run})
+        if (const auto n = count(summary, verdict); n > 0)
+            text += fmt::format(", {} {}", n, verdict_word(verdict));
     return text;
 }
 
@@ -99,9 +98,9 @@ std::size_t count(const Summary& summary, Outcome::Verdict verdict) {
                       [&](const Outcome& out) { return out.verdict == verdict; }));
 }
 
-const char* verdict_word(const Outcome& out) {
+const char* verdict_word(Outcome::Verdict verdict) {
     constexpr const char* words[] = {"ok", "failed", "interrupted", "not run"};
-    return words[static_cast<int>(out.verdict)];
+    return words[static_cast<int>(verdict)];
 }
 
 std::string one_line(std::string_view text) {
@@ -142,48 +141,6 @@ std::string to_text(const Summary& summary) {
     return text + fmt::format("{}; exit code {}\n", totals(summary, BatchForm::report), summary.exit_code);
 }
 
-namespace {
-
-/// Without places, which are not known of an asset that was kept.
-Json warnings_json(const Outcome& out) {
-    Json all = Json::array();
-    for (const auto& warning : out.warnings)
-        all.push_back({{"id", warning.id}, {"message", warning.message}});
-    return all;
-}
-
-} // namespace
-
-Json to_json(const Summary& summary) {
-    Json assets = Json::array();
-    for (const std::size_t i : worst_first(summary)) {
-        const Outcome& out = summary.outcomes[i];
-        assets.push_back({{"asset", summary.assets[i].name},
-                          {"verdict", verdict_word(out)},
-                          {"exit_code", out.exit_code},
-                          {"faces_in", out.faces_in},
-                          {"faces_out", out.faces_out},
-                          {"bytes", out.bytes},
-                          {"outputs", out.outputs},
-                          {"errors", report::diagnostics_json(out.errors)},
-                          {"warnings", warnings_json(out)}});
-    }
-    return {
-        {"format", 1},
-        {"tool", {{"name", "facetmill"}, {"version", FACETMILL_VERSION}}},
-        {"pipeline", summary.pipeline},
-        {"passed", summary.exit_code == 0 && count(summary, Outcome::Verdict::ok) == summary.assets.size()},
-        {"exit_code", summary.exit_code},
-        {"counts",
-         {{"assets", summary.assets.size()},
-          {"ok", count(summary, Outcome::Verdict::ok)},
-          {"failed", count(summary, Outcome::Verdict::failed)},
-          {"interrupted", count(summary, Outcome::Verdict::interrupted)},
-          {"not_run", count(summary, Outcome::Verdict::not_run)}}},
-        {"errors", report::diagnostics_json(summary.errors)},
-        {"assets", std::move(assets)}};
-}
-
 std::string timings_text(const Summary& summary) {
     Json assets = Json::array();
     for (std::size_t i = 0; i < summary.assets.size(); ++i)
@@ -203,7 +160,7 @@ std::string junit_case(const Asset& asset, const Outcome& out) {
     if (out.verdict == Outcome::Verdict::ok) return head + "/>\n";
     if (out.verdict != Outcome::Verdict::failed)
         return fmt::format("{}>\n      <skipped message=\"{}\"/>\n    </testcase>\n", head,
-                           verdict_word(out));
+                           verdict_word(out.verdict));
     const char* kind = out.exit_code == static_cast<int>(ErrorKind::check) ? "failure" : "error";
     std::string body;
     for (const auto& error : out.errors)

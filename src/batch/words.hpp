@@ -7,7 +7,7 @@ namespace facetmill::batch {
 
 std::size_t count(const Summary& summary, Outcome::Verdict verdict);
 /// "ok", "failed", "interrupted", "not run".
-const char* verdict_word(const Outcome& out);
+const char* verdict_word(Outcome::Verdict verdict);
 /// Control characters, which names may hold, as \x0a.
 std::string one_line(std::string_view text);
 

@@ -66,45 +66,6 @@ auto as_it_is(Json R::*member) {
     return [member](const R& record) { return AsItIs{&(record.*member)}; };
 }
 
-/// A field that always has this value.
-template <class R>
-void constant(DeclareFields<R>& d, std::string_view name, const char* value) {
-    d.field(
-         name, [value](const R&) { return std::string(value); }, "")
-        .field()
-        .schema = {{"const", value}};
-}
-template <class R>
-void format_one(DeclareFields<R>& d) {
-    d.field(
-         "format", [](const R&) { return 1; }, "")
-        .field()
-        .schema = {{"const", 1}};
-}
-
-/// The objects of the field are those of a definition of the schema, which also says whether they may be
-/// null.
-void refer(FieldRef ref, const char* definition) {
-    Field& field = ref.field();
-    const Json to = reference(definition);
-    if (field.is_list)
-        field.schema["items"] = to;
-    else
-        field.schema = to;
-    field.null_when.clear();
-}
-
-template <class D>
-void declare_diagnostic(DeclareFields<D>& d) {
-    d.field("id", &D::id, "");
-    d.field("message", &D::message, "");
-    d.field(
-        "where", [](const Diagnostic& it) { return unless_empty(facetmill::to_string(it.where)); },
-        "The place that it is about.");
-    d.field(
-        "hint", [](const Diagnostic& it) { return unless_empty(it.hint); }, "What to do about it.");
-}
-
 void declare_change(DeclareFields<PartChange>& d) {
     d.field("part", &PartChange::part, "");
     d.embed(&PartChange::change, [](DeclareFields<AttributeChange>& c) {
@@ -171,17 +132,9 @@ void declare_file(DeclareFields<FileRecord>& d, bool read_back) {
         d.field("read_back", as_it_is(&FileRecord::read_back), "The result of reading the written file back");
 }
 
-struct Tool {};
-
 void declare_run(DeclareFields<RunRecord>& d) {
-    format_one(d);
-    d.object(
-        "tool", [](const RunRecord&) { return Tool(); }, "",
-        [](DeclareFields<Tool>& t) {
-            constant(t, "name", "facetmill");
-            t.field(
-                "version", [](const Tool&) { return std::string(FACETMILL_VERSION); }, "");
-        });
+    declare_format(d);
+    declare_tool(d);
     d.field("pipeline", &RunRecord::pipeline, "");
     d.field("about", unless_empty(&RunRecord::about), "What the pipeline says it is for.")
         .null_when("it does not say");
@@ -205,7 +158,7 @@ void declare_run(DeclareFields<RunRecord>& d) {
 }
 
 void declare_timings(DeclareFields<RunRecord>& d) {
-    format_one(d);
+    declare_format(d);
     d.field("pipeline", &RunRecord::pipeline, "");
     d.field("seconds", &RunRecord::seconds, "");
     d.field("peak_memory", &RunRecord::peak_memory, "Bytes");
@@ -219,8 +172,37 @@ void declare_timings(DeclareFields<RunRecord>& d) {
 
 } // namespace
 
+void refer(FieldRef ref, const char* definition) {
+    Field& field = ref.field();
+    if (field.is_list)
+        field.schema["items"] = reference(definition);
+    else
+        field.schema = reference(definition);
+    field.null_when.clear();
+}
+
+const Fields& tool_fields() {
+    static const Fields fields = fields_of<Tool>([](DeclareFields<Tool>& d) {
+        d.field(
+             "name", [](const Tool&) { return std::string("facetmill"); }, "")
+            .field()
+            .schema = {{"const", "facetmill"}};
+        d.field(
+            "version", [](const Tool&) { return std::string(FACETMILL_VERSION); }, "");
+    });
+    return fields;
+}
+
 const Fields& diagnostic_fields() {
-    static const Fields fields = fields_of<Diagnostic>(declare_diagnostic<Diagnostic>);
+    static const Fields fields = fields_of<Diagnostic>([](DeclareFields<Diagnostic>& d) {
+        d.field("id", &Diagnostic::id, "");
+        d.field("message", &Diagnostic::message, "");
+        d.field(
+            "where", [](const Diagnostic& it) { return unless_empty(facetmill::to_string(it.where)); },
+            "The place that it is about.");
+        d.field(
+            "hint", [](const Diagnostic& it) { return unless_empty(it.hint); }, "What to do about it.");
+    });
     return fields;
 }
 

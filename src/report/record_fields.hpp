@@ -15,12 +15,35 @@ const Fields& run_fields();
 /// Of a RunRecord: what differs from run to run, and is therefore in no report.
 const Fields& timings_fields();
 
-/// [{id, message, where, hint}]
-template <class Diagnostics>
-Json diagnostics_json(const Diagnostics& diagnostics) {
-    Json all = Json::array();
-    for (const Diagnostic& d : diagnostics) all.push_back(diagnostic_fields().json(&d));
-    return all;
+// What the declarations of all that is written have in common.
+
+/// The objects of the field are those of a definition of the schema, which also says whether they may be
+/// null.
+void refer(FieldRef field, const char* definition);
+
+/// {name, version}
+struct Tool {};
+const Fields& tool_fields();
+
+/// What begins every document: its format, 1.
+template <class R>
+void declare_format(DeclareFields<R>& d) {
+    d.field(
+         "format", [](const R&) { return 1; }, "")
+        .field()
+        .schema = {{"const", 1}};
+}
+template <class R>
+void declare_tool(DeclareFields<R>& d) {
+    d.object(
+        "tool", [](const R&) { return Tool(); }, "",
+        [](DeclareFields<Tool>& t) { t.fields = tool_fields(); });
+}
+/// Of a Diagnostic or what derives from it.
+template <class D>
+void declare_diagnostic(DeclareFields<D>& d) {
+    d.embed([](const D& it) -> const Diagnostic& { return it; },
+            [](DeclareFields<Diagnostic>& all) { all.fields = diagnostic_fields(); });
 }
 
 } // namespace facetmill::report
