@@ -11,8 +11,10 @@
 #include "base/progress.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/spatial/closest_point.hpp"
+#include "geometry/spatial/group_distances.hpp"
 #include "mesh/placement.hpp"
 
+#include <atomic>
 #include <utility>
 
 namespace facetmill::simplification {
@@ -65,11 +67,16 @@ bool keeps_points(const State& s, Around& r, const Vec3& to) {
         const Index f = k.corner / 3;
         for (Index p = followed.first[f]; p != none; p = followed.next[p]) r.points.push_back(p);
     });
-    for (const Index i : r.points) {
-        const Vec3& p = followed.points[i];
+    r.points_at.clear();
+    for (const Index i : r.points) r.points_at.push_back(followed.points[i]);
+    r.bounds.begin(to, r.points_at);
+    for (const RingCorner& k : r.staying) r.bounds.add(s.at[k.next], s.at[k.before]);
+    for (std::size_t i = 0; i < r.points.size(); ++i) {
+        const Vec3& p = r.points_at[i];
         double least = HUGE_VAL;
         Index taker = none;
         for (Index k = 0; k < r.staying.size() && least > near_enough * followed.farthest; ++k) {
+            if (r.bounds.square(k, i) >= least) continue;
             const Vec3 &x = s.at[r.staying[k].next], &y = s.at[r.staying[k].before];
             const Vec3 off = p - closest_on_triangle(p, to, x, y);
             if (!(dot(off, off) < least)) continue;
@@ -113,25 +120,41 @@ bool is_near(const State& s, Around& r, const Vec3& to) {
     return true;
 }
 
+/// Whether one of the points is farther than `bound` from a surface; neighbours are looked at together.
+bool any_beyond(std::span<const Vec3> points, GroupDistances& together, const FaceTree& tree, double bound,
+                Index& hint) {
+    if (together.all_within(points, bound, hint)) return false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (together.distance(i) + together.error() <= bound) continue;
+        const Closest found = closest_point(tree, points[i], hint, bound);
+        if (!(found.distance <= bound)) return true;
+        hint = found.triangle;
+    }
+    return false;
+}
+
 /// Whether a point of one surface (of those that the deviation samples) is farther than `bound` from another.
 bool any_beyond(const Surface& surface, const FaceTree& tree, double bound,
                 const DeviationSettings& settings) {
     const auto samples = sample_area(surface, settings.samples, settings.seed);
     const std::size_t all = samples.size() + surface.positions.size();
-    return parallel_reduce(
-               all, 0,
-               [&](std::size_t begin, std::size_t end) {
-                   Index hint = none;
-                   for (std::size_t i = begin; i < end; ++i) {
-                       const Vec3& p =
-                           i < samples.size() ? samples[i].point : surface.positions[i - samples.size()];
-                       const Closest found = closest_point(tree, p, hint, bound);
-                       if (!(found.distance <= bound)) return 1;
-                       hint = found.triangle;
-                   }
-                   return 0;
-               },
-               [](int a, int b) { return a | b; }, 2048) != 0;
+    std::atomic<bool> found = false;
+    parallel_chunks(
+        all,
+        [&](std::size_t begin, std::size_t end) {
+            GroupDistances together(tree);
+            std::vector<Vec3> points;
+            Index hint = none;
+            for (std::size_t i = begin; i < end && !found; ++i) {
+                points.push_back(i < samples.size() ? samples[i].point
+                                                    : surface.positions[i - samples.size()]);
+                if (points.size() < GroupDistances::most && i + 1 < end) continue;
+                if (any_beyond(points, together, tree, bound, hint)) found = true;
+                points.clear();
+            }
+        },
+        2048);
+    return found;
 }
 
 /// The positions and faces alone, without vertices that no face uses.
@@ -235,17 +258,18 @@ void hand_over_points(State& s, const Around& around) {
 }
 
 Judge::Judge(const Mesh& from, double bound, std::size_t samples)
-    : surface_(surface_of(bare_used(from))), tree_(surface_), bound_(bound), settings_{.samples = samples} {}
+    : surface_(surface_of(bare_used(from))), tree_(surface_, FaceTree::Use::near),
+      bound_(bound), settings_{.samples = samples} {}
 
 bool Judge::within(const Mesh& mesh) const {
     const Surface now = surface_of(mesh);
     return !any_beyond(now, tree_, bound_, settings_) &&
-           !any_beyond(surface_, FaceTree(now), bound_, settings_);
+           !any_beyond(surface_, FaceTree(now, FaceTree::Use::near), bound_, settings_);
 }
 
 double Judge::deviation(const Mesh& mesh) const {
     const Surface now = surface_of(mesh);
-    return std::max(deviation_to(surface_, FaceTree(now), settings_).maximum,
+    return std::max(deviation_to(surface_, FaceTree(now, FaceTree::Use::near), settings_).maximum,
                     deviation_to(now, tree_, settings_).maximum);
 }
 
