@@ -37,4 +37,10 @@ void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*
         tbb::simple_partitioner{});
 }
 
+void sort_few(std::span<KeyedPlace> places) {
+    std::sort(places.begin(), places.end(), [](const KeyedPlace& a, const KeyedPlace& b) {
+        return a.key != b.key ? a.key < b.key : a.place < b.place;
+    });
+}
+
 } // namespace facetmill

@@ -4,9 +4,11 @@
 // change.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -62,14 +64,26 @@ T exclusive_scan(std::vector<T>& counts) {
     return sum;
 }
 
+/// A key, and where its item stands.
+struct KeyedPlace {
+    std::uint64_t key;
+    std::uint32_t place;
+};
+/// By key, and what has the same by place: the part of radix_sort that is compiled once.
+void sort_few(std::span<KeyedPlace> places);
+
 /// Sorts items by a 64-bit key (key(item), below 2^key_bits), stable: parallel radix sort; few are compared.
 template <class T, class Key>
 void radix_sort(std::vector<T>& items, Key&& key, int key_bits = 64) {
     constexpr std::size_t few = 256; // to go through the buckets of all digits is more work than to compare
     if (items.size() <= few) {
-        std::stable_sort(items.begin(), items.end(), [&](const T& a, const T& b) {
-            return static_cast<std::uint64_t>(key(a)) < static_cast<std::uint64_t>(key(b));
-        });
+        std::array<KeyedPlace, few> places;
+        for (std::size_t i = 0; i < items.size(); ++i)
+            places[i] = {static_cast<std::uint64_t>(key(items[i])), static_cast<std::uint32_t>(i)};
+        sort_few(std::span(places).first(items.size()));
+        std::vector<T> other(items.size());
+        for (std::size_t i = 0; i < other.size(); ++i) other[i] = items[places[i].place];
+        items.swap(other);
         return;
     }
     constexpr int digit_bits = 11;
