@@ -48,18 +48,20 @@ struct Members<Diagnostic> {
     }
 };
 
-/// Without what the run says of every stage: its name and place, times, pictures.
+/// Without what the run says of every stage: its name, place and options, times, pictures.
 template <>
 struct Members<report::StageRecord> {
     static void each(auto& record, auto&& take) {
-        auto& [name, stage, path, before, after, attribute_changes, warnings, result, resolved, said, skipped,
-               seconds, picture] = record;
+        auto& [name, stage, path, before, after, attribute_changes, warnings, options, result, resolved, said,
+               skipped, seconds, picture, camera] = record;
         static_cast<void>(name);
         static_cast<void>(stage);
         static_cast<void>(path);
+        static_cast<void>(options);
         static_cast<void>(skipped);
         static_cast<void>(seconds);
         static_cast<void>(picture);
+        static_cast<void>(camera);
         take(before, after, attribute_changes, warnings, result, resolved, said);
     }
 };

@@ -151,7 +151,7 @@ bool Reuse::recall(const Step& step, Flow& flow, RunState& run, report::StageRec
     TracedStep traced;
     traced.name = step.name;
     traced.stage = step.stage->name;
-    traced.options = options_json(step);
+    traced.options = stage.options;
     if (!step.only.patterns.empty()) traced.options["only"] = step.only.patterns;
     traced.way = TracedStep::Way::always;
     trace_.push_back(std::move(traced));
@@ -183,6 +183,7 @@ bool Reuse::recall_known(const Step& step, Flow& flow, RunState& run, report::St
     stage.name = std::move(memory->record.name);
     stage.stage = std::move(memory->record.stage);
     stage.path = std::move(memory->record.path);
+    stage.options = std::move(memory->record.options);
     for (auto& warning : stage.warnings) warning.where = step.where;
     memory->record = {};
     flow.key = memory->scene;

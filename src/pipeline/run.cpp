@@ -191,6 +191,7 @@ class Runner {
         stage.name = step.name;
         stage.stage = step.stage->name;
         stage.path = step.path;
+        stage.options = options_json(step);
         ++number_; // parts found at run time may bring more stages than were planned
         if (settings_.progress) settings_.progress->stage(number_, std::max(number_, stages_), step.name);
         return stage;
@@ -199,7 +200,7 @@ class Runner {
     void record_skipped(const Step& step) {
         auto stage = new_record(step);
         stage.skipped = true;
-        trace_.push_back({step.name, step.stage->name, options_json(step), {}, {}, TracedStep::Way::skipped});
+        trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, TracedStep::Way::skipped});
         record().stages.push_back(std::move(stage));
     }
 
@@ -244,16 +245,35 @@ class Runner {
 
     /// A page shows what a stage changed, as long as it stays small.
     void add_picture(const Scene& scene, report::StageRecord& stage) {
-        constexpr std::size_t max_bytes = 4 << 20;
+        constexpr std::size_t max_bytes = 5 << 19; // of a page of 3 MB
         if (picture_bytes_ > max_bytes) return;
         failures_.guarded({}, "a picture", [&] {
             const std::vector<Vec3> places = failing_locations_of(stage);
+            PictureSettings settings;
+            settings.camera = camera_for(scene);
             std::string picture =
-                places.empty() ? picture_for_page(scene, {}) : picture_of_failures(scene, places);
+                places.empty() ? picture_for_page(scene, settings) : picture_of_failures(scene, places);
             if (picture == last_picture_) return;
             picture_bytes_ += picture.size();
+            stage.camera = places.empty() ? cameras_ : 0;
             last_picture_ = stage.picture = std::move(picture);
         });
+    }
+
+    /// The camera of the picture before, so that the two can be compared, unless the scene goes far beyond it
+    /// or became much smaller.
+    const Camera& camera_for(const Scene& scene) {
+        const Camera own = camera_of(scene);
+        const Box& now = own.seen;
+        const Box& before = camera_.seen;
+        const Vec3 size = before.extent(), left = before.min - size * 0.04, right = before.max + size * 0.04;
+        const bool inside = !before.empty() && !now.empty() && now.min.x >= left.x && now.min.y >= left.y &&
+                            now.max.x <= right.x && now.max.y <= right.y;
+        if (!inside || now.diagonal() < before.diagonal() / 3) {
+            camera_ = own;
+            ++cameras_;
+        }
+        return camera_;
     }
 
     /// What the stage's checks have just found.
@@ -509,6 +529,8 @@ class Runner {
     std::set<fs::path> unwritable_; ///< folders
     bool keeps_loaded_ = false, takes_pictures_ = false;
     std::string last_picture_;
+    Camera camera_;        ///< of the pictures of a page
+    int cameras_ = 0;      ///< so far
     io::LookReader looks_; ///< textures of the pictures, decoded once
     std::size_t picture_bytes_ = 0;
     int number_ = 0, stages_ = 0;

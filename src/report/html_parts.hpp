@@ -16,6 +16,8 @@ std::string cell(const std::string& html);
 std::string number_cell(const std::string& html);
 /// A row of headings; a leading # marks a column of numbers.
 std::string heads(std::initializer_list<const char*> titles);
+/// A table under a smaller heading; nothing when there are no rows.
+std::string subtable(const std::string& title, const std::string& header, const std::string& rows);
 /// A section with a table; nothing when there are no rows.
 std::string table(const std::string& title, const std::string& header, const std::string& rows);
 

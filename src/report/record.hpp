@@ -96,13 +96,15 @@ struct StageRecord {
     std::optional<Brief> before, after; ///< none: it was skipped; none after: it failed
     std::vector<PartChange> attribute_changes;
     std::vector<Diagnostic> warnings;
-    Json result = Json::object(); ///< what the stage itself reports
+    Json options = Json::object(); ///< as they held: given, or by default
+    Json result = Json::object();  ///< what the stage itself reports
     std::vector<ResolvedLength> resolved;
     std::vector<std::string> said; ///< the main numbers of the result, a line each, for the terminal
     bool skipped = false;          ///< its `when` did not hold
     double seconds = 0;
     std::string
-        picture; ///< of the scene after it, for pages: a PNG in base64; empty: as after the stage before
+        picture;    ///< of the scene after it, for pages: a PNG in base64; empty: as after the stage before
+    int camera = 0; ///< pictures of one number are seen in the same way; 0: it has a way of its own
 };
 
 struct FileRecord {

@@ -88,6 +88,8 @@ void declare_stage(DeclareFields<StageRecord>& d) {
     d.field("skipped", &StageRecord::skipped, "Its `when` did not hold");
     refer(d.object("before", &StageRecord::before, "", brief), "brief");
     refer(d.object("after", &StageRecord::after, "", brief), "brief");
+    d.field("options", as_it_is(&StageRecord::options), "As they held: given, or by default").field().schema =
+        fields::schema_of_type("object");
     d.field("resolved", &StageRecord::resolved, "Lengths that depended on the scene");
     d.list("attribute_changes", &StageRecord::attribute_changes, "What each attribute went through",
            declare_change);

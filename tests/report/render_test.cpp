@@ -45,6 +45,9 @@ RunRecord full_record() {
         {"cube", {"NORMAL", Domain::wedge, AttributeChange::Kind::dropped, "the format has none"}}};
     cut.warnings = {{Severity::warning, "W-CAP", "one loop stays open", file_mark("p.yaml"), "close it"}};
     cut.resolved = {{"depth", "1%", 0.01}};
+    cut.options = {{"plane", {{"normal", {0, 0, 1}}}}, {"cap", true}};
+    cut.result = {{"area", 2.5}, {"caps", {{{"loops", 1234}}, {{"open", "<b>"}}}}};
+    cut.said = {"1 cap & no more"};
     cut.seconds = 0.25;
     StageRecord skipped;
     skipped.name = skipped.stage = "relax";
@@ -230,6 +233,34 @@ TEST_CASE("HTML is one page that escapes what others wrote", "[report]") {
     CHECK(shown.find("src=\"data:image/png;base64,iVBORw0KGgo=\"") == shown.find("src="));
     CHECK(html.find("href=") == std::string::npos);
     CHECK(html.find("prefers-color-scheme: dark") != std::string::npos);
+}
+
+TEST_CASE("the page tells what the terminal tells of a stage, its options and its result", "[report]") {
+    const std::string html = to_html(full_record());
+    CHECK(html.find("<h3>cut <code>clip</code></h3>\n<p>1,200 &rarr; 12 faces (1 %), 8 vertices</p>") !=
+          std::string::npos);
+    CHECK(html.find("<p>1 cap &amp; no more</p>") != std::string::npos);
+    CHECK(html.find("<tr><td><code>plane.normal</code></td><td>[0, 0, 1]</td></tr>") != std::string::npos);
+    CHECK(html.find("<tr><td><code>depth</code></td><td>1% = 0.01</td></tr>") != std::string::npos);
+    CHECK(html.find("<tr><td><code>area</code></td><td>2.5</td></tr>") != std::string::npos);
+    CHECK(html.find("<tr><th>loops</th><th>open</th></tr>\n<tr><td>1,234</td><td></td></tr>\n"
+                    "<tr><td></td><td>&lt;b&gt;</td></tr>") != std::string::npos);
+    CHECK(html.find("<h3>relax </h3>\n<p>skipped") != std::string::npos);
+}
+
+TEST_CASE("pictures that one camera took are compared by a slider", "[report]") {
+    RunRecord record;
+    for (const char* name : {"load", "clip", "transform"}) {
+        auto& stage = record.stages.emplace_back();
+        stage.name = stage.stage = name;
+        stage.picture = "iVBORw0KGgo=";
+        stage.camera = 1;
+    }
+    record.stages[2].camera = 2;
+    const std::string html = to_html(record);
+    CHECK(html.find("data-of=\"picture-0\"") != std::string::npos);
+    CHECK(html.find("data-of=\"picture-1\"") == std::string::npos);
+    CHECK(html.find("clip: 0 faces; left of the slider before (load)") != std::string::npos);
 }
 
 TEST_CASE("the picture of a stage whose checks failed says what it shows", "[report]") {

@@ -50,15 +50,22 @@ enum class Paint {
 
 enum class EdgeLines { few, all, no }; ///< few: of parts in scenes of at most PictureSettings::few faces
 
+/// What a picture of one scene sees, to see another in the same way, in parallel projection.
+struct Camera {
+    Vec3 up, front;
+    Box seen; ///< of the scene, along the right, the up and the viewing direction of the picture
+};
+
 struct PictureSettings {
     int width = 480, height = 360; ///< pixels, 1 to 8192
     Viewpoint viewpoint = Viewpoint::corner;
     std::optional<Vec3> from; ///< the direction towards the viewer, in world space, instead of viewpoint
     double turn = 0;          ///< radians that the viewer goes around the up axis, anticlockwise from above
-    double perspective = 0;   ///< the angle of view over the scene, radians, below pi; 0: parallel
-    double zoom = 1;          ///< at least 1; the middle of the picture is magnified
-    double max_scale = HUGE_VAL; ///< pixels per unit before zoom, for pictures of one scale
-    std::optional<Vec3> at;      ///< the place in the middle, in world space, when zoom is not 1
+    std::optional<Camera> camera; ///< of another scene, with the same direction; without perspective only
+    double perspective = 0;       ///< the angle of view over the scene, radians, below pi; 0: parallel
+    double zoom = 1;              ///< at least 1; the middle of the picture is magnified
+    double max_scale = HUGE_VAL;  ///< pixels per unit before zoom, for pictures of one scale
+    std::optional<Vec3> at;       ///< the place in the middle, in world space, when zoom is not 1
     Shading shading = Shading::sides;
     ShadingNormals normals = ShadingNormals::automatic;
     bool occlusion = true;    ///< corners and folds are darker
@@ -97,6 +104,9 @@ struct Picture {
 /// 64 bytes a pixel, 24 a vertex, 4 for each band of 16 rows of pixels that a triangle touches, and what
 /// blends (Layers). Throws limit (E-MEMORY) when it is not there.
 Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
+
+/// The camera of picture_of, empty where the scene is. O(vertices).
+Camera camera_of(const Scene& scene, const PictureSettings& settings = {});
 
 /// Picture::scale without the picture, before zoom: beside the legend, where there is one.
 double fitting_scale(const Scene& scene, const PictureSettings& settings);

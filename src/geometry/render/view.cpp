@@ -114,8 +114,7 @@ Vec3 direction_of(Viewpoint viewpoint, const UpAndFront& axes) {
     return front + right * 0.55 + up * 0.45;
 }
 
-View axes_of_view(const Scene& scene, const PictureSettings& settings) {
-    const UpAndFront axes = up_and_front(scene, settings);
+View axes_of_view(const UpAndFront& axes, const PictureSettings& settings) {
     const Vec3& up = axes.up;
     View view;
     view.towards = normalised(settings.from.value_or(direction_of(settings.viewpoint, axes)));
@@ -155,6 +154,18 @@ Box seen_box(const Scene& scene, const PictureSettings& settings, SeenAt&& seen_
             }));
     }
     return seen;
+}
+
+/// The box of the scene along the axes of the view.
+Box box_along(const View& view, const Scene& scene, const PictureSettings& settings) {
+    return seen_box(scene, settings, [&](const Vec3& p) {
+        return Vec3{dot(p, view.right), dot(p, view.up), dot(p, view.towards)};
+    });
+}
+
+/// The box as View::of gives it at scale 1 in parallel projection: y down.
+Box as_seen(const Box& box) {
+    return {{box.min.x, -box.max.y, box.min.z}, {box.max.x, -box.min.y, box.max.z}};
 }
 
 /// Magnifies what is around the place in the middle.
@@ -203,16 +214,21 @@ Vec3 View::to_viewer(const Vec3& place) const {
     return normalised(Vec3{0, 0, distance} - place);
 }
 
+Camera camera_of(const Scene& scene, const PictureSettings& settings) {
+    const auto [up, front] = up_and_front(scene, settings);
+    return {up, front, box_along(axes_of_view({up, front}, settings), scene, settings)};
+}
+
 View view_of(const Scene& scene, const PictureSettings& settings, int width, int height) {
-    View view = axes_of_view(scene, settings);
-    const auto along_axes = [&](const Vec3& p) {
-        return Vec3{dot(p, view.right), dot(p, view.up), dot(p, view.towards)};
-    };
-    const Box box = seen_box(scene, settings, along_axes);
+    const Camera camera = settings.camera ? *settings.camera : camera_of(scene, settings);
+    View view = axes_of_view({camera.up, camera.front}, settings);
+    const Box& box = camera.seen;
     if (box.empty()) return view;
     view.scale = 1;
     if (settings.perspective > 0) stand_back(view, settings.perspective, box);
-    const Box seen = seen_box(scene, settings, [&](const Vec3& p) { return view.of(p); });
+    const Box seen = settings.perspective > 0
+                         ? seen_box(scene, settings, [&](const Vec3& p) { return view.of(p); })
+                         : as_seen(box);
     const Vec3 size = seen.extent(), middle = seen.centre();
     const double tallest = std::max(size.x / width, size.y / height);
     view.scale = std::min(tallest > 0 ? 0.92 / tallest : 1, settings.max_scale * Canvas::samples);

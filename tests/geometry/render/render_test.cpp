@@ -136,6 +136,19 @@ TEST_CASE("absolute values hide which way faces run", "[geometry]") {
     CHECK_FALSE(picture_of(good, s).rgba == picture_of(bad, s).rgba);
 }
 
+TEST_CASE("a scene is seen by the camera of another", "[geometry]") {
+    const Scene whole = scene_of(shapes::icosphere(4));
+    PictureSettings settings;
+    settings.camera = camera_of(whole);
+    const Picture same = picture_of(whole, settings);
+    CHECK(same.rgba == picture_of(whole).rgba);
+    Mesh small = shapes::icosphere(4);
+    for (Vec3& p : small.positions) p = p * 0.5;
+    const Picture half = picture_of(scene_of(small), settings);
+    CHECK(half.scale == same.scale);
+    CHECK(static_cast<double>(covered(half)) == Approx(static_cast<double>(covered(same)) / 4).epsilon(0.02));
+}
+
 TEST_CASE("a box has its sides where the viewer stands", "[geometry]") {
     Mesh box = shapes::cube();
     for (Vec3& p : box.positions) p = {4e6 + 4.6 * p.x, 2 * p.y, 2.5 * p.z};

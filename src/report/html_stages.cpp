@@ -1,0 +1,205 @@
+#include "report/html_stages.hpp"
+
+#include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
+#include "base/words.hpp"
+#include "report/check_text.hpp"
+#include "report/html_parts.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+namespace {
+
+/// A value as people read it.
+std::string told(const Json& value) {
+    if (value.is_null()) return "-";
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+    if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
+    if (value.is_number_float()) return readable(value.get<double>());
+    if (value.is_string()) return value.get<std::string>();
+    if (!value.is_array()) return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string items;
+    for (const Json& item : value) append_item(items, told(item));
+    return value.size() > 1 || items.empty() ? "[" + items + "]" : items;
+}
+
+bool is_list_of_objects(const Json& value) {
+    return value.is_array() &&
+           std::any_of(value.begin(), value.end(), [](const Json& item) { return item.is_object(); });
+}
+
+using Told = std::vector<std::pair<std::string, std::string>>;
+
+/// What an object holds, by name; objects inside it as a.b.
+void flatten(const Json& object, const std::string& before, Told& out) {
+    for (const auto& [name, value] : object.items()) {
+        if (value.is_object())
+            flatten(value, before + name + ".", out);
+        else if (!is_list_of_objects(value))
+            out.emplace_back(before + name, told(value));
+    }
+}
+
+Told flattened(const Json& object) {
+    Told out;
+    if (object.is_object()) flatten(object, "", out);
+    return out;
+}
+
+/// A table of the objects of a list, a row each; of a single one, a row for each value.
+std::string list_table(const std::string& title, const Json& list) {
+    if (list.size() == 1) return subtable(title, heads({"name", "value"}), value_rows(list.front()));
+    constexpr std::size_t most = 50;
+    std::vector<std::string> names;
+    std::vector<Told> rows;
+    for (const Json& item : list) {
+        if (rows.size() == most) break;
+        rows.push_back(flattened(item));
+        for (const auto& [name, value] : rows.back())
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    std::string header, body;
+    for (const auto& name : names) header += fmt::format("<th>{}</th>", escaped(name));
+    for (const Told& row : rows) {
+        body += "<tr>";
+        for (const auto& name : names) {
+            const auto at =
+                std::find_if(row.begin(), row.end(), [&](const auto& entry) { return entry.first == name; });
+            body += cell(at == row.end() ? "" : escaped(at->second));
+        }
+        body += "</tr>\n";
+    }
+    const std::string rest =
+        list.size() > most
+            ? fmt::format("<p class=\"soft\">{} more are in the JSON report.</p>\n", list.size() - most)
+            : "";
+    return subtable(title, header, body) + rest;
+}
+
+/// The lists of objects in an object, a table each.
+std::string list_tables(const Json& object, const std::string& before) {
+    std::string out;
+    for (const auto& [name, value] : object.items()) {
+        if (value.is_object()) out += list_tables(value, before + name + ".");
+        if (is_list_of_objects(value)) out += list_table("Result: " + before + name, value);
+    }
+    return out;
+}
+
+std::string option_rows(const StageRecord& stage) {
+    std::string rows = value_rows(stage.options);
+    for (const auto& [option, given, is] : stage.resolved)
+        rows += fmt::format("<tr>{}{}</tr>\n", cell(code(option)),
+                            cell(fmt::format("{} = {}", escaped(given), readable(is))));
+    return rows;
+}
+
+std::string attribute_change_rows(const StageRecord& stage) {
+    std::string rows;
+    for (const auto& [part, change] : stage.attribute_changes)
+        rows += fmt::format("<tr>{}{}{}{}{}</tr>\n", cell(escaped(part)), cell(code(change.attribute)),
+                            cell(to_string(change.domain)),
+                            cell(fmt::format("<span class=\"{}\">{}</span>",
+                                             change.kind == AttributeChange::Kind::dropped ? "warn" : "",
+                                             to_string(change.kind))),
+                            cell(escaped(change.why)));
+    return rows;
+}
+
+std::string details(const StageRecord& stage) {
+    const std::string head = heads({"name", "value"});
+    std::string out = subtable("Options", head, option_rows(stage));
+    out += subtable("Result", head, value_rows(stage.result));
+    if (stage.result.is_object()) out += list_tables(stage.result, "");
+    out += subtable("Attributes", heads({"part", "attribute", "domain", "change", "why"}),
+                    attribute_change_rows(stage));
+    if (out.empty()) return out;
+    return fmt::format("<details><summary>options, result, attributes</summary>\n{}</details>\n", out);
+}
+
+/// "232,484 -> 23,308 faces (10 %), 11,656 vertices"
+std::string counts(const StageRecord& stage) {
+    if (stage.skipped) return "skipped: its `when` did not hold";
+    if (!stage.after) return stage.before ? grouped(stage.before->faces) + " faces, then failed" : "failed";
+    const std::size_t before = stage.before ? stage.before->faces : 0, after = stage.after->faces;
+    const std::string vertices = grouped(stage.after->vertices) + " vertices";
+    if (before == after) return fmt::format("{} faces, {}", grouped(after), vertices);
+    if (before == 0) return fmt::format("&rarr; {} faces, {}", grouped(after), vertices);
+    return fmt::format("{} &rarr; {} faces ({:.3g} %), {}", grouped(before), grouped(after),
+                       100.0 * static_cast<double>(after) / static_cast<double>(before), vertices);
+}
+
+/// "'closed', 'manifold'": the checks of the stage whose places its picture shows; empty when there are none.
+std::string shown_failures(const RunRecord& record, const StageRecord& stage) {
+    std::string names;
+    for (const auto& c : record.checks)
+        if (c.stage == stage.name && !failing_locations(c).empty())
+            append_item(names, fmt::format("'{}'", c.name));
+    return names;
+}
+
+/// The picture of a stage; where the one before was seen in the same way, a slider goes from one to the
+/// other.
+std::string picture_of(const RunRecord& record, std::size_t number, std::size_t& last) {
+    const StageRecord& stage = record.stages[number];
+    if (stage.picture.empty()) return {};
+    const std::string failures = shown_failures(record, stage);
+    std::string caption =
+        failures.empty()
+            ? fmt::format("{}: {} faces", stage.name, grouped(stage.after ? stage.after->faces : 0))
+            : fmt::format("{}: where {} did not hold; on the right the first location, magnified", stage.name,
+                          failures);
+    const StageRecord* before = last < number ? &record.stages[last] : nullptr;
+    const bool compares = before && stage.camera != 0 && stage.camera == before->camera;
+    const std::string image =
+        fmt::format("<img alt=\"{}\" id=\"picture-{}\" src=\"data:image/png;base64,{}\">", escaped(caption),
+                    number, stage.picture);
+    std::string shown = fmt::format("<div class=\"layers\">{}</div>", image);
+    if (compares) {
+        shown = fmt::format(
+            "<div class=\"layers\"><img alt=\"{0}: before\" data-of=\"picture-{1}\" hidden>{2}</div>"
+            "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" hidden "
+            "aria-label=\"{0}: before on the left, after on the right\">",
+            escaped(stage.name), last, image);
+        caption += fmt::format("; left of the slider before ({})", before->name);
+    }
+    last = number;
+    return fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n",
+                       failures.empty() ? "" : " class=\"wide\"", shown, escaped(caption));
+}
+
+std::string section(const RunRecord& record, std::size_t number, std::size_t& last) {
+    const StageRecord& stage = record.stages[number];
+    std::string out =
+        fmt::format("<section class=\"stage\">\n<h3>{0} {1}</h3>\n<p>{2}</p>\n", escaped(stage.name),
+                    stage.name == stage.stage ? "" : code(stage.stage), counts(stage));
+    for (const auto& line : stage.said) out += fmt::format("<p>{}</p>\n", escaped(line));
+    for (const auto& w : stage.warnings)
+        out += fmt::format("<p class=\"warn\">{}: {}</p>\n", escaped(w.id), escaped(w.message));
+    return out + picture_of(record, number, last) + details(stage) + "</section>\n";
+}
+
+} // namespace
+
+std::string value_rows(const Json& object) {
+    std::string rows;
+    for (const auto& [name, value] : flattened(object))
+        rows += fmt::format("<tr>{}{}</tr>\n", cell(code(name)), cell(escaped(value)));
+    return rows;
+}
+
+std::string stage_sections(const RunRecord& record) {
+    std::string out;
+    std::size_t last = record.stages.size(); // the stage with the last picture
+    for (std::size_t i = 0; i < record.stages.size(); ++i) out += section(record, i, last);
+    if (out.empty()) return out;
+    return fmt::format(
+        "<h2>Stages</h2>\n{}<p class=\"soft\">A picture follows each stage that changed what is seen. "
+        "The inner side of a surface is orange.</p>\n",
+        out);
+}
+
+} // namespace facetmill::report
