@@ -29,4 +29,13 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
+std::string markdown_escaped(std::string_view text) {
+    std::string out;
+    for (const char c : escaped(text)) {
+        if (std::string_view("\\`*_[]|~").find(c) != std::string_view::npos) out += '\\';
+        out += c == '\n' || c == '\t' ? ' ' : c;
+    }
+    return out;
+}
+
 } // namespace facetmill

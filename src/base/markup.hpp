@@ -1,5 +1,5 @@
 #pragma once
-// Texts inside HTML and XML.
+// Texts inside HTML, XML and Markdown.
 
 #include <string>
 #include <string_view>
@@ -9,5 +9,9 @@ namespace facetmill {
 /// The text with & < > and both quotes as entities; control characters and bytes that are no UTF-8, which XML
 /// cannot hold, become U+FFFD, each.
 std::string escaped(std::string_view text);
+
+/// The text in a paragraph or a cell of Markdown (GitHub's), where nothing of it is markup: in one line,
+/// characters of Markdown behind a backslash, those of HTML as escaped() has them.
+std::string markdown_escaped(std::string_view text);
 
 } // namespace facetmill

@@ -309,7 +309,7 @@ std::span<const MessageId> message_ids() {
         {"E-REPORT",
          {Kind::usage},
          "The suffix of a report is not a known report format.",
-         "The formats are .json, .html, .xml (JUnit) and .txt."},
+         "The formats are .json, .html, .md, .xml (JUnit) and .txt."},
         {"E-REQUIRES",
          {Kind::usage},
          "The pipeline requires another release of facetmill.",

@@ -134,7 +134,7 @@ std::vector<std::size_t> worst_first(const Summary& summary);
 
 /// For a terminal: failures, and as many of the others as fit, or all of them.
 std::string to_terminal(const Summary& summary, bool colour, bool all);
-/// A report by its suffix: .json, .html, .xml (JUnit) or .txt. It has neither times nor what was kept, so
+/// A report by its suffix (report::form_of). It has neither times nor what was kept, so
 /// that the same assets give the same text. Throws usage (E-REPORT) for another suffix.
 std::string render_for(const std::string& path, const Summary& summary);
 /// The JSON Schema of the report in JSON.

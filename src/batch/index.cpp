@@ -1,10 +1,11 @@
-// What a batch did, as a page.
+// What a batch did, as a page and as Markdown.
 
 #include "base/markup.hpp"
 #include "base/readable_numbers.hpp"
 #include "batch/words.hpp"
 #include "report/form.hpp"
 #include "report/html_parts.hpp"
+#include "report/markdown_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -69,12 +70,30 @@ std::string to_html(const Summary& summary) {
     return page + report::html_end();
 }
 
+std::string to_markdown(const Summary& summary) {
+    std::vector<std::vector<std::string>> rows;
+    for (const std::size_t i : worst_first(summary)) {
+        const Outcome& out = summary.outcomes[i];
+        std::string notes;
+        for (const auto* all : {&out.errors, &out.warnings})
+            for (const auto& d : *all)
+                notes += (notes.empty() ? "" : "<br>") + markdown_escaped(d.id + ": " + d.message);
+        rows.push_back({verdict_word(out.verdict), markdown_escaped(summary.assets[i].name), grouped(out.faces_in),
+                        grouped(out.faces_out), sized(out.bytes), notes});
+    }
+    return fmt::format("## {}\n\n{} of {} assets are ok; exit code {}\n", markdown_escaped(summary.pipeline),
+                       count(summary, Outcome::Verdict::ok), summary.assets.size(), summary.exit_code) +
+           report::markdown_table("Assets", {"", "asset", "faces in", "faces out", "size", "notes"}, rows);
+}
+
 std::string render_for(const std::string& path, const Summary& summary) {
     switch (report::form_of(path)) {
     case report::ReportForm::json:
         return to_json(summary).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     case report::ReportForm::html:
         return to_html(summary);
+    case report::ReportForm::markdown:
+        return to_markdown(summary);
     case report::ReportForm::junit:
         return to_junit(summary);
     case report::ReportForm::text:

@@ -53,7 +53,7 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     arguments.add("--prune", &options.prune,
                   "Removes outputs of earlier batches whose input no longer exists.");
     arguments.add("--report", &options.common.reports,
-                  "Also write the summary: F.json, F.html, F.xml (JUnit) or F.txt.");
+                  "Also write the summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
     arguments.add("--timings", &options.common.timings,
                   "Write times, and which assets were skipped, to F.json.");
     add_cache_options(arguments, options.common.cache);

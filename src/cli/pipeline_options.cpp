@@ -63,7 +63,7 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("-o,--output-dir", &options.output_dir,
                   "The folder that the paths of outputs are relative to. Default: the working directory.");
     arguments.add("--report", &options.reports,
-                  "Also write a report: F.json, F.html, F.xml (JUnit) or F.txt.");
+                  "Also write a report: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
     arguments.add("--timings", &options.timings,
                   "Write times, memory and threads to F.json; reports leave them out, to be reproducible.");
     arguments.add("--depfile", &options.depfile, "Writes the files read and written as a Make rule.");

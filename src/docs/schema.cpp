@@ -2,6 +2,7 @@
 
 #include "geometry/triangulate/face_kinds_fields.hpp"
 #include "pipeline/params.hpp"
+#include "report/form.hpp"
 #include "report/render.hpp"
 #include "stage/common_keys.hpp"
 #include "stage/contract.hpp"
@@ -166,7 +167,8 @@ Json pipeline_schema() {
            {{"anyOf", one_or_more},
             {"description", "The ids of warnings that are not printed and do not fail under --strict."}}},
           {"report",
-           {{"anyOf", one_or_more}, {"description", "Reports: .json, .html, .xml (JUnit), .txt."}}}}},
+           {{"anyOf", one_or_more},
+            {"description", std::string("Reports: ") + report::report_suffixes + "."}}}}},
         {"patternProperties", {{"^x-", true}}},
         {"additionalProperties", false},
         {"$defs", definitions()}};

@@ -8,6 +8,12 @@
 
 namespace facetmill::report {
 
+std::string verdict_text(const RunRecord& record) {
+    if (record.exit_code == 0) return "ok: everything held, and all outputs were written";
+    return fmt::format("failed with exit code {}{}", record.exit_code,
+                       record.outputs.empty() ? ": no output was written" : "");
+}
+
 const char* outcome(const Check& check) {
     if (check.waived) return "known";
     if (check.passed) return "passed";

@@ -1,11 +1,13 @@
 #pragma once
-// Checks in words, as the renderers share them.
+// How a run and its checks went, in words, as the renderers share them.
 
 #include "base/vec.hpp"
 #include "report/record.hpp"
 
 namespace facetmill::report {
 
+/// "ok: everything held, and all outputs were written", "failed with exit code 1: no output was written".
+std::string verdict_text(const RunRecord& record);
 /// "passed", "known", "failed" or "warned".
 const char* outcome(const Check& check);
 /// What was found: "12", "true", "mm", "[0, 0, 0] to [1, 1, 1]", "not applicable".

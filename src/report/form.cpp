@@ -11,10 +11,11 @@ ReportForm form_of(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension().string();
     if (extension == ".json") return ReportForm::json;
     if (extension == ".html") return ReportForm::html;
+    if (extension == ".md") return ReportForm::markdown;
     if (extension == ".xml") return ReportForm::junit;
     if (extension == ".txt") return ReportForm::text;
     throw Error(ErrorKind::usage, "E-REPORT",
-                fmt::format("a report is .json, .html, .xml (JUnit) or .txt, found '{}'", path));
+                fmt::format("a report is {}, found '{}'", report_suffixes, path));
 }
 
 } // namespace facetmill::report

@@ -78,10 +78,8 @@ std::string glance_rows(const RunRecord& record) {
 }
 
 std::string verdict(const RunRecord& record) {
-    if (record.exit_code == 0)
-        return "<p class=\"verdict good\">ok: everything held, and all outputs were written</p>\n";
-    return fmt::format("<p class=\"verdict bad\">failed with exit code {}{}</p>\n", record.exit_code,
-                       record.outputs.empty() ? ": no output was written" : "");
+    return fmt::format("<p class=\"verdict {}\">{}</p>\n", record.exit_code == 0 ? "good" : "bad",
+                       verdict_text(record));
 }
 
 } // namespace

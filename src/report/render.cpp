@@ -10,6 +10,8 @@ std::string render_for(const std::string& path, const RunRecord& record) {
         return to_json(record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     case ReportForm::html:
         return to_html(record);
+    case ReportForm::markdown:
+        return to_markdown(record);
     case ReportForm::junit:
         return to_junit(record);
     case ReportForm::text:

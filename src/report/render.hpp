@@ -27,10 +27,11 @@ std::string to_text(const RunRecord& record); ///< the report for people
 /// What was done, for a terminal: with times and memory, without warnings and errors, which were told when
 /// they arose.
 std::string to_terminal(const RunRecord& record, bool colour);
-std::string to_html(const RunRecord& record);  ///< one self-contained page
-std::string to_junit(const RunRecord& record); ///< checks as test cases
-/// The renderer for a report's file name: .json, .html, .xml (JUnit), .txt. The same inputs give the same
-/// text, in any run. Throws usage (E-REPORT) otherwise.
+std::string to_html(const RunRecord& record);     ///< one self-contained page
+std::string to_markdown(const RunRecord& record); ///< for the description of a change
+std::string to_junit(const RunRecord& record);    ///< checks as test cases
+/// The renderer for a report's file name (form_of). The same inputs give the same text, in any run. Throws
+/// usage (E-REPORT) otherwise.
 std::string render_for(const std::string& path, const RunRecord& record);
 
 } // namespace facetmill::report

@@ -17,3 +17,8 @@ TEST_CASE("escaped texts have only what XML can hold", "[base]") {
     CHECK(escaped("\xF4\x90\x80\x80") == bad + bad + bad + bad); // beyond the last character
     CHECK(escaped("\xE4<") == bad + "&lt;");                     // what follows is read for itself
 }
+
+TEST_CASE("a text in Markdown has no markup", "[base]") {
+    CHECK(markdown_escaped("a|b *c* _d_ `e` [f](g) <h>\ni\\j") ==
+          "a\\|b \\*c\\* \\_d\\_ \\`e\\` \\[f\\](g) &lt;h&gt; i\\\\j");
+}

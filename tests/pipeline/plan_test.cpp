@@ -190,7 +190,7 @@ TEST_CASE("what is wrong with a pipeline is said with its place and a hint", "[p
          "              ^\n"
          "  hint: branch: {near: [write: a.glb], far: [simplify: 10%, write: b.glb]}"},
         {"facetmill: 1\nstages: [test-load: a]\nreport: a.pdf\n",
-         "p.yaml:3:9: error[E-REPORT]: a report is .json, .html, .xml (JUnit) or .txt, found 'a.pdf'\n"
+         "p.yaml:3:9: error[E-REPORT]: a report is .json, .html, .md, .xml (JUnit) or .txt, found 'a.pdf'\n"
          "  report: a.pdf\n"
          "          ^~~~~"},
     };

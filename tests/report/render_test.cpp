@@ -220,6 +220,30 @@ TEST_CASE("JUnit: checks and errors are cases", "[report]") {
                                      "</testsuites>\n");
 }
 
+TEST_CASE("Markdown for the description of a change", "[report]") {
+    CHECK(to_markdown(full_record()) ==
+          "## p.yaml\n\nMills &lt;cubes&gt; &amp; more\n\n"
+          "**failed with exit code 4**, 2 of 4 checks passed\n\n"
+          "### Errors and warnings\n\n"
+          "|  | id | message | hint |\n| --- | --- | --- | --- |\n"
+          "| error | E-WRITE | the disk is full | make room |\n"
+          "| warning | W-CAP | one loop stays open | close it |\n\n"
+          "### Checks that did not hold\n\n"
+          "|  | property | expected | found | locations | hint |\n"
+          "| --- | --- | --- | --- | --- | --- |\n"
+          "| failed | euler | 2 | 0 | the first face 3 of &#39;cube&#39; at 1 2.5 3 "
+          "| clean fills holes |\n"
+          "| warned | area | at most 5 | 6 |  |  |\n"
+          "| known | oriented | true | false | 12 locations, the first face 4 of "
+          "&#39;cube&#39; at 0 0 1 |  |\n\n"
+          "### Stages\n\n| stage | faces before | after | what it did |\n"
+          "| --- | --- | --- | --- |\n"
+          "| cut | 1,200 | 12 | 1 cap &amp; no more |\n"
+          "| relax |  |  | skipped |\n\n"
+          "### Outputs\n\n| file | size | SHA-256 |\n| --- | --- | --- |\n"
+          "| b.glb | 56.8 kB | bbbbbbbbbbbb |\n\nfacetmill " FACETMILL_VERSION "\n");
+}
+
 TEST_CASE("HTML is one page that escapes what others wrote", "[report]") {
     const std::string html = to_html(full_record());
     CHECK(html.starts_with("<!DOCTYPE html>"));
@@ -285,7 +309,7 @@ TEST_CASE("a report's suffix chooses its form", "[report]") {
     CHECK(Json::parse(render_for("a/b.json", {}))["format"] == 1);
     CHECK(render_for("b.xml", {}).starts_with("<?xml"));
     CHECK(test::failure([] { render_for("b.pdf", {}); }) ==
-          "usage [E-REPORT] a report is .json, .html, .xml (JUnit) or .txt, found 'b.pdf'");
+          "usage [E-REPORT] a report is .json, .html, .md, .xml (JUnit) or .txt, found 'b.pdf'");
 }
 
 TEST_CASE("bytes that are no UTF-8 do not break a report", "[report]") {

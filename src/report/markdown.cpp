@@ -1,0 +1,98 @@
+#include "base/markup.hpp"
+#include "base/readable_numbers.hpp"
+#include "base/words.hpp"
+#include "report/check_text.hpp"
+#include "report/markdown_parts.hpp"
+#include "report/render.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+namespace {
+
+using MarkdownRows = std::vector<std::vector<std::string>>;
+
+std::string markdown_row(const std::vector<std::string>& cells) {
+    std::string line = "|";
+    for (const auto& cell : cells) line += fmt::format(" {} |", cell);
+    return line + "\n";
+}
+
+template <class Diagnostics>
+void add_diagnostics(const Diagnostics& all, const char* kind, MarkdownRows& rows) {
+    for (const auto& d : all)
+        rows.push_back({kind, markdown_escaped(d.id), markdown_escaped(d.message), markdown_escaped(d.hint)});
+}
+
+/// Without the checks that did not hold, which have a table of their own.
+MarkdownRows message_rows(const RunRecord& record) {
+    MarkdownRows rows;
+    std::vector<RunError> errors;
+    for (const auto& error : record.errors)
+        if (!error.of_check) errors.push_back(error);
+    add_diagnostics(errors, "error", rows);
+    add_diagnostics(record.warnings, "warning", rows);
+    for (const auto& stage : record.stages) add_diagnostics(stage.warnings, "warning", rows);
+    return rows;
+}
+
+/// Those that did not hold; a reviewer is told how many did.
+MarkdownRows failed_rows(const RunRecord& record) {
+    MarkdownRows rows;
+    for (const auto& c : record.checks) {
+        if (c.passed && !c.waived) continue;
+        rows.push_back({outcome(c), markdown_escaped(c.name), markdown_escaped(c.expected),
+                        markdown_escaped(found_text(c)), markdown_escaped(locations_text(c)),
+                        markdown_escaped(c.hint)});
+    }
+    return rows;
+}
+
+MarkdownRows stage_rows_of(const RunRecord& record) {
+    MarkdownRows rows;
+    for (const auto& stage : record.stages) {
+        std::string told = stage.skipped ? "skipped" : "";
+        for (const auto& line : stage.said) told += (told.empty() ? "" : "<br>") + markdown_escaped(line);
+        rows.push_back({markdown_escaped(stage.name), stage.before ? grouped(stage.before->faces) : "",
+                        stage.after ? grouped(stage.after->faces) : "", told});
+    }
+    return rows;
+}
+
+MarkdownRows output_rows(const RunRecord& record) {
+    MarkdownRows rows;
+    for (const auto& file : record.outputs)
+        rows.push_back({markdown_escaped(file.path), sized(file.bytes), file.sha256.substr(0, 12)});
+    return rows;
+}
+
+} // namespace
+
+std::string markdown_table(const std::string& title, const std::vector<std::string>& heads,
+                           const std::vector<std::vector<std::string>>& rows) {
+    if (rows.empty()) return {};
+    std::string out = fmt::format("\n### {}\n\n", title) + markdown_row(heads);
+    out += markdown_row(std::vector<std::string>(heads.size(), "---"));
+    for (const auto& row : rows) out += markdown_row(row);
+    return out;
+}
+
+std::string to_markdown(const RunRecord& record) {
+    std::string out = fmt::format("## {}\n\n", markdown_escaped(record.pipeline));
+    if (!record.about.empty()) out += markdown_escaped(record.about) + "\n\n";
+    out += fmt::format("**{}**", verdict_text(record));
+    const auto held = std::count_if(record.checks.begin(), record.checks.end(),
+                                    [](const Check& check) { return check.passed; });
+    if (!record.checks.empty()) out += fmt::format(", {} of {} checks passed", held, record.checks.size());
+    out += "\n";
+    out += markdown_table("Errors and warnings", {"", "id", "message", "hint"}, message_rows(record));
+    out += markdown_table("Checks that did not hold",
+                          {"", "property", "expected", "found", "locations", "hint"}, failed_rows(record));
+    out += markdown_table("Stages", {"stage", "faces before", "after", "what it did"}, stage_rows_of(record));
+    out += markdown_table("Outputs", {"file", "size", "SHA-256"}, output_rows(record));
+    return out + fmt::format("\nfacetmill {}\n", FACETMILL_VERSION);
+}
+
+} // namespace facetmill::report
