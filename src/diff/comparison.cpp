@@ -1,3 +1,4 @@
+#include "diff/conversion.hpp"
 #include "diff/lines.hpp"
 #include "report/render.hpp"
 
@@ -41,6 +42,9 @@ Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& set
     compare_names(with, "parts", a.parts, b.parts);
     compare_documents(with);
     result.ignored = settings.ignored;
+    for (const auto& line : result.lines)
+        if (line.section == "geometry" && !line.same && result.hint.empty())
+            result.hint = conversion_hint(a, b);
     return result;
 }
 

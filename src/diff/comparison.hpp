@@ -1,6 +1,7 @@
 #pragma once
 // Two scenes side by side: what `facetmill diff` finds.
 
+#include "diff/pictures.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/inspect/inspect.hpp"
 #include "report/record.hpp"
@@ -47,6 +48,7 @@ struct Comparison {
     const char *geometry_a = "nothing", *geometry_b = "nothing"; ///< what it is of: surface, points, nothing
     std::vector<LeftOut> left_out;
     std::set<std::string> ignored;
+    std::string hint; ///< a unit or an up axis that would explain how the geometry differs
 
     /// Whether a line that decides differs.
     bool differs() const;
@@ -66,6 +68,12 @@ Json to_json(const Comparison& comparison, const std::string& name_a, const std:
 /// A table; lines that are equal only with `all`.
 std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
                     bool all);
+/// One self-contained page: the verdict, both scenes by one camera with a slider, distances as colours, and
+/// the lines that differ.
+std::string to_html(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
+                    const ComparisonPictures& pictures);
+/// Tables for the description of a change.
+std::string to_markdown(const Comparison& comparison, const std::string& name_a, const std::string& name_b);
 Json comparison_schema();
 
 } // namespace facetmill::report

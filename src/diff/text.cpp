@@ -1,5 +1,8 @@
+#include "base/markup.hpp"
 #include "diff/comparison.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
+#include "report/html_parts.hpp"
+#include "report/markdown_parts.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -7,6 +10,9 @@
 namespace facetmill::report {
 
 namespace {
+
+/// Whether people are shown the line, without `all`.
+bool is_told(const Difference& d) { return !d.same || !d.compared || d.section == "geometry"; }
 
 std::string text_of(const Json& value) {
     if (value.is_null()) return "-";
@@ -65,13 +71,82 @@ std::string to_text(const Comparison& comparison, const std::string& name_a, con
                             different == 0 ? "same" : fmt::format("{} different", different),
                             comparison.ignored.contains(section) ? " (ignored)" : "");
         for (const auto* d : lines)
-            if (all || !d->same || !d->compared || d->section == "geometry")
+            if (all || is_told(*d))
                 text += fmt::format("    {:<23} {:<15} {:<15} {}{}\n", d->name, text_of(d->a), text_of(d->b),
                                     d->same ? "" : "differs ", d->note);
         if (section == std::string_view("geometry") && comparison.deviation)
             text += place_text(*comparison.deviation) + measured_text(comparison);
     }
+    if (!comparison.hint.empty()) text += fmt::format("  hint: {}\n", comparison.hint);
     return text;
+}
+
+namespace {
+
+/// "A and B differ", with what was not compared.
+std::vector<std::string> head_lines(const Comparison& comparison, const std::string& name_a,
+                                    const std::string& name_b) {
+    std::vector<std::string> lines{verdict(comparison)};
+    for (const auto& left : comparison.left_out)
+        lines.push_back(fmt::format("not compared: {}: {}", left.of_a ? name_a : name_b, left.what));
+    if (!comparison.hint.empty()) lines.push_back("hint: " + comparison.hint);
+    return lines;
+}
+
+std::string section_title(const Comparison& comparison, const char* section) {
+    return std::string(section) + (comparison.ignored.contains(section) ? " (ignored)" : "");
+}
+
+std::string difference_rows(const Comparison& comparison, const char* section) {
+    std::string rows;
+    for (const auto* d : of_section(comparison, section))
+        if (is_told(*d))
+            rows += fmt::format("<tr>{}{}{}{}{}</tr>\n",
+                                cell(fmt::format("<span class=\"{}\">{}</span>", d->same ? "good" : "bad",
+                                                 d->same ? "same" : "differs")),
+                                cell(code(d->name)), cell(escaped(text_of(d->a))),
+                                cell(escaped(text_of(d->b))), cell(escaped(d->note)));
+    return rows;
+}
+
+} // namespace
+
+std::string to_html(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
+                    const ComparisonPictures& pictures) {
+    std::string out = html_begin(fmt::format("{} and {}", name_a, name_b), "Compared by facetmill diff.");
+    const char* kind = comparison.differs() ? "bad" : "good";
+    for (const auto& line : head_lines(comparison, name_a, name_b)) {
+        out += fmt::format("<p class=\"verdict {}\">{}</p>\n", kind, escaped(line));
+        kind = "warn";
+    }
+    out += figure(picture("first", name_a, pictures.a), name_a);
+    out += compared_figure(picture("second", name_b, pictures.b), "first", name_b,
+                           fmt::format("{}; left of the slider {}", name_b, name_a));
+    if (!pictures.distance.empty()) {
+        const std::string caption =
+            fmt::format("{}: the signed distance of each vertex from {}, above 0 outside", name_b, name_a);
+        out += figure(picture("distance", caption, pictures.distance), caption);
+    }
+    for (const char* section : comparison_sections)
+        out += table(section_title(comparison, section), heads({"", "", "first", "second", "note"}),
+                     difference_rows(comparison, section));
+    return out + html_end();
+}
+
+std::string to_markdown(const Comparison& comparison, const std::string& name_a, const std::string& name_b) {
+    std::string out = fmt::format("## {} and {}\n", markdown_escaped(name_a), markdown_escaped(name_b));
+    for (const auto& line : head_lines(comparison, name_a, name_b))
+        out += fmt::format("\n**{}**\n", markdown_escaped(line));
+    for (const char* section : comparison_sections) {
+        std::vector<std::vector<std::string>> rows;
+        for (const auto* d : of_section(comparison, section))
+            if (is_told(*d))
+                rows.push_back({d->same ? "same" : "differs", markdown_escaped(d->name),
+                                markdown_escaped(text_of(d->a)), markdown_escaped(text_of(d->b)),
+                                markdown_escaped(d->note)});
+        out += markdown_table(section_title(comparison, section), {"", "", "first", "second", "note"}, rows);
+    }
+    return out + fmt::format("\nfacetmill {}\n", FACETMILL_VERSION);
 }
 
 Json to_json(const Comparison& comparison, const std::string& name_a, const std::string& name_b) {
@@ -105,6 +180,7 @@ Json to_json(const Comparison& comparison, const std::string& name_a, const std:
                                 ? Json{{"a", comparison.geometry_a}, {"b", comparison.geometry_b}}
                                 : Json(nullptr)},
             {"sections", std::move(sections)},
+            {"hint", comparison.hint.empty() ? Json(nullptr) : Json(comparison.hint)},
             {"deviation", comparison.deviation ? deviation_json(*comparison.deviation) : Json(nullptr)}};
 }
 
@@ -157,6 +233,9 @@ Json comparison_schema() {
           {{"type", "array"}, {"items", left_out}, {"description", "Contents of a file that were not read"}}},
          {"geometry_of", geometry_of},
          {"sections", std::move(sections)},
+         {"hint",
+          {{"type", Json::array({"string", "null"})},
+           {"description", "A unit or an up axis that would explain how the geometry differs"}}},
          {"deviation",
           {{"type", Json::array({"object", "null"})}, {"description", "As in reports; null when ignored"}}}});
     Json out = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "facetmill diff"}};

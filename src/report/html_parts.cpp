@@ -68,6 +68,31 @@ std::string subtable(const std::string& title, const std::string& header, const 
     return titled_table("h4", title, header, rows);
 }
 
+std::string picture(const std::string& id, const std::string& alt, const std::string& png) {
+    return fmt::format("<img alt=\"{}\" id=\"{}\" src=\"data:image/png;base64,{}\">", escaped(alt), id, png);
+}
+
+namespace {
+std::string framed(const std::string& inside, const std::string& caption, bool wide) {
+    return fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n", wide ? " class=\"wide\"" : "",
+                       inside, escaped(caption));
+}
+} // namespace
+
+std::string figure(const std::string& picture, const std::string& caption, bool wide) {
+    return framed(fmt::format("<div class=\"layers\">{}</div>", picture), caption, wide);
+}
+
+std::string compared_figure(const std::string& picture, const std::string& before_id, const std::string& name,
+                            const std::string& caption) {
+    return framed(
+        fmt::format("<div class=\"layers\"><img alt=\"{0}: before\" data-of=\"{1}\" hidden>{2}</div>"
+                    "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" hidden "
+                    "aria-label=\"{0}: before on the left, after on the right\">",
+                    escaped(name), before_id, picture),
+        caption, false);
+}
+
 std::string heads(std::initializer_list<const char*> titles) {
     std::string out;
     for (const std::string title : titles) // a leading # marks a column of numbers

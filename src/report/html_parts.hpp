@@ -14,6 +14,14 @@ std::string html_end();
 std::string code(const std::string& text);
 std::string cell(const std::string& html);
 std::string number_cell(const std::string& html);
+/// An image (a PNG in base64); no other of the page may have the id.
+std::string picture(const std::string& id, const std::string& alt, const std::string& png);
+/// A picture above its caption; wide: as wide as the page.
+std::string figure(const std::string& picture, const std::string& caption, bool wide = false);
+/// The same, with a slider between the picture and the one before it that has that id and was taken by the
+/// same camera, which is shown on the left. name: of the later one.
+std::string compared_figure(const std::string& picture, const std::string& before_id, const std::string& name,
+                            const std::string& caption);
 /// A row of headings; a leading # marks a column of numbers.
 std::string heads(std::initializer_list<const char*> titles);
 /// A table under a smaller heading; nothing when there are no rows.

@@ -141,34 +141,30 @@ std::string shown_failures(const RunRecord& record, const StageRecord& stage) {
     return names;
 }
 
+std::string picture_id(std::size_t stage) { return fmt::format("picture-{}", stage); }
+
 /// The picture of a stage; where the one before was seen in the same way, a slider goes from one to the
 /// other.
 std::string picture_of(const RunRecord& record, std::size_t number, std::size_t& last) {
     const StageRecord& stage = record.stages[number];
     if (stage.picture.empty()) return {};
-    const std::string failures = shown_failures(record, stage);
-    std::string caption =
-        failures.empty()
-            ? fmt::format("{}: {} faces", stage.name, grouped(stage.after ? stage.after->faces : 0))
-            : fmt::format("{}: where {} did not hold; on the right the first location, magnified", stage.name,
-                          failures);
     const StageRecord* before = last < number ? &record.stages[last] : nullptr;
-    const bool compares = before && stage.camera != 0 && stage.camera == before->camera;
-    const std::string image =
-        fmt::format("<img alt=\"{}\" id=\"picture-{}\" src=\"data:image/png;base64,{}\">", escaped(caption),
-                    number, stage.picture);
-    std::string shown = fmt::format("<div class=\"layers\">{}</div>", image);
-    if (compares) {
-        shown = fmt::format(
-            "<div class=\"layers\"><img alt=\"{0}: before\" data-of=\"picture-{1}\" hidden>{2}</div>"
-            "<input type=\"range\" min=\"0\" max=\"100\" value=\"50\" hidden "
-            "aria-label=\"{0}: before on the left, after on the right\">",
-            escaped(stage.name), last, image);
-        caption += fmt::format("; left of the slider before ({})", before->name);
-    }
+    const std::string before_id = picture_id(last);
     last = number;
-    return fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n",
-                       failures.empty() ? "" : " class=\"wide\"", shown, escaped(caption));
+    const auto shown = [&](const std::string& caption) {
+        return picture(picture_id(number), caption, stage.picture);
+    };
+    if (const std::string failures = shown_failures(record, stage); !failures.empty()) {
+        const std::string caption = fmt::format(
+            "{}: where {} did not hold; on the right the first location, magnified", stage.name, failures);
+        return figure(shown(caption), caption, true);
+    }
+    const std::string caption =
+        fmt::format("{}: {} faces", stage.name, grouped(stage.after ? stage.after->faces : 0));
+    if (!before || stage.camera == 0 || stage.camera != before->camera)
+        return figure(shown(caption), caption);
+    return compared_figure(shown(caption), before_id, stage.name,
+                           fmt::format("{}; left of the slider before ({})", caption, before->name));
 }
 
 std::string section(const RunRecord& record, std::size_t number, std::size_t& last) {

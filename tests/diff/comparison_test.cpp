@@ -269,3 +269,53 @@ TEST_CASE("materials differ by their looks and by the faces they are on", "[repo
     assign(swapped, {0, 0, 0, 0});
     CHECK(line(report::compare(a, swapped), "1 faces")->a.is_null());
 }
+
+TEST_CASE("a unit or an up axis that explains a difference is named", "[report]") {
+    const auto box = [](double x, double y, double z) {
+        Mesh mesh = shapes::cube();
+        for (Vec3& p : mesh.positions) p = {(p.x + 3) * x, (p.y + 5) * y, (p.z + 7) * z};
+        return scene_called(mesh);
+    };
+    const auto hint = [](const Scene& a, const Scene& b) { return report::compare(a, b).hint; };
+    const Scene mm = box(100, 200, 300);
+    CHECK(hint(mm, mm).empty());
+    CHECK(hint(mm, box(0.1, 0.2, 0.3)) == "the box of the second file is that of the first times 0.001, as "
+                                          "from mm to m: --unit says what unit a "
+                                          "file has that states none");
+    CHECK(hint(box(1, 2, 3), box(25.4, 50.8, 76.2)).find("times 25.4, as from in to mm") !=
+          std::string::npos);
+    CHECK(hint(mm, box(130, 260, 390)).empty());
+    CHECK(hint(mm, box(100, 200, 250)).empty());
+    Scene z_up = mm;
+    for (Vec3& p : z_up.parts[0].mesh.positions) p = {p.x, -p.z, p.y};
+    CHECK(hint(mm, z_up) ==
+          "the box of the second file is that of the first turned from y up to z up: --up says "
+          "which axis is up in a file that states none");
+    for (Vec3& p : z_up.parts[0].mesh.positions) p = p * 0.001;
+    CHECK(hint(mm, z_up).find("times 0.001, as from mm to m, and turned from y up to z up: --unit says") !=
+          std::string::npos);
+    ComparisonSettings ignoring;
+    ignoring.ignored = {"geometry"};
+    CHECK(report::compare(mm, z_up, ignoring).hint.empty());
+    CHECK(hint(mm, Scene{}).empty());
+}
+
+TEST_CASE("a comparison as a page and as Markdown", "[report]") {
+    const Scene a = scene_called(shapes::icosphere(2)), b = scene_called(shapes::icosphere(3));
+    const Comparison d = report::compare(a, b);
+    const auto pictures = report::comparison_pictures(a, b);
+    const std::string page = report::to_html(d, "a<1>.ply", "b.ply", pictures);
+    CHECK(page.starts_with("<!DOCTYPE html>"));
+    CHECK(page.find("a<1>") == std::string::npos);
+    CHECK(page.find("<p class=\"verdict bad\">differ</p>") != std::string::npos);
+    for (const std::string& png : {pictures.a, pictures.b, pictures.distance}) {
+        REQUIRE(png.starts_with("iVBOR"));
+        CHECK(page.find("src=\"data:image/png;base64," + png + "\"") != std::string::npos);
+    }
+    CHECK(page.find("data-of=\"first\"") != std::string::npos);
+    CHECK(page.find("<td><code>faces</code></td><td>320</td><td>1280</td>") != std::string::npos);
+    CHECK(report::comparison_pictures(Scene{}, b).distance.empty());
+    const std::string text = report::to_markdown(d, "a|b.ply", "b.ply");
+    CHECK(text.starts_with("## a\\|b.ply and b.ply\n\n**differ**\n"));
+    CHECK(text.find("| differs | faces | 320 | 1280 |  |\n") != std::string::npos);
+}

@@ -105,7 +105,8 @@ struct Picture {
 /// blends (Layers). Throws limit (E-MEMORY) when it is not there.
 Picture picture_of(const Scene& scene, const PictureSettings& settings = {});
 
-/// The camera of picture_of, empty where the scene is. O(vertices).
+/// The camera of picture_of, which sees all of the scene; empty where the scene is. With settings.camera: in
+/// its direction. O(vertices).
 Camera camera_of(const Scene& scene, const PictureSettings& settings = {});
 
 /// Picture::scale without the picture, before zoom: beside the legend, where there is one.

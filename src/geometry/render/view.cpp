@@ -215,7 +215,8 @@ Vec3 View::to_viewer(const Vec3& place) const {
 }
 
 Camera camera_of(const Scene& scene, const PictureSettings& settings) {
-    const auto [up, front] = up_and_front(scene, settings);
+    const auto [up, front] = settings.camera ? UpAndFront{settings.camera->up, settings.camera->front}
+                                             : up_and_front(scene, settings);
     return {up, front, box_along(axes_of_view({up, front}, settings), scene, settings)};
 }
 
