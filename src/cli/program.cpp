@@ -54,7 +54,7 @@ Examples
   facetmill run pipeline.yaml -D input=scan.ply --output-dir out
   facetmill batch pipeline.yaml --input 'scans/**/*.ply' --output-dir out
   facetmill info scan.ply
-  facetmill diff scan.ply web.glb --max 0.5%
+  facetmill diff scan.ply web.glb --unit mm --max 0.5%
   facetmill stages simplify
 
 See also facetmill COMMAND --help and the manual pages facetmill(1), facetmill-pipeline(5),
