@@ -64,8 +64,8 @@ std::string to_html(const Summary& summary) {
     page += fmt::format("<p class=\"verdict {}\">{} of {} assets are ok; exit code {}</p>\n",
                         good ? "good" : "bad", ok, summary.assets.size(), summary.exit_code);
     page += report::table("Assets",
-                          report::heads({"", "", "asset", "#exit code", "#faces in", "#faces out", "#bytes",
-                                         "notes and outputs"}),
+                          report::heads({"picture", "outcome", "asset", "#exit code", "#faces in",
+                                         "#faces out", "#bytes", "notes and outputs"}),
                           rows);
     return page + report::html_end();
 }
@@ -83,7 +83,8 @@ std::string to_markdown(const Summary& summary) {
     }
     return fmt::format("## {}\n\n{} of {} assets are ok; exit code {}\n", markdown_escaped(summary.pipeline),
                        count(summary, Outcome::Verdict::ok), summary.assets.size(), summary.exit_code) +
-           report::markdown_table("Assets", {"", "asset", "faces in", "faces out", "size", "notes"}, rows);
+           report::markdown_table("Assets", {"outcome", "asset", "faces in", "faces out", "size", "notes"},
+                                  rows);
 }
 
 std::string render_for(const std::string& path, const Summary& summary) {

@@ -128,8 +128,9 @@ std::string to_html(const Comparison& comparison, const std::string& name_a, con
         out += figure(picture("distance", caption, pictures.distance), caption);
     }
     for (const char* section : comparison_sections)
-        out += table(section_title(comparison, section), heads({"", "", "first", "second", "note"}),
-                     difference_rows(comparison, section));
+        out +=
+            table(section_title(comparison, section), heads({"outcome", "name", "first", "second", "note"}),
+                  difference_rows(comparison, section));
     return out + html_end();
 }
 
@@ -144,7 +145,8 @@ std::string to_markdown(const Comparison& comparison, const std::string& name_a,
                 rows.push_back({d->same ? "same" : "differs", markdown_escaped(d->name),
                                 markdown_escaped(text_of(d->a)), markdown_escaped(text_of(d->b)),
                                 markdown_escaped(d->note)});
-        out += markdown_table(section_title(comparison, section), {"", "", "first", "second", "note"}, rows);
+        out += markdown_table(section_title(comparison, section),
+                              {"outcome", "name", "first", "second", "note"}, rows);
     }
     return out + fmt::format("\nfacetmill {}\n", FACETMILL_VERSION);
 }

@@ -88,10 +88,11 @@ std::string to_html(const RunRecord& record) {
     std::string out = html_begin(record.pipeline, record.about);
     out += verdict(record);
     out += table("At a glance", "", glance_rows(record));
-    out += table("Errors", heads({"", "what", "where", "hint"}), diagnostics(record.errors, "bad"));
-    out += table("Warnings", heads({"", "what", "where", "hint"}), diagnostics(record.warnings, "warn"));
+    out += table("Errors", heads({"id", "what", "where", "hint"}), diagnostics(record.errors, "bad"));
+    out += table("Warnings", heads({"id", "what", "where", "hint"}), diagnostics(record.warnings, "warn"));
     out += stage_sections(record);
-    out += table("Checks", heads({"", "property", "expected", "found", "part", "locations", "stage", "hint"}),
+    out += table("Checks",
+                 heads({"outcome", "property", "expected", "found", "part", "locations", "stage", "hint"}),
                  check_rows(record));
     out += table("Outputs", heads({"file", "#size", "SHA-256"}), file_rows(record.outputs));
     out += table("Inputs", heads({"file", "#size", "SHA-256"}), file_rows(record.inputs));

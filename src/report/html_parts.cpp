@@ -9,15 +9,16 @@ namespace facetmill::report {
 namespace {
 
 constexpr const char* style = R"(
-:root { color-scheme: light dark; --line: #8884; --good: #2a7d3f; --bad: #c0362c; --warn: #a86400; --soft: #8882; }
+:root { color-scheme: light dark; --line: #8884; --good: #1f6b33; --bad: #a82a20; --warn: #8a5200; --soft: #8882; }
 @media (prefers-color-scheme: dark) { :root { --good: #6fca86; --bad: #ff8a80; --warn: #f0b45a; } }
+html { background: Canvas; color: CanvasText; }
 body { font: 15px/1.5 system-ui, sans-serif; max-width: 68rem; margin: 2rem auto; padding: 0 1rem; }
 h1 { font-size: 1.5rem; margin-bottom: .2rem; overflow-wrap: break-word; } h2 { font-size: 1.1rem; margin: 2rem 0 .5rem; }
 .scroll { overflow-x: auto; } table { border-collapse: collapse; width: 100%; }
 th, td { text-align: left; padding: .3rem .8rem .3rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
 code { font-family: ui-monospace, monospace; font-size: .9em; overflow-wrap: break-word; }
-.good { color: var(--good); } .bad { color: var(--bad); } .warn { color: var(--warn); } .soft { opacity: .7; }
+.good { color: var(--good); } .bad { color: var(--bad); } .warn { color: var(--warn); } .soft { opacity: .8; }
 h3 { font-size: 1rem; margin: 0 0 .2rem; overflow-wrap: break-word; } h4 { font-size: .9rem; margin: .8rem 0 .2rem; }
 .stage { border-left: 3px solid var(--line); padding-left: .8rem; margin: 0 0 1.2rem; } .stage p { margin: .1rem 0; }
 figure { margin: .5rem 0; max-width: 30rem; background: var(--soft); border-radius: .4rem; } .wide { max-width: none; }
@@ -55,7 +56,7 @@ std::string titled_table(const char* level, const std::string& title, const std:
                          const std::string& rows) {
     if (rows.empty()) return {};
     return fmt::format(
-        "<{0}>{1}</{0}>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{1}\">"
+        "<{0}>{1}</{0}>\n<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"{1}\">"
         "<table>\n{2}{3}</table></div>\n",
         level, escaped(title), header.empty() ? "" : fmt::format("<tr>{}</tr>\n", header), rows);
 }
@@ -108,12 +109,13 @@ std::string html_begin(const std::string& title, const std::string& about) {
         "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n<meta name=\"viewport\" "
         "content=\"width=device-width, "
         "initial-scale=1\">\n<title>{0}: facetmill "
-        "report</title>\n<style>{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n<p class=\"soft\">{2}</p>\n",
+        "report</title>\n<style>{1}</style>\n</head>\n<body>\n<main>\n<h1>{0}</h1>\n<p "
+        "class=\"soft\">{2}</p>\n",
         escaped(title), style, escaped(about));
 }
 
 std::string html_end() {
-    return fmt::format("<p class=\"soft\">facetmill {}</p>\n<script>{}</script>\n</body>\n</html>\n",
+    return fmt::format("<p class=\"soft\">facetmill {}</p>\n</main>\n<script>{}</script>\n</body>\n</html>\n",
                        FACETMILL_VERSION, script);
 }
 

@@ -17,7 +17,7 @@ namespace {
 std::string told(const Json& value) {
     if (value.is_null()) return "-";
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    if (value.is_number_unsigned()) return grouped(value.get<std::uint64_t>());
+    if (value.is_number_integer() && value >= 0) return grouped(value.get<std::uint64_t>());
     if (value.is_number_float()) return readable(value.get<double>());
     if (value.is_string()) return value.get<std::string>();
     if (!value.is_array()) return value.dump(-1, ' ', false, Json::error_handler_t::replace);

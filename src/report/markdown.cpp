@@ -87,9 +87,10 @@ std::string to_markdown(const RunRecord& record) {
                                     [](const Check& check) { return check.passed; });
     if (!record.checks.empty()) out += fmt::format(", {} of {} checks passed", held, record.checks.size());
     out += "\n";
-    out += markdown_table("Errors and warnings", {"", "id", "message", "hint"}, message_rows(record));
+    out += markdown_table("Errors and warnings", {"kind", "id", "message", "hint"}, message_rows(record));
     out += markdown_table("Checks that did not hold",
-                          {"", "property", "expected", "found", "locations", "hint"}, failed_rows(record));
+                          {"outcome", "property", "expected", "found", "locations", "hint"},
+                          failed_rows(record));
     out += markdown_table("Stages", {"stage", "faces before", "after", "what it did"}, stage_rows_of(record));
     out += markdown_table("Outputs", {"file", "size", "SHA-256"}, output_rows(record));
     return out + fmt::format("\nfacetmill {}\n", FACETMILL_VERSION);
