@@ -9,6 +9,7 @@
 #   make faults   make calls of the system fail, one in each of some thousand runs (tests/faults/faults.py)
 #   make fuzz     random meshes through random chains of stages for a while (MINUTES=10, FIRST=1, the first seed)
 #   make bench    build and run the benchmarks               (FILTER=clip for some of them)
+#   make site     the manual as a site, in build/site/html
 #   make install  install under PREFIX (/usr/local; DESTDIR is respected)
 #   make deb      a Debian package in build/release
 #   make format   run clang-format over the sources
@@ -23,7 +24,7 @@ FIRST ?= 1
 BUILD := build/$(PRESET)
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
-.PHONY: all deps configure build tests demo test asan tsan faults fuzz bench install deb format check-layers check-style clean
+.PHONY: all deps configure build tests demo test asan tsan faults fuzz bench site install deb format check-layers check-style clean
 all: build
 
 deps:
@@ -70,6 +71,10 @@ bench:
 	@cmake --preset release -DFACETMILL_BENCH=ON --log-level=NOTICE
 	@cmake --build --preset release -j $(JOBS)
 	$(BUILD)/bench/facetmill_bench --benchmark_filter='$(FILTER)' --benchmark_counters_tabular=true
+
+site: build
+	@tools/deps.sh --site
+	python3 tools/site/site.py build/site --mill $(BUILD)/facetmill
 
 install: build
 	cmake --install $(BUILD) --prefix $(PREFIX)

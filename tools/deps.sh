@@ -1,8 +1,9 @@
 #!/bin/sh
-# deps.sh [--list] [--all] [--bench]
+# deps.sh [--list] [--all] [--bench] [--site]
 # Names the Debian packages that facetmill is built and tested with, and installs those that are missing (Debian 12
 # and 13). --list only prints what is missing, one per line. --all adds what the optional checks of CI use: more
-# shells and Meson, a second Draco reader, node for the glTF validator, and clang for the style; --bench adds what the benchmarks use.
+# shells and Meson, a second Draco reader, node for the glTF validator, and clang for the style; --bench adds what the benchmarks use, --site what
+# the manual is made with.
 set -eu
 
 build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohmann-json3-dev libdraco-dev libmeshoptimizer-dev libyaml-cpp-dev
@@ -10,7 +11,8 @@ build="g++ cmake ninja-build mold pkg-config libcgal-dev libtinygltf-dev nlohman
     libpng-dev libjpeg-dev libwebp-dev"
 test="catch2 python3 python3-jsonschema"
 bench="libbenchmark-dev"
-optional="ccache zsh fish draco nodejs npm mandoc meson clang clang-format clang-tidy"
+site="mkdocs mkdocs-material python3-yaml"
+optional="ccache python3-yaml zsh fish draco nodejs npm mandoc meson clang clang-format clang-tidy"
 
 list=no wanted="$build $test"
 for argument in "$@"; do
@@ -18,7 +20,8 @@ for argument in "$@"; do
     --list) list=yes ;;
     --all) wanted="$wanted $optional" ;;
     --bench) wanted="$wanted $bench" ;;
-    *) echo "usage: deps.sh [--list] [--all] [--bench]" >&2; exit 2 ;;
+    --site) wanted="$wanted $site" ;;
+    *) echo "usage: deps.sh [--list] [--all] [--bench] [--site]" >&2; exit 2 ;;
     esac
 done
 

@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""site.py FOLDER [--mill FACETMILL] [--pages]: the manual as a site that works without a server or a network.
+
+Pages: the README, the guides and pages of docs/, a page for each stage (from its declaration, with pictures before and after
+it that are rendered here), and one for all errors and warnings. Builds FOLDER/html with MkDocs, which refuses links that lead
+nowhere; --pages stops before that, with the Markdown in FOLDER/pages.
+"""
+import argparse
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+
+import yaml
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+HERE = SOURCE / "tools/site"
+GUIDES = ["scan-to-web", "levels-of-detail", "printing", "checks", "units-and-axes", "asset-builds"]
+PAGES = ["figures", "glossary", "verdicts", "speed", "reliability", "cluster", "architecture"]
+
+
+class Site:
+    def __init__(self, folder, mill):
+        self.pages, self.mill = folder / "pages", mill
+        self.pages.mkdir(parents=True)
+        self.titles = {}
+
+    def run(self, *words, **more):
+        return subprocess.run([str(self.mill), *words], check=True, capture_output=True, text=True, **more).stdout
+
+    def put(self, name, text):
+        """A page; links to files of the sources that have no page become plain text."""
+        folder = (self.pages / name).parent
+        folder.mkdir(parents=True, exist_ok=True)
+        text = re.sub(r"(?<!!)\[([^\]]+)\]\((?!https?:|#)([^)#]+)(#[^)]*)?\)",
+                      lambda m: self.link(name, m[1], m[2], m[3] or ""), text)
+        (self.pages / name).write_text(text)
+        self.titles[name] = re.match(r"# (.+)", text)[1]
+
+    def link(self, page, words, target, anchor):
+        path = (pathlib.Path("docs" if page != "index.md" else ".") / target).as_posix()
+        name = re.sub(r"^(\./|docs/\.\./|docs/)", "", path)
+        if name == "README.md":
+            name = "index.md"
+        if name.removesuffix(".md") in PAGES + GUIDES or name == "index.md" or name.startswith("guides/"):
+            up = "../" * page.count("/")
+            return f"[{words}]({up}{name}{anchor})"
+        return words
+
+    def pictures(self, stage, scenes):
+        """The Markdown of the scenes before and after a stage."""
+        text = ""
+        for number, scene in enumerate(scenes):
+            picture = f"{stage}-{number}.png"
+            self.run("pipe", *shlex.split(scene), "!", "render", str(self.pages / "stages" / picture), "--width", "480",
+                     "--height", "360", cwd=self.pages.parent)
+            text += f"\n```sh\nfacetmill pipe {scene} ! render {picture}\n```\n\n![{scene}]({picture})\n"
+        return text
+
+    def stage_pages(self):
+        scenes = yaml.safe_load((HERE / "pictures.yaml").read_text())
+        parts = re.split(r"\n## (?=[a-z-]+\n)", self.run("stages", "--markdown"))
+        (self.pages / "stages").mkdir()
+        shutil.copy(SOURCE / "examples/data/nefertiti.ply", self.pages.parent / "scan.ply")
+        names = [part.split("\n", 1)[0] for part in parts[1:]]
+        if unknown := set(scenes) - set(names):
+            sys.exit(f"pictures.yaml names what is no stage: {', '.join(sorted(unknown))}")
+        for name, part in zip(names, parts[1:]):
+            about, rest = part.split("\n", 1)[1].lstrip().split("\n", 1)
+            self.put(f"stages/{name}.md", f"# {name}\n\n{about}\n{self.pictures(name, scenes.get(name, []))}\n{rest}")
+        overview = re.sub(r"^\| `([a-z-]+)` \|", r"| [`\1`](\1.md) |", parts[0], flags=re.M)
+        (self.pages / "stages/index.md").write_text(overview)
+        self.titles["stages/index.md"] = "All stages"
+        return ["stages/index.md"] + [f"stages/{name}.md" for name in names]
+
+    def fill(self):
+        self.put("index.md", (SOURCE / "README.md").read_text())
+        for name in GUIDES:
+            self.put(f"guides/{name}.md", (SOURCE / "docs/guides" / f"{name}.md").read_text())
+        for name in PAGES:
+            self.put(f"{name}.md", (SOURCE / "docs" / f"{name}.md").read_text())
+        shutil.copytree(SOURCE / "docs/figures", self.pages / "figures")
+        stages = self.stage_pages()
+        self.put("messages.md", self.run("explain", "--markdown"))
+
+        def titled(names):
+            return [{self.titles[name]: name} for name in names]
+        return [{"facetmill": "index.md"}, {"Guides": titled(f"guides/{name}.md" for name in GUIDES)},
+                {"Stages": titled(stages)}, {"More": titled([f"{name}.md" for name in PAGES])},
+                {"Errors and warnings": "messages.md"}]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--mill", type=pathlib.Path, default=SOURCE / "build/release/facetmill")
+    parser.add_argument("--pages", action="store_true", help="the Markdown only")
+    options = parser.parse_args()
+    folder = options.folder.resolve()
+    for old in ("pages", "html"):
+        shutil.rmtree(folder / old, ignore_errors=True)
+    settings = yaml.safe_load((HERE / "mkdocs.yml").read_text())
+    settings["nav"] = Site(folder, options.mill.resolve()).fill()
+    (folder / "mkdocs.yml").write_text(yaml.safe_dump(settings, sort_keys=False))
+    if not options.pages:
+        subprocess.run(["mkdocs", "build", "--quiet", "--config-file", str(folder / "mkdocs.yml")], check=True)
+        print(f"Look at {folder}/html/index.html.")
+
+
+if __name__ == "__main__":
+    main()
