@@ -167,14 +167,13 @@ CrumpleMoves crumple_moves(const Mesh& mesh, const Settings& settings) {
     });
     check_reach(mesh, result.moves, settings.amplitude);
     result.shares = settings.mask;
-    if (settings.boundary == Settings::Boundary::free) return result;
-    result.shares.resize(n, 1);
-    const std::vector<std::uint8_t> held = boundary_places(mesh, result.keys);
-    for (std::size_t v = 0; v < n; ++v)
-        if (held[v]) {
-            result.shares[v] = 0;
-            ++result.held;
-        }
+    if (settings.boundary != Settings::Boundary::free) {
+        result.shares.resize(n, 1);
+        const std::vector<std::uint8_t> held = boundary_places(mesh, result.keys);
+        for (std::size_t v = 0; v < n; ++v)
+            if (held[v]) result.shares[v] = 0;
+    }
+    result.held = static_cast<std::size_t>(std::count(result.shares.begin(), result.shares.end(), 0.0));
     return result;
 }
 

@@ -57,7 +57,7 @@ struct CrumpleMoves {
     std::vector<Vec3> moves;         ///< [vertices] in part space, as if nothing were held or masked
     std::vector<double> shares; ///< [vertices] 0 to 1: how much of it the vertex itself allows, because of
                                 ///< the boundary and the mask; empty: all
-    std::size_t held = 0;       ///< boundary vertices that were held
+    std::size_t held = 0;       ///< vertices that were held, by boundary: fixed or a mask of 0
 };
 
 struct CrumpleResult {
@@ -66,7 +66,7 @@ struct CrumpleResult {
     double largest_move = 0;     ///< world units
     double root_mean_square = 0; ///< of the moves of all vertices, world units
     std::size_t moved = 0;
-    std::size_t held = 0; ///< boundary vertices that were held
+    std::size_t held = 0; ///< vertices that were held, by boundary: fixed or a mask of 0
 };
 
 /// Displaces each vertex of the mesh once. Topology, wedges and faces stay; NORMAL is recomputed, TANGENT
