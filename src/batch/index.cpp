@@ -78,8 +78,8 @@ std::string to_markdown(const Summary& summary) {
         for (const auto* all : {&out.errors, &out.warnings})
             for (const auto& d : *all)
                 notes += (notes.empty() ? "" : "<br>") + markdown_escaped(d.id + ": " + d.message);
-        rows.push_back({verdict_word(out.verdict), markdown_escaped(summary.assets[i].name), grouped(out.faces_in),
-                        grouped(out.faces_out), sized(out.bytes), notes});
+        rows.push_back({verdict_word(out.verdict), markdown_escaped(summary.assets[i].name),
+                        grouped(out.faces_in), grouped(out.faces_out), sized(out.bytes), notes});
     }
     return fmt::format("## {}\n\n{} of {} assets are ok; exit code {}\n", markdown_escaped(summary.pipeline),
                        count(summary, Outcome::Verdict::ok), summary.assets.size(), summary.exit_code) +

@@ -13,8 +13,8 @@ std::string one_line(std::string_view text);
 
 std::string to_text(const Summary& summary);
 Json to_json(const Summary& summary);
-std::string to_junit(const Summary& summary); ///< an asset is a test case
+std::string to_junit(const Summary& summary);    ///< an asset is a test case
 std::string to_markdown(const Summary& summary); ///< a table, worst first
-std::string to_html(const Summary& summary);  ///< one self-contained page, with a picture an asset
+std::string to_html(const Summary& summary);     ///< one self-contained page, with a picture an asset
 
 } // namespace facetmill::batch
