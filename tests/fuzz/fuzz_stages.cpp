@@ -59,19 +59,19 @@ void allow_seconds(int seconds) {
     ::setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
-/// What is wrong with the chain, or nothing.
-std::string judge(const test::Chain& chain, const std::string& told, test::Draw& draw,
-                  const std::filesystem::path& folder) {
+/// Told what was slow, or took much memory.
+test::Verdict watched(const test::Chain& chain, const std::string& told, test::Draw& draw,
+                      const std::filesystem::path& folder) {
     fmt::format_to_n(current, sizeof current - 1, "ended in {}\n{}", told, '\0');
     const double start = spent();
     const std::size_t before = peak_mib();
     allow_seconds(most_seconds);
-    std::string wrong = test::fault_of_chain(chain, folder, draw.word({"glb", "ply", "obj", "off", "stl"}));
+    test::Verdict verdict = test::judge(chain, folder, draw.word({"glb", "ply", "obj", "off", "stl"}));
     allow_seconds(0);
     if (spent() - start > slow_seconds) std::printf("%.0f s: %s\n", spent() - start, told.c_str());
-    if (wrong.empty() && peak_mib() > std::max(before, most_mib))
-        wrong = fmt::format("{} MiB of memory", peak_mib());
-    return wrong;
+    if (verdict.wrong.empty() && peak_mib() > std::max(before, most_mib))
+        verdict.wrong = fmt::format("{} MiB of memory", peak_mib());
+    return verdict;
 }
 
 } // namespace
@@ -93,21 +93,24 @@ int main(int count, char** arguments) {
     const test::TemporaryDirectory folder;
     test::put_files(folder.path());
     std::map<std::string, std::size_t> stage_runs;
-    std::size_t troubles = 0;
+    std::size_t troubles = 0, stages = 0, done = 0;
     std::uint64_t seed = first;
     for (; std::chrono::steady_clock::now() < end; ++seed) {
         test::Draw draw(seed);
         const test::Chain chain = test::random_chain(draw, only);
         const std::string told = fmt::format("seed {}: {}", seed, chain.described());
         for (const auto& link : chain.links) ++stage_runs[link.stage->name];
-        const std::string wrong = judge(chain, told, draw, folder.path());
+        const auto [wrong, stages_done] = watched(chain, told, draw, folder.path());
+        stages += chain.links.size();
+        done += stages_done;
         if (wrong.empty()) continue;
         ++troubles;
         std::printf("WRONG %s\n    %s\n", told.c_str(), wrong.c_str());
     }
-    std::printf("seeds %llu to %llu, %zu troubles, %.0f s of the processor, at most %zu MiB\n",
-                static_cast<unsigned long long>(first), static_cast<unsigned long long>(seed - 1), troubles,
-                spent(), peak_mib());
+    const std::string summary = fmt::format(
+        "seeds {} to {}, {} of {} stages done, {} troubles, {:.0f} s of the processor, at most {} MiB", first,
+        seed - 1, done, stages, troubles, spent(), peak_mib());
+    std::puts(summary.c_str());
     for (const auto& [name, runs] : stage_runs) std::printf("%s %zu\n", name.c_str(), runs);
     return troubles > 0;
 }

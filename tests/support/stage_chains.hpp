@@ -90,11 +90,15 @@ inline void put_files(const std::filesystem::path& folder) {
     }
 }
 
-/// Stages that promise closed parts out of closed ones, whatever their options.
-inline bool keeps_closed(const std::string& stage) {
-    static const std::set<std::string> names{"crumple",   "orient",      "relax",     "split",
-                                             "transform", "triangulate", "two-sided", "textures"};
-    return names.contains(stage);
+/// Whether the stage promises closed parts out of closed ones, and edges of two faces out of such.
+inline bool keeps_closed(const Link& link) {
+    static const std::set<std::string> names{"crumple",  "orient",    "relax",       "simplify", "split",
+                                             "textures", "transform", "triangulate", "two-sided"};
+    const std::string options = spelled(link.value);
+    const auto has = [&](const char* word) { return options.find(word) != std::string::npos; };
+    if (link.stage->name == "simplify" && (has("allow") || has("cluster") || has("constrained")))
+        return false;
+    return names.contains(link.stage->name);
 }
 
 /// Stages that pass the scene on as it came.
@@ -114,15 +118,17 @@ inline bool all_edge_manifold(const Scene& scene) {
 /// What a chain did, in words that must be the same with any number of threads; and what was wrong.
 struct Outcome {
     std::string told, wrong;
+    std::size_t stages_done = 0; ///< the next one refused
     Scene scene;
 };
 
 /// What is wrong with the scene after a stage, or nothing.
-inline std::string fault_after(const StageInfo& stage, const Scene& before, const Scene& after) {
+inline std::string fault_after(const Link& link, const Scene& before, const Scene& after) {
     const auto broken = broken_invariants(after);
     if (!broken.empty()) return "invariant: " + broken.front();
-    if (keeps_scene(stage) && digest(before) != digest(after)) return "the scene did not pass on unchanged";
-    if (keeps_closed(stage.name)) {
+    if (keeps_scene(*link.stage) && digest(before) != digest(after))
+        return "the scene did not pass on unchanged";
+    if (keeps_closed(link)) {
         if (all_closed(before) && !all_closed(after)) return "closed before, open after";
         if (all_edge_manifold(before) && !all_edge_manifold(after)) return "edge-manifold before, not after";
     }
@@ -166,9 +172,10 @@ inline Outcome run_chain(const Chain& chain, const std::filesystem::path& folder
             outcome.told += "not finite\n";
             return outcome;
         }
-        outcome.wrong = fault_after(*link.stage, before, scene);
+        outcome.wrong = fault_after(link, before, scene);
         if (!outcome.wrong.empty()) outcome.wrong = link.stage->name + ": " + outcome.wrong;
         if (!outcome.wrong.empty()) return outcome;
+        ++outcome.stages_done;
         outcome.told += digest(scene) + "\n";
     }
     for (const auto& file : state.outputs.files())
@@ -192,18 +199,23 @@ inline std::string fault_of_file(const Scene& scene, const char* format) {
     }
 }
 
-/// Runs the drawn chain with one and with three threads: what is wrong, or nothing.
-inline std::string fault_of_chain(const Chain& chain, const std::filesystem::path& folder,
-                                  const char* format) {
+/// Of a drawn chain: what is wrong, or nothing, and how far it came.
+struct Verdict {
+    std::string wrong;
+    std::size_t stages_done = 0;
+};
+
+/// Runs the chain with one and with three threads, and writes its result to a file of the format.
+inline Verdict judge(const Chain& chain, const std::filesystem::path& folder, const char* format) {
     set_threads(1);
     const Outcome one = run_chain(chain, folder);
-    std::string wrong = one.wrong;
-    if (wrong.empty()) wrong = fault_of_file(one.scene, format);
+    Verdict verdict{one.wrong, one.stages_done};
+    if (verdict.wrong.empty()) verdict.wrong = fault_of_file(one.scene, format);
     set_threads(3);
-    if (wrong.empty() && run_chain(chain, folder).told != one.told)
-        wrong = "another result with three threads";
+    if (verdict.wrong.empty() && run_chain(chain, folder).told != one.told)
+        verdict.wrong = "another result with three threads";
     set_threads(0);
-    return wrong;
+    return verdict;
 }
 
 } // namespace facetmill::test
