@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <map>
@@ -13,14 +14,16 @@
 namespace facetmill::io {
 
 void require_floats(const Mesh& mesh, const std::string& what) {
-    constexpr double max_float = 3.4028234663852886e38;
+    constexpr double least = 1.1754943508222875e-38,
+                     most = 3.4028234663852886e38; // normal numbers of float32
     const Box box = mesh.bounds();
+    double farthest = 0;
     for (std::size_t i = 0; i < 3 && !box.empty(); ++i)
-        if (!(box.min[i] >= -max_float && box.max[i] <= max_float))
-            throw Error(ErrorKind::stage, "E-RANGE",
-                        fmt::format("{} has positions that float32 cannot hold, up to {}", what,
-                                    std::max(-box.min[i], box.max[i])),
-                        "bring the scene near 1 in size first: transform: {scale: ...}");
+        farthest = std::max({farthest, std::abs(box.min[i]), std::abs(box.max[i])});
+    if (farthest == 0 || (farthest >= least && farthest <= most)) return;
+    throw Error(ErrorKind::stage, "E-RANGE",
+                fmt::format("{} has positions that float32 cannot hold, up to {}", what, farthest),
+                "bring the scene near 1 in size first: transform: {scale: ...}");
 }
 
 WorldMesh::WorldMesh(const Part& part) {

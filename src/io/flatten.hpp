@@ -20,7 +20,8 @@ class WorldMesh {
     Mesh own_;
 };
 
-/// Throws stage (E-RANGE) when a position is beyond what float32 holds. what: "part 'cube'", "the scene".
+/// Throws stage (E-RANGE) when a position is beyond what float32 holds, or all are so small that none would
+/// be left. what: "part 'cube'", "the scene".
 void require_floats(const Mesh& mesh, const std::string& what);
 
 /// What a format cannot hold: its attribute changes.

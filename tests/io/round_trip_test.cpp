@@ -68,12 +68,16 @@ TEST_CASE("PLY holds polygons and shared vertices in every encoding", "[io]") {
 TEST_CASE("positions beyond float32 are refused by whatever would round them", "[io]") {
     Mesh mesh = shapes::tetrahedron();
     mesh.positions[0].x = 1e39;
+    Mesh small = shapes::tetrahedron();
+    for (Vec3& p : small.positions) p *= 1e-60;
     for (const char* format : {"ply", "obj", "off", "stl", "gltf", "glb"}) {
         INFO(format);
         const io::Codec& codec = *io::codec_named(format);
         const std::string told = failure([&] { codec.write(scene_of(mesh), {.title = "mesh"}); });
         CHECK(told.starts_with("stage [E-RANGE]"));
         CHECK(told.find("float32 cannot hold, up to 1e+39") != std::string::npos);
+        CHECK(
+            failure([&] { codec.write(scene_of(small), {.title = "mesh"}); }).starts_with("stage [E-RANGE]"));
         if (codec.can.full_precision)
             CHECK(failure([&] {
                       codec.write(scene_of(mesh), {.double_positions = true, .title = "mesh"});
