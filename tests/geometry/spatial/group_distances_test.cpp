@@ -21,7 +21,7 @@ Mesh poor_triangles() {
     return mesh;
 }
 
-std::vector<Mesh> meshes() {
+std::vector<Mesh> grouped_meshes() {
     return {test::noisy_icosphere(4, 0.1, 1), test::noisy_torus(40, 24, 0.05, 2), poor_triangles(),
             shapes::cube(), test::random_triangles(1, 0.5, 3)};
 }
@@ -41,7 +41,7 @@ std::vector<Vec3> group_of(const Mesh& mesh, std::uint64_t k) {
 
 TEST_CASE("points of a group are as far as each by itself, up to the error, whatever the hint",
           "[geometry]") {
-    for (const Mesh& mesh : meshes()) {
+    for (const Mesh& mesh : grouped_meshes()) {
         const FaceTree tree(surface_of(mesh), FaceTree::Use::near);
         GroupDistances together(tree), elsewhere(tree);
         std::size_t measured = 0;
@@ -82,7 +82,7 @@ TEST_CASE("groups too far away for their frame, and without a place, are refused
 }
 
 TEST_CASE("a group is within a distance when each point is, whatever the hint", "[geometry]") {
-    for (const Mesh& mesh : meshes()) {
+    for (const Mesh& mesh : grouped_meshes()) {
         const FaceTree tree(surface_of(mesh), FaceTree::Use::near);
         GroupDistances together(tree);
         std::size_t shown = 0;
