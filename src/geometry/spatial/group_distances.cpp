@@ -223,7 +223,8 @@ bool GroupDistances::all_within(std::span<const Vec3> points, double distance, I
     const Box box = box_around(points);
     if (!place(points, box.centre(), box.diagonal() + distance)) return false;
     const double enough = (distance - error_) * scale_ * (1 - 1e-6);
-    const auto square = static_cast<float>(enough > 0 ? enough * enough : 0);
+    if (!(enough > 0)) return false; // not to be told from the error
+    const auto square = static_cast<float>(enough * enough);
     if (hint != none) compare(points, hint);
     const bool all = (hint != none && farthest_square() <= square) ||
                      (gather(box, distance) && compare_until(square, points, box, distance));

@@ -208,6 +208,8 @@ TEST_CASE("a deviation is what each point by itself says, by any number of threa
     Mesh broken = test::noisy_icosphere(3, 0.05, 3);
     broken.positions[5].x = std::nan("");
     broken.positions[9].y = HUGE_VAL;
+    Mesh lifted = shapes::cube();
+    lifted.positions[7].x += 1e-9;
     const std::pair<Mesh, Mesh> pairs[] = {
         {shapes::icosphere(4), shapes::icosphere(2)},
         {test::noisy_icosphere(4, 0.1, 1), test::noisy_icosphere(2, 0.1, 2)},
@@ -217,6 +219,7 @@ TEST_CASE("a deviation is what each point by itself says, by any number of threa
         {test::random_triangles(300, 0.2, 1), test::random_triangles(40, 0.9, 2)},
         {with_stray(shapes::icosphere(3), 1e4), shapes::icosphere(2)},
         {with_stray(shapes::icosphere(3), 1e9), with_stray(shapes::icosphere(2), -1e9)},
+        {shapes::cube(), lifted},
         {broken, shapes::icosphere(2)}};
     for (const auto& [a, b] : pairs) {
         const Surface x = surface_of(a), y = surface_of(b);

@@ -99,3 +99,13 @@ TEST_CASE("a group is within a distance when each point is, whatever the hint", 
         CHECK(shown > 500);
     }
 }
+
+TEST_CASE("what float32 cannot tell from 0 in a wide group is not shown to be within a distance",
+          "[geometry]") {
+    Mesh lifted = shapes::cube();
+    lifted.positions[0].z += 1e-9;
+    const FaceTree tree(surface_of(lifted), FaceTree::Use::near);
+    GroupDistances together(tree);
+    Index hint = none;
+    CHECK_FALSE(together.all_within(shapes::cube().positions, 0.5e-9, hint));
+}
