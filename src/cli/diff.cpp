@@ -20,8 +20,9 @@ constexpr const char* diff_examples =
     R"(Compares counts, topology, geometry, attributes, materials, parts, and the other contents of glTF (document).
 The distance between the surfaces is measured in both directions, from samples of the area and from every vertex; if a
 file has no faces, from and to each of its points. Limits are in units of A (0.2, 2mm) or in percent of A's
-diagonal (0.5%); the default, 0.0001%, allows for the rounding of float32 coordinates. If both files have a
-unit or an up axis (their own, or that of --unit and --up), B is first converted to A's. Attributes are compared element by element, in the order of the files.
+diagonal (0.5%); the default, 0.0001%, allows for the rounding of float32 coordinates. If both files have a unit or an
+up axis (their own, or that of --unit and --up), B is first converted to A's. Attributes are compared element by
+element, in the order of the files.
 Exit code 0: the files agree. 1: they differ in a section that is not ignored. 3 or 6: a file cannot be read.
 What cannot be compared (lines, attributes of different sizes) is listed, and makes "complete" false in JSON.
 
