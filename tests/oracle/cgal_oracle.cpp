@@ -1,5 +1,7 @@
 #include "oracle/cgal_oracle.hpp"
 
+// GCC 12 suspects Polygon_2's own iterators once they are inlined.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #if __has_include(<CGAL/AABB_triangle_primitive_3.h>)
@@ -9,6 +11,7 @@
 #endif
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
+#include <CGAL/Polygon_2.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
@@ -107,5 +110,20 @@ double Tree::distance(const Vec3& p) const { return std::sqrt(own_->tree.squared
 std::size_t Tree::met_by(const Vec3& from, const Vec3& to) const {
     return own_->tree.number_of_intersected_primitives(Kernel::Segment_3(point(from), point(to)));
 }
+
+struct Polygon::Own {
+    CGAL::Polygon_2<Kernel> ring;
+};
+
+Polygon::Polygon(polygon::Ring ring) : own_(std::make_unique<Own>()) {
+    for (const Vec2& p : ring) own_->ring.push_back({p.x, p.y});
+}
+Polygon::~Polygon() = default;
+
+double Polygon::area() const { return own_->ring.area(); }
+bool Polygon::is_simple() const { return own_->ring.is_simple(); }
+bool Polygon::is_convex() const { return own_->ring.is_convex(); }
+int Polygon::orientation() const { return own_->ring.orientation(); }
+int Polygon::side(const Vec2& p) const { return own_->ring.bounded_side({p.x, p.y}); }
 
 } // namespace facetmill::oracle

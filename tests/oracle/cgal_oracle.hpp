@@ -1,6 +1,7 @@
 #pragma once
 // CGAL's own answers, for comparison.
 
+#include "geometry/polygon/polygon.hpp"
 #include "mesh/mesh.hpp"
 
 #include <memory>
@@ -23,6 +24,24 @@ double hausdorff_distance(const Mesh& from, const Mesh& to, double error);
 /// The union of two closed meshes by CGAL's corefinement. Edge-manifold triangle meshes that do not intersect
 /// themselves.
 Mesh union_of(const Mesh& a, const Mesh& b);
+
+/// CGAL's Polygon_2.
+class Polygon {
+  public:
+    explicit Polygon(polygon::Ring ring);
+    ~Polygon();
+    double area() const;
+    bool is_simple() const;
+    /// Of a simple one, as are the following.
+    bool is_convex() const;
+    int orientation() const;
+    /// 1: inside, 0: on the boundary, -1: outside.
+    int side(const Vec2& p) const;
+
+  private:
+    struct Own;
+    std::unique_ptr<Own> own_;
+};
 
 /// CGAL's AABB tree over the triangles of a mesh.
 class Tree {
