@@ -2,7 +2,8 @@
 // A value that is made when it is first asked for: what only some runs need costs the others nothing at
 // start.
 
-#include <functional>
+#include "base/function.hpp"
+
 #include <memory>
 #include <mutex>
 
@@ -13,9 +14,7 @@ template <class T>
 class Lazy {
   public:
     Lazy() = default;
-    explicit Lazy(std::function<T()> make) : state_(std::make_shared<State>()) {
-        state_->make = std::move(make);
-    }
+    explicit Lazy(Function<T()> make) : state_(std::make_shared<State>()) { state_->make = std::move(make); }
 
     const T& operator*() const {
         static const T empty{};
@@ -28,7 +27,7 @@ class Lazy {
   private:
     struct State {
         std::once_flag once;
-        std::function<T()> make;
+        Function<T()> make;
         T value{};
     };
     std::shared_ptr<State> state_;

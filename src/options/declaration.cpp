@@ -55,6 +55,10 @@ Option& start_option(Declaration& owner, std::string_view name, OptionKind kind,
     return o;
 }
 
+std::shared_ptr<const Declaration> shared(Declaration&& declaration) {
+    return std::make_shared<const Declaration>(std::move(declaration));
+}
+
 void embed_options(Declaration& owner, const Declaration& inner, std::size_t offset) {
     for (Option o : inner.options) {
         o.parse = [parse = std::move(o.parse), offset](const Option& self, const Value& v, void* target,

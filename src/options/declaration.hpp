@@ -18,10 +18,10 @@
 // and parsing, the one-liner, help, man page, JSON Schema and the sweep test follow. Defaults are the
 // members' initialisers, so they are written once.
 
+#include "base/function.hpp"
 #include "options/types.hpp"
 
 #include <cstddef>
-#include <functional>
 #include <set>
 
 namespace facetmill {
@@ -57,9 +57,9 @@ struct Option {
     Json schema;
     /// Reads the value into this option's member of the struct at target. False after adding problems. The
     /// range is checked by Declaration::parse.
-    std::function<bool(const Option&, const Value&, void* target, Problems&)> parse;
+    Function<bool(const Option&, const Value&, void* target, Problems&)> parse;
     /// The number in the struct that the range limits, if there is one.
-    std::function<std::optional<double>(const void* target)> magnitude;
+    Function<std::optional<double>(const void* target)> magnitude;
     bool may_be_true = false; ///< true is one of its values, beside others
 
     /// Whether a value may be a list: several, or one that is a list.
@@ -95,7 +95,7 @@ struct Declaration {
     std::vector<Exclusion> exclusions;
     /// Reads a value that is no map (none: the primary option takes it). For groups with a short form,
     /// "z=0.2".
-    std::function<bool(const Value&, void* target, Problems&)> shorthand;
+    Function<bool(const Value&, void* target, Problems&)> shorthand;
     ShortForm short_form = ShortForm::none; ///< what shorthand reads
     std::string shorthand_help;
     Json shorthand_schema;
@@ -193,6 +193,8 @@ const T& member_at(const void* record, std::size_t offset) {
 
 /// Adds an option to those of a declaration.
 Option& start_option(Declaration& owner, std::string_view name, OptionKind kind, std::string_view help);
+/// The declaration, owned.
+std::shared_ptr<const Declaration> shared(Declaration&& declaration);
 /// Adds the options of a struct that lies at the offset within the one that is parsed.
 void embed_options(Declaration& owner, const Declaration& inner, std::size_t offset);
 
@@ -273,7 +275,7 @@ class Declare {
         fill(nested);
         Option& o = start_option(declaration, name, OptionKind::group, help);
         if constexpr (requires { OptionType<G>::kind; }) o.one = OptionType<G>::kind; // of lists elsewhere
-        o.fields = std::make_shared<const Declaration>(std::move(nested.declaration));
+        o.fields = shared(std::move(nested.declaration));
         o.schema = o.fields->schema();
         o.parse = [at = offset_of(member)](const Option& self, const Value& v, void* target,
                                            Problems& problems) {

@@ -95,6 +95,60 @@ Field& start(Fields& fields, std::string_view name, const char* type, Json schem
     return f;
 }
 
+FieldRef object_field(Fields& fields, std::string_view name, std::string_view help,
+                      std::shared_ptr<const Fields> inner, int optionals, Each each) {
+    Field& f = start(fields, name, "object", inner->schema(), help, optionals);
+    f.put = [inner, each](const Field& self, const void* record, Json& object) {
+        const bool there = each(record, [&](const void* value) { object[self.name] = inner->json(value); });
+        if (!there && self.only_when.empty()) object[self.name] = nullptr;
+    };
+    f.fields = std::move(inner);
+    f.each = std::move(each);
+    return {fields, fields.all.size() - 1};
+}
+
+FieldRef list_field(Fields& fields, std::string_view name, std::string_view help,
+                    std::shared_ptr<const Fields> inner, int optionals, Each each) {
+    Json schema = {{"type", "array"}, {"items", inner->schema()}};
+    Field& f = start(fields, name, "list of objects", std::move(schema), help, optionals);
+    f.is_list = true;
+    f.put = [inner, each](const Field& self, const void* record, Json& object) {
+        Json all = Json::array();
+        const bool there = each(record, [&](const void* item) { all.push_back(inner->json(item)); });
+        if (there)
+            object[self.name] = std::move(all);
+        else if (self.only_when.empty())
+            object[self.name] = nullptr;
+    };
+    f.fields = std::move(inner);
+    f.each = std::move(each);
+    return {fields, fields.all.size() - 1};
+}
+
+void embed(Fields& fields, const Fields& inner, const Function<const void*(const void*)>& within) {
+    for (Field f : inner.all) {
+        f.put = [put = f.put, within](const Field& self, const void* record, Json& object) {
+            put(self, within(record), object);
+        };
+        if (f.value)
+            f.value = [value = f.value, within](const void* record) { return value(within(record)); };
+        if (f.phrase)
+            f.phrase = [told = f.phrase, within](const void* record) { return told(within(record)); };
+        if (f.count)
+            f.count = [count = f.count, within](const void* record) { return count(within(record)); };
+        if (f.each)
+            f.each = [each = f.each, within](const void* record,
+                                             const std::function<void(const void*)>& look) {
+                return each(within(record), look);
+            };
+        fields.all.push_back(std::move(f));
+    }
+}
+
+std::shared_ptr<const Fields> shared(Fields&& fields) {
+    return std::make_shared<const Fields>(std::move(fields));
+}
+
 #define FACETMILL_HERE(T)                                                                                    \
     template FieldRef typed_field<T>(Fields&, std::string_view, std::size_t, std::string_view);
 FACETMILL_COMMON_FIELD_TYPES(FACETMILL_HERE)

@@ -14,6 +14,7 @@
 //
 // and the JSON of the report, its JSON Schema, the help pages and the lines on the terminal follow.
 
+#include "base/function.hpp"
 #include "base/json.hpp"
 #include "base/vec.hpp"
 #include "options/declaration.hpp"
@@ -32,6 +33,8 @@ struct Fields;
 namespace fields {
 /// What a phrase on the terminal can say.
 using Told = std::variant<std::uint64_t, std::int64_t, double, std::string>;
+/// Looks at the object in a record, or at each item of the list; false: the record has none.
+using Each = Function<bool(const void* record, const std::function<void(const void*)>& look)>;
 } // namespace fields
 
 /// All that is known of a field, for every consumer.
@@ -55,15 +58,15 @@ struct Field {
     std::shared_ptr<const Fields> fields; ///< of an object, or of the items of a list
 
     /// Adds the field to the object.
-    std::function<void(const Field&, const void* record, Json& object)> put;
+    Function<void(const Field&, const void* record, Json& object)> put;
     /// Its value; none: it is empty, or no number and no text.
-    std::function<std::optional<facetmill::fields::Told>(const void* record)> value;
+    Function<std::optional<facetmill::fields::Told>(const void* record)> value;
     /// Its value, as the terminal tells it; none: nothing is said of it.
-    std::function<std::optional<std::string>(const void* record)> phrase;
+    Function<std::optional<std::string>(const void* record)> phrase;
     /// Of a count: how many.
-    std::function<std::uint64_t(const void* record)> count;
-    /// Of an object or a list: looks at the object, or at each item.
-    std::function<void(const void* record, const std::function<void(const void*)>&)> each;
+    Function<std::uint64_t(const void* record)> count;
+    /// Of an object or a list.
+    facetmill::fields::Each each;
     bool is_list = false;
     /// Of a list: what is said when all counts of its items are 0; else their sums are said by name.
     std::optional<std::string> nothing_counted;
@@ -81,7 +84,7 @@ struct Fields {
     std::vector<Field> all;
     std::string heading; ///< the field whose text leads the line of a record: "part"
     /// What is said on the terminal where phrases of single fields do not do.
-    std::function<std::vector<std::string>(const void* record)> tell;
+    Function<std::vector<std::string>(const void* record)> tell;
 
     Json json(const void* record) const;
     /// Of an object with these keys and no others.
@@ -219,6 +222,15 @@ inline constexpr auto to_json = []<class T>(const T& value) { return FieldType<T
 /// Adds a field to those of a record. optionals: how many are around its value.
 Field& start(Fields& fields, std::string_view name, const char* type, Json schema, std::string_view help,
              int optionals);
+/// Adds an object with these fields, or a list of such.
+FieldRef object_field(Fields& fields, std::string_view name, std::string_view help,
+                      std::shared_ptr<const Fields> inner, int optionals, Each each);
+FieldRef list_field(Fields& fields, std::string_view name, std::string_view help,
+                    std::shared_ptr<const Fields> inner, int optionals, Each each);
+/// Adds the fields of a record that lies within another: within() of the other.
+void embed(Fields& fields, const Fields& inner, const Function<const void*(const void*)>& within);
+/// The fields, owned.
+std::shared_ptr<const Fields> shared(Fields&& fields);
 
 template <class T, class ToJson>
 Json inner_json(const T& value, const ToJson& json) {
@@ -341,46 +353,41 @@ class DeclareFields {
     /// A nested record, declared by fill(DeclareFields<T>&).
     template <class Get, class Fill>
     FieldRef object(std::string_view name, Get get, std::string_view help, Fill fill) {
+        constexpr int optionals = facetmill::fields::optionals<Value<Get>>;
+        static_assert(optionals < 2, "one that is missing and one that is null look the same");
         using T = typename facetmill::fields::Inner<Value<Get>>::type;
-        const auto inner = nested<T>(fill);
-        Field& f = start<Value<Get>>(name, "object", inner->schema(), help);
-        f.fields = inner;
-        f.put = putting(get, [inner](const T& value) { return inner->json(&value); });
-        f.each = [get](const void* record, const std::function<void(const void*)>& look) {
-            const auto& value = std::invoke(get, as_record(record));
-            if constexpr (facetmill::fields::is_optional<Value<Get>>) {
-                if (value) look(&*value);
-            } else {
-                look(&value);
-            }
-        };
-        return {fields, fields.all.size() - 1};
+        return facetmill::fields::object_field(
+            fields, name, help, nested<T>(fill), optionals,
+            [get](const void* record, const std::function<void(const void*)>& look) {
+                const auto& value = std::invoke(get, as_record(record));
+                if constexpr (optionals > 0) {
+                    if (value) look(&*value);
+                    return value.has_value();
+                } else {
+                    look(&value);
+                    return true;
+                }
+            });
     }
 
     /// A list of records, each declared by fill(DeclareFields<item>&).
     template <class Get, class Fill>
     FieldRef list(std::string_view name, Get get, std::string_view help, Fill fill) {
+        constexpr int optionals = facetmill::fields::optionals<Value<Get>>;
+        static_assert(optionals < 2, "one that is missing and one that is null look the same");
         using List = typename facetmill::fields::Inner<Value<Get>>::type;
-        const auto inner = nested<typename List::value_type>(fill);
-        Json schema = {{"type", "array"}, {"items", inner->schema()}};
-        Field& f = start<Value<Get>>(name, "list of objects", std::move(schema), help);
-        f.is_list = true;
-        f.fields = inner;
-        f.put = putting(get, [inner](const List& items) {
-            Json all = Json::array();
-            for (const auto& item : items) all.push_back(inner->json(&item));
-            return all;
-        });
-        f.each = [get](const void* record, const std::function<void(const void*)>& look) {
-            const auto& items = std::invoke(get, as_record(record));
-            if constexpr (facetmill::fields::is_optional<Value<Get>>) {
-                if (!items) return;
-                for (const auto& item : *items) look(&item);
-            } else {
-                for (const auto& item : items) look(&item);
-            }
-        };
-        return {fields, fields.all.size() - 1};
+        return facetmill::fields::list_field(
+            fields, name, help, nested<typename List::value_type>(fill), optionals,
+            [get](const void* record, const std::function<void(const void*)>& look) {
+                const auto& items = std::invoke(get, as_record(record));
+                if constexpr (optionals > 0) {
+                    if (!items) return false;
+                    for (const auto& item : *items) look(&item);
+                } else {
+                    for (const auto& item : items) look(&item);
+                }
+                return true;
+            });
     }
 
     /// The fields of a record within this one, in its place: get returns a reference to it.
@@ -389,27 +396,10 @@ class DeclareFields {
         using T = Value<Get>;
         DeclareFields<T> inner;
         fill(inner);
-        const auto within = [get](const void* record) -> const void* {
+        facetmill::fields::embed(fields, inner.fields, [get](const void* record) -> const void* {
             const T& embedded = std::invoke(get, as_record(record));
             return &embedded;
-        };
-        for (Field f : inner.fields.all) {
-            f.put = [put = f.put, within](const Field& self, const void* record, Json& object) {
-                put(self, within(record), object);
-            };
-            if (f.value)
-                f.value = [value = f.value, within](const void* record) { return value(within(record)); };
-            if (f.phrase)
-                f.phrase = [told = f.phrase, within](const void* record) { return told(within(record)); };
-            if (f.count)
-                f.count = [count = f.count, within](const void* record) { return count(within(record)); };
-            if (f.each)
-                f.each = [each = f.each, within](const void* record,
-                                                 const std::function<void(const void*)>& look) {
-                    each(within(record), look);
-                };
-            fields.all.push_back(std::move(f));
-        }
+        });
     }
 
     /// Counts by name (NamedCounts), the names being some of those given.
@@ -445,7 +435,7 @@ class DeclareFields {
     static std::shared_ptr<const Fields> nested(Fill fill) {
         DeclareFields<T> inner;
         fill(inner);
-        return std::make_shared<const Fields>(std::move(inner.fields));
+        return facetmill::fields::shared(std::move(inner.fields));
     }
 
     template <class T>

@@ -40,6 +40,8 @@ Scene perform(const StageInfo& stage, Scene scene, const void* options, Context&
     return scene;
 }
 
+std::shared_ptr<void> owned_options(void* options, void (*drop)(void*)) { return {options, drop}; }
+
 std::vector<std::string> stage_names() {
     std::vector<std::string> names;
     for (const auto& s : registry()) names.push_back(s.name);

@@ -58,19 +58,19 @@ struct StageInfo {
 
     // Filled by make_stage. Declarations are made when they are first asked for.
     Lazy<Declaration> options = {};
-    Lazy<Fields> result = {};                                 ///< of what the stage reports; empty: nothing
-    std::function<std::shared_ptr<void>()> make_options = {}; ///< a default options struct
-    std::function<Scene(Scene, const void* options, Context&)> run = {};
-    std::function<StageFiles(const void* options)> files = {}; ///< may be empty
+    Lazy<Fields> result = {};                            ///< of what the stage reports; empty: nothing
+    Function<std::shared_ptr<void>()> make_options = {}; ///< a default options struct
+    Function<Scene(Scene, const void* options, Context&)> run = {};
+    Function<StageFiles(const void* options)> files = {}; ///< may be empty
     /// What the header of a file says that this stage would add to the scene; throws as its run. May be
     /// empty.
-    std::function<io::FileHeader(const void* options, const std::filesystem::path&)> header = {};
+    Function<io::FileHeader(const void* options, const std::filesystem::path&)> header = {};
     /// Legality that a declaration cannot say; adds problems at the value's marks. May be empty.
-    std::function<void(const void* options, const Value& given, Problems&)> verify = {};
+    Function<void(const void* options, const Value& given, Problems&)> verify = {};
     /// What these options ask the stage to take of the surface. May be empty.
-    std::function<MayLose(const void* options)> may_lose_with = {};
+    Function<MayLose(const void* options)> may_lose_with = {};
     /// What these options need of faces that cross themselves. May be empty.
-    std::function<CrossingFacePolicy(const void* options)> crossing_faces_with = {};
+    Function<CrossingFacePolicy(const void* options)> crossing_faces_with = {};
 };
 
 struct RegisterStage {
@@ -87,48 +87,47 @@ Scene perform(const StageInfo& stage, Scene scene, const void* options, Context&
 
 template <class Options>
 struct StageHooks {
-    std::function<StageFiles(const Options&)> files = {};
-    std::function<void(const Options&, const Value&, Problems&)> verify = {};
-    std::function<io::FileHeader(const Options&, const std::filesystem::path&)> header = {};
-    std::function<MayLose(const Options&)> may_lose = {};
-    std::function<CrossingFacePolicy(const Options&)> crossing_faces = {};
+    StageFiles (*files)(const Options&) = nullptr;
+    void (*verify)(const Options&, const Value&, Problems&) = nullptr;
+    io::FileHeader (*header)(const Options&, const std::filesystem::path&) = nullptr;
+    MayLose (*may_lose)(const Options&) = nullptr;
+    CrossingFacePolicy (*crossing_faces)(const Options&) = nullptr;
 };
 
+/// The hook, of any options; none where there is none.
+template <class Options, class Result, class... Arguments>
+Function<Result(const void*, Arguments...)> of_any_options(Result (*hook)(const Options&, Arguments...)) {
+    if (!hook) return {};
+    return [hook](const void* options, Arguments... arguments) -> Result {
+        return hook(*static_cast<const Options*>(options), arguments...);
+    };
+}
+
+/// Options that are owned by whoever has the pointer.
+std::shared_ptr<void> owned_options(void* options, void (*drop)(void*));
+
 template <class Options, class DeclareFunction>
-void add_options(StageInfo& info, DeclareFunction declare, StageHooks<Options> hooks) {
+void add_options(StageInfo& info, DeclareFunction declare, const StageHooks<Options>& hooks) {
     info.options = Lazy<Declaration>([declare] {
         Declare<Options> d;
         declare(d);
         return std::move(d.declaration);
     });
-    info.make_options = [] { return std::make_shared<Options>(); };
-    if (hooks.files)
-        info.files = [f = hooks.files](const void* options) {
-            return f(*static_cast<const Options*>(options));
-        };
-    if (hooks.header)
-        info.header = [f = hooks.header](const void* options, const std::filesystem::path& path) {
-            return f(*static_cast<const Options*>(options), path);
-        };
-    if (hooks.may_lose)
-        info.may_lose_with = [f = hooks.may_lose](const void* options) {
-            return f(*static_cast<const Options*>(options));
-        };
-    if (hooks.crossing_faces)
-        info.crossing_faces_with = [f = hooks.crossing_faces](const void* options) {
-            return f(*static_cast<const Options*>(options));
-        };
-    if (hooks.verify)
-        info.verify = [f = hooks.verify](const void* options, const Value& given, Problems& problems) {
-            f(*static_cast<const Options*>(options), given, problems);
-        };
+    info.make_options = [] {
+        return owned_options(new Options, [](void* options) { delete static_cast<Options*>(options); });
+    };
+    info.files = of_any_options(hooks.files);
+    info.header = of_any_options(hooks.header);
+    info.may_lose_with = of_any_options(hooks.may_lose);
+    info.crossing_faces_with = of_any_options(hooks.crossing_faces);
+    info.verify = of_any_options(hooks.verify);
 }
 
 /// Of a stage that has nothing to report.
 template <class Options, class DeclareFunction>
 StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene, const Options&, Context&),
-                     StageHooks<Options> hooks = {}) {
-    add_options(info, declare, std::move(hooks));
+                     const StageHooks<Options>& hooks = {}) {
+    add_options(info, declare, hooks);
     info.run = [run](Scene scene, const void* options, Context& context) {
         return run(std::move(scene), *static_cast<const Options*>(options), context);
     };
@@ -138,8 +137,9 @@ StageInfo make_stage(StageInfo info, DeclareFunction declare, Scene (*run)(Scene
 /// Of a stage that fills a report: it is recorded and said when the stage is done.
 template <class Options, class Report, class DeclareFunction>
 StageInfo make_stage(StageInfo info, DeclareFunction declare, void (*declare_report)(DeclareFields<Report>&),
-                     Scene (*run)(Scene, const Options&, Context&, Report&), StageHooks<Options> hooks = {}) {
-    add_options(info, declare, std::move(hooks));
+                     Scene (*run)(Scene, const Options&, Context&, Report&),
+                     const StageHooks<Options>& hooks = {}) {
+    add_options(info, declare, hooks);
     info.result = Lazy<Fields>([declare_report] { return fields_of<Report>(declare_report); });
     info.run = [run, fields = info.result](Scene scene, const void* options, Context& context) {
         Report report;
