@@ -118,16 +118,14 @@ void SplitCensus::pass(SplitMethod method, double n) {
     }
 }
 
-void refuse_giant_split(const Mesh& mesh, double corners) {
-    constexpr const char* hint = "use fewer passes, a coarser grid or a longer max_edge";
+void refuse_giant_split(const Mesh& mesh, double corners, const SplitWords& words) {
     if (corners > corner_limit)
-        throw Error(
-            ErrorKind::limit, "E-LIMIT",
-            fmt::format("split: the result would have about {:.3g} corners, at most {:.0f} are possible",
-                        corners, corner_limit),
-            hint);
+        throw Error(ErrorKind::limit, "E-LIMIT",
+                    fmt::format("{}: the result would have about {:.3g} corners, at most {:.0f} are possible",
+                                words.subject, corners, corner_limit),
+                    words.fewer);
     require_memory((bytes_per_corner + attribute_bytes(mesh) / 2) * corners,
-                   fmt::format("split: a result of {:.3g} corners", corners), hint);
+                   fmt::format("{}: a result of {:.3g} corners", words.subject, corners), words.fewer);
 }
 
 double split_corner_estimate(const Mesh& mesh, const SplitSettings& settings) {

@@ -25,6 +25,6 @@ struct SplitCensus {
 };
 
 /// Throws limit (E-LIMIT, E-MEMORY) when so many corners, with the mesh's attributes, are more than can be.
-void refuse_giant_split(const Mesh& mesh, double corners);
+void refuse_giant_split(const Mesh& mesh, double corners, const SplitWords& words);
 
 } // namespace facetmill

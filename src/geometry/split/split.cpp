@@ -56,14 +56,15 @@ static_assert(rows_are_in_order(), "a row for each method, in the order of the e
 
 const MethodRow& row_of(SplitMethod method) { return method_rows[static_cast<std::size_t>(method)]; }
 
-void check_polygons(const Mesh& mesh, SplitMethod method) {
-    const Index most = row_of(method).max_corners;
+void check_polygons(const Mesh& mesh, const SplitSettings& settings) {
+    const Index most = row_of(settings.method).max_corners;
     if (most == 0 || mesh.all_triangles()) return;
     for (Index f = 0; f < mesh.face_count(); ++f)
         if (mesh.face_size(f) > most)
             throw Error(ErrorKind::stage, "E-POLYGON",
-                        fmt::format("split: {} takes faces of at most {} corners, face {} has {}",
-                                    to_string(method), most, f, mesh.face_size(f)),
+                        fmt::format("{}: {} takes faces of at most {} corners, face {} has {}",
+                                    settings.words.subject, to_string(settings.method), most, f,
+                                    mesh.face_size(f)),
                         most == 4 ? "use 'split: quads' first to make quads of every face"
                                   : "use triangulate first to make triangles of every face");
 }
@@ -144,8 +145,8 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
             result.stop = Stop::budget;
             break;
         }
-        refuse_giant_split(next_from, next.corners());
-        check_polygons(next_from, settings.method);
+        refuse_giant_split(next_from, next.corners(), settings.words);
+        check_polygons(next_from, settings);
         const std::size_t folded = result.folded, shared = result.shared;
         Mesh finer = split_once(next_from, settings, result);
         if (settings.min_angle > 0) {
@@ -203,16 +204,18 @@ std::optional<Refusal> check_split_targets(const SplitSettings& s) {
 
 SplitResult split(const Mesh& mesh, const SplitSettings& settings) {
     throw_refusal("split", check_split_targets(settings));
-    check_polygons(mesh, settings.method);
-    if (settings.min_angle <= 0) refuse_giant_split(mesh, split_corner_estimate(mesh, settings));
+    check_polygons(mesh, settings);
+    if (settings.min_angle <= 0)
+        refuse_giant_split(mesh, split_corner_estimate(mesh, settings), settings.words);
     if (is_smooth(settings.method) && settings.passes > 0) require_manifold(mesh, settings.method);
     if (settings.method == SplitMethod::bisect && (settings.max_edge > 0 || settings.max_faces > 0))
         return refine(mesh, settings);
     return repeated(mesh, settings);
 }
 
-SplitResult grid_split(const Mesh& mesh, int n) {
+SplitResult grid_split(const Mesh& mesh, int n, const SplitWords& words) {
     SplitSettings settings;
+    settings.words = words;
     settings.method = SplitMethod::grid;
     settings.grid = n;
     return split(mesh, settings);

@@ -5,6 +5,7 @@
 #include "mesh/lineage.hpp"
 
 #include <optional>
+#include <string>
 
 namespace facetmill {
 
@@ -32,6 +33,13 @@ bool is_smooth(SplitMethod method);
 /// The method as users write it: "catmull-clark".
 const char* to_string(SplitMethod method);
 
+/// How messages speak of a split.
+struct SplitWords {
+    std::string subject = "split"; ///< leads each of them
+    std::string fewer =
+        "use fewer passes, a coarser grid or a longer max_edge"; ///< the hint where it is too large
+};
+
 struct SplitSettings {
     enum class Cut {
         longest_edge, ///< in the middle of the longest edge
@@ -48,6 +56,7 @@ struct SplitSettings {
     std::optional<double> feature_angle = {}; ///< smooth methods, radians: edges whose faces meet at a larger
                                               ///< angle stay sharp (none: only boundaries do)
     Transform to_world = {};                  ///< part space -> world, where lengths and angles are measured
+    SplitWords words = {};
 };
 
 struct SplitResult {
@@ -126,7 +135,7 @@ std::optional<Refusal> check_split_targets(const SplitSettings& settings);
 
 /// split with SplitMethod::grid: each triangle into n * n, each quad into n x n; shared edges get the same n
 /// - 1 points. n = 1 returns the mesh.
-SplitResult grid_split(const Mesh& mesh, int n);
+SplitResult grid_split(const Mesh& mesh, int n, const SplitWords& words = {});
 
 /// What splitting is about, in world space.
 struct FacetShape {

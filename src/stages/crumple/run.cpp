@@ -14,20 +14,10 @@ namespace {
 
 using Intersections = CrumpleOptions::Intersections;
 
-/// Splits the part, in this stage's words when that cannot be.
 SplitResult split_part(const Part& part, std::int64_t grid) {
-    try {
-        return grid_split(part.mesh, static_cast<int>(grid));
-    } catch (const Error& e) {
-        auto diagnostics = e.diagnostics();
-        for (auto& d : diagnostics) {
-            if (d.message.starts_with("split: "))
-                d.message = fmt::format("crumple: part '{}', every face split {} x {}: {}", part.name, grid,
-                                        grid, d.message.substr(7));
-            if (e.kind() == ErrorKind::limit) d.hint = "use a smaller grid, or simplify first";
-        }
-        throw Error(e.kind(), std::move(diagnostics));
-    }
+    return grid_split(part.mesh, static_cast<int>(grid),
+                      {fmt::format("crumple: part '{}', every face split {} x {}", part.name, grid, grid),
+                       "use a smaller grid, or simplify first"});
 }
 
 /// Refuses before anything is split what could not be kept apart afterwards.
