@@ -203,6 +203,12 @@ TEST_CASE("simplify: options that do not go together are told at once", "[stages
     CHECK(problems("5000").find("a ratio has a point or a % (50%); for a count write faces: 5000") !=
           std::string::npos);
     CHECK(problems("{lods: []}").find("simplify: lods: at least one ratio") != std::string::npos);
+    CHECK(problems("{lods: [50%], method: constrained, max_error: 1%, lock: boundary}") ==
+          "E-CONFLICT simplify: constrained takes no max_error | use constraints: {hausdorff: 0.1%} to limit "
+          "the error\n"
+          "E-CONFLICT simplify: constrained takes no lods | use another method, or one simplify stage for "
+          "each level\n"
+          "E-CONFLICT simplify: lods has its own targets | leave out ratio, faces, vertices and max_error");
     CHECK(problems("1.5").find("E-RANGE") != std::string::npos);
 }
 

@@ -2,7 +2,6 @@
 
 #include "geometry/simplify/joint.hpp"
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "geometry/simplify/subject.hpp"
@@ -16,7 +15,6 @@ namespace {
 
 using namespace simplification;
 using Stop = SimplifyResult::Stop;
-using Method = SimplifySettings::Method;
 
 /// One of those that share, from what was given to its results.
 class Sharer {
@@ -178,16 +176,8 @@ class Sharing {
 };
 
 void check_sharing(const SimplifySettings& s) {
-    if (s.levels.empty())
-        check(s);
-    else
-        check_levels(s);
-    if (s.method == Method::cluster || s.method == Method::constrained || s.max_error ||
-        s.self_intersections != SimplifySettings::Intersections::ignore)
-        throw Error(
-            ErrorKind::usage, "E-RANGE",
-            "simplify: meshes share a target with quadric, quadric-endpoints and shortest-edge, without "
-            "max_error and self_intersections");
+    throw_refusal("simplify", check_simplify_sharing(s));
+    throw_first(s.levels.empty() ? check_simplify_settings(s) : check_simplify_levels(s));
 }
 
 } // namespace

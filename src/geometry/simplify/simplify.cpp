@@ -78,7 +78,7 @@ SimplifyResult simplify_crossing(Subject& subject, const Targets& targets, const
 } // namespace
 
 SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
-    check(settings);
+    throw_first(check_simplify_settings(settings));
     Subject subject(std::move(given), settings);
     const Targets targets(subject.faces(), settings);
     if (targets.goal.met(subject.faces(), subject.vertices())) return subject.unchanged();
@@ -89,7 +89,7 @@ SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
 }
 
 std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& settings) {
-    check_levels(settings);
+    throw_first(check_simplify_levels(settings));
     Subject subject(std::move(given), settings);
     std::optional<State> s;
     Member member{};

@@ -3,11 +3,13 @@
 // that others include.
 
 #include "base/portable_math.hpp"
+#include "base/refusal.hpp"
 #include "geometry/normals/normals.hpp"
 #include "mesh/plane.hpp"
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace facetmill {
 
@@ -185,16 +187,24 @@ struct SimplifyResult {
 /// single precision tells, costs below it are worked out in double precision; among what is left, errors of
 /// 1e-5 of the edges' lengths, the shorter edge goes first.
 ///
-/// Errors: usage (E-RANGE) when no target or one out of range is given. About O(n log n), parallel; the same
+/// Errors: usage for the first that check_simplify_settings refuses. About O(n log n), parallel; the same
 /// bytes for any number of threads. Source: M. Garland and P. Heckbert, 'Surface simplification using quadric
 /// error metrics' (1997).
 SimplifyResult simplify(Mesh mesh, const SimplifySettings& settings);
 
+/// All that simplify refuses, the first of which it throws first of all: settings that do not go together
+/// (E-CONFLICT), then no target, or settings out of range (E-RANGE).
+std::vector<Refusal> check_simplify_settings(const SimplifySettings& settings);
+
 /// One result per ratio of settings.levels, from fine to coarse: a chain in which each level is made from the
 /// one before by further collapses, so a vertex of a coarse level stands for a set of vertices of the finer
 /// one, largest_error never falls, and borders that match in one part match in all. ratio, faces, vertices
-/// and max_error must not be given. collapses are those since the mesh that came in.
+/// and max_error must not be given. collapses are those since the mesh that came in. Throws the first that
+/// check_simplify_levels refuses.
 std::vector<SimplifyResult> simplify_levels(Mesh mesh, const SimplifySettings& settings);
+
+/// As check_simplify_settings, of simplify_levels.
+std::vector<Refusal> check_simplify_levels(const SimplifySettings& settings);
 
 // Meshes whose open borders run along each other: tiles, separated components, the parts of one body.
 
@@ -242,9 +252,13 @@ struct SharingMeshes {
 /// came; when no collapse is left, those that are at or below their own part of the target have met it.
 ///
 /// Requires quadric, quadric-endpoints or shortest-edge; max_error and self_intersections other than ignore
-/// are refused (E-RANGE), see simplify_shares.
+/// are refused (check_simplify_sharing), see simplify_shares.
 std::vector<std::vector<std::vector<SimplifyResult>>> simplify_sharing(std::vector<SharingMeshes> sharing,
                                                                        const SimplifySettings& settings);
+
+/// What is refused (E-CONFLICT) of settings that meshes cannot share; simplify_sharing throws it first of
+/// all, then what simplify or simplify_levels would.
+std::optional<Refusal> check_simplify_sharing(const SimplifySettings& settings);
 
 /// What each would have after simplify_sharing without max_error and self_intersections.
 struct SimplifyShares {

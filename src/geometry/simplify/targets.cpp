@@ -1,69 +1,123 @@
 #include "geometry/simplify/targets.hpp"
 
-#include "base/error.hpp"
 #include "base/numbers.hpp"
+
+namespace facetmill {
+
+namespace {
+
+using Method = SimplifySettings::Method;
+using Topology = SimplifySettings::Topology;
+using Intersections = SimplifySettings::Intersections;
+
+/// Collects what is refused.
+struct Refusals {
+    std::vector<Refusal> all{};
+
+    void conflict(bool when, const char* option, const char* message, const char* hint) {
+        if (when) all.push_back({option, message, hint});
+    }
+    void range(bool when, const char* option, const std::string& message, const char* hint = "") {
+        if (when) all.push_back({option, message, hint, "E-RANGE"});
+    }
+};
+
+bool is_ratio(double ratio) { return ratio > 0 && ratio <= 1; }
+
+bool has_target(const SimplifySettings& s) { return s.ratio || s.faces || s.vertices || s.max_error; }
+
+bool locks(const SimplifyLocks& l) {
+    return l.boundary || l.seams || l.groups || !l.body.empty() || !l.vertices.empty();
+}
+
+/// What the method does not go with, for one target and for levels.
+void refuse_by_method(const SimplifySettings& s, Refusals& refused) {
+    const bool constrained = s.method == Method::constrained, cluster = s.method == Method::cluster;
+    refused.conflict(constrained && s.max_error, "max_error", "constrained takes no max_error",
+                     "use constraints: {hausdorff: 0.1%} to limit the error");
+    refused.conflict(constrained && s.topology == Topology::allow, "topology",
+                     "constrained keeps the topology", "use the method quadric");
+    refused.conflict(cluster && locks(s.lock), "lock", "cluster cannot lock vertices",
+                     "use the method quadric");
+    refused.conflict(cluster && s.self_intersections == Intersections::avoid, "self_intersections",
+                     "cluster cannot avoid self-intersections", "count them, or use the method quadric");
+}
+
+void refuse_by_levels(const SimplifySettings& s, Refusals& refused) {
+    refused.conflict(s.method == Method::constrained, "lods", "constrained takes no lods",
+                     "use another method, or one simplify stage for each level");
+    refused.conflict(has_target(s), "lods", "lods has its own targets",
+                     "leave out ratio, faces, vertices and max_error");
+    refused.conflict(s.self_intersections == Intersections::avoid, "lods",
+                     "lods cannot be combined with self_intersections: avoid",
+                     "use self_intersections: count, or one simplify stage for each level");
+    refused.conflict(s.method == Method::cluster, "lods",
+                     "lods needs a chain of collapses, which the method cluster does not have",
+                     "use another method, or one simplify stage for each level");
+}
+
+void refuse_limits(const SimplifySettings& s, Refusals& refused) {
+    if (s.max_quadric_error)
+        refused.range(!(*s.max_quadric_error > 0), "max_quadric_error",
+                      "max_quadric_error is above 0, not " + to_string(*s.max_quadric_error));
+    for (const double weight : {s.weights.uv, s.weights.normal, s.weights.colour, s.weights.skin})
+        refused.range(!(weight >= 0 && std::isfinite(weight)), "weights",
+                      "weights are at least 0, not " + to_string(weight));
+}
+
+} // namespace
+
+std::vector<Refusal> check_simplify_settings(const SimplifySettings& s) {
+    Refusals refused;
+    refuse_by_method(s, refused);
+    refused.conflict(!s.levels.empty(), "lods", "levels are for simplify_levels", "");
+    refused.range(!has_target(s), "ratio", "a target is needed: ratio, faces, vertices or max_error");
+    if (s.ratio)
+        refused.range(!is_ratio(*s.ratio), "ratio", "ratio is 0 < x <= 1, not " + to_string(*s.ratio));
+    if (s.max_error)
+        refused.range(!(*s.max_error > 0), "max_error",
+                      "max_error is above 0, not " + to_string(*s.max_error));
+    refuse_limits(s, refused);
+    return refused.all;
+}
+
+std::vector<Refusal> check_simplify_levels(const SimplifySettings& s) {
+    Refusals refused;
+    refuse_by_method(s, refused);
+    refuse_by_levels(s, refused);
+    refused.range(s.levels.empty(), "lods", "lods: at least one ratio", "for example [100%, 50%, 10%]");
+    for (std::size_t i = 0; i < s.levels.size(); ++i) {
+        refused.range(!is_ratio(s.levels[i]), "lods", "lods: each ratio is 0 < x <= 1", "for example 50%");
+        refused.range(i > 0 && s.levels[i] > s.levels[i - 1], "lods", "lods: ratios go from fine to coarse",
+                      "for example [100%, 50%, 10%]");
+    }
+    refuse_limits(s, refused);
+    return refused.all;
+}
+
+std::optional<Refusal> check_simplify_sharing(const SimplifySettings& s) {
+    if (s.method == Method::cluster || s.method == Method::constrained)
+        return Refusal{"share", "cluster and constrained have no cost that parts could share by",
+                       "share: equal, or the method quadric"};
+    const char* const hint = "simplify_shares tells how many triangles each is to have";
+    if (s.max_error) return Refusal{"max_error", "meshes that share a target take no max_error", hint};
+    if (s.self_intersections != Intersections::ignore)
+        return Refusal{"self_intersections", "meshes that share a target take no self_intersections", hint};
+    return {};
+}
+
+} // namespace facetmill
 
 namespace facetmill::simplification {
 
 namespace {
 
 using Stop = SimplifyResult::Stop;
-using Method = SimplifySettings::Method;
-
-[[noreturn]] void refuse(const std::string& what) {
-    throw Error(ErrorKind::usage, "E-RANGE", "simplify: " + what);
-}
-
-void check_ratio(double ratio) {
-    if (!(ratio > 0 && ratio <= 1)) refuse("ratio is 0 < x <= 1, not " + to_string(ratio));
-}
-
-void check_weights(const AttributeWeights& w) {
-    for (const double weight : {w.uv, w.normal, w.colour, w.skin})
-        if (!(weight >= 0 && std::isfinite(weight)))
-            refuse("weights are at least 0, not " + to_string(weight));
-}
-
-void check_max_quadric_error(const SimplifySettings& s) {
-    if (s.max_quadric_error && !(*s.max_quadric_error > 0))
-        refuse("max_quadric_error is above 0, not " + to_string(*s.max_quadric_error));
-}
-
-void check_cluster(const SimplifySettings& s) {
-    if (s.lock.boundary || s.lock.seams || s.lock.groups || !s.lock.body.empty() || !s.lock.vertices.empty())
-        refuse("cluster cannot lock vertices");
-    if (s.self_intersections == SimplifySettings::Intersections::avoid)
-        refuse("cluster cannot avoid self-intersections");
-}
 
 } // namespace
 
-void check(const SimplifySettings& s) {
-    if (!s.levels.empty()) refuse("levels are for simplify_levels");
-    if (!s.ratio && !s.faces && !s.vertices && !s.max_error)
-        refuse("a target is needed: ratio, faces, vertices or max_error");
-    if (s.ratio) check_ratio(*s.ratio);
-    if (s.max_error && s.method == Method::constrained)
-        refuse("constrained has a bound of its own: hausdorff");
-    if (s.max_error && !(*s.max_error > 0)) refuse("max_error is above 0, not " + to_string(*s.max_error));
-    if (s.topology == SimplifySettings::Topology::allow && s.method == Method::constrained)
-        refuse("constrained keeps the topology");
-    if (s.method == Method::cluster) check_cluster(s);
-    check_max_quadric_error(s);
-    check_weights(s.weights);
-}
-
-void check_levels(const SimplifySettings& s) {
-    if (s.method == Method::constrained || s.method == Method::cluster)
-        refuse("levels are not for constrained and cluster");
-    if (s.self_intersections == SimplifySettings::Intersections::avoid)
-        refuse("levels cannot avoid self-intersections");
-    if (s.levels.empty()) refuse("levels need ratios");
-    if (s.ratio || s.faces || s.vertices || s.max_error) refuse("levels are targets of their own");
-    for (const double ratio : s.levels) check_ratio(ratio);
-    if (!std::is_sorted(s.levels.rbegin(), s.levels.rend())) refuse("levels go from fine to coarse");
-    check_max_quadric_error(s);
-    check_weights(s.weights);
+void throw_first(const std::vector<Refusal>& refusals) {
+    if (!refusals.empty()) throw_refusal("simplify", refusals.front());
 }
 
 std::size_t share_of(std::size_t faces, double ratio) {

@@ -1,14 +1,13 @@
 #pragma once
-// What is asked of the work: checked, and as goals.
+// What is asked of the work, as goals.
 
 #include "geometry/simplify/features.hpp"
 #include "geometry/simplify/methods.hpp"
 
 namespace facetmill::simplification {
 
-/// Throws usage (E-RANGE) for settings that simplify, or simplify_levels, cannot follow.
-void check(const SimplifySettings& settings);
-void check_levels(const SimplifySettings& settings);
+/// Throws usage for the first of them, if there is one.
+void throw_first(const std::vector<Refusal>& refusals);
 
 /// The face count that the ratio asks for: rounded up, so that 10% of 15 faces is 2.
 std::size_t share_of(std::size_t faces, double ratio);

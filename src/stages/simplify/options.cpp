@@ -181,6 +181,13 @@ void declare_settings(Declare<SimplifySettings>& d) {
         "What is done about faces that would intersect.");
 }
 
+std::vector<double> levels_of(const SimplifyOptions& o) {
+    std::vector<double> levels;
+    if (o.lods)
+        for (const Ratio& ratio : o.lods->ratios) levels.push_back(ratio.value);
+    return levels;
+}
+
 /// Collects conflicts: options that only another method, or none of those given, uses.
 class Conflicts {
   public:
@@ -197,25 +204,19 @@ class Conflicts {
     Problems& problems_;
 };
 
-void verify_levels(const SimplifyOptions& o, Conflicts& conflicts, const Mark& mark, Problems& problems) {
-    conflicts.refuse(o.ratio || o.faces || o.vertices || o.max_error, "lods", "lods has its own targets",
-                     "leave out ratio, faces, vertices and max_error");
-    conflicts.refuse(o.settings.self_intersections == Intersections::avoid, "lods",
-                     "lods cannot be combined with self_intersections: avoid",
-                     "use self_intersections: count, or one simplify stage for each level");
-    conflicts.refuse(o.settings.method == Method::cluster, "lods",
-                     "lods needs a chain of collapses, which the method cluster does not have",
-                     "use another method, or one simplify stage for each level");
-    if (o.lods->ratios.empty())
-        problems.add(mark, "E-RANGE", "simplify: lods: at least one ratio", "for example [100%, 50%, 10%]");
-    for (std::size_t i = 0; i < o.lods->ratios.size(); ++i) {
-        const double ratio = o.lods->ratios[i].value;
-        if (!(ratio > 0 && ratio <= 1))
-            problems.add(mark, "E-RANGE", "simplify: lods: each ratio is 0 < x <= 1", "for example 50%");
-        if (i > 0 && ratio > o.lods->ratios[i - 1].value)
-            problems.add(mark, "E-RANGE", "simplify: lods: ratios go from fine to coarse",
-                         "for example [100%, 50%, 10%]");
-    }
+/// Tells all that the algorithm refuses.
+void refuse_settings(const SimplifyOptions& o, const Value& given, Problems& problems) {
+    SimplifySettings s = o.settings;
+    // Whether there is a box and a max_error, not which: they are known in the scene only.
+    s.lock = {.boundary = o.lock.boundary, .seams = o.lock.seams, .groups = o.lock.group};
+    if (o.lock.box) s.lock.body.resize(1);
+    if (o.max_error) s.max_error = 1;
+    if (o.ratio) s.ratio = o.ratio->value;
+    s.faces = o.faces;
+    s.vertices = o.vertices;
+    s.levels = levels_of(o);
+    for (const Refusal& refusal : o.lods ? check_simplify_levels(s) : check_simplify_settings(s))
+        add_refusal(refusal, "simplify", given, problems);
 }
 
 } // namespace
@@ -258,19 +259,8 @@ void declare_simplify(Declare<SimplifyOptions>& d) {
 
 void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& problems) {
     Conflicts conflicts(given, problems);
-    const bool constrained = o.settings.method == Method::constrained,
-               cluster = o.settings.method == Method::cluster;
-    const bool locks = o.lock.boundary || o.lock.seams || o.lock.group || o.lock.box;
-    conflicts.refuse(constrained && o.max_error, "max_error", "constrained takes no max_error",
-                     "use constraints: {hausdorff: 0.1%} to limit the error");
-    conflicts.refuse(constrained && o.lods, "lods", "constrained takes no lods",
-                     "use another method, or one simplify stage for each level");
-    conflicts.refuse(constrained && o.settings.topology == Topology::allow, "topology",
-                     "constrained keeps the topology", "use the method quadric");
-    conflicts.refuse(cluster && locks, "lock", "cluster cannot lock vertices", "use the method quadric");
-    conflicts.refuse(cluster && o.settings.self_intersections == Intersections::avoid, "self_intersections",
-                     "cluster cannot avoid self-intersections", "count them, or use the method quadric");
-    conflicts.refuse(!constrained && conflicts.has("constraints"), "constraints",
+    refuse_settings(o, given, problems);
+    conflicts.refuse(o.settings.method != Method::constrained && conflicts.has("constraints"), "constraints",
                      "constraints go with the method constrained only", "method: constrained");
     conflicts.refuse(!has_quadrics(o) && conflicts.has("weights"), "weights",
                      "weights go with the methods quadric and quadric-endpoints only",
@@ -282,12 +272,9 @@ void verify_simplify(const SimplifyOptions& o, const Value& given, Problems& pro
     conflicts.refuse(o.max_error && limited, "max_quadric_error",
                      "max_error limits the deviation already, in place of max_quadric_error",
                      "leave out one of the two");
-    conflicts.refuse((constrained || cluster) && conflicts.has("share") &&
-                         o.share == SimplifyOptions::Share::error,
-                     "share", "cluster and constrained have no cost that parts could share by",
-                     "share: equal, or the method quadric");
+    if (conflicts.has("share") && o.share == SimplifyOptions::Share::error)
+        add_refusal(check_simplify_sharing({.method = o.settings.method}), "simplify", given, problems);
     if (o.lock.box) verify_box(*o.lock.box, conflicts.mark("lock"), problems);
-    if (o.lods) verify_levels(o, conflicts, conflicts.mark("lods"), problems);
 }
 
 SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to_world,
@@ -306,8 +293,7 @@ SimplifySettings simplify_settings(const SimplifyOptions& o, const Transform& to
                      .aspect_ratio = o.constraints.aspect_ratio.value_or(0),
                      .roundness = o.constraints.roundness.value_or(0),
                      .hausdorff = share.hausdorff.value_or(0)};
-    if (o.lods)
-        for (const Ratio& ratio : o.lods->ratios) s.levels.push_back(ratio.value);
+    s.levels = levels_of(o);
     return s;
 }
 

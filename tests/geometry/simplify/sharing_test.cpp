@@ -100,7 +100,7 @@ TEST_CASE("what meshes cannot share is refused", "[geometry]") {
                                       SimplifySettings{.ratio = 0.5, .max_error = 1}}) {
         CHECK(test::failure([&] {
                   simplify_sharing(both(sharing(shapes::cube()), sharing(shapes::cube())), settings);
-              }).find("E-RANGE") != std::string::npos);
+              }).find("E-CONFLICT") != std::string::npos);
     }
 }
 

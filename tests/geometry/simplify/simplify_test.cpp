@@ -440,7 +440,8 @@ TEST_CASE("levels of detail are one chain", "[geometry]") {
     CHECK(simplify_levels(shapes::cube(), at_levels({0.5, 0.25}))[1].stop == Stop::stuck);
     CHECK(test::failure([] {
               simplify_levels(shapes::cube(), at_levels({0.25, 0.5}));
-          }) == "usage [E-RANGE] simplify: levels go from fine to coarse");
+          }) ==
+          "usage [E-RANGE] simplify: lods: ratios go from fine to coarse | for example [100%, 50%, 10%]");
 }
 
 TEST_CASE("simplification refuses to guess a target", "[geometry]") {

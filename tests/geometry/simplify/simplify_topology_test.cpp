@@ -187,11 +187,12 @@ TEST_CASE("cluster and levels refuse what they cannot do", "[geometry]") {
     CHECK(refusal({.method = Method::cluster, .lock = {.boundary = true}, .faces = 5})
               .find("cannot lock vertices") != std::string::npos);
     CHECK(refusal({.method = Method::constrained, .topology = Topology::allow, .faces = 5}) ==
-          "usage [E-RANGE] simplify: constrained keeps the topology");
+          "usage [E-CONFLICT] simplify: constrained keeps the topology | use the method quadric");
     CHECK(refusal({.weights = {.uv = -1}, .faces = 5}).find("weights are at least 0") != std::string::npos);
     SimplifySettings levels;
     levels.method = Method::cluster;
     levels.levels = {0.5};
     CHECK(test::failure([&] { simplify_levels(shapes::cube(), levels); }) ==
-          "usage [E-RANGE] simplify: levels are not for constrained and cluster");
+          "usage [E-CONFLICT] simplify: lods needs a chain of collapses, which the method cluster does not "
+          "have | use another method, or one simplify stage for each level");
 }
