@@ -33,7 +33,8 @@ std::optional<std::filesystem::path> cache_folder(const CacheOptions& options) {
 std::unique_ptr<cache::Store> store_for(const CacheOptions& options, const std::vector<std::string>& allowed,
                                         const Console& console, bool tells_all) {
     if (options.on && options.off)
-        throw Error(ErrorKind::usage, "E-ARGUMENT", "--cache and --no-cache exclude each other");
+        throw Error(ErrorKind::usage, "E-CONFLICT", "--cache and --no-cache exclude each other",
+                    "leave one of them out");
     const bool asked = is_asked_for(options);
     if (is_left_out(options)) return nullptr;
     const auto folder = cache::folder();

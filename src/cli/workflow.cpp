@@ -145,9 +145,9 @@ void check_names(const std::vector<Job>& jobs, const char* engine, std::string_v
     }
 }
 
-std::string joined(const std::vector<std::string>& paths, std::string (*spelled)(const std::string&)) {
+std::string joined(const std::vector<std::string>& paths, std::string (*quote)(const std::string&)) {
     std::string text;
-    for (const auto& path : paths) text += " " + spelled(path);
+    for (const auto& path : paths) text += " " + quote(path);
     return text;
 }
 

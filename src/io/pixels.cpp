@@ -18,7 +18,7 @@ namespace facetmill::io {
 namespace {
 
 bool too_large(std::size_t width, std::size_t height) {
-    return width == 0 || height == 0 || width > most_pixels / height;
+    return width == 0 || height == 0 || width > max_pixels / height;
 }
 
 /// A PNG on its way. libpng's simplified interface is not used: it applies gAMA, and takes 16 bits as linear.

@@ -23,9 +23,9 @@ struct Pixels {
 };
 
 /// The pixels of the largest image that is decoded.
-constexpr std::size_t most_pixels = std::size_t{1} << 26;
+constexpr std::size_t max_pixels = std::size_t{1} << 26;
 
-/// A PNG, JPEG or WebP of at most most_pixels; none for others and for what is broken. Grey becomes three
+/// A PNG, JPEG or WebP of at most max_pixels; none for others and for what is broken. Grey becomes three
 /// equal channels, what has no alpha is opaque, 16 bits are rounded to 8. Colours are the file's own numbers:
 /// gAMA, iCCP and such are not applied, as glTF says. A JPEG of more than 500 scans is none, either: each
 /// costs as much as a whole image, however few bytes it has.

@@ -128,16 +128,16 @@ Mesh icosphere(int levels) {
     return mesh;
 }
 
-Mesh torus(int around, int across, double major, double minor) {
+Mesh torus(int segments, int rings, double major, double minor) {
     Mesh mesh;
-    for (int i = 0; i < around; ++i)
-        for (int j = 0; j < across; ++j) {
-            const double a = 2 * pi * i / around, b = 2 * pi * j / across, r = major + minor * cosine(b);
+    for (int i = 0; i < segments; ++i)
+        for (int j = 0; j < rings; ++j) {
+            const double a = 2 * pi * i / segments, b = 2 * pi * j / rings, r = major + minor * cosine(b);
             mesh.positions.push_back({r * cosine(a), r * sine(a), minor * sine(b)});
         }
-    const auto at = [&](int i, int j) { return static_cast<Index>(i % around * across + j % across); };
-    for (int i = 0; i < around; ++i)
-        for (int j = 0; j < across; ++j)
+    const auto at = [&](int i, int j) { return static_cast<Index>(i % segments * rings + j % rings); };
+    for (int i = 0; i < segments; ++i)
+        for (int j = 0; j < rings; ++j)
             add_quad_as_triangles(mesh, at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
     return mesh;
 }
@@ -153,13 +153,13 @@ Mesh grid(int columns, int rows) {
     return mesh;
 }
 
-Mesh open_cone(int around) {
+Mesh open_cone(int segments) {
     Mesh mesh;
     mesh.positions.push_back({0, 0, 1});
-    for (int i = 0; i < around; ++i)
-        mesh.positions.push_back({cosine(2 * pi * i / around), sine(2 * pi * i / around), 0});
-    for (int i = 0; i < around; ++i)
-        add_triangle(mesh, 0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % around));
+    for (int i = 0; i < segments; ++i)
+        mesh.positions.push_back({cosine(2 * pi * i / segments), sine(2 * pi * i / segments), 0});
+    for (int i = 0; i < segments; ++i)
+        add_triangle(mesh, 0, static_cast<Index>(1 + i), static_cast<Index>(1 + (i + 1) % segments));
     return mesh;
 }
 
@@ -177,16 +177,16 @@ Mesh hourglass() {
                 {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}, {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}});
 }
 
-Mesh moebius(int around) {
+Mesh moebius(int segments) {
     Mesh mesh;
-    for (int i = 0; i < around; ++i) {
-        const double a = 2 * pi * i / around;
+    for (int i = 0; i < segments; ++i) {
+        const double a = 2 * pi * i / segments;
         for (const double side : {-0.3, 0.3}) {
             const double r = 1 + side * cosine(a / 2);
             mesh.positions.push_back({r * cosine(a), r * sine(a), side * sine(a / 2)});
         }
     }
-    const auto n = static_cast<Index>(around);
+    const auto n = static_cast<Index>(segments);
     for (Index i = 0; i < n; ++i) { // after one turn the sides are exchanged
         const Index a = 2 * i, b = a + 1, c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? a + 3 : 0;
         const Index quad[] = {a, c, d, b};

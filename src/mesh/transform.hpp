@@ -12,6 +12,13 @@ namespace facetmill {
 /// The inverse of an affine map; none when it is singular.
 std::optional<Transform> inverse(const Transform& t);
 
+/// The vector turned about a unit axis, in radians, anticlockwise seen against the axis. After O. Rodrigues,
+/// "Des lois geometriques qui regissent les deplacements d'un systeme solide dans l'espace" (1840).
+inline Vec3 rotated(const Vec3& v, const Vec3& axis, double angle) {
+    const double c = cosine(angle), s = sine(angle);
+    return v * c + cross(axis, v) * s + axis * (dot(axis, v) * (1 - c));
+}
+
 /// The cube root of how much volumes grow: what lengths grow by under a rotation and a uniform scale, and by
 /// their geometric mean under others. 1 for a transform that flattens.
 inline double mean_stretch(const Transform& t) {

@@ -34,9 +34,9 @@ void rebase_given(const Value& document, const Value& item, const fs::path& pref
     for (auto& entry : given.entries) {
         const Value* param = params->find(entry.key);
         const Value* type = param && param->is_map() ? param->find("type") : param;
-        const Value* spelled = item.find("with")->find(entry.key);
+        const Value* given = item.find("with")->find(entry.key);
         const Value* of = type && type->text == "list" ? param->find("of") : type;
-        if (of && of->text == "path" && spelled && !spelled->text.starts_with("${"))
+        if (of && of->text == "path" && given && !given->text.starts_with("${"))
             rebase(entry.value, prefix, RunTimePaths::kept);
     }
 }

@@ -248,14 +248,14 @@ class Runner {
         constexpr std::size_t max_bytes = 5 << 19; // of a page of 3 MB
         if (picture_bytes_ > max_bytes) return;
         failures_.guarded({}, "a picture", [&] {
-            const std::vector<Vec3> places = failing_locations_of(stage);
+            const std::vector<Vec3> locations = failing_locations_of(stage);
             PictureSettings settings;
             settings.camera = camera_for(scene);
             std::string picture =
-                places.empty() ? picture_for_page(scene, settings) : picture_of_failures(scene, places);
+                locations.empty() ? picture_for_page(scene, settings) : picture_of_failures(scene, locations);
             if (picture == last_picture_) return;
             picture_bytes_ += picture.size();
-            stage.camera = places.empty() ? cameras_ : 0;
+            stage.camera = locations.empty() ? cameras_ : 0;
             last_picture_ = stage.picture = std::move(picture);
         });
     }
@@ -278,22 +278,22 @@ class Runner {
 
     /// What the stage's checks have just found.
     std::vector<Vec3> failing_locations_of(const report::StageRecord& stage) {
-        std::vector<Vec3> places;
+        std::vector<Vec3> locations;
         for (const auto& check : record().checks) {
             if (check.stage != stage.name) continue;
             const std::vector<Vec3> more = report::failing_locations(check);
-            places.insert(places.end(), more.begin(), more.end());
+            locations.insert(locations.end(), more.begin(), more.end());
         }
-        return places;
+        return locations;
     }
 
     /// The whole scene with a ring around each place, and the first of them magnified, with its faces' edges.
-    std::string picture_of_failures(const Scene& scene, const std::vector<Vec3>& places) {
+    std::string picture_of_failures(const Scene& scene, const std::vector<Vec3>& locations) {
         PictureSettings whole, close;
         whole.paint = close.paint = Paint::plain;
-        whole.marks = places;
-        close.marks = {places.front()};
-        close.at = places.front();
+        whole.marks = locations;
+        close.marks = {locations.front()};
+        close.at = locations.front();
         close.zoom = 10;
         close.edges = EdgeLines::all;
         return io::base64(io::png(sheet_of({picture_of(scene, whole), picture_of(scene, close)}, 2)));

@@ -99,11 +99,11 @@ std::string locations_text(const Check& check) {
 }
 
 std::vector<Vec3> failing_locations(const Check& check) {
-    std::vector<Vec3> places;
-    if (check.passed || !check.evidence) return places;
+    std::vector<Vec3> locations;
+    if (check.passed || !check.evidence) return locations;
     for (const EvidenceEntry& entry : *check.evidence)
-        if (entry.at) places.push_back(*entry.at);
-    return places;
+        if (entry.at) locations.push_back(*entry.at);
+    return locations;
 }
 
 } // namespace facetmill::report

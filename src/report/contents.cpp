@@ -1,13 +1,14 @@
 #include "report/contents.hpp"
 
-#include "base/point_json.hpp"
-
 #include <algorithm>
 #include <limits>
 
 namespace facetmill::report {
 
 namespace {
+
+/// [x, y, z]
+Json point_json(const Vec3& p) { return Json::array({p.x, p.y, p.z}); }
 
 void declare_box_corners(DeclareFields<Box>& d) {
     d.field("min", &Box::min, "The corner with the smallest coordinates.");

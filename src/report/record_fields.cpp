@@ -1,6 +1,7 @@
 #include "report/record_fields.hpp"
 
 #include "report/contents.hpp"
+#include "report/render.hpp"
 #include "report/schema_forms.hpp"
 
 #include <fmt/format.h>
@@ -227,6 +228,10 @@ const Fields& timings_fields() {
     static const Fields fields = fields_of<RunRecord>(declare_timings);
     return fields;
 }
+
+Json timings_json(const RunRecord& record) { return timings_fields().json(&record); }
+
+Json to_json(const RunRecord& record) { return run_fields().json(&record); }
 
 } // namespace report
 

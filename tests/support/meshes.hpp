@@ -55,8 +55,8 @@ inline Mesh noisy_icosphere(int levels, double amount, std::uint64_t seed) {
 }
 
 /// Closed, genus 1; for amounts that are small beside its cells without self-intersections.
-inline Mesh noisy_torus(int around, int across, double amount, std::uint64_t seed) {
-    return test::with_noise(shapes::torus(around, across), amount, seed);
+inline Mesh noisy_torus(int segments, int rings, double amount, std::uint64_t seed) {
+    return test::with_noise(shapes::torus(segments, rings), amount, seed);
 }
 
 /// The same surface with wedges: TEXCOORD_0 with seams (each of `charts` slabs along x is a chart of its own,

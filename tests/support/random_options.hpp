@@ -203,14 +203,14 @@ inline std::optional<Value> random_options(Draw& draw, const StageInfo& stage) {
 }
 
 /// As a pipeline would write it.
-inline std::string spelled(const Value& value) {
+inline std::string text_of(const Value& value) {
     std::string text;
     if (value.is_scalar())
         return value.text.find_first_of(",:[]{}!*'% ") == std::string::npos ? value.text
                                                                             : "'" + value.text + "'";
-    for (const auto& item : value.items) text += (text.empty() ? "" : ", ") + spelled(item);
+    for (const auto& item : value.items) text += (text.empty() ? "" : ", ") + text_of(item);
     if (value.is_list()) return "[" + text + "]";
-    for (const auto& e : value.entries) text += (text.empty() ? "" : ", ") + e.key + ": " + spelled(e.value);
+    for (const auto& e : value.entries) text += (text.empty() ? "" : ", ") + e.key + ": " + text_of(e.value);
     return value.is_map() ? "{" + text + "}" : "";
 }
 

@@ -31,7 +31,7 @@ struct Chain {
     std::string described() const {
         std::string text;
         for (const auto& link : links)
-            text += (text.empty() ? "" : " ! ") + link.stage->name + ": " + spelled(link.value);
+            text += (text.empty() ? "" : " ! ") + link.stage->name + ": " + text_of(link.value);
         return text;
     }
 };
@@ -100,7 +100,7 @@ inline bool keeps_edge_manifold(const Link& link) {
 inline bool keeps_closed(const Link& link) {
     static const std::set<std::string> names{"crumple",  "orient",    "relax",       "simplify", "split",
                                              "textures", "transform", "triangulate", "two-sided"};
-    const std::string options = spelled(link.value);
+    const std::string options = text_of(link.value);
     const auto has = [&](const char* word) { return options.find(word) != std::string::npos; };
     if (link.stage->name == "simplify" && (has("allow") || has("cluster") || has("constrained")))
         return false;

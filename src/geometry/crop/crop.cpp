@@ -99,9 +99,7 @@ class Cropper {
     bool stays(Index f, std::vector<Vec2>& face) const {
         if (settings_.by == CropBy::centre) {
             view_.gather(mesh_, f, face);
-            Vec2 sum;
-            for (const Vec2& p : face) sum = sum + (p - face[0]);
-            const Place place = view_.place(face[0] + sum * (1 / static_cast<double>(face.size())));
+            const Place place = view_.place(mean_of_corners(face));
             return view_.kept(place == Place::outside ? place : Place::inside);
         }
         bool any = false, all = true; // corners on the outline are on either side

@@ -53,9 +53,7 @@ Place CropView::middle(const Mesh& mesh, Index f) const {
         }
         if (most >= 0) return settle(inside_(sum * (1.0 / 3)), mesh, f);
     }
-    sum = {};
-    for (const Vec2& p : face) sum = sum + (p - face[0]);
-    const Vec2 mean = face[0] + sum * (1 / static_cast<double>(face.size()));
+    const Vec2 mean = mean_of_corners(face);
     return settle(is_on_outline(mesh, f, mean, face) ? Place::on_edge : inside_(mean), mesh, f);
 }
 

@@ -19,6 +19,13 @@ class Inside {
     std::vector<Vec3> flat_;
 };
 
+/// Of the corners of a face.
+inline Vec2 mean_of_corners(const std::vector<Vec2>& face) {
+    Vec2 sum;
+    for (const Vec2& p : face) sum = sum + (p - face[0]);
+    return face[0] + sum * (1 / static_cast<double>(face.size()));
+}
+
 class CropView {
   public:
     CropView(const Footprint& footprint, const CropSettings& settings)

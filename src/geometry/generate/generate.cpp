@@ -216,41 +216,41 @@ Mesh torus(const GenerateSettings& s) {
     for (const auto& tube : circle(s.rings))
         add_ring(mesh, directions, s.radius + s.minor_radius * tube.cosine, s.minor_radius * tube.sine);
     const Rows rows{static_cast<Index>(s.segments)};
-    const auto across = static_cast<Index>(s.rings);
-    for (Index r = 0; r < across; ++r) add_band(mesh, rows, r, (r + 1) % across);
+    const auto rings = static_cast<Index>(s.rings);
+    for (Index r = 0; r < rings; ++r) add_band(mesh, rows, r, (r + 1) % rings);
     return mesh;
 }
 
 Mesh cylinder(const GenerateSettings& s) {
     Mesh mesh;
     const auto directions = circle(s.segments);
-    const auto across = static_cast<Index>(s.rings);
-    for (Index r = 0; r <= across; ++r)
-        add_ring(mesh, directions, s.radius, s.height * (static_cast<double>(r) / across - 0.5));
+    const auto rings = static_cast<Index>(s.rings);
+    for (Index r = 0; r <= rings; ++r)
+        add_ring(mesh, directions, s.radius, s.height * (static_cast<double>(r) / rings - 0.5));
     const Rows rows{static_cast<Index>(s.segments)};
-    for (Index r = 0; r < across; ++r) add_band(mesh, rows, r, r + 1);
+    for (Index r = 0; r < rings; ++r) add_band(mesh, rows, r, r + 1);
     if (!s.caps) return mesh;
     const auto centre = static_cast<Index>(mesh.positions.size());
     mesh.positions.push_back({0, 0, -s.height / 2});
     mesh.positions.push_back({0, 0, s.height / 2});
     add_fan(mesh, rows, 0, centre, false);
-    add_fan(mesh, rows, across, centre + 1, true);
+    add_fan(mesh, rows, rings, centre + 1, true);
     return mesh;
 }
 
 Mesh cone(const GenerateSettings& s) {
     Mesh mesh;
     const auto directions = circle(s.segments);
-    const auto across = static_cast<Index>(s.rings);
-    for (Index r = 0; r < across; ++r) {
-        const double t = static_cast<double>(r) / across;
+    const auto rings = static_cast<Index>(s.rings);
+    for (Index r = 0; r < rings; ++r) {
+        const double t = static_cast<double>(r) / rings;
         add_ring(mesh, directions, s.radius * (1 - t), s.height * (t - 0.5));
     }
     mesh.positions.push_back({0, 0, s.height / 2});
     const Rows rows{static_cast<Index>(s.segments)};
     const auto apex = static_cast<Index>(mesh.positions.size() - 1);
-    for (Index r = 0; r + 1 < across; ++r) add_band(mesh, rows, r, r + 1);
-    add_fan(mesh, rows, across - 1, apex, true);
+    for (Index r = 0; r + 1 < rings; ++r) add_band(mesh, rows, r, r + 1);
+    add_fan(mesh, rows, rings - 1, apex, true);
     if (!s.caps) return mesh;
     mesh.positions.push_back({0, 0, -s.height / 2});
     add_fan(mesh, rows, 0, apex + 1, false);
@@ -308,7 +308,7 @@ Mesh shaped(const GenerateSettings& s) {
 } // namespace
 
 double generate_face_estimate(const GenerateSettings& s) {
-    const double around = static_cast<double>(s.segments), across = static_cast<double>(s.rings),
+    const double segments = static_cast<double>(s.segments), rings = static_cast<double>(s.rings),
                  cells = static_cast<double>(s.cells);
     const auto power = [&](double base) {
         double x = 1;
@@ -317,17 +317,17 @@ double generate_face_estimate(const GenerateSettings& s) {
     };
     switch (s.shape) {
     case Shape::sphere:
-        return 2 * around * (across - 1);
+        return 2 * segments * (rings - 1);
     case Shape::icosphere:
         return 20 * power(4);
     case Shape::cube:
         return 12 * cells * cells;
     case Shape::torus:
-        return 2 * around * across;
+        return 2 * segments * rings;
     case Shape::cylinder:
-        return 2 * around * (across + s.caps);
+        return 2 * segments * (rings + s.caps);
     case Shape::cone:
-        return around * (2 * across - 1 + s.caps);
+        return segments * (2 * rings - 1 + s.caps);
     case Shape::grid:
     case Shape::gaussian:
         return 2 * cells * cells;
@@ -366,26 +366,26 @@ void check_generate_settings(const GenerateSettings& s) {
 }
 
 SphereBands sphere_bands(std::int64_t faces) {
-    const std::int64_t half = std::max<std::int64_t>(faces, 6) / 2; // around * (across - 1)
+    const std::int64_t half = std::max<std::int64_t>(faces, 6) / 2; // segments * (rings - 1)
     SphereBands best;
     std::int64_t best_miss = 0, best_count = 0;
     double best_skew = 0;
-    const auto consider = [&](std::int64_t around, std::int64_t across) {
-        if (across < 2 || around < across || around > 4 * across) return;
-        const std::int64_t count = 2 * around * (across - 1), miss = std::abs(count - faces);
-        const double ratio = static_cast<double>(around) / (2 * static_cast<double>(across)),
+    const auto consider = [&](std::int64_t segments, std::int64_t rings) {
+        if (rings < 2 || segments < rings || segments > 4 * rings) return;
+        const std::int64_t count = 2 * segments * (rings - 1), miss = std::abs(count - faces);
+        const double ratio = static_cast<double>(segments) / (2 * static_cast<double>(rings)),
                      skew = std::max(ratio, 1 / ratio);
         const auto rank = std::tuple(miss, count, skew);
         if (best.segments > 0 && !(rank < std::tuple(best_miss, best_count, best_skew))) return;
-        best = {around, across};
+        best = {segments, rings};
         best_miss = miss;
         best_count = count;
         best_skew = skew;
     };
-    // Wider than 4 across it cannot be, and across - 1 is half / around or the next.
-    for (std::int64_t around = 3; around <= 12 || around * around <= 16 * half; ++around)
-        for (std::int64_t across = half / around + 1; across <= half / around + 2; ++across)
-            consider(around, across);
+    // Wider than 4 rings it cannot be, and rings - 1 is half / segments or the next.
+    for (std::int64_t segments = 3; segments <= 12 || segments * segments <= 16 * half; ++segments)
+        for (std::int64_t rings = half / segments + 1; rings <= half / segments + 2; ++rings)
+            consider(segments, rings);
     return best;
 }
 

@@ -3,6 +3,7 @@
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
 #include "geometry/render/canvas.hpp"
+#include "mesh/transform.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -118,11 +119,7 @@ View axes_of_view(const UpAndFront& axes, const PictureSettings& settings) {
     const Vec3& up = axes.up;
     View view;
     view.towards = normalised(settings.from.value_or(direction_of(settings.viewpoint, axes)));
-    if (settings.turn != 0) { // Rodrigues' rotation around up
-        const double c = cosine(settings.turn), s = sine(settings.turn);
-        const Vec3 t = view.towards;
-        view.towards = t * c + cross(up, t) * s + up * (dot(up, t) * (1 - c));
-    }
+    if (settings.turn != 0) view.towards = rotated(view.towards, up, settings.turn);
     Vec3 right = cross(up, view.towards);
     // From straight above or below, the front is at the bottom or the top of the picture.
     if (length(right) < 1e-9)

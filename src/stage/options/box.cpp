@@ -3,7 +3,7 @@
 #include "stage/options/numbers.hpp"
 
 #include "base/numbers.hpp"
-#include "base/portable_math.hpp"
+#include "mesh/transform.hpp"
 
 #include <fmt/format.h>
 
@@ -66,13 +66,12 @@ std::vector<Plane> planes_of(const BoxOption& box) {
     const Vec3 middle = box.min ? *box.min + half : *box.centre;
     const Vec3 low = box.min ? *box.min : middle - half, high = box.min ? *box.max : middle + half;
     std::vector<Plane> planes;
-    const double c = cosine(box.angle.radians), s = sine(box.angle.radians);
     const Vec3 k = normalised(box.axis);
     for (std::size_t i = 0; i < 3; ++i) {
         Vec3 axis;
         axis[i] = 1;
-        if (box.angle.radians != 0) { // Rodrigues
-            axis = axis * c + cross(k, axis) * s + k * (dot(k, axis) * (1 - c));
+        if (box.angle.radians != 0) {
+            axis = rotated(axis, k, box.angle.radians);
             planes.push_back({axis, middle - axis * half[i], 0});
             planes.push_back({-axis, middle + axis * half[i], 0});
         } else {

@@ -1,6 +1,7 @@
 #include "stages/simplify/report.hpp"
 
 #include "base/readable_numbers.hpp"
+#include "base/words.hpp"
 #include "geometry/deviation/deviation_fields.hpp"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ std::string held_by(const SimplifyResult& r) {
     if (r.cell) return "with larger cells no face would remain";
     std::string text;
     for (const auto& [edges, what, hint] : reasons(r.blocked))
-        if (edges > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(edges), what);
+        if (edges > 0) append_item(text, fmt::format("{} {}", grouped(edges), what));
     return text.empty() ? "no collapse was left within the constraints" : "of the edges left, " + text;
 }
 

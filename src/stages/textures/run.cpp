@@ -74,13 +74,13 @@ std::vector<Job> jobs_of(const std::vector<std::vector<io::DocumentImage>>& imag
 
 /// Several images at once, but not more pixels than one image may have, which bounds the memory.
 void work(std::vector<Job>& jobs, const TexturesOptions& o) {
-    using io::most_pixels;
+    using io::max_pixels;
     for (std::size_t begin = 0; begin < jobs.size();) {
         std::size_t end = begin, pixels = 0;
         for (; end < jobs.size(); ++end) {
             const ImageState& state = jobs[end].before;
-            const std::size_t more = std::min(state.width, most_pixels) * std::min(state.height, most_pixels);
-            if (end > begin && pixels + more > most_pixels) break;
+            const std::size_t more = std::min(state.width, max_pixels) * std::min(state.height, max_pixels);
+            if (end > begin && pixels + more > max_pixels) break;
             pixels += more;
         }
         parallel_for(

@@ -71,7 +71,7 @@ Reason reason_to_keep(const ImageState& image, const io::ImageUse& use) {
     if (use.textures.empty()) return {"no material uses it"};
     if (image.format == "ktx2" || image.format == "dds") return {"its format is not read"};
     if (image.width == 0) return {"it is broken", true};
-    if (image.height > io::most_pixels / image.width) return {"it has more than 2^26 pixels", true};
+    if (image.height > io::max_pixels / image.width) return {"it has more than 2^26 pixels", true};
     return {};
 }
 

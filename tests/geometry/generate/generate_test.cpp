@@ -48,9 +48,10 @@ TEST_CASE("closed shapes are sound and have their Euler number", "[geometry]") {
 TEST_CASE("bands of a sphere: the nearest number that well-shaped ones give, by trying all", "[geometry]") {
     const auto nearest = [](std::int64_t faces) {
         std::int64_t best = 1 << 30;
-        for (std::int64_t across = 2; across * across <= 4 * faces + 99; ++across)
-            for (std::int64_t around = std::max<std::int64_t>(3, across); around <= 4 * across; ++around) {
-                const std::int64_t count = 2 * around * (across - 1), miss = std::abs(count - faces),
+        for (std::int64_t rings = 2; rings * rings <= 4 * faces + 99; ++rings)
+            for (std::int64_t segments = std::max<std::int64_t>(3, rings); segments <= 4 * rings;
+                 ++segments) {
+                const std::int64_t count = 2 * segments * (rings - 1), miss = std::abs(count - faces),
                                    least = std::abs(best - faces);
                 if (miss < least || (miss == least && count < best)) best = count;
             }
