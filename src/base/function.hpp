@@ -29,11 +29,11 @@ class FunctionHandle {
     FunctionHandle& operator=(FunctionHandle&& other) noexcept;
     ~FunctionHandle();
 
-    explicit operator bool() const { return held_ != nullptr; }
+    explicit operator bool() const { return held != nullptr; }
 
   protected:
-    explicit FunctionHandle(const Held* owned) : held_(owned) {}
-    const Held* held_ = nullptr;
+    explicit FunctionHandle(const Held* owned) : held(owned) {}
+    const Held* held = nullptr;
 };
 
 template <class Signature>
@@ -66,7 +66,7 @@ class Function<Result(Arguments...)> : public FunctionHandle {
         : FunctionHandle(new Of<F>(std::move(function))) {}
 
     Result operator()(Arguments... arguments) const {
-        return static_cast<const Callable*>(held_)->call(held_, std::forward<Arguments>(arguments)...);
+        return static_cast<const Callable*>(held)->call(held, std::forward<Arguments>(arguments)...);
     }
 };
 

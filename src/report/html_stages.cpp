@@ -83,8 +83,8 @@ std::string list_table(const std::string& title, const Json& list) {
 std::string list_tables(const Json& object, const std::string& before) {
     std::string out;
     for (const auto& [name, value] : object.items()) {
-        if (value.is_object()) out += list_tables(value, before + name + ".");
-        if (is_list_of_objects(value)) out += list_table("Result: " + before + name, value);
+        if (value.is_object()) out += list_tables(value, fmt::format("{}{}.", before, name));
+        if (is_list_of_objects(value)) out += list_table(fmt::format("Result: {}{}", before, name), value);
     }
     return out;
 }

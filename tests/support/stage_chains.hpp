@@ -56,7 +56,7 @@ inline std::string digest(const Scene& scene) {
     const auto add = [&](const auto& values) {
         const auto size = static_cast<std::uint64_t>(values.size());
         bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
-        using T = std::decay_t<decltype(values)>::value_type;
+        using T = typename std::decay_t<decltype(values)>::value_type;
         bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
     };
     for (const Part& part : scene.parts) {

@@ -140,6 +140,9 @@ struct Limit {
     const char* help;
     std::vector<Entry> (*entries)(const Scene& scene);
 };
+template <class Given, class Entry>
+Limit(const char*, Given SceneLimits::*, const char*, std::vector<Entry> (*)(const Scene&))
+    -> Limit<Given, Entry>;
 
 /// Calls with each limit. These are no rows of property_table: patterns are no numbers, and geometry/ knows
 /// nothing of documents and images.
