@@ -1,5 +1,7 @@
 #include "base/sandbox.hpp"
 
+#include "base/nearest_there.hpp"
+
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -139,14 +141,6 @@ std::vector<fs::path> loaded_files() {
         },
         &files);
     return files;
-}
-
-/// Itself, or the nearest folder above it that is there.
-fs::path nearest_there(fs::path path) {
-    std::error_code error;
-    while (!path.empty() && !fs::exists(path, error))
-        path = path.has_relative_path() ? path.parent_path() : "/";
-    return path.empty() ? "." : path;
 }
 
 // --- seccomp

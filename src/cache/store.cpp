@@ -1,6 +1,7 @@
 #include "cache/store.hpp"
 
 #include "base/hash.hpp"
+#include "base/nearest_there.hpp"
 #include "io/clean_up.hpp"
 #include "io/output_files.hpp"
 
@@ -145,13 +146,6 @@ std::optional<std::uint64_t> free_space(const fs::path& folder) {
 bool has_space(const fs::path& folder, std::uint64_t bytes) {
     const auto space = free_space(folder);
     return !space || *space >= 2 * bytes + reserve; // writing will tell
-}
-
-/// The folder itself, or what is there of the way to it.
-fs::path nearest_there(fs::path folder) {
-    std::error_code ignored;
-    while (!fs::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
-    return folder;
 }
 
 /// Measured on slow machines; what a store has seen takes its place.
