@@ -16,6 +16,12 @@ namespace facetmill::io {
 
 namespace fs = std::filesystem;
 
+std::string hint_to_write(const fs::path& target, int error) {
+    const std::string hint = sandbox_hint(target, error);
+    return hint.empty() ? "write elsewhere: --output-dir sets the folder that written paths start from"
+                        : hint;
+}
+
 void cannot_write(const fs::path& target, int error) {
     const std::string name = target == "-" ? "standard output" : fmt::format("'{}'", target.string());
     if (error == ENOSPC || error == EDQUOT || error == EFBIG)
@@ -27,10 +33,9 @@ void cannot_write(const fs::path& target, int error) {
     if (error == EISDIR)
         throw Error(ErrorKind::output, "E-DIRECTORY", fmt::format("{} is a directory, expected a file", name),
                     "give the name of a file in it");
-    const std::string hint = sandbox_hint(target, error);
-    throw Error(
-        ErrorKind::output, "E-WRITE", fmt::format("{} cannot be written: {}", name, std::strerror(error)),
-        hint.empty() ? "write elsewhere: --output-dir sets the folder that written paths start from" : hint);
+    throw Error(ErrorKind::output, "E-WRITE",
+                fmt::format("{} cannot be written: {}", name, std::strerror(error)),
+                hint_to_write(target, error));
 }
 
 void write_all(int fd, Span bytes, const fs::path& target) {

@@ -8,6 +8,10 @@
 
 namespace facetmill::io {
 
+/// The way out where a target cannot be written: what the sandbox says of it, else another folder. error: an
+/// errno.
+std::string hint_to_write(const std::filesystem::path& target, int error);
+
 /// Throws output in words for people: E-SPACE, E-DIRECTORY, else E-WRITE. error: an errno.
 [[noreturn]] void cannot_write(const std::filesystem::path& target, int error);
 

@@ -1,7 +1,6 @@
 #include "io/outputs.hpp"
 
 #include "base/hash.hpp"
-#include "base/sandbox.hpp"
 #include "io/clean_up.hpp"
 #include "io/output_files.hpp"
 
@@ -68,13 +67,10 @@ void Outputs::make_directory(const fs::path& directory) {
         const bool vanished =
             why == ENOENT || (why == EEXIST && !fs::exists(fs::symlink_status(directory, error)));
         if (vanished && attempt < max_attempts) continue;
-        const std::string hint = sandbox_hint(directory, why);
         throw Error(ErrorKind::output, why == ENOSPC ? "E-SPACE" : "E-DIRECTORY",
                     fmt::format("the directory '{}' cannot be made: {}", directory.string(),
                                 why == EEXIST ? "a file has its name" : std::strerror(why)),
-                    hint.empty()
-                        ? "write elsewhere: --output-dir sets the folder that written paths start from"
-                        : hint);
+                    hint_to_write(directory, why));
     }
 }
 
