@@ -8,6 +8,7 @@
 #include "io/convert.hpp"
 #include "io/outputs.hpp"
 #include "options/types.hpp"
+#include "stage/options/convention.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -75,6 +76,13 @@ Scene read(const std::string& name, bool is_a, std::vector<report::LeftOut>& lef
         if (warning.is_loss) left_out.push_back({is_a, warning.message});
     }
     return scene;
+}
+
+std::vector<std::string> stated_units() {
+    std::vector<std::string> names;
+    for (const auto& unit : unit_choices("", ""))
+        if (unit.value != Unit::unknown) names.push_back(unit.name);
+    return names;
 }
 
 /// What a file does not state is as the command line says.
@@ -179,7 +187,7 @@ Command diff_command() {
             arguments.add("--certify", &settings.deviation.certify,
                           "Also computes a guaranteed bound of the distance, and compares --max with it.");
             arguments.add("--unit", &options->unit, "The unit of a file that states none.")
-                .one_of({"um", "mm", "cm", "m", "km", "in", "ft"});
+                .one_of(stated_units());
             arguments.add("--up", &options->up, "The up axis of a file that states none.").one_of({"y", "z"});
             arguments.add(
                 "--report", &options->reports,

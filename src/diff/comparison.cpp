@@ -42,9 +42,8 @@ Comparison compare(const Scene& a, const Scene& b, const ComparisonSettings& set
     compare_names(with, "parts", a.parts, b.parts);
     compare_documents(with);
     result.ignored = settings.ignored;
-    for (const auto& line : result.lines)
-        if (line.section == "geometry" && !line.same && result.hint.empty())
-            result.hint = conversion_hint(a, b);
+    const auto differs = [](const Difference& line) { return line.section == "geometry" && !line.same; };
+    if (std::any_of(result.lines.begin(), result.lines.end(), differs)) result.hint = conversion_hint(a, b);
     return result;
 }
 

@@ -1,5 +1,7 @@
 #include "diff/conversion.hpp"
 
+#include "io/convert.hpp"
+
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,25 +10,17 @@ namespace facetmill::report {
 
 namespace {
 
-/// How a scene is turned to bring one up axis to another.
-enum class UpTurn { none, y_to_z, z_to_y };
+/// From one up axis to another; the same: not at all.
+struct UpTurn {
+    UpAxis from = UpAxis::y, to = UpAxis::y;
+    bool any() const { return from != to; }
+};
 
-Vec3 turned(const Vec3& p, UpTurn turn) {
-    switch (turn) {
-    case UpTurn::y_to_z:
-        return {p.x, -p.z, p.y};
-    case UpTurn::z_to_y:
-        return {p.x, p.z, -p.y};
-    case UpTurn::none:
-        break;
-    }
-    return p;
-}
-
-Box turned(const Box& box, UpTurn turn) {
+Box turned(const Box& box, const UpTurn& turn) {
+    const Transform t = io::turn_up(turn.from, turn.to);
     Box out;
-    out.add(turned(box.min, turn));
-    out.add(turned(box.max, turn));
+    out.add(t.point(box.min));
+    out.add(t.point(box.max));
     return out;
 }
 
@@ -59,17 +53,16 @@ UnitFactor unit_factor(double ratio) {
     return nearest < 0.02 ? best : UnitFactor{};
 }
 
-std::string words_for(const UnitFactor& units, UpTurn turn) {
+std::string words_for(const UnitFactor& units, const UpTurn& turn) {
     std::string how, way;
     if (units.factor != 1) {
         how = fmt::format(" times {:.6g}, as from {} to {}", units.factor, to_string(units.from),
                           to_string(units.to));
         way = "--unit says what unit a file has that states none";
     }
-    if (turn != UpTurn::none) {
-        const bool to_z = turn == UpTurn::y_to_z;
-        how += fmt::format("{} turned from {} up to {} up", how.empty() ? "" : ", and", to_z ? "y" : "z",
-                           to_z ? "z" : "y");
+    if (turn.any()) {
+        how += fmt::format("{} turned from {} up to {} up", how.empty() ? "" : ", and", to_string(turn.from),
+                           to_string(turn.to));
         way += fmt::format("{}--up which axis is up in it", way.empty() ? "" : ", ");
         if (units.factor == 1) way = "--up says which axis is up in a file that states none";
     }
@@ -83,9 +76,9 @@ std::string conversion_hint(const Scene& a, const Scene& b) {
     const double size_a = first.diagonal(), size_b = second.diagonal();
     if (!(size_a > 0) || !(size_b > 0) || !std::isfinite(size_a) || !std::isfinite(size_b)) return {};
     const UnitFactor units = unit_factor(size_b / size_a);
-    for (const UpTurn turn : {UpTurn::none, UpTurn::y_to_z, UpTurn::z_to_y})
+    for (const UpTurn& turn : {UpTurn{}, UpTurn{UpAxis::y, UpAxis::z}, UpTurn{UpAxis::z, UpAxis::y}})
         if (is_box(turned(first, turn), second, units.factor))
-            return units.factor == 1 && turn == UpTurn::none ? std::string() : words_for(units, turn);
+            return units.factor == 1 && !turn.any() ? std::string() : words_for(units, turn);
     return {};
 }
 

@@ -56,13 +56,21 @@ std::string verdict(const Comparison& comparison) {
     return comparison.ignored.empty() ? "agree" : "agree in everything that was requested";
 }
 
+/// "not compared: A: the lines".
+std::vector<std::string> left_out_lines(const Comparison& comparison, const std::string& name_a,
+                                        const std::string& name_b) {
+    std::vector<std::string> lines;
+    for (const auto& left : comparison.left_out)
+        lines.push_back(fmt::format("not compared: {}: {}", left.of_a ? name_a : name_b, left.what));
+    return lines;
+}
+
 } // namespace
 
 std::string to_text(const Comparison& comparison, const std::string& name_a, const std::string& name_b,
                     bool all) {
     std::string text = fmt::format("{} and {} {}\n", name_a, name_b, verdict(comparison));
-    for (const auto& left : comparison.left_out)
-        text += fmt::format("  not compared: {}: {}\n", left.of_a ? name_a : name_b, left.what);
+    for (const auto& line : left_out_lines(comparison, name_a, name_b)) text += "  " + line + "\n";
     for (const char* section : comparison_sections) {
         const auto lines = of_section(comparison, section);
         if (lines.empty()) continue;
@@ -86,9 +94,8 @@ namespace {
 /// "A and B differ", with what was not compared.
 std::vector<std::string> head_lines(const Comparison& comparison, const std::string& name_a,
                                     const std::string& name_b) {
-    std::vector<std::string> lines{verdict(comparison)};
-    for (const auto& left : comparison.left_out)
-        lines.push_back(fmt::format("not compared: {}: {}", left.of_a ? name_a : name_b, left.what));
+    std::vector<std::string> lines = left_out_lines(comparison, name_a, name_b);
+    lines.insert(lines.begin(), verdict(comparison));
     if (!comparison.hint.empty()) lines.push_back("hint: " + comparison.hint);
     return lines;
 }

@@ -14,8 +14,9 @@ Transform scaling(double factor) {
     return t;
 }
 
-/// A quarter turn about x that brings the one axis to where the other was.
-Transform turn(UpAxis from, UpAxis to) {
+} // namespace
+
+Transform turn_up(UpAxis from, UpAxis to) {
     Transform t;
     if (from == to) return t;
     const double s = to == UpAxis::y ? 1 : -1; // z up to y up: (x, y, z) -> (x, z, -y)
@@ -24,8 +25,6 @@ Transform turn(UpAxis from, UpAxis to) {
     t.m[2][1] = -s;
     return t;
 }
-
-} // namespace
 
 Conversion convert(Scene& scene, const Convention& target) {
     Conversion done;
@@ -37,7 +36,7 @@ Conversion convert(Scene& scene, const Convention& target) {
     if (target.up != UpAxis::unknown) {
         done.up_guessed = scene.up == UpAxis::unknown;
         done.turned = !done.up_guessed && scene.up != target.up;
-        if (done.turned) done.transform = turn(scene.up, target.up);
+        if (done.turned) done.transform = turn_up(scene.up, target.up);
         scene.up = target.up;
     }
     if (done.factor != 1) done.transform = scaling(done.factor) * done.transform;

@@ -19,6 +19,9 @@ struct Conversion {
     Transform transform; ///< old world -> new world
 };
 
+/// A quarter turn about x that brings the one axis to where the other was; none when they are the same.
+Transform turn_up(UpAxis from, UpAxis to);
+
 /// Puts the scene into the convention by the transforms of its parts; meshes stay as they are. Unknown, in
 /// the target, means as the scene has it. Skinned parts are moved in bind pose.
 Conversion convert(Scene& scene, const Convention& target);
