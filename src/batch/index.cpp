@@ -42,6 +42,11 @@ std::string picture_cell(const Asset& asset, const Outcome& out, std::size_t& by
                             escaped(asset.name), out.picture));
 }
 
+std::string verdict_line(const Summary& summary) {
+    return fmt::format("{} of {} assets are ok; exit code {}", count(summary, Outcome::Verdict::ok),
+                       summary.assets.size(), summary.exit_code);
+}
+
 } // namespace
 
 std::string to_html(const Summary& summary) {
@@ -58,11 +63,9 @@ std::string to_html(const Summary& summary) {
             cell(code(asset.name)), number_cell(code_text), number_cell(grouped(out.faces_in)),
             number_cell(grouped(out.faces_out)), number_cell(sized(out.bytes)), cell(notes_of(out)));
     }
-    const auto ok = count(summary, Outcome::Verdict::ok);
-    const bool good = ok == summary.assets.size();
+    const bool good = count(summary, Outcome::Verdict::ok) == summary.assets.size();
     std::string page = report::html_begin(summary.pipeline, fmt::format("{} assets", summary.assets.size()));
-    page += fmt::format("<p class=\"verdict {}\">{} of {} assets are ok; exit code {}</p>\n",
-                        good ? "good" : "bad", ok, summary.assets.size(), summary.exit_code);
+    page += fmt::format("<p class=\"verdict {}\">{}</p>\n", good ? "good" : "bad", verdict_line(summary));
     page += report::table("Assets",
                           report::heads({"picture", "outcome", "asset", "#exit code", "#faces in",
                                          "#faces out", "#bytes", "notes and outputs"}),
@@ -81,8 +84,7 @@ std::string to_markdown(const Summary& summary) {
         rows.push_back({verdict_word(out.verdict), markdown_escaped(summary.assets[i].name),
                         grouped(out.faces_in), grouped(out.faces_out), sized(out.bytes), notes});
     }
-    return fmt::format("## {}\n\n{} of {} assets are ok; exit code {}\n", markdown_escaped(summary.pipeline),
-                       count(summary, Outcome::Verdict::ok), summary.assets.size(), summary.exit_code) +
+    return fmt::format("## {}\n\n{}\n", markdown_escaped(summary.pipeline), verdict_line(summary)) +
            report::markdown_table("Assets", {"outcome", "asset", "faces in", "faces out", "size", "notes"},
                                   rows);
 }

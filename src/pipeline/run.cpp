@@ -250,12 +250,12 @@ class Runner {
         failures_.guarded({}, "a picture", [&] {
             const std::vector<Vec3> locations = failing_locations_of(stage);
             PictureSettings settings;
-            settings.camera = camera_for(scene);
+            if (locations.empty()) settings.camera = camera_for(scene);
             std::string picture =
                 locations.empty() ? picture_for_page(scene, settings) : picture_of_failures(scene, locations);
             if (picture == last_picture_) return;
             picture_bytes_ += picture.size();
-            stage.camera = locations.empty() ? cameras_ : 0;
+            stage.camera = settings.camera ? cameras_ : 0;
             last_picture_ = stage.picture = std::move(picture);
         });
     }

@@ -14,6 +14,12 @@ std::string verdict_text(const RunRecord& record) {
                        record.outputs.empty() ? ": no output was written" : "");
 }
 
+std::string passed_text(const RunRecord& record) {
+    const auto passed = std::count_if(record.checks.begin(), record.checks.end(),
+                                      [](const Check& check) { return check.passed; });
+    return fmt::format("{} of {}", passed, record.checks.size());
+}
+
 const char* outcome(const Check& check) {
     if (check.waived) return "known";
     if (check.passed) return "passed";

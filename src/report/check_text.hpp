@@ -8,6 +8,8 @@ namespace facetmill::report {
 
 /// "ok: everything held, and all outputs were written", "failed with exit code 1: no output was written".
 std::string verdict_text(const RunRecord& record);
+/// "5 of 6": how many of the checks of a run passed.
+std::string passed_text(const RunRecord& record);
 /// "passed", "known", "failed" or "warned".
 const char* outcome(const Check& check);
 /// What was found: "12", "true", "mm", "[0, 0, 0] to [1, 1, 1]", "not applicable".

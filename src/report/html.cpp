@@ -6,7 +6,6 @@
 #include "report/html_stages.hpp"
 #include "report/render.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::report {
@@ -69,11 +68,7 @@ std::string glance_rows(const RunRecord& record) {
         rows += row("faces",
                     fmt::format("{} &rarr; {}", grouped(first->after->faces), grouped(last->after->faces)));
     rows += row("inputs", total(record.inputs)) + row("outputs", total(record.outputs));
-    const auto failed =
-        std::count_if(record.checks.begin(), record.checks.end(), [](const Check& c) { return !c.passed; });
-    rows +=
-        row("checks", fmt::format("{} of {} passed", record.checks.size() - static_cast<std::size_t>(failed),
-                                  record.checks.size()));
+    rows += row("checks", passed_text(record) + " passed");
     return rows + row("warnings", grouped(warnings));
 }
 

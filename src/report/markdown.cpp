@@ -5,7 +5,6 @@
 #include "report/markdown_parts.hpp"
 #include "report/render.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace facetmill::report {
@@ -83,9 +82,7 @@ std::string to_markdown(const RunRecord& record) {
     std::string out = fmt::format("## {}\n\n", markdown_escaped(record.pipeline));
     if (!record.about.empty()) out += markdown_escaped(record.about) + "\n\n";
     out += fmt::format("**{}**", verdict_text(record));
-    const auto held = std::count_if(record.checks.begin(), record.checks.end(),
-                                    [](const Check& check) { return check.passed; });
-    if (!record.checks.empty()) out += fmt::format(", {} of {} checks passed", held, record.checks.size());
+    if (!record.checks.empty()) out += fmt::format(", {} checks passed", passed_text(record));
     out += "\n";
     out += markdown_table("Errors and warnings", {"kind", "id", "message", "hint"}, message_rows(record));
     out += markdown_table("Checks that did not hold",
