@@ -382,7 +382,7 @@ SphereBands sphere_bands(std::int64_t faces) {
         best_count = count;
         best_skew = skew;
     };
-    // Wider than 4 rings it cannot be, and rings - 1 is half / segments or the next.
+    // There are at most 4 segments for each ring, and rings - 1 is half / segments or the next.
     for (std::int64_t segments = 3; segments <= 12 || segments * segments <= 16 * half; ++segments)
         for (std::int64_t rings = half / segments + 1; rings <= half / segments + 2; ++rings)
             consider(segments, rings);

@@ -5,8 +5,6 @@
 
 namespace facetmill {
 
-namespace {} // namespace
-
 BoxPairs::BoxPairs(std::span<const Box> boxes, std::span<const std::uint8_t> among) {
     all_ = box_of_all(boxes);
     items_ = order_along_curve(boxes.size(), all_, [&](std::size_t i) {
