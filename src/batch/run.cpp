@@ -186,6 +186,7 @@ class BatchRun {
         pipeline::RunSettings run;
         run.strict = settings_.strict;
         run.check_invariants = settings_.check_invariants;
+        run.commit.sync = settings_.sync;
         run.last_picture = settings_.pictures;
         std::optional<cache::Store> store; // what this asset has used may go when it is done
         if (settings_.store) run.store = &store.emplace(*settings_.store);

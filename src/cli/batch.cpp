@@ -56,6 +56,7 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
                   "Also write the summary: F.json, F.html, F.md, F.xml (JUnit) or F.txt.");
     arguments.add("--timings", &options.common.timings,
                   "Write times, and which assets were skipped, to F.json.");
+    add_sync_option(arguments, options.common);
     add_cache_options(arguments, options.common.cache);
     add_sandbox_option(arguments, options.common.sandbox);
     add_warning_options(arguments, options.common);
@@ -184,6 +185,7 @@ batch::Settings batch_settings(const BatchOptions& options, const CommandLine& l
     settings.keep_going = options.keep_going;
     settings.prune = options.prune;
     settings.check_invariants = options.common.check_invariants;
+    settings.sync = !options.common.no_sync;
     settings.strict = options.common.strict;
     for (const auto& report : options.common.reports) {
         settings.others.push_back(places.output(report));

@@ -55,6 +55,11 @@ void add_warning_options(Arguments& arguments, PipelineOptions& options) {
         .hidden();
 }
 
+void add_sync_option(Arguments& arguments, PipelineOptions& options) {
+    arguments.add("--no-sync", &options.no_sync,
+                  "Does not wait until outputs are on the disk; a loss of power may leave them empty.");
+}
+
 void add_run_options(Arguments& arguments, PipelineOptions& options) {
     arguments
         .add("-j,--threads", &options.threads,
@@ -71,6 +76,7 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
                   "The target of that rule. Default: the first file that is written.");
     arguments.add("--restat", &options.restat,
                   "Outputs and reports that stay the same keep their times, for Ninja's restat.");
+    add_sync_option(arguments, options);
     add_cache_options(arguments, options.cache);
     arguments.add("--explain", &options.explain,
                   "Says for each stage why it ran again, or that its result is from the cache.");
@@ -260,7 +266,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     };
     const auto store = store_for(options.cache, plan.allowed, console, options.explain || console.verbose);
     settings.store = store.get();
-    settings.keep_unchanged = options.restat;
+    settings.commit = {.keep_unchanged = options.restat, .sync = !options.no_sync};
     if (options.explain && !store)
         console.say(
             "--explain has nothing to compare with: no cache is used (--no-cache, FACETMILL_CACHE=off, "

@@ -17,6 +17,7 @@ struct PipelineOptions {
     int threads = 0;
     bool check_invariants = false, update_baseline = false;
     bool restat = false, explain = false;
+    bool no_sync = false;
     CacheOptions cache;
     SandboxOptions sandbox;
 };
@@ -25,11 +26,13 @@ struct PipelineOptions {
 void add_param_options(Arguments& arguments, PipelineOptions& options);
 /// ... and --update-baseline.
 void add_value_options(Arguments& arguments, PipelineOptions& options);
+/// --no-sync.
+void add_sync_option(Arguments& arguments, PipelineOptions& options);
 /// --strict, --allow, --check-invariants.
 void add_warning_options(Arguments& arguments, PipelineOptions& options);
 /// -j, --output-dir, --report, --depfile, --depfile-target, --strict, --allow, --cache, --no-cache,
 /// --explain,
-/// --restat.
+/// --restat, --no-sync.
 void add_run_options(Arguments& arguments, PipelineOptions& options);
 
 /// Settings for a plan: values split at "=", with problems that point into the command line.

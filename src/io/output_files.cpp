@@ -47,6 +47,21 @@ void write_all(int fd, Span bytes, const fs::path& target) {
     }
 }
 
+void begin_sync(int fd) {
+#ifdef SYNC_FILE_RANGE_WRITE
+    ::sync_file_range(fd, 0, 0, SYNC_FILE_RANGE_WRITE);
+#else
+    static_cast<void>(fd);
+#endif
+}
+
+bool synced(int fd) {
+    int done = 0;
+    do done = ::fsync(fd);
+    while (done != 0 && errno == EINTR);
+    return done == 0 || errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+}
+
 bool is_stream(const fs::path& target) {
     const std::string text = target.string();
     if (text == "-" || text.starts_with("/dev/fd/") || text.starts_with("/proc/") || text == "/dev/stdout" ||

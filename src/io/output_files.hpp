@@ -15,6 +15,12 @@ std::string hint_to_write(const std::filesystem::path& target, int error);
 /// Throws output in words for people: E-SPACE, E-DIRECTORY, else E-WRITE. error: an errno.
 [[noreturn]] void cannot_write(const std::filesystem::path& target, int error);
 
+/// Begins to write what the system keeps of a file, without waiting; a hint.
+void begin_sync(int fd);
+/// Waits until the bytes of a file, or the names in a folder, are on the disk. False, with errno, when they
+/// cannot get there; what a file system cannot be asked is true.
+bool synced(int fd);
+
 /// Throws as cannot_write, naming the target.
 void write_all(int fd, Span bytes, const std::filesystem::path& target);
 

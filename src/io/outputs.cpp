@@ -119,6 +119,7 @@ void Outputs::stage(File& file, Span bytes) {
         ::flock(file.lock, LOCK_EX | LOCK_NB);
         keep_permissions(file.lock, file.resolved, file.target);
         write_all(file.lock, bytes, file.target);
+        if (settings_.sync) begin_sync(file.lock);
         // Network file systems say only at a close that there is no room; the lock lives in the other
         // descriptor.
         if (const int copy = ::dup(file.lock); copy < 0 || ::close(copy) != 0) cannot_write(file, errno);
@@ -197,7 +198,7 @@ void put_back(const AllRenamed& all) {
 
 /// Files that have their bytes already count as inputs that do.
 void Outputs::leave_unchanged() {
-    if (!keep_unchanged_) return;
+    if (!settings_.keep_unchanged) return;
     for (const auto& file : files_) {
         std::error_code error;
         const auto& there = file->resolved;
@@ -214,6 +215,35 @@ void Outputs::leave_unchanged() {
         file->clean_up = nullptr;
         file->temporary.clear();
         file->is_input = true;
+    }
+}
+
+/// Whatever the system has kept for later of the files that will get their names now.
+void Outputs::sync_contents() const {
+    if (!settings_.sync) return;
+    for (const auto& file : files_) {
+        if (file->temporary.empty()) continue;
+        const int fd = file->lock >= 0 ? file->lock : ::open(file->temporary.c_str(), O_RDONLY | O_CLOEXEC);
+        if (fd < 0) cannot_write(*file, errno);
+        const int why = synced(fd) ? 0 : errno;
+        if (fd != file->lock) ::close(fd);
+        if (why != 0) cannot_write(*file, why);
+    }
+}
+
+/// The folders in which names are new. Where that cannot be had (a folder that may be written, not read; a
+/// disk that fails) it is left to the system: the files are there, whole.
+void Outputs::sync_names() const {
+    if (!settings_.sync) return;
+    std::set<fs::path> folders;
+    for (const auto& file : files_)
+        if (!file->temporary.empty()) folders.insert(file->resolved.parent_path());
+    for (const auto& made : made_directories_) folders.insert(made.path.parent_path());
+    for (const auto& folder : folders) {
+        const int fd = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (fd < 0) continue;
+        synced(fd);
+        ::close(fd);
     }
 }
 
@@ -236,6 +266,7 @@ std::vector<Outputs::Renamed> Outputs::rename_all(bool streams_follow) {
         forget(true);
         throw;
     }
+    sync_names();
     for (auto& renamed : all) {
         keep(renamed.file->clean_up); // the temporary has another name now
         if (!streams_follow) continue;
@@ -262,6 +293,7 @@ void Outputs::commit() {
         std::any_of(files_.begin(), files_.end(), [](const auto& f) { return is_streamed(*f); });
     std::vector<Renamed> all;
     leave_unchanged(); // it reads files that may be large, so a signal need not wait for it
+    sync_contents();   // ... nor for the disk
     {
         const HoldSignals hold;
         all = rename_all(streams);
@@ -296,9 +328,9 @@ void Outputs::forget(bool remove) {
 
 void Outputs::discard() { forget(true); }
 
-void write_now(const fs::path& target, Span bytes, bool keep_unchanged) {
+void write_now(const fs::path& target, Span bytes, const CommitSettings& settings) {
     Outputs outputs;
-    outputs.keep_unchanged(keep_unchanged);
+    outputs.set(settings);
     outputs.add(target, bytes);
     outputs.commit();
 }

@@ -12,6 +12,11 @@ namespace facetmill::io {
 
 struct CleanUp; // what a signal must undo; see io/clean_up.hpp
 
+struct CommitSettings {
+    bool keep_unchanged = false; ///< a file that has the bytes already is left alone, with its time
+    bool sync = true; ///< the bytes are on the disk before a file gets its name, and names at the end
+};
+
 /// The outputs of a run.
 class Outputs {
   public:
@@ -40,13 +45,14 @@ class Outputs {
     /// E-OVERWRITE for a protected input with other bytes, E-DUPLICATE-OUTPUT for a target that was staged
     /// already with other bytes). "-" is standard output.
     const File& add(const std::filesystem::path& target, Span bytes, const Mark& where = {});
-    /// Whether commit() leaves a file alone, with its time, that has the bytes already.
-    void keep_unchanged(bool keep) { keep_unchanged_ = keep; }
+    /// Before anything is staged.
+    void set(const CommitSettings& settings) { settings_ = settings; }
     /// Bytes of a staged file, for reading back.
     Input staged(const File& file) const;
     /// Renames all, then streams the streams. On error everything not yet renamed is removed, what was
     /// renamed is put back as it was (what a stream's reader has got is gone), and it throws. A signal that
     /// arrives between the renames waits for the last; one that ends the streaming puts the files back too.
+    /// With sync, a loss of power leaves each file as it was or whole; of several, some may be new.
     void commit();
     /// Forgets everything staged (a failed run).
     void discard();
@@ -67,20 +73,21 @@ class Outputs {
     };
     void stage(File& file, Span bytes);
     void leave_unchanged();
+    void sync_contents() const;
+    void sync_names() const;
     std::vector<Renamed> rename_all(bool streams_follow);
     void settle(const std::vector<Renamed>& all); ///< there is no way back from here
     void forget(bool remove);
 
-    bool keep_unchanged_ = false;
+    CommitSettings settings_;
     std::vector<std::unique_ptr<File>> files_;
     std::vector<Directory> made_directories_;
     std::set<std::filesystem::path> swept_;
     std::map<std::filesystem::path, std::string> inputs_; ///< by identity: the sum
 };
 
-/// Writes one file at once, atomically (reports, --save, depfiles). "-" is standard output. keep_unchanged:
-/// as Outputs::keep_unchanged.
-void write_now(const std::filesystem::path& target, Span bytes, bool keep_unchanged = false);
+/// Writes one file at once, atomically (reports, --save, depfiles). "-" is standard output.
+void write_now(const std::filesystem::path& target, Span bytes, const CommitSettings& settings = {});
 
 /// Installs handlers that remove staged temporaries and end the process by the signal: SIGINT, SIGTERM,
 /// SIGHUP and SIGBUS (a mapped input shrank). Signals that were ignored stay ignored (nohup). SIGPIPE and

@@ -66,9 +66,9 @@ bool loads(const Steps& steps) {
 }
 
 void write_report(const Plan& plan, const std::string& path, const report::RunRecord& record,
-                  bool keep_unchanged = false) {
+                  const io::CommitSettings& commit = {}) {
     const std::string text = report::render_for(path, record);
-    io::write_now(plan.places.output(path), std::as_bytes(std::span(text)), keep_unchanged);
+    io::write_now(plan.places.output(path), std::as_bytes(std::span(text)), commit);
 }
 
 class Runner {
@@ -76,7 +76,7 @@ class Runner {
     Runner(const Plan& plan, const RunSettings& settings) : plan_(plan), settings_(settings) {
         state_.places = plan.places;
         state_.read_back = settings.read_back;
-        state_.outputs.keep_unchanged(settings.keep_unchanged);
+        state_.outputs.set(settings.commit);
         record().pipeline = plan.name;
         record().about = plan.about;
         record().params = plan.params;
@@ -504,7 +504,7 @@ class Runner {
             if (settings_.progress) settings_.progress->after_stages(path);
             if (!unwritable_.contains(plan_.places.output(path).parent_path()) &&
                 failures_.guarded({}, "the report",
-                                  [&] { write_report(plan_, path, record(), settings_.keep_unchanged); }))
+                                  [&] { write_report(plan_, path, record(), settings_.commit); }))
                 record().reports.push_back(path);
         }
     }

@@ -14,7 +14,7 @@ struct RunSettings {
     bool check_invariants = false; ///< mesh/invariants.hpp after every stage (tests)
     bool last_picture = false; ///< the record of the last stage gets a small picture, whatever the reports
     cache::Store* store = nullptr; ///< results of stages are taken from it, and put there; none: no cache
-    bool keep_unchanged = false; ///< outputs and reports that are there with the same bytes keep their times
+    io::CommitSettings commit{};   ///< of outputs and reports
     /// Called at the end, with what became of each step.
     std::function<void(const Trace&)> on_trace = {};
     /// Called after each stage, with what its options were resolved to.

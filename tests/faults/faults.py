@@ -114,6 +114,13 @@ class Trial:
         _, _, lines = self.run(self.fresh(), self.scenario.command, f"{name} -1 0")
         return [line[3] for line in lines if line[0] == name and line[2]]
 
+    def trace(self, *options):
+        """All calls of a good run but those for memory, in their order: (name, absolute path)."""
+        folder = self.fresh()
+        code, said, lines = self.run(folder, [*self.scenario.command, *options], "any -1 0")
+        assert code == 0, said
+        return [(line[2], os.path.normpath(folder / line[3])) for line in lines if line[2]]
+
     def group_problems(self, there):
         for group in self.scenario.groups:
             is_old = all(there.get(name) == self.old.get(name) for name in group)

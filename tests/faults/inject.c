@@ -1,7 +1,7 @@
 // Loaded before the C library (LD_PRELOAD): makes one call of the system fail, or kills the process just before it.
 //
 //   FACETMILL_FAULT="CLASS N ERROR"   the N-th call of a class fails: ERROR is an errno, -9 kills, 0 only counts
-//                                     (with N -1 the log gets a line for each call of the class);
+//                                     (with N -1 the log gets a line for each call of the class, in their order);
 //                                     malloc: from the N-th on there is no more memory than what is in use then
 //   FACETMILL_FAULT_LOG=FILE          gets a line for the call that failed ("CLASS N NAME PATH"), and at the end
 //                                     "CLASS COUNT" for each class
@@ -67,7 +67,7 @@ static int fails(enum Class class, const char* function, const char* path, int f
     if (!atomic_load_explicit(&armed, memory_order_relaxed)) return 0;
     const long call = atomic_fetch_add(&counts[class], 1) + 1;
     const long of_any = class == MALLOC ? 0 : atomic_fetch_add(&counts[ANY], 1) + 1;
-    if (chosen == class && chosen_call == -1) {
+    if ((chosen == class || (chosen == ANY && class != MALLOC)) && chosen_call == -1) {
         char room[4096];
         put_line(names[class], call, function, path ? path : fd >= 0 ? path_of(fd, room, sizeof room) : "");
     }

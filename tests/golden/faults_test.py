@@ -1,5 +1,6 @@
 """Calls of the system that fail, in a few runs; `make faults` takes every call of more."""
 
+import dataclasses
 import errno
 import os
 import pathlib
@@ -11,6 +12,7 @@ from support import main
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "faults"))
 import faults  # noqa: E402
+import power  # noqa: E402
 import scenarios  # noqa: E402
 
 
@@ -43,6 +45,21 @@ class Faults(unittest.TestCase):
                     self.assertEqual(trial.judge(f"{name} {number} {error}")[0], [])
                     judged.add((name, neighbour))
         self.assertEqual(len(judged), 4, judged)
+
+    def test_the_power_fails(self):
+        """Each file is as it was or whole, whenever the power fails; without waiting for the disk it is not."""
+        for scenario in scenarios.scenarios():
+            if scenario.name not in ("run", "pipe", "textures", "several", "reports", "batch"):
+                continue
+            with self.subTest(scenario.name):
+                trial = self.trial(scenario)
+                folder, state = str(trial.room / "work"), scenario.state
+                self.assertEqual(power.problems(trial.trace(), folder, state), [])
+                asynchronous = [*scenario.command[:1], "--no-sync", *scenario.command[1:]]
+                trial.scenario = dataclasses.replace(scenario, command=asynchronous)
+                told = power.problems(trial.trace(), folder, state)
+                for name in (name for group in scenario.groups for name in group):
+                    self.assertTrue(any(name in line for line in told), (name, told))
 
     def test_what_is_wrong_is_found(self):
         """What the judgement is worth: half of the outputs, a changed input, a temporary that stays."""
