@@ -59,6 +59,7 @@ LIBRARIES = {
     "OpenMesh": ["src/geometry/openmesh/"],
     "openssl": ["src/base/"],
     "zlib.h": ["src/io/"],
+    "zstd.h": ["src/io/packing.cpp"],
     "png.h": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
     "jpeglib.h": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
     "webp": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],

@@ -6,6 +6,7 @@
 #include "batch/batch.hpp"
 #include "batch/journal.hpp"
 #include "io/output_files.hpp"
+#include "io/packing.hpp"
 #include "pipeline/document.hpp"
 
 #include <algorithm>
@@ -42,8 +43,7 @@ std::string options_digest(const std::string& pipeline, const pipeline::Plan& pl
 /// Whether the file is much smaller than what it holds.
 bool is_packed(const fs::path& file) {
     const std::string extension = file.extension().string();
-    for (const char* packed : {".gz", ".zst", ".drc"})
-        if (extension == packed) return true;
+    if (extension == ".drc" || io::packing_named(file) != io::Packing::none) return true;
     if (extension != ".glb" && extension != ".gltf") return false;
     std::string head(1 << 20, '\0'); // the document comes first
     std::ifstream stream(file, std::ios::binary);

@@ -12,8 +12,8 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* formats_examples =
-    R"(The format of a file is determined from its content or, if that is not conclusive, from its suffix; .gz files are
-decompressed.
+    R"(The format of a file is determined from its content or, if that is not conclusive, from its suffix; .gz and
+.zst files are decompressed, and text may be UTF-8 or UTF-16.
 
 Examples
   facetmill formats

@@ -2,18 +2,17 @@
 
 #include "base/memory.hpp"
 #include "base/sandbox.hpp"
+#include "io/packing.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <new>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
-#include <zlib.h>
 
 namespace facetmill::io {
 
@@ -50,20 +49,8 @@ std::size_t stream_limit() {
     return there ? static_cast<std::size_t>(*there / 8) : SIZE_MAX;
 }
 
-/// How many bytes a gzip file of that size may inflate to: 64 MiB, or 200 times its size when that is more.
-/// Meshes as text come to 50 times at most; deflate can do 1032, which nothing but a bomb does.
-std::size_t inflation_limit(std::size_t compressed) {
-    constexpr std::size_t harmless = std::size_t{64} << 20, ratio = 200;
-    return compressed > SIZE_MAX / ratio ? SIZE_MAX : std::max(harmless, ratio * compressed);
-}
-
 /// A device never ends (/dev/zero), or is a terminal.
 constexpr std::size_t max_device_bytes = std::size_t{64} << 20;
-
-[[noreturn]] void too_large(const std::string& name, std::size_t limit) {
-    throw Error(ErrorKind::limit, "E-SIZE", fmt::format("'{}' gives more than {} bytes", name, limit),
-                "write it to a file first, uncompressed");
-}
 
 /// Reads up to room bytes; 0 at the end.
 std::size_t read_some(int fd, std::byte* to, std::size_t room, const std::string& name) {
@@ -115,55 +102,6 @@ std::shared_ptr<const void> map_file(int fd, std::size_t size) {
     return {at, [size](const void* p) { ::munmap(const_cast<void*>(p), size); }};
 }
 
-struct Inflater {
-    z_stream stream{};
-    Inflater() {
-        if (::inflateInit2(&stream, 15 + 16) != Z_OK) throw out_of_memory("no memory to inflate a file");
-    }
-    ~Inflater() { ::inflateEnd(&stream); }
-};
-
-/// Inflates a gzip file of one or more members.
-Bytes inflated(Span bytes, std::size_t limit, const std::string& name) {
-    const bool by_ratio = inflation_limit(bytes.size()) < limit;
-    limit = std::min(limit, inflation_limit(bytes.size()));
-    Inflater z;
-    Bytes out;
-    std::size_t size = 0, at = 0;
-    const auto broken = [&] {
-        throw Error(ErrorKind::malformed, "E-GZIP",
-                    fmt::format("'{}' is not whole gzip: {} near byte {}", name,
-                                z.stream.msg ? z.stream.msg : "it ends early", at));
-    };
-    while (true) {
-        if (size == out.size()) out.resize(std::min(std::max<std::size_t>(size * 2, 1 << 16), limit + 1));
-        const uInt in = static_cast<uInt>(std::min<std::size_t>(bytes.size() - at, 1 << 30));
-        const uInt room = static_cast<uInt>(std::min<std::size_t>(out.size() - size, 1 << 30));
-        z.stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data() + at));
-        z.stream.next_out = reinterpret_cast<Bytef*>(out.data() + size);
-        z.stream.avail_in = in;
-        z.stream.avail_out = room;
-        const int state = ::inflate(&z.stream, Z_NO_FLUSH);
-        at += in - z.stream.avail_in;
-        size += room - z.stream.avail_out;
-        if (size > limit && by_ratio)
-            throw Error(ErrorKind::limit, "E-SIZE",
-                        fmt::format("'{}' inflates to more than {} bytes from {}, as no mesh does", name,
-                                    limit, bytes.size()),
-                        "if it is one all the same, inflate it first: gzip -d");
-        if (size > limit) too_large(name, limit);
-        if (state == Z_MEM_ERROR) throw std::bad_alloc();
-        if (state == Z_STREAM_END) {
-            if (!is_gzip(bytes.subspan(at))) break;
-            if (::inflateReset(&z.stream) != Z_OK) broken();
-        } else if (state != Z_OK || (at == bytes.size() && z.stream.avail_out > 0)) {
-            broken();
-        }
-    }
-    out.resize(size);
-    return out;
-}
-
 } // namespace
 
 template <class Stat>
@@ -204,7 +142,7 @@ Input Input::open(const std::filesystem::path& path, std::size_t max_stream) {
         input.bytes_ = *bytes;
         input.owner_ = std::move(bytes);
     }
-    input.inflate(max_stream);
+    input.unpack(max_stream);
     return input;
 }
 
@@ -214,7 +152,7 @@ Input Input::of(std::string name, Bytes bytes) {
     auto shared = std::make_shared<const Bytes>(std::move(bytes));
     input.bytes_ = *shared;
     input.owner_ = std::move(shared);
-    input.inflate(SIZE_MAX);
+    input.unpack(SIZE_MAX);
     return input;
 }
 
@@ -238,42 +176,26 @@ Input Input::beside(const std::filesystem::path& relative) const {
     return open(path_beside(relative)).staged_as(path_.parent_path() / relative, instead_);
 }
 
-void Input::inflate(std::size_t max_bytes) {
+void Input::unpack(std::size_t max_bytes) {
     stored_ = bytes_;
-    if (!is_gzip(bytes_)) return;
     stored_owner_ = owner_;
-    auto bytes = std::make_shared<const Bytes>(inflated(bytes_, std::min(max_bytes, stream_limit()), name_));
-    bytes_ = *bytes;
-    owner_ = std::move(bytes);
+    const Packing packing = packing_of(bytes_);
+    if (packing == Packing::none) return;
+    *this = with(unpacked(bytes_, packing, std::min(max_bytes, stream_limit()), name_));
 }
 
-bool is_gzip(Span bytes) {
-    // Two magic bytes, the only method there is, and no reserved flag.
-    return bytes.size() >= 18 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b} &&
-           bytes[2] == std::byte{8} && (bytes[3] & std::byte{0xe0}) == std::byte{0};
+Input Input::from(std::size_t offset) const {
+    Input other = *this;
+    other.bytes_ = bytes_.subspan(offset);
+    return other;
 }
 
-Bytes gzipped(Span bytes) {
-    z_stream z{};
-    if (::deflateInit2(&z, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)
-        throw out_of_memory("no memory to compress a file");
-    Bytes out;
-    std::size_t at = 0, size = 0;
-    for (int state = Z_OK; state == Z_OK;) {
-        if (size == out.size()) out.resize(std::max<std::size_t>(size * 2, 1 << 16));
-        const uInt in = static_cast<uInt>(std::min<std::size_t>(bytes.size() - at, 1 << 30));
-        const uInt room = static_cast<uInt>(std::min<std::size_t>(out.size() - size, 1 << 30));
-        z.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data() + at));
-        z.next_out = reinterpret_cast<Bytef*>(out.data() + size);
-        z.avail_in = in;
-        z.avail_out = room;
-        state = ::deflate(&z, at + in == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
-        at += in - z.avail_in;
-        size += room - z.avail_out;
-    }
-    ::deflateEnd(&z);
-    out.resize(size);
-    return out;
+Input Input::with(Bytes bytes) const {
+    Input other = *this;
+    auto shared = std::make_shared<const Bytes>(std::move(bytes));
+    other.bytes_ = *shared;
+    other.owner_ = std::move(shared);
+    return other;
 }
 
 } // namespace facetmill::io

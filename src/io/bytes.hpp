@@ -27,7 +27,8 @@ inline std::string_view as_text(Span bytes) {
 class Input {
   public:
     /// Opens a file, or standard input for "-". Throws missing (E-FILE, E-DIRECTORY, E-PERMISSION) or limit
-    /// (E-SIZE, when a stream goes beyond max_stream bytes). Gzip (.gz) is inflated, within the same limit.
+    /// (E-SIZE, when a stream goes beyond max_stream bytes). What is compressed (gzip, zstd) is unpacked,
+    /// within the same limit.
     static Input open(const std::filesystem::path& path, std::size_t max_stream = std::size_t{4} << 30);
     static Input of(std::string name, Bytes bytes);
     /// The same bytes under another name, for a staged output: that of its target. `instead` says which file
@@ -43,12 +44,16 @@ class Input {
     const std::filesystem::path& path() const { return path_; } ///< empty for streams
     Span bytes() const { return bytes_; }
     Span stored() const { return stored_; } ///< as the file holds them: still compressed, when it was gzip
+    /// The same file with other bytes, made of its own: decoded text.
+    Input with(Bytes bytes) const;
+    /// The same file without its first bytes.
+    Input from(std::size_t offset) const;
     /// False when a file that is mapped is no longer as it was when it was opened (its place, size or times):
     /// who read its bytes may have seen some of before and some of after.
     bool is_as_opened() const;
 
   private:
-    void inflate(std::size_t limit);
+    void unpack(std::size_t limit);
 
     std::string name_;
     std::filesystem::path path_;
@@ -66,10 +71,5 @@ class Input {
     std::shared_ptr<const Instead> instead_;
     Span bytes_, stored_;
 };
-
-/// Whether these bytes begin as gzip does.
-bool is_gzip(Span bytes);
-/// The bytes as a gzip file without name and time, so that the same bytes give the same file.
-Bytes gzipped(Span bytes);
 
 } // namespace facetmill::io

@@ -4,6 +4,8 @@
 #include "base/parallel.hpp"
 #include "base/spelling.hpp"
 #include "io/attributes.hpp"
+#include "io/encoding.hpp"
+#include "io/packing.hpp"
 #include "mesh/invariants.hpp"
 #include "mesh/power_scale.hpp"
 
@@ -53,6 +55,13 @@ const Codec& choose(const Input& input, ReadLog& log) {
                 fmt::format("give 'format', one of: {}", fmt::join(names_of_readers(), ", ")));
 }
 
+/// The input as its codec reads it: text in UTF-8, and what is surely of some format as it is.
+Input readable(const Input& input) {
+    for (const auto& codec : codecs())
+        if (codec.sniff && codec.sniff(input.bytes()) == 2) return input;
+    return in_utf8(input);
+}
+
 /// Throws malformed (E-EMPTY) for a file without bytes, usage (E-FORMAT) when no codec reads it.
 const Codec& reader_for(const Input& input, ReadLog& log, const Codec* forced) {
     if (input.bytes().empty())
@@ -98,11 +107,9 @@ void warn_of_size(const Part& part, ReadLog& log) {
          false});
 }
 
-/// The file's name without directory, .gz and suffix, for parts that bear none.
+/// The file's name without directory, .gz or .zst, and suffix, for parts that bear none.
 std::string stem_of(const Input& input) {
-    std::filesystem::path name = std::filesystem::path(input.name()).filename();
-    if (name.extension() == ".gz") name = name.stem();
-    return name.stem().string();
+    return without_packing(std::filesystem::path(input.name()).filename()).stem().string();
 }
 
 } // namespace
@@ -117,8 +124,7 @@ RegisterCodec::RegisterCodec(Codec codec) {
 const std::vector<Codec>& codecs() { return registry(); }
 
 const Codec* codec_for(const std::filesystem::path& path) {
-    std::string extension = lower_case(path.extension().string());
-    if (extension == ".gz") extension = lower_case(path.stem().extension().string());
+    const std::string extension = lower_case(without_packing(path).extension().string());
     if (extension.empty()) return nullptr;
     for (const auto& codec : codecs())
         for (const auto& e : codec.extensions)
@@ -159,7 +165,8 @@ const std::vector<Capability>& capabilities() {
     return all;
 }
 
-FileHeader file_header(const Input& input, const ReadSettings& settings, const Codec* forced) {
+FileHeader file_header(const Input& file, const ReadSettings& settings, const Codec* forced) {
+    const Input input = readable(file);
     ReadLog log; // its warnings come again when the file is read
     const Codec& codec = reader_for(input, log, forced);
     FileHeader header{codec.name, settings.unit.value_or(codec.unit), settings.up.value_or(codec.up)};
@@ -169,7 +176,8 @@ FileHeader file_header(const Input& input, const ReadSettings& settings, const C
     return header;
 }
 
-Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log, const Codec* forced) {
+Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, const Codec* forced) {
+    const Input input = readable(file);
     const Codec& codec = reader_for(input, log, forced);
     constexpr double memory_per_byte = 4; // as measured on large meshes: 3 to 5 in all formats
     require_memory(memory_per_byte * static_cast<double>(input.bytes().size()),

@@ -195,19 +195,20 @@ struct RegisterCodec {
 };
 
 const std::vector<Codec>& codecs();
-/// The codec for a file name's extension (.gz ignored), or null.
+/// The codec for a file name's extension (.gz and .zst ignored), or null.
 const Codec* codec_for(const std::filesystem::path& path);
 const Codec* codec_named(std::string_view name);
 /// The names of all codecs that read, or that write, sorted.
 std::vector<std::string> names_of_readers();
 std::vector<std::string> names_of_writers();
 
-/// Reads a mesh file: by content where it is sure, else by extension. Throws as Codec::read, usage (E-FORMAT)
-/// when no codec takes it. Positions that are not finite are malformed (E-NAN) with the vertex and file.
-Scene read_scene(const Input& input, const ReadSettings& settings, ReadLog& log,
+/// Reads a mesh file: by content where it is sure, else by extension. Text may be UTF-8 or UTF-16. Throws as
+/// Codec::read, usage (E-FORMAT) when no codec takes it. Positions that are not finite are malformed (E-NAN)
+/// with the vertex and file.
+Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log,
                  const Codec* forced = nullptr);
 
 /// Sniffs a file and reads its header. Throws as read_scene, for what the header shows.
-FileHeader file_header(const Input& input, const ReadSettings& settings, const Codec* forced = nullptr);
+FileHeader file_header(const Input& file, const ReadSettings& settings, const Codec* forced = nullptr);
 
 } // namespace facetmill::io

@@ -1,6 +1,7 @@
 #include "pipeline/expressions.hpp"
 
 #include "base/spelling.hpp"
+#include "io/packing.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -234,9 +235,7 @@ namespace {
 /// The file's name, and how much of it is its stem.
 std::pair<std::string, std::size_t> split_name(const std::string& path) {
     const std::string name = path == "-" ? "stdin" : std::filesystem::path(path).filename().string();
-    std::string_view stem = name;
-    for (const std::string_view packed : {".gz", ".zst"})
-        if (stem.size() > packed.size() && stem.ends_with(packed)) stem.remove_suffix(packed.size());
+    std::string stem = io::without_packing(name).string();
     if (const auto dot = stem.rfind('.'); dot != std::string_view::npos && dot > 0)
         stem = stem.substr(0, dot);
     return {name, stem.size()};

@@ -1,6 +1,6 @@
 #include "support/catch.hpp"
 
-#include "io/bytes.hpp"
+#include "io/packing.hpp"
 #include "support/failure.hpp"
 #include "support/temporary.hpp"
 
@@ -24,7 +24,7 @@ TEST_CASE("a file is read whole", "[io]") {
 TEST_CASE("gzip is inflated, members one after another, and its stored bytes are known", "[io]") {
     const TemporaryDirectory dir;
     const std::string text(300000, 'y');
-    const io::Bytes packed = io::gzipped(bytes_of(text));
+    const io::Bytes packed = io::packed(bytes_of(text), io::Packing::gzip);
     std::string two;
     for (int i = 0; i < 2; ++i) two += std::string(io::as_text(packed));
     put(dir / "a.gz", two);
@@ -108,7 +108,7 @@ TEST_CASE("a device, and gzip that inflates as no mesh does, end at a limit", "[
         failure([] { Input::open("/dev/zero"); }) ==
         "limit [E-SIZE] '/dev/zero' gives more than 67108864 bytes | write it to a file first, uncompressed");
     const TemporaryDirectory dir;
-    const io::Bytes bomb = io::gzipped(io::Bytes(std::size_t{80} << 20));
+    const io::Bytes bomb = io::packed(io::Bytes(std::size_t{80} << 20), io::Packing::gzip);
     put(dir / "bomb.gz", std::string(io::as_text(bomb)));
     CHECK(failure([&] { Input::open(dir / "bomb.gz"); }) ==
           fmt::format(

@@ -34,11 +34,23 @@ bool understood(const std::string& extension) {
            starts("EXT_texture_") || starts("EXT_materials_") || starts("ADOBE_materials_");
 }
 
+/// glTF 1.0 lists its contents by names rather than in arrays, and may leave "asset" out.
+bool is_gltf_1(const Json& document) {
+    if (document.contains("asset")) return false;
+    for (const char* list : {"accessors", "bufferViews", "meshes", "nodes"})
+        if (document.contains(list)) return document[list].is_object();
+    return false;
+}
+
 void check_asset(const Json& document) {
+    if (document.is_object() && is_gltf_1(document))
+        throw Error(ErrorKind::malformed, "E-VERSION", "expected glTF 2.x, found glTF 1.0",
+                    hint_for_version_1);
     const Place asset = Place(document, "").at("asset");
     const std::string version = asset.at("version").text(), least = asset.text_or("minVersion", "2.0");
     if (version.rfind("2.", 0) != 0)
-        asset.at("version").fail(fmt::format("expected glTF 2.x, found \"{}\"", version), "E-VERSION");
+        asset.at("version").fail(fmt::format("expected glTF 2.x, found \"{}\"", version), "E-VERSION",
+                                 version.starts_with('1') ? hint_for_version_1 : "");
     if (least != "2.0")
         asset.at("minVersion").fail(fmt::format("glTF {} is needed to read it", least), "E-VERSION");
     const auto required = list(document, "extensionsRequired");

@@ -51,7 +51,10 @@ bool is_glb(Span bytes) { return bytes.size() >= 4 && word(bytes, 0) == magic; }
 Chunks split_glb(Span bytes) {
     if (bytes.size() < 12) fail(bytes.size(), "the GLB header is cut short");
     const std::uint32_t version = word(bytes, 4), length = word(bytes, 8);
-    if (version != 2) fail(4, fmt::format("GLB version {} is not supported, only 2", version));
+    if (version != 2)
+        throw Error(ErrorKind::malformed, "E-VERSION",
+                    fmt::format("at byte 4: expected GLB version 2, found version {}", version),
+                    version == 1 ? hint_for_version_1 : "");
     if (length > bytes.size())
         fail(8, fmt::format("the file says that it has {} bytes, but it has {}", length, bytes.size()));
     Chunks chunks;

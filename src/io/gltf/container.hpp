@@ -11,6 +11,9 @@
 
 namespace facetmill::io::gltf {
 
+/// What to do with glTF of before 2017.
+inline constexpr const char* hint_for_version_1 = "gltf-pipeline writes glTF 1.0 as 2.0";
+
 /// True when the bytes begin with the GLB magic number.
 bool is_glb(Span bytes);
 

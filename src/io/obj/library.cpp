@@ -3,6 +3,7 @@
 
 #include "base/hash.hpp"
 #include "base/spelling.hpp"
+#include "io/encoding.hpp"
 #include "io/image_files.hpp"
 #include "io/obj/materials.hpp"
 #include "io/text.hpp"
@@ -189,7 +190,7 @@ std::map<std::string, Description> read_libraries(const Input& input, const std:
             continue;
         }
         try {
-            const Input library = input.beside(*path);
+            const Input library = in_utf8(input.beside(*path));
             log.files.push_back({library.path(), library.stored().size(), sha256(library.stored())});
             LibraryReader(library, path->parent_path(), all).read();
             log.unrepeatable |= !library.is_as_opened();

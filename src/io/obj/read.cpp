@@ -2,6 +2,7 @@
 #include "base/parallel.hpp"
 #include "base/words.hpp"
 #include "io/attributes.hpp"
+#include "io/encoding.hpp"
 #include "io/flatten.hpp"
 #include "io/image_files.hpp"
 #include "io/obj/materials.hpp"
@@ -452,7 +453,7 @@ UsedMaterials used_materials(const Input& input) {
 
 bool uses_materials(const std::filesystem::path& path) {
     bool found = false;
-    const Input input = Input::open(path);
+    const Input input = in_utf8(Input::open(path));
     for_each_use(as_text(input.bytes()), [&](std::string_view word, std::string_view rest) {
         found = word == "usemtl" && !rest.empty();
         return !found;
@@ -461,7 +462,7 @@ bool uses_materials(const std::filesystem::path& path) {
 }
 
 std::vector<NamedImage> images_of(const std::filesystem::path& path, const std::vector<Event>& libraries) {
-    const Input input = Input::open(path);
+    const Input input = in_utf8(Input::open(path));
     ReadLog ignored; // reading the file will tell
     MaterialMaker maker(input, read_libraries(input, libraries, ignored), ignored, true);
     std::vector<Material> materials;

@@ -7,7 +7,7 @@ inline constexpr const char* about = R"(Reads mesh files and adds their parts to
 
 inline constexpr const char* details =
     R"(The format of a file is determined from its content or, if that is not conclusive, from its suffix;
-a .gz file is decompressed. Each mesh, solid or object in a file becomes a part, named as in the
+a .gz or .zst file is decompressed. Each mesh, solid or object in a file becomes a part, named as in the
 file or after the file; names are made unique. The scene takes its unit and up axis from the first
 file loaded, and later files are converted to them. Lines (l of OBJ, line primitives of glTF) are
 skipped unless the option `lines` gives them a thickness: consecutive lines become one closed tube

@@ -3,6 +3,7 @@
 #include "base/words.hpp"
 #include "io/convert.hpp"
 #include "io/gltf/gltf.hpp"
+#include "io/packing.hpp"
 #include "io/read_back.hpp"
 
 #include <fmt/format.h>
@@ -119,11 +120,12 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
                                                   file.name.string()));
             continue;
         }
-        const bool packed = !main && path.extension() == ".gz";
-        const io::Bytes gz = packed ? io::gzipped(file.bytes) : io::Bytes{};
+        const io::Packing packing = main ? io::Packing::none : io::packing_named(path);
+        const bool packs = packing != io::Packing::none;
+        const io::Bytes packed = packs ? io::packed(file.bytes, packing) : io::Bytes{};
         const std::filesystem::path name = main ? path.parent_path() / file.name : path;
-        const auto& staged = run.outputs.add(context.places().output(name.string()), packed ? gz : file.bytes,
-                                             context.where());
+        const auto& staged = run.outputs.add(context.places().output(name.string()),
+                                             packs ? packed : file.bytes, context.where());
         if (!main) main = &staged;
         run.record.outputs.push_back({name.lexically_normal().string(), staged.bytes, staged.sha256, {}});
     }

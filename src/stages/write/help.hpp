@@ -12,6 +12,6 @@ the run has succeeded; until then, existing files are unchanged. Each file is de
 compared with the scene: the number of faces, and how far positions moved (float32, Draco,
 quantize). Units and the up axis are converted to the convention of the format; formats without
 nodes get all parts in world space. Attributes that the format cannot hold are listed under
-attribute_changes in the report. If the name ends in .gz, the file is compressed.)";
+attribute_changes in the report. If the name ends in .gz or .zst, the file is compressed.)";
 
 } // namespace facetmill::help::write

@@ -1,6 +1,7 @@
 #include "stages/write/options.hpp"
 
 #include "base/spelling.hpp"
+#include "io/packing.hpp"
 #include "options/mark_at.hpp"
 #include "stage/options/convention.hpp"
 
@@ -128,10 +129,9 @@ void verify_options(const WriteOptions& o, const io::Codec& codec, const Value& 
             "write", given, problems);
 }
 
-/// The file's name without suffix and .gz.
+/// The file's name without suffix, .gz and .zst.
 std::string title_of(const std::filesystem::path& target) {
-    const std::filesystem::path name = target.extension() == ".gz" ? target.stem() : target.filename();
-    return target == "-" ? "mesh" : name.stem().string();
+    return target == "-" ? "mesh" : io::without_packing(target).stem().string();
 }
 
 } // namespace

@@ -1,0 +1,91 @@
+#include "io/encoding.hpp"
+
+#include "base/error.hpp"
+
+#include <cstdint>
+#include <fmt/format.h>
+
+namespace facetmill::io {
+
+namespace {
+
+constexpr std::string_view utf8_mark = "\xEF\xBB\xBF", little_mark = "\xFF\xFE", big_mark = "\xFE\xFF";
+constexpr std::string_view little_utf32{"\xFF\xFE\0\0", 4}, big_utf32{"\0\0\xFE\xFF", 4};
+
+[[noreturn]] void cannot_decode(const Input& input, const std::string& message) {
+    throw Error(ErrorKind::malformed, "E-ENCODING", fmt::format("'{}' {}", input.name(), message),
+                "save it as UTF-8");
+}
+
+bool is_plain(char c) { return (c >= ' ' && c <= '~') || c == '\t' || c == '\n' || c == '\r'; }
+
+/// Whether the beginning is ASCII with a zero behind (or before) each character.
+bool alternates(std::string_view text, std::size_t character) {
+    constexpr std::size_t pairs = 8;
+    if (text.size() < 2 * pairs) return false;
+    for (std::size_t i = 0; i < 2 * pairs; i += 2)
+        if (!is_plain(text[i + character]) || text[i + 1 - character] != '\0') return false;
+    return true;
+}
+
+void append_utf8(Bytes& out, std::uint32_t code) {
+    const auto put = [&](std::uint32_t byte) { out.push_back(static_cast<std::byte>(byte)); };
+    const auto follow = [&](int shift) { put(0x80 | ((code >> shift) & 0x3f)); };
+    if (code < 0x80) {
+        put(code);
+    } else if (code < 0x800) {
+        put(0xc0 | (code >> 6));
+        follow(0);
+    } else if (code < 0x10000) {
+        put(0xe0 | (code >> 12));
+        follow(6);
+        follow(0);
+    } else {
+        put(0xf0 | (code >> 18));
+        follow(12);
+        follow(6);
+        follow(0);
+    }
+}
+
+/// The bytes from `at` on, which are UTF-16 in that byte order.
+Bytes from_utf16(const Input& input, std::size_t at, bool big) {
+    const Span bytes = input.bytes();
+    const auto unit = [&](std::size_t i) {
+        const auto high = std::to_integer<std::uint32_t>(bytes[i + (big ? 0 : 1)]);
+        return high << 8 | std::to_integer<std::uint32_t>(bytes[i + (big ? 1 : 0)]);
+    };
+    if ((bytes.size() - at) % 2 != 0) cannot_decode(input, "is UTF-16 and ends within a character");
+    Bytes out;
+    out.reserve((bytes.size() - at) / 2);
+    while (at < bytes.size()) {
+        std::uint32_t code = unit(at);
+        at += 2;
+        if (code >= 0xd800 && code < 0xe000) { // half of a pair (RFC 2781)
+            const std::uint32_t low = at < bytes.size() ? unit(at) : 0;
+            if (code >= 0xdc00 || low < 0xdc00 || low >= 0xe000)
+                cannot_decode(input,
+                              fmt::format("is UTF-16 with half of a surrogate pair at byte {}", at - 2));
+            code = 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
+            at += 2;
+        }
+        append_utf8(out, code);
+    }
+    return out;
+}
+
+} // namespace
+
+Input in_utf8(const Input& input) {
+    const std::string_view text = as_text(input.bytes());
+    if (text.starts_with(utf8_mark)) return input.from(utf8_mark.size());
+    if (text.starts_with(little_utf32) || text.starts_with(big_utf32))
+        cannot_decode(input, "is UTF-32, which is not read");
+    if (text.starts_with(little_mark) || text.starts_with(big_mark))
+        return input.with(from_utf16(input, 2, text.starts_with(big_mark)));
+    for (const bool big : {false, true})
+        if (alternates(text, big ? 1 : 0)) return input.with(from_utf16(input, 0, big));
+    return input;
+}
+
+} // namespace facetmill::io

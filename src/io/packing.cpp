@@ -1,0 +1,221 @@
+#include "io/packing.hpp"
+
+#include "base/error.hpp"
+#include "base/spelling.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <new>
+#include <zlib.h>
+#include <zstd.h>
+
+namespace facetmill::io {
+
+namespace {
+
+/// Two magic bytes, the only method there is, and no reserved flag.
+bool begins_as_gzip(Span bytes) {
+    return bytes.size() >= 18 && bytes[0] == std::byte{0x1f} && bytes[1] == std::byte{0x8b} &&
+           bytes[2] == std::byte{8} && (bytes[3] & std::byte{0xe0}) == std::byte{0};
+}
+
+/// The magic number of a frame (RFC 8878).
+bool begins_as_zstd(Span bytes) {
+    constexpr std::array magic{std::byte{0x28}, std::byte{0xb5}, std::byte{0x2f}, std::byte{0xfd}};
+    return bytes.size() >= 9 && std::equal(magic.begin(), magic.end(), bytes.begin());
+}
+
+struct Suffix {
+    const char* text;
+    Packing packing;
+};
+constexpr Suffix suffixes[] = {{".gz", Packing::gzip}, {".zst", Packing::zstd}};
+
+constexpr std::size_t at_once = std::size_t{1} << 30;
+
+/// Takes bytes step by step and gives others, into memory that is never beyond a limit.
+struct Unpacker {
+    /// What a step came to.
+    enum class State { more, end_of_member, broken };
+
+    Unpacker() = default;
+    Unpacker(const Unpacker&) = delete;
+    Unpacker& operator=(const Unpacker&) = delete;
+    virtual ~Unpacker() = default;
+    /// Moves both spans behind what was taken and given.
+    virtual State step(Span& in, std::span<std::byte>& out) = 0;
+    /// Whether another member begins here; if so it is what the next step reads.
+    virtual bool next_member(Span in) = 0;
+    virtual const char* problem() const = 0;
+    const char* id = "";
+    const char* format = "";
+    const char* tool = "";
+};
+
+struct Gunzip final : Unpacker {
+    Gunzip() {
+        id = "E-GZIP", format = "gzip", tool = "gzip -d";
+        if (::inflateInit2(&z, 15 + 16) != Z_OK) throw out_of_memory("no memory to inflate a file");
+    }
+    Gunzip(const Gunzip&) = delete;
+    Gunzip& operator=(const Gunzip&) = delete;
+    ~Gunzip() override { ::inflateEnd(&z); }
+    State step(Span& in, std::span<std::byte>& out) override {
+        const auto take = static_cast<uInt>(std::min(in.size(), at_once));
+        const auto room = static_cast<uInt>(std::min(out.size(), at_once));
+        z.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(in.data()));
+        z.next_out = reinterpret_cast<Bytef*>(out.data());
+        z.avail_in = take;
+        z.avail_out = room;
+        const int state = ::inflate(&z, Z_NO_FLUSH);
+        in = in.subspan(take - z.avail_in);
+        out = out.subspan(room - z.avail_out);
+        if (state == Z_MEM_ERROR) throw std::bad_alloc();
+        return state == Z_STREAM_END ? State::end_of_member : state == Z_OK ? State::more : State::broken;
+    }
+    bool next_member(Span in) override { return begins_as_gzip(in) && ::inflateReset(&z) == Z_OK; }
+    const char* problem() const override { return z.msg ? z.msg : "it ends early"; }
+    z_stream z{};
+};
+
+struct Unzstd final : Unpacker {
+    Unzstd() : z(::ZSTD_createDCtx()) {
+        id = "E-ZSTD", format = "zstd", tool = "zstd -d";
+        if (!z) throw out_of_memory("no memory to decompress a file");
+        // 128 MiB: the largest window that readers are advised to have memory for, and zstd's own default.
+        ::ZSTD_DCtx_setParameter(z, ZSTD_d_windowLogMax, 27);
+    }
+    Unzstd(const Unzstd&) = delete;
+    Unzstd& operator=(const Unzstd&) = delete;
+    ~Unzstd() override { ::ZSTD_freeDCtx(z); }
+    State step(Span& in, std::span<std::byte>& out) override {
+        ZSTD_inBuffer from{in.data(), in.size(), 0};
+        ZSTD_outBuffer to{out.data(), out.size(), 0};
+        result = ::ZSTD_decompressStream(z, &to, &from);
+        in = in.subspan(from.pos);
+        out = out.subspan(to.pos);
+        if (::ZSTD_isError(result)) return State::broken;
+        return result == 0 ? State::end_of_member : State::more;
+    }
+    bool next_member(Span in) override { return !in.empty(); }
+    const char* problem() const override {
+        return ::ZSTD_isError(result) ? ::ZSTD_getErrorName(result) : "it ends early";
+    }
+    ZSTD_DCtx* z;
+    std::size_t result = 0;
+};
+
+Bytes unpack_all(Span bytes, Unpacker& unpacker, std::size_t most, const std::string& name) {
+    constexpr std::size_t harmless = std::size_t{64} << 20, ratio = 200;
+    const std::size_t usual =
+        bytes.size() > SIZE_MAX / ratio ? SIZE_MAX : std::max(harmless, ratio * bytes.size());
+    const std::size_t limit = std::min(most, usual);
+    Bytes out;
+    std::size_t size = 0;
+    for (Span in = bytes;;) {
+        if (size == out.size()) out.resize(std::min(std::max<std::size_t>(size * 2, 1 << 16), limit + 1));
+        auto room = std::span(out).subspan(size);
+        const auto state = unpacker.step(in, room);
+        size = out.size() - room.size();
+        if (size > limit && usual < most)
+            throw Error(ErrorKind::limit, "E-SIZE",
+                        fmt::format("'{}' inflates to more than {} bytes from {}, as no mesh does", name,
+                                    limit, bytes.size()),
+                        fmt::format("if it is one all the same, inflate it first: {}", unpacker.tool));
+        if (size > limit) too_large(name, limit);
+        if (state == Unpacker::State::end_of_member) {
+            if (!unpacker.next_member(in)) break;
+        } else if (state == Unpacker::State::broken || (in.empty() && !room.empty())) {
+            throw Error(ErrorKind::malformed, unpacker.id,
+                        fmt::format("'{}' is not whole {}: {} near byte {}", name, unpacker.format,
+                                    unpacker.problem(), bytes.size() - in.size()));
+        }
+    }
+    out.resize(size);
+    return out;
+}
+
+Bytes gzipped(Span bytes) {
+    z_stream z{};
+    if (::deflateInit2(&z, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+        throw out_of_memory("no memory to compress a file");
+    Bytes out;
+    std::size_t at = 0, size = 0;
+    for (int state = Z_OK; state == Z_OK;) {
+        if (size == out.size()) out.resize(std::max<std::size_t>(size * 2, 1 << 16));
+        const uInt in = static_cast<uInt>(std::min(bytes.size() - at, at_once));
+        const uInt room = static_cast<uInt>(std::min(out.size() - size, at_once));
+        z.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data() + at));
+        z.next_out = reinterpret_cast<Bytef*>(out.data() + size);
+        z.avail_in = in;
+        z.avail_out = room;
+        state = ::deflate(&z, at + in == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
+        at += in - z.avail_in;
+        size += room - z.avail_out;
+    }
+    ::deflateEnd(&z);
+    out.resize(size);
+    return out;
+}
+
+/// One frame with its size and a checksum, by one thread: what several write depends on their number.
+Bytes zstd_packed(Span bytes) {
+    ZSTD_CCtx* z = ::ZSTD_createCCtx();
+    if (!z) throw out_of_memory("no memory to compress a file");
+    // 9: smaller than gzip's 6, and no slower.
+    ::ZSTD_CCtx_setParameter(z, ZSTD_c_compressionLevel, 9);
+    ::ZSTD_CCtx_setParameter(z, ZSTD_c_checksumFlag, 1);
+    Bytes out;
+    std::size_t size = 0;
+    try {
+        out.resize(::ZSTD_compressBound(bytes.size()));
+        size = ::ZSTD_compress2(z, out.data(), out.size(), bytes.data(), bytes.size());
+    } catch (...) {
+        ::ZSTD_freeCCtx(z);
+        throw;
+    }
+    ::ZSTD_freeCCtx(z);
+    if (::ZSTD_isError(size)) throw out_of_memory("no memory to compress a file");
+    out.resize(size);
+    return out;
+}
+
+} // namespace
+
+void too_large(const std::string& name, std::size_t limit) {
+    throw Error(ErrorKind::limit, "E-SIZE", fmt::format("'{}' gives more than {} bytes", name, limit),
+                "write it to a file first, uncompressed");
+}
+
+Packing packing_of(Span bytes) {
+    return begins_as_gzip(bytes) ? Packing::gzip : begins_as_zstd(bytes) ? Packing::zstd : Packing::none;
+}
+
+Packing packing_named(const std::filesystem::path& path) {
+    const std::string suffix = lower_case(path.extension().string());
+    for (const Suffix& known : suffixes)
+        if (suffix == known.text) return known.packing;
+    return Packing::none;
+}
+
+std::filesystem::path without_packing(const std::filesystem::path& path) {
+    return packing_named(path) == Packing::none ? path : path.parent_path() / path.stem();
+}
+
+Bytes unpacked(Span bytes, Packing packing, std::size_t limit, const std::string& name) {
+    if (packing == Packing::none) return {bytes.begin(), bytes.end()};
+    if (packing == Packing::gzip) {
+        Gunzip gunzip;
+        return unpack_all(bytes, gunzip, limit, name);
+    }
+    Unzstd unzstd;
+    return unpack_all(bytes, unzstd, limit, name);
+}
+
+Bytes packed(Span bytes, Packing packing) {
+    if (packing == Packing::none) return {bytes.begin(), bytes.end()};
+    return packing == Packing::gzip ? gzipped(bytes) : zstd_packed(bytes);
+}
+
+} // namespace facetmill::io
