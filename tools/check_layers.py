@@ -34,6 +34,7 @@ PUBLIC = {
     "geometry/edit": "changes of a mesh: tools, used one by one",
     "geometry/cut": "what clip and crop have in common",
     "geometry/triangulate": "triangles of faces, for files, pictures and algorithms: tools, used one by one",
+    "geometry/clean/combine.hpp": "Boolean operations, by the machinery of the union",
     "geometry/deviation/deviation_fields.hpp": "the declared fields of a deviation, which reports show",
     "geometry/inspect/connectivity.hpp": "components of a mesh",
     "geometry/inspect/evidence.hpp": "where a property fails",

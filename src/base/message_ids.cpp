@@ -49,6 +49,13 @@ std::span<const MessageId> message_ids() {
          {Kind::usage},
          "The value of an option is not one of its choices.",
          "The message lists the choices."},
+        {"E-COMBINE",
+         {Kind::stage},
+         "Parts cannot be combined: one is open, has no faces, is inside out or flattened by its node; or "
+         "the "
+         "result could not be rounded without an intersection.",
+         "`clean: {holes: minimal}` closes a part and `orient` turns it outward; the message names the "
+         "part."},
         {"E-COMMAND",
          {Kind::usage},
          "facetmill has no command of this name.",
@@ -452,6 +459,10 @@ std::span<const MessageId> message_ids() {
          "The planes of clip do not cut the mesh; all of it is kept.",
          "Check the plane; `facetmill info` prints the bounds."},
         {"W-CLIP-NOTHING", {}, "clip keeps nothing.", "Reverse the plane, or keep the other side."},
+        {"W-COMBINE-NOTHING",
+         {},
+         "combine leaves nothing of a part.",
+         "Check that the parts overlap; `facetmill info` prints their bounds."},
         {"W-CROP-ALL",
          {},
          "The outline of crop does not cut the mesh; all of it is kept.",

@@ -65,6 +65,7 @@ RUNS = [
     "load cubes.obj ! clip z=0.5 --cap ! clip x=0.25 --space local ! clean --holes minimal --self_intersections all",
     "load cubes.obj ! crop [[0,0],[4,0],[4,0.7],[0,0.7]] --cap ! tile 0.4 --axes xyz",
     "load cubes.obj ! tile 0.4",
+    "load cubes.obj ! generate icosphere ! combine difference --with icosphere ! combine",
     "load open.off ! clip z=0.5 --cap ! clean --holes minimal ! measure ! probe 0,0,0",
     "load cubes.obj ! section z=0.5 --hatch 10% ! section --count 4 ! section z=9",
     "load open.off ! section z=0.5 ! section --count 3",

@@ -64,18 +64,33 @@ double hausdorff_distance(const Mesh& from, const Mesh& to, double error) {
         surface_of(from), surface_of(to), error);
 }
 
+namespace {
+
+Mesh mesh_of(Surface surface) {
+    surface.collect_garbage();
+    Mesh mesh;
+    for (const auto v : surface.vertices())
+        mesh.positions.push_back({surface.point(v).x(), surface.point(v).y(), surface.point(v).z()});
+    for (const auto f : surface.faces())
+        for (const auto v : surface.vertices_around_face(surface.halfedge(f)))
+            mesh.corners.push_back(static_cast<Index>(v));
+    return mesh;
+}
+
+} // namespace
+
 Mesh union_of(const Mesh& a, const Mesh& b) {
     Surface of_a = surface_of(a), of_b = surface_of(b), joined;
     if (!CGAL::Polygon_mesh_processing::corefine_and_compute_union(of_a, of_b, joined))
         throw std::runtime_error("no union");
-    joined.collect_garbage();
-    Mesh mesh;
-    for (const auto v : joined.vertices())
-        mesh.positions.push_back({joined.point(v).x(), joined.point(v).y(), joined.point(v).z()});
-    for (const auto f : joined.faces())
-        for (const auto v : joined.vertices_around_face(joined.halfedge(f)))
-            mesh.corners.push_back(static_cast<Index>(v));
-    return mesh;
+    return mesh_of(std::move(joined));
+}
+
+Mesh difference_of(const Mesh& a, const Mesh& b) {
+    Surface of_a = surface_of(a), of_b = surface_of(b), left;
+    if (!CGAL::Polygon_mesh_processing::corefine_and_compute_difference(of_a, of_b, left))
+        throw std::runtime_error("no difference");
+    return mesh_of(std::move(left));
 }
 
 namespace {

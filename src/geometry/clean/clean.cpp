@@ -18,8 +18,8 @@ bool resolve_t_junctions(Work& work, double tolerance) {
     return true;
 }
 
-bool take_apart_non_manifold(Work& work) {
-    NonManifoldSplit split = split_non_manifold(std::move(work.mesh));
+bool take_apart_non_manifold(Work& work, bool divide_all) {
+    NonManifoldSplit split = split_non_manifold(std::move(work.mesh), divide_all);
     work.mesh = std::move(split.mesh);
     work.counts.split_vertices += split.split_vertices;
     work.counts.split_edges += split.split_edges;

@@ -94,6 +94,7 @@ Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {
     const auto volumes = six_volumes(mesh, s.components);
     for (Index p = 0; p < s.components.count; ++p) {
         s.closed.push_back(fitness[p] == Fitness::fit);
+        s.why_not.push_back(reason(fitness[p]));
         s.inward.push_back(volumes[p] < 0);
     }
     s.unfit = unfit_places(mesh, s.components, fitness, found);

@@ -54,7 +54,7 @@ bool remove_duplicates(Work& work);
 /// along that one, is put on it.
 bool resolve_t_junctions(Work& work, double tolerance);
 /// See split_non_manifold.
-bool take_apart_non_manifold(Work& work);
+bool take_apart_non_manifold(Work& work, bool divide_all = false);
 /// Edges as (low vertex, high vertex), ascending.
 using EdgeList = std::vector<std::pair<Index, Index>>;
 /// Fills the loops of boundary edges as the settings say; holes that touch at a vertex each for itself. Loops

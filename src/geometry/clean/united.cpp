@@ -21,28 +21,58 @@ constexpr const char* too_many =
 
 constexpr const char* no_memory = "there is not enough memory to unite this many intersecting faces";
 
-/// The winding number on the two sides of a patch, by what turns outward and what turns inward.
-struct Sides {
+/// A winding number, by what turns outward and what turns inward.
+struct Winding {
     int outward = 0, inward = 0;
     int all() const { return outward + inward; }
-    bool operator==(const Sides&) const = default;
+    void add(bool of_inward, int turn) { (of_inward ? inward : outward) += turn; }
+    bool operator==(const Winding&) const = default;
 };
+
+/// Those of the operands on one side of a patch; without operands all is of the first.
+using Sides = std::array<Winding, 2>;
+
+Sides sum(Sides a, const Sides& b) {
+    for (std::size_t k = 0; k < 2; ++k) {
+        a[k].outward += b[k].outward;
+        a[k].inward += b[k].inward;
+    }
+    return a;
+}
+
+bool encloses(const Sides& sides, const Operands* operands) {
+    const int first = sides[0].all(), second = sides[1].all();
+    if (!operands) return first >= 1;
+    switch (operands->operation) {
+    case CombineOperation::unite:
+        return first >= 1 || second >= 1;
+    case CombineOperation::intersect:
+        return first >= 1 && second >= 1;
+    case CombineOperation::subtract:
+        break;
+    }
+    return first >= 1 && second > -1;
+}
 
 /// A face that was not cut, or a piece of cut ones; more of its sources turn as it does than the other way.
 struct Leaf {
     std::array<Index, 3> nodes;
     std::vector<Index> triangles; ///< its sources; the first turns as it does, unless they cancel
     Index face = none;            ///< not cut
+    Index against = none;         ///< the first of its sources that turns the other way
     Index cluster = none;
     Sides turns; ///< how many of the sources turn as it does, less those that turn the other way
-    bool of_inward = false;
+    std::array<bool, 2> of_inward{};
     Index patch = 0; ///< the lowest leaf of its patch
 };
 
+enum class Fate : std::uint8_t { goes, stays, stays_turned };
+
 class Uniting {
   public:
-    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance)
-        : mesh_(mesh), solids_(solids), found_(found), tolerance_(tolerance) {}
+    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance,
+            const Operands* operands)
+        : mesh_(mesh), solids_(solids), found_(found), tolerance_(tolerance), operands_(operands) {}
 
     United run() {
         mark_cut_faces();
@@ -65,6 +95,13 @@ class Uniting {
   private:
     Index component_of(Index triangle) const { return solids_.components.of_face[triangles_.face[triangle]]; }
     Index cluster_of(Index triangle) const { return solids_.cluster[component_of(triangle)]; }
+    std::size_t operand_of(Index component) const {
+        return operands_ && operands_->second[component] ? 1 : 0;
+    }
+    void count(Sides& sides, Index triangle, int turn) const {
+        const Index p = component_of(triangle);
+        sides[operand_of(p)].add(solids_.inward[p], turn);
+    }
 
     void refuse(Index cluster, const char* why) {
         for (const auto& r : result_.refused)
@@ -178,10 +215,11 @@ class Uniting {
         leaf.nodes = nodes;
         leaf.cluster = cluster_of(sources[0].triangle);
         for (const auto& [t, sign] : sources) {
-            const bool inward = solids_.inward[component_of(t)];
-            leaf.of_inward |= inward;
-            (inward ? leaf.turns.inward : leaf.turns.outward) += flip * sign;
+            const Index p = component_of(t);
+            leaf.of_inward[operand_of(p)] |= solids_.inward[p] != 0;
+            count(leaf.turns, t, flip * sign);
             leaf.triangles.push_back(t);
+            if (flip * sign < 0 && leaf.against == none) leaf.against = t;
             if (flip * sign > 0 && flip * sources[0].sign < 0 && leaf.triangles[0] == sources[0].triangle)
                 std::swap(leaf.triangles[0], leaf.triangles.back());
         }
@@ -222,31 +260,40 @@ class Uniting {
             if (cluster_of(t) != leaf.cluster)
                 around += turn;
             else
-                (solids_.inward[component_of(t)] ? ahead.inward : ahead.outward) += turn;
+                count(ahead, t, turn);
         });
-        if (way < 0) {
-            ahead.outward -= leaf.turns.outward;
-            ahead.inward -= leaf.turns.inward;
-        }
-        if (has_cavity_[leaf.cluster] && around > 0) ++ahead.outward;
+        if (way < 0)
+            for (std::size_t k = 0; k < 2; ++k) {
+                ahead[k].outward -= leaf.turns[k].outward;
+                ahead[k].inward -= leaf.turns[k].inward;
+            }
+        if (has_cavity_[leaf.cluster] && around > 0) ++ahead[0].outward;
         return ahead;
+    }
+
+    /// The lower winding number of what turns outward, on either side.
+    int least_around(const Sides& front, const Sides& back, std::size_t operand) const {
+        const bool reversed = operand == 1 && operands_->operation == CombineOperation::subtract;
+        const int sign = reversed ? -1 : 1;
+        return std::min(sign * front[operand].outward, sign * back[operand].outward);
     }
 
     void judge_patches(const Arrangement& arrangement) {
         has_cavity_.assign(solids_.clusters(), 0);
         for (Index p = 0; p < solids_.components.count; ++p)
             if (solids_.cluster[p] != none && solids_.inward[p]) has_cavity_[solids_.cluster[p]] = 1;
-        outside_.assign(leaves_.size(), 0);
+        fate_.assign(leaves_.size(), Fate::goes);
         for (Index i = 0; i < leaves_.size(); ++i) {
             const Leaf& leaf = leaves_[i];
             if (leaf.patch != i) {
-                outside_[i] = outside_[leaf.patch];
+                fate_[i] = fate_[leaf.patch];
                 continue;
             }
-            const Sides front = front_of(arrangement, leaf);
-            const Sides back{front.outward + leaf.turns.outward, front.inward + leaf.turns.inward};
-            if (leaf.of_inward && std::min(front.outward, back.outward) < 1) refuse(leaf.cluster, inside_out);
-            outside_[i] = front.all() <= 0 && back.all() >= 1;
+            const Sides front = front_of(arrangement, leaf), back = sum(front, leaf.turns);
+            for (std::size_t k = 0; k < 2; ++k)
+                if (leaf.of_inward[k] && least_around(front, back, k) < 1) refuse(leaf.cluster, inside_out);
+            const bool before = encloses(front, operands_), behind = encloses(back, operands_);
+            if (before != behind) fate_[i] = behind ? Fate::stays : Fate::stays_turned;
         }
         find_filled_cavities(arrangement);
     }
@@ -277,11 +324,16 @@ class Uniting {
         std::vector<OuterPiece> pieces;
         for (Index i = 0; i < leaves_.size(); ++i) {
             const Leaf& leaf = leaves_[i];
-            if (leaf.face != none && !outside_[i]) {
+            if (leaf.face != none && fate_[i] == Fate::goes) {
                 goes[leaf.face] = 1;
                 ++result_.covered_faces;
             }
-            if (leaf.face == none && outside_[i]) pieces.push_back({leaf.nodes, leaf.triangles[0]});
+            if (leaf.face != none || fate_[i] == Fate::goes) continue;
+            const auto& [a, b, c] = leaf.nodes;
+            if (fate_[i] == Fate::stays)
+                pieces.push_back({leaf.nodes, leaf.triangles[0]});
+            else
+                pieces.push_back({{a, c, b}, leaf.against});
         }
         std::stable_sort(pieces.begin(), pieces.end(),
                          [](const auto& a, const auto& b) { return a.triangle < b.triangle; });
@@ -296,6 +348,7 @@ class Uniting {
     const Solids& solids_;
     const SelfIntersections& found_;
     double tolerance_;
+    const Operands* operands_;                   ///< or nothing
     std::vector<std::uint8_t> cut_;              ///< [faces]
     std::vector<std::pair<Index, Index>> pairs_; ///< of faces that are cut
     Surface surface_;
@@ -303,15 +356,16 @@ class Uniting {
     std::vector<Index> first_; ///< [faces + 1] into triangles_
     std::vector<Leaf> leaves_;
     std::vector<std::uint8_t> has_cavity_; ///< [clusters] or an inward component at least
-    std::vector<std::uint8_t> outside_;    ///< [leaves]
+    std::vector<Fate> fate_;               ///< [leaves]
     std::vector<std::uint8_t> filled_;     ///< [components]
     United result_;
 };
 
 } // namespace
 
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance) {
-    return Uniting(mesh, solids, found, tolerance).run();
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance,
+             const Operands* operands) {
+    return Uniting(mesh, solids, found, tolerance, operands).run();
 }
 
 } // namespace facetmill::clean_steps

@@ -1,6 +1,7 @@
 #pragma once
 // One pass of uniting solids: what lies on the outside of all is kept, what lies within goes.
 
+#include "geometry/clean/combine.hpp"
 #include "geometry/clean/solids.hpp"
 
 namespace facetmill::clean_steps {
@@ -19,14 +20,22 @@ struct United {
     bool short_of_memory = false; ///< they are refused for the memory that is free
 };
 
+/// What two solids are combined to. The second is inside out where it is taken away from the first.
+struct Operands {
+    CombineOperation operation = CombineOperation::unite;
+    std::vector<std::uint8_t> second; ///< [components] those of the second
+};
+
 /// Cuts the faces of the clusters that intersect along each other, asks for the winding number on both sides
 /// of every patch between cuts (Q. Zhou et al., "Mesh arrangements for solid geometry", 2016), and keeps what
 /// has at most 0 on one side and at least 1 on the other, facing out. Faces that are not cut stay polygons
 /// and keep their order; the pieces of cut ones are triangles and come last. Vertices at one place where
 /// faces are cut become one. Attributes of new corners are mixed within the face that they are part of, those
 /// on an edge between its ends only, so that seams stay seams. Coordinates are rounded, and new vertices
-/// within tolerance of others become them: the result may intersect again.
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance);
+/// within tolerance of others become them: the result may intersect again. With operands there is one
+/// cluster, of all components; solids are as before the second was turned inside out.
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance,
+             const Operands* operands = nullptr);
 
 /// Takes triangles of exactly no area out of a closed surface without opening it: the vertex between the two
 /// others is put on the edge of the face across. Those for which there is none are left.

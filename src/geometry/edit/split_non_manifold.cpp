@@ -61,9 +61,9 @@ bool has_crowded_edges(const EdgeTable& edges) {
     return false;
 }
 
-/// Puts a point in the middle of crowded edges that no vertex could take apart, for every pair but the first
-/// and every face left over.
-bool divide_crowded_edges(NonManifoldSplit& work) {
+/// Puts a point in the middle of crowded edges that no vertex could take apart, for every pair (but the first
+/// unless `all`) and every face left over.
+bool divide_crowded_edges(NonManifoldSplit& work, bool all) {
     const Mesh& mesh = work.mesh;
     const auto edges = build_edges(mesh);
     if (!has_crowded_edges(edges)) return false;
@@ -80,7 +80,7 @@ bool divide_crowded_edges(NonManifoldSplit& work) {
             for (std::size_t i = 0; i < corners.size(); ++i) paired[i] |= corners[i] == a || corners[i] == b;
         for (std::size_t i = 0; i < corners.size(); ++i)
             if (!paired[i]) groups.emplace_back(corners[i], corners[i]);
-        for (std::size_t g = 1; g < groups.size(); ++g) {
+        for (std::size_t g = all ? 0 : 1; g < groups.size(); ++g) {
             const auto v = static_cast<Index>(mesh.vertex_count() + added.size());
             added.push_back({edges.edges[e].low, edges.edges[e].high, 0.5});
             insertions.push_back({groups[g].first, 0.5, v});
@@ -127,14 +127,14 @@ Fans disjoint_fans(const Mesh& mesh) {
     return result;
 }
 
-NonManifoldSplit split_non_manifold(Mesh mesh) {
+NonManifoldSplit split_non_manifold(Mesh mesh, bool divide_all) {
     NonManifoldSplit result{std::move(mesh), {}, 0, 0};
     const Fans fans = disjoint_fans(result.mesh);
     if (!fans.copies.empty()) {
         result.split_vertices = fans.copies.size();
         result.mesh = part_corners(result.mesh, fans.vertex_of_corner, fans.copies);
     }
-    divide_crowded_edges(result);
+    divide_crowded_edges(result, divide_all);
     return result;
 }
 

@@ -22,7 +22,8 @@ struct NonManifoldSplit {
 };
 /// The mesh with each fan of disjoint_fans on its own vertices. Where both ends of an edge of more than two
 /// faces are held together by other faces, every pair but the first gets a point in the middle of the edge;
-/// attributes are interpolated there.
-NonManifoldSplit split_non_manifold(Mesh mesh);
+/// attributes are interpolated there. With `divide_all` the first pair, too, gets a point of its own, so that
+/// none lies in the middle of another's edge.
+NonManifoldSplit split_non_manifold(Mesh mesh, bool divide_all = false);
 
 } // namespace facetmill

@@ -1,4 +1,5 @@
 #include "base/unique_names.hpp"
+#include "mesh/skin.hpp"
 #include "stage/stage.hpp"
 #include "stages/merge/help.hpp"
 
@@ -34,17 +35,6 @@ void declare_report(DeclareFields<MergeReport>& d) {
     d.field("merged", &MergeReport::merged, "The names of the parts that were joined, in order.");
 }
 
-/// Drops what means nothing without the skin. Returns what became of it.
-AttributeChanges drop_skin(Mesh& mesh) {
-    AttributeChanges changes;
-    std::erase_if(mesh.attributes, [&](const Attribute& a) {
-        if (a.role != Role::joints && a.role != Role::weights) return false;
-        changes.push_back({a.name, a.domain, AttributeChange::Kind::dropped, "merged parts have no skin"});
-        return true;
-    });
-    return changes;
-}
-
 /// The number of the part that each face came from: what `separate: group` parts by.
 void mark_group(Mesh& mesh, std::uint32_t number) {
     mesh.drop("group", Domain::face);
@@ -72,7 +62,7 @@ Scene run(Scene scene, const MergeOptions& o, Context& context, MergeReport& rep
             context.warn("W-SKIN",
                          fmt::format("merge: part '{}' is in bind pose and loses its skin", part.name),
                          "leave it out with `only`, or write the parts as they are");
-        context.attribute_changes(part, drop_skin(part.mesh));
+        context.attribute_changes(part, drop_skin(part.mesh, "merged parts have no skin"));
         mark_group(part.mesh, static_cast<std::uint32_t>(report.merged.size()));
         report.merged.push_back(part.name);
         for (const auto& a : part.mesh.attributes)

@@ -1,0 +1,151 @@
+#include "geometry/clean/combine.hpp"
+
+#include "geometry/clean/trial.hpp"
+#include "geometry/inspect/evidence.hpp"
+#include "geometry/orient/orient.hpp"
+#include "mesh/face.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill {
+
+namespace {
+
+using namespace clean_steps;
+
+/// Face attribute that tells, while this works, which mesh a face came from.
+constexpr std::string_view mesh_name = "facetmill:mesh";
+
+Mesh all_of(std::vector<Mesh> meshes) {
+    Mesh all;
+    for (Index i = 0; i < meshes.size(); ++i) {
+        meshes[i].attributes.push_back({std::string(mesh_name), Domain::face, Role::index, 1, false,
+                                        std::vector<std::uint32_t>(meshes[i].face_count(), i)});
+        if (i == 0)
+            all = std::move(meshes[i]);
+        else
+            append(all, std::exchange(meshes[i], {}));
+    }
+    return all;
+}
+
+std::span<const std::uint32_t> mesh_of_faces(const Mesh& mesh) {
+    return std::get<std::vector<std::uint32_t>>(mesh.find(mesh_name, Domain::face)->data);
+}
+
+/// Takes faces without area out of what stays closed without them.
+void take_out_degenerate(Work& work) {
+    const Mesh& mesh = work.mesh;
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (is_degenerate(mesh, f)) {
+            take_out_flat(work);
+            remove_degenerate(work);
+            return;
+        }
+}
+
+/// Of the first face whose component is no solid.
+std::optional<CombineFailure> misfit(const Mesh& mesh, const Solids& solids) {
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        const Index p = solids.components.of_face[f];
+        if (!solids.closed[p])
+            return CombineFailure{fmt::format("it {}", solids.why_not[p]), mesh_of_faces(mesh)[f],
+                                  corner_mean(mesh, f)};
+    }
+    return {};
+}
+
+class Combining {
+  public:
+    Combining(std::vector<Mesh> meshes, const CombineSettings& settings) : settings_(settings) {
+        work_.mesh = all_of(std::move(meshes));
+    }
+
+    CombineResult run() {
+        take_out_degenerate(work_);
+        SelfIntersections found = crossings(work_.mesh);
+        if (found.count > found.pairs.size())
+            return failed({fmt::format("{} pairs of faces intersect, and at most {} are processed",
+                                       found.count, max_pairs),
+                           none, corner_mean(work_.mesh, found.pairs[0].first)});
+        for (const auto& pair : overlaps_at_edges(work_.mesh)) found.pairs.push_back(pair);
+        std::sort(found.pairs.begin(), found.pairs.end());
+        found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
+        Solids solids = find_solids(work_.mesh, found);
+        if (auto failure = misfit(work_.mesh, solids)) return failed(std::move(*failure));
+        make_one_cluster(solids);
+        const Operands operands = operands_of(solids);
+        turn_what_is_taken();
+        return combine(solids, found, operands);
+    }
+
+  private:
+    static void make_one_cluster(Solids& solids) {
+        solids.cluster.assign(solids.components.count, 0);
+        solids.at.assign(1, {});
+        solids.meets_unfit.assign(1, 0);
+    }
+
+    Operands operands_of(const Solids& solids) const {
+        Operands operands{settings_.operation, std::vector<std::uint8_t>(solids.components.count, 0)};
+        const auto meshes = mesh_of_faces(work_.mesh);
+        for (Index f = 0; f < meshes.size(); ++f)
+            if (meshes[f] >= settings_.second) operands.second[solids.components.of_face[f]] = 1;
+        return operands;
+    }
+
+    void turn_what_is_taken() {
+        if (settings_.operation != CombineOperation::subtract) return;
+        const auto meshes = mesh_of_faces(work_.mesh);
+        std::vector<std::uint8_t> flags(meshes.size());
+        for (Index f = 0; f < meshes.size(); ++f) flags[f] = meshes[f] >= settings_.second;
+        turned_ = flip_faces(work_.mesh, flags);
+    }
+
+    CombineResult combine(const Solids& solids, const SelfIntersections& found, const Operands& operands) {
+        const CleanSettings settings;
+        Trial trial(work_, solids, settings);
+        Failures failures = trial.run(found, &operands);
+        std::size_t crowded = 0;
+        if (failures.empty()) failures = trial.open_clusters(crowded);
+        if (!failures.empty()) {
+            const Vec3 at = found.pairs.empty() ? Vec3{} : corner_mean(work_.mesh, found.pairs[0].first);
+            CombineResult result = failed({failures.begin()->second, none, at});
+            result.short_of_memory = trial.is_short_of_memory();
+            return result;
+        }
+        return result_of(trial.finish());
+    }
+
+    CombineResult result_of(Work work) const {
+        CombineResult result;
+        const auto meshes = mesh_of_faces(work.mesh);
+        result.mesh_of_face.assign(meshes.begin(), meshes.end());
+        work.mesh.drop(mesh_name, Domain::face);
+        forget_change(work.changes, mesh_name);
+        result.changes = changes_in_sequence(turned_, std::move(work.changes));
+        result.mesh = std::move(work.mesh);
+        result.cut_faces = work.counts.refined_faces;
+        result.covered_faces = work.counts.covered_faces;
+        return result;
+    }
+
+    static CombineResult failed(CombineFailure failure) {
+        CombineResult result;
+        result.failure = std::move(failure);
+        return result;
+    }
+
+    CombineSettings settings_;
+    Work work_;
+    AttributeChanges turned_;
+};
+
+} // namespace
+
+CombineResult combine(std::vector<Mesh> meshes, const CombineSettings& settings) {
+    return Combining(std::move(meshes), settings).run();
+}
+
+} // namespace facetmill

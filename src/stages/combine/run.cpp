@@ -1,0 +1,228 @@
+#include "base/spelling.hpp"
+#include "geometry/clean/combine.hpp"
+#include "geometry/cut/cap_paint.hpp"
+#include "mesh/skin.hpp"
+#include "mesh/transform.hpp"
+#include "stage/stage.hpp"
+#include "stages/combine/help.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::combine_stage {
+
+namespace {
+
+using Operation = CombineOperation;
+
+struct CombineOptions {
+    Operation operation = Operation::unite;
+    std::vector<std::string> with;
+    bool keep = false;
+};
+
+void declare(Declare<CombineOptions>& d) {
+    d.choice<Operation>(
+         "operation", &CombineOptions::operation,
+         {{"union", Operation::unite, "what is in any of the parts, as one part"},
+          {"difference", Operation::subtract, "each part without the parts of `with`"},
+          {"intersection", Operation::intersect, "of each part, what is in a part of `with` as well"}},
+         "What is made of the parts.")
+        .primary();
+    d.option(
+        "with", &CombineOptions::with,
+        "The parts to combine the others with: names or globs of parts or materials; \"!glob\" excludes.");
+    d.option("keep", &CombineOptions::keep, "Keeps the parts of `with` in the scene.");
+}
+
+void verify(const CombineOptions& o, const Value& given, Problems& problems) {
+    if (o.operation != Operation::unite && o.with.empty())
+        problems.add(given.mark, "E-MISSING",
+                     fmt::format("combine: {} needs the parts of 'with'",
+                                 o.operation == Operation::subtract ? "difference" : "intersection"),
+                     "combine: {operation: difference, with: drill}");
+}
+
+struct CombinedPart {
+    std::string part;
+    std::vector<std::string> with;
+    std::size_t faces = 0, cut_faces = 0, removed_faces = 0, faces_of_with = 0;
+};
+
+struct CombineReport {
+    std::vector<CombinedPart> parts;
+};
+
+void declare_part(DeclareFields<CombinedPart>& d) {
+    d.field("part", &CombinedPart::part, "Its name.");
+    d.field("with", &CombinedPart::with, "The parts that it was combined with.");
+    d.field("faces", &CombinedPart::faces, "The number of its faces now.");
+    d.field("cut_faces", &CombinedPart::cut_faces,
+            "Faces cut where they met others, once in each repetition.");
+    d.field("removed_faces", &CombinedPart::removed_faces, "Faces that met no others and were removed.");
+    d.field("faces_of_with", &CombinedPart::faces_of_with,
+            "Faces of the result that come from the parts it was combined with.");
+}
+
+void declare_report(DeclareFields<CombineReport>& d) {
+    d.list("parts", &CombineReport::parts, "Each part that was combined.", declare_part);
+}
+
+std::vector<std::string> names_of(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Part& part : scene.parts) names.push_back(part.name);
+    return names;
+}
+
+/// By part: 0: not concerned, 1: of the first operand, 2: of the second. Usage error (E-PART) when a pattern
+/// of `with` names nothing, or nothing is left to be combined.
+std::vector<int> operands_of(const Scene& scene, const CombineOptions& o, const Context& context) {
+    for (const auto& pattern : o.with) {
+        const PartFilter alone{{pattern}};
+        const auto is_named = [&](const Part& part) { return alone.selects(part, scene); };
+        if (!pattern.starts_with('!') && std::none_of(scene.parts.begin(), scene.parts.end(), is_named))
+            throw Error(ErrorKind::usage, "E-PART",
+                        fmt::format("combine: 'with' names no part of the scene: {}", pattern),
+                        did_you_mean(pattern, names_of(scene), "facetmill info lists them"));
+    }
+    const PartFilter with{o.with};
+    std::vector<int> operand;
+    for (const Part& part : scene.parts)
+        operand.push_back(!o.with.empty() && with.selects(part, scene) ? 2
+                          : context.selects(part, scene)               ? 1
+                                                                       : 0);
+    if (std::find(operand.begin(), operand.end(), 1) == operand.end() &&
+        std::find(operand.begin(), operand.end(), 2) != operand.end())
+        throw Error(ErrorKind::usage, "E-PART", "combine: 'with' leaves no part to be combined",
+                    "the other parts, or those of `only`, are combined with it: load one, or name fewer");
+    return operand;
+}
+
+[[noreturn]] void refuse(const Part& part, const std::string& why, const char* hint) {
+    throw Error(ErrorKind::stage, "E-COMBINE", fmt::format("combine: part '{}' {}", part.name, why), hint);
+}
+
+/// Checks what can be told before anything is cut.
+void require_solid(const Part& part) {
+    if (part.mesh.face_count() == 0)
+        refuse(part, "has no faces", "leave it out with `only`, or check the stages before");
+    if (!inverse(part.transform))
+        refuse(part, "is flattened by its node",
+               "transform: {bake: true} makes it a flat mesh, which is no solid");
+}
+
+constexpr const char* no_skin = "combined parts have no skin";
+
+void warn_of_skin(const Part& part, Context& context) {
+    if (part.skinned)
+        context.warn("W-SKIN",
+                     fmt::format("combine: part '{}' is in bind pose and loses its skin", part.name),
+                     "leave it out with `only`, or write the parts as they are");
+}
+
+/// The mesh of a part in the space of another.
+Mesh in_space_of(const Part& space, const Part& part) {
+    Mesh mesh = part.mesh;
+    drop_skin(mesh, no_skin);
+    if (part.transform != space.transform) apply(mesh, *inverse(space.transform) * part.transform);
+    return mesh;
+}
+
+[[noreturn]] void fail(const CombineFailure& failure, const std::vector<const Part*>& parts) {
+    const Vec3 at = parts[0]->transform.point(failure.at);
+    const std::string place = fmt::format("{:.6g}, {:.6g}, {:.6g}", at.x, at.y, at.z);
+    if (failure.mesh != none)
+        refuse(*parts[failure.mesh], fmt::format("is no solid: {}, at {}", failure.why, place),
+               "clean: {holes: minimal} closes it, clean repairs its faces, orient turns it outward");
+    refuse(*parts[0], fmt::format("cannot be combined: {} (near {})", failure.why, place),
+           "clean: {self_intersections: union} for each part first, or move one of them by a little");
+}
+
+void number_faces(Mesh& mesh, std::string_view name, std::vector<std::uint32_t> numbers) {
+    mesh.drop(name, Domain::face);
+    mesh.attributes.push_back(
+        {std::string(name), Domain::face, Role::index, 1, false, AttributeData(std::move(numbers))});
+}
+
+/// After a union, the number of the part of each face; else what faces of the second operand are numbered by.
+void tag(Mesh& mesh, const std::vector<Index>& mesh_of_face, bool unites, Index first_cut) {
+    if (unites) return number_faces(mesh, group_attribute, {mesh_of_face.begin(), mesh_of_face.end()});
+    std::vector<std::uint32_t> numbers(mesh.face_count());
+    const Attribute* before = mesh.find(cut_id_attribute, Domain::face);
+    for (Index f = 0; f < numbers.size(); ++f)
+        numbers[f] = mesh_of_face[f] > 0 ? first_cut + mesh_of_face[f]
+                     : before            ? static_cast<std::uint32_t>(before->value(f, 0))
+                                         : 0;
+    number_faces(mesh, cut_id_attribute, std::move(numbers));
+}
+
+/// Combines a part with others: the first meshes up to `second` are of the first operand. The first part gets
+/// the result.
+CombinedPart combine_parts(Part& part, const std::vector<const Part*>& others, Operation operation,
+                           Context& context) {
+    std::vector<const Part*> all{&part};
+    all.insert(all.end(), others.begin(), others.end());
+    std::vector<Mesh> meshes;
+    for (const Part* p : all) meshes.push_back(in_space_of(part, *p));
+    const bool unites = operation == Operation::unite;
+    const Index first_cut = unites ? 0 : largest_number(part.mesh, cut_id_attribute);
+    CombineResult r = facetmill::combine(std::move(meshes), {operation, unites ? none : Index{1}});
+    if (r.short_of_memory) context.tell_unrepeatable();
+    if (r.failure) fail(*r.failure, all);
+    tag(r.mesh, r.mesh_of_face, unites, first_cut);
+    CombinedPart report{part.name, {}, r.mesh.face_count(), r.cut_faces, r.covered_faces, 0};
+    for (const Part* p : others) report.with.push_back(p->name);
+    for (const Index mesh : r.mesh_of_face) report.faces_of_with += mesh > 0;
+    context.attribute_changes(part, drop_skin(part.mesh, no_skin));
+    context.attribute_changes(part, r.changes);
+    part.skinned = false;
+    part.mesh = std::move(r.mesh);
+    part.changed = true;
+    if (part.mesh.face_count() == 0)
+        context.warn("W-COMBINE-NOTHING", fmt::format("combine: nothing of part '{}' remains", part.name),
+                     "check that the parts overlap; facetmill info prints their bounds");
+    return report;
+}
+
+Scene run(Scene scene, const CombineOptions& o, Context& context, CombineReport& report) {
+    const std::vector<int> operand = operands_of(scene, o, context);
+    std::vector<Part*> first;
+    std::vector<const Part*> second;
+    for (std::size_t i = 0; i < operand.size(); ++i) {
+        if (operand[i] == 0) continue;
+        require_solid(scene.parts[i]);
+        warn_of_skin(scene.parts[i], context);
+        if (operand[i] == 1) first.push_back(&scene.parts[i]);
+        if (operand[i] == 2) second.push_back(&scene.parts[i]);
+    }
+    if (first.empty()) return scene;
+    std::vector<const Part*> gone; // as parts of their own
+    if (o.operation == Operation::unite) {
+        gone.assign(first.begin() + 1, first.end());
+        std::vector<const Part*> others = gone;
+        others.insert(others.end(), second.begin(), second.end());
+        report.parts.push_back(combine_parts(*first[0], others, o.operation, context));
+    } else {
+        for (Part* part : first) report.parts.push_back(combine_parts(*part, second, o.operation, context));
+    }
+    if (!o.keep) gone.insert(gone.end(), second.begin(), second.end());
+    std::vector<Part> rest;
+    for (Part& part : scene.parts)
+        if (std::find(gone.begin(), gone.end(), &part) == gone.end()) rest.push_back(std::move(part));
+    scene.parts = std::move(rest);
+    return scene;
+}
+
+const RegisterStage registered = make_stage<CombineOptions>(
+    {.name = "combine",
+     .about = help::combine::about,
+     .details = help::combine::details,
+     .examples = {"combine", "combine: {operation: difference, with: drill}",
+                  "combine: {operation: intersection, with: [\"tool*\"], keep: true}"},
+     .may_lose = MayLose::all,
+     .crossing_faces = CrossingFacePolicy::fill},
+    declare, declare_report, run, {.verify = verify});
+
+} // namespace
+
+} // namespace facetmill::combine_stage
