@@ -111,9 +111,10 @@ void check_reports(const DiffOptions& options, const CommandLine& line) {
 void write_reports(const DiffOptions& options, const report::Comparison& comparison, const Scene& a,
                    const Scene& b) {
     for (const auto& path : options.reports) {
-        const std::string text = path.ends_with(".md") ? report::to_markdown(comparison, options.a, options.b)
-                                                       : report::to_html(comparison, options.a, options.b,
-                                                                         report::comparison_pictures(a, b));
+        const std::string text =
+            path.ends_with(".md") ? report::to_markdown(comparison, options.a, options.b)
+                                  : report::to_html(comparison, options.a, options.b,
+                                                    report::comparison_pictures(a, b, options.a, options.b));
         io::write_now(path, std::as_bytes(std::span(text)));
     }
 }

@@ -3,6 +3,7 @@
 #include "geometry/deviation/deviation_fields.hpp"
 #include "report/html_parts.hpp"
 #include "report/markdown_parts.hpp"
+#include "report/viewer.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -134,6 +135,7 @@ std::string to_html(const Comparison& comparison, const std::string& name_a, con
             fmt::format("{}: the signed distance of each vertex from {}, above 0 outside", name_b, name_a);
         out += figure(picture("distance", caption, pictures.distance), caption);
     }
+    out += viewer_section(pictures.view);
     for (const char* section : comparison_sections)
         out +=
             table(section_title(comparison, section), heads({"outcome", "name", "first", "second", "note"}),

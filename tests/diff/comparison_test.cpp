@@ -303,7 +303,7 @@ TEST_CASE("a unit or an up axis that explains a difference is named", "[report]"
 TEST_CASE("a comparison as a page and as Markdown", "[report]") {
     const Scene a = scene_called(shapes::icosphere(2)), b = scene_called(shapes::icosphere(3));
     const Comparison d = report::compare(a, b);
-    const auto pictures = report::comparison_pictures(a, b);
+    const auto pictures = report::comparison_pictures(a, b, "a<1>.ply", "b.ply");
     const std::string page = report::to_html(d, "a<1>.ply", "b.ply", pictures);
     CHECK(page.starts_with("<!DOCTYPE html>"));
     CHECK(page.find("a<1>") == std::string::npos);
@@ -312,9 +312,12 @@ TEST_CASE("a comparison as a page and as Markdown", "[report]") {
         REQUIRE(png.starts_with("iVBOR"));
         CHECK(page.find("src=\"data:image/png;base64," + png + "\"") != std::string::npos);
     }
+    CHECK(pictures.view["scenes"].size() == 2);
+    CHECK(pictures.view["scenes"][1]["reference"] == "a<1>.ply");
+    CHECK(page.find("<section class=\"viewer\" hidden>") != std::string::npos);
     CHECK(page.find("data-of=\"first\"") != std::string::npos);
     CHECK(page.find("<td><code>faces</code></td><td>320</td><td>1280</td>") != std::string::npos);
-    CHECK(report::comparison_pictures(Scene{}, b).distance.empty());
+    CHECK(report::comparison_pictures(Scene{}, b, "a", "b").distance.empty());
     const std::string text = report::to_markdown(d, "a|b.ply", "b.ply");
     CHECK(text.starts_with("## a\\|b.ply and b.ply\n\n**differ**\n"));
     CHECK(text.find("| differs | faces | 320 | 1280 |  |\n") != std::string::npos);

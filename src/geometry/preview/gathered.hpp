@@ -1,0 +1,42 @@
+#pragma once
+// All parts of a scene as one mesh in world space.
+
+#include "geometry/preview/preview.hpp"
+
+#include <span>
+
+namespace facetmill {
+
+/// What of a scene comes along in a preview.
+struct PreviewAttributes {
+    bool normals = false, colours = false, textures = false;
+    bool baked = false; ///< base textures as colours, sampled at each wedge
+};
+PreviewAttributes preview_attributes(const Scene& scene, const MaterialLooks* looks);
+
+/// Takes triangles, part by part, into one mesh.
+class Gatherer {
+  public:
+    Gatherer(const Scene& scene, const MaterialLooks* looks, PreviewAttributes wanted);
+    /// Triangles of a mesh of triangles that stands there, by their corners, three each: whose vertices and
+    /// attributes they have. Those with a point that is not finite are left out.
+    void add(const Mesh& triangles, const Transform& to_world, std::span<const Index> corners);
+    /// The vertex of that place, without a face.
+    void add_point(const Mesh& mesh, const Transform& to_world, Index vertex);
+    Preview finish();
+
+  private:
+    struct Placed; ///< a mesh that is being added
+    Index primitive_for(Placed& placed, Index face);
+    Index wedge_for(Placed& placed, Index corner, Index primitive);
+    void push_attributes(const Placed& placed, Index face, Index wedge, const PreviewPaint& paint);
+
+    const Scene& scene_;
+    const MaterialLooks* looks_;
+    PreviewAttributes wanted_;
+    Preview out_;
+    std::vector<float> normals_, colours_, coordinates_;
+    std::vector<std::uint32_t> primitives_;
+};
+
+} // namespace facetmill

@@ -1,0 +1,100 @@
+#include "geometry/preview/grid.hpp"
+
+#include <array>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace facetmill {
+
+namespace {
+
+/// The cells that vertices lie in, numbered as they are met.
+class Cells {
+  public:
+    Cells(const Box& box, double edge) : least_(box.min) {
+        const Vec3 size = box.extent();
+        // 21 bits for each coordinate of a cell.
+        edge_ = std::max({edge, size.x / most, size.y / most, size.z / most});
+    }
+
+    /// The number of the cell of a finite point.
+    Index number(const Vec3& p) {
+        std::uint64_t key = 0;
+        for (std::size_t i = 0; i < 3; ++i) key = key << 21 | coordinate(p, i);
+        return known_.try_emplace(key, static_cast<Index>(known_.size())).first->second;
+    }
+    /// How far a point is from the centre of its cell, squared, in cells.
+    double off_centre(const Vec3& p) const {
+        double sum = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double d = (p[i] - least_[i]) / edge_ - static_cast<double>(coordinate(p, i)) - 0.5;
+            sum += d * d;
+        }
+        return sum;
+    }
+
+  private:
+    static constexpr double most = (1 << 21) - 2;
+    std::uint64_t coordinate(const Vec3& p, std::size_t i) const {
+        return edge_ > 0 ? static_cast<std::uint64_t>(std::min((p[i] - least_[i]) / edge_, most)) : 0;
+    }
+
+    Vec3 least_;
+    double edge_;
+    std::unordered_map<std::uint64_t, Index> known_;
+};
+
+struct HashOfThree {
+    std::size_t operator()(const std::array<Index, 3>& t) const {
+        std::uint64_t h = t[0];
+        h = (h ^ h >> 29) * 0xbf58476d1ce4e5b9U + t[1];
+        h = (h ^ h >> 32) * 0x94d049bb133111ebU + t[2];
+        return (h ^ h >> 31) * 0xbf58476d1ce4e5b9U;
+    }
+};
+
+/// The same triangle begins with its lowest number.
+std::array<Index, 3> turned(std::array<Index, 3> t) {
+    while (t[0] > t[1] || t[0] > t[2]) t = {t[1], t[2], t[0]};
+    return t;
+}
+
+} // namespace
+
+std::vector<Index> corners_in_cells(const Mesh& triangles, const Transform& to_world, double cell) {
+    Box box;
+    std::vector<Vec3> places(triangles.vertex_count());
+    for (std::size_t v = 0; v < places.size(); ++v) {
+        places[v] = to_world.point(triangles.positions[v]);
+        if (is_finite(places[v])) box.add(places[v]);
+    }
+    Cells cells(box, cell);
+    std::vector<Index> cell_of(places.size(), none);
+    std::vector<Index> corner_of; // [cells] of the vertex nearest to the centre
+    std::vector<double> distance;
+    for (Index c = 0; c < triangles.corner_count(); ++c) {
+        const Index v = triangles.vertex(c);
+        if (cell_of[v] != none || !is_finite(places[v])) continue;
+        cell_of[v] = cells.number(places[v]);
+        const double d = cells.off_centre(places[v]);
+        if (cell_of[v] == corner_of.size()) {
+            corner_of.push_back(c);
+            distance.push_back(d);
+        } else if (d < distance[cell_of[v]]) {
+            corner_of[cell_of[v]] = c;
+            distance[cell_of[v]] = d;
+        }
+    }
+    std::vector<Index> out;
+    std::unordered_set<std::array<Index, 3>, HashOfThree> met;
+    for (Index c = 0; c + 2 < triangles.corner_count(); c += 3) {
+        const std::array<Index, 3> t{cell_of[triangles.vertex(c)], cell_of[triangles.vertex(c + 1)],
+                                     cell_of[triangles.vertex(c + 2)]};
+        if (t[0] == none || t[1] == none || t[2] == none) continue;
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || !met.insert(turned(t)).second) continue;
+        for (const Index of : t) out.push_back(corner_of[of]);
+    }
+    return out;
+}
+
+} // namespace facetmill

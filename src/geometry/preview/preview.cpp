@@ -1,0 +1,154 @@
+#include "geometry/preview/preview.hpp"
+
+#include "base/parallel.hpp"
+#include "geometry/preview/gathered.hpp"
+#include "geometry/preview/grid.hpp"
+#include "geometry/simplify/simplify.hpp"
+#include "geometry/triangulate/crossing_faces.hpp"
+#include "mesh/topology.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace facetmill {
+
+namespace {
+
+/// Scenes of so many times the triangles asked for go through a grid first, which costs a tenth of what their
+/// simplification would; textures would be torn by it, so scenes with them do so later, and their textures
+/// become colours.
+constexpr std::size_t many = 6, many_with_textures = 20;
+
+std::size_t triangles_in(const Mesh& mesh) {
+    if (mesh.all_triangles()) return mesh.face_count();
+    std::size_t sum = 0;
+    for (Index f = 0; f < mesh.face_count(); ++f) sum += std::max<std::size_t>(mesh.face_size(f), 2) - 2;
+    return sum;
+}
+
+/// The area of a mesh in the world.
+double area_of(const Mesh& mesh, const Transform& to_world) {
+    return parallel_reduce(
+        mesh.face_count(), 0.0,
+        [&](std::size_t begin, std::size_t end) {
+            double sum = 0;
+            for (std::size_t f = begin; f < end; ++f) {
+                const Index first = mesh.face_begin(static_cast<Index>(f)),
+                            last = mesh.face_end(static_cast<Index>(f));
+                Vec3 twice;
+                for (Index c = first + 1; c + 1 < last; ++c)
+                    twice += cross(to_world.vector(mesh.point(c) - mesh.point(first)),
+                                   to_world.vector(mesh.point(c + 1) - mesh.point(first)));
+                if (const double area = length(twice) / 2; std::isfinite(area)) sum += area;
+            }
+            return sum;
+        },
+        [](double a, double b) { return a + b; });
+}
+
+/// The edge of cells of which the surface meets about so many.
+double cell_edge(const Scene& scene, std::size_t cells) {
+    double area = 0;
+    for (const Part& part : scene.parts) area += area_of(part.mesh, part.transform);
+    constexpr double met = 1.6; // cells that a plane meets, on the average, for each of its own size
+    return std::sqrt(met * area / static_cast<double>(cells));
+}
+
+Preview points_of(const Scene& scene, std::size_t most) {
+    std::size_t all = 0;
+    for (const Part& part : scene.parts) all += part.mesh.vertex_count();
+    const std::size_t step = (all + most - 1) / std::max<std::size_t>(1, most);
+    Gatherer gatherer(scene, nullptr, preview_attributes(scene, nullptr));
+    std::size_t number = 0;
+    for (const Part& part : scene.parts)
+        for (Index v = 0; v < part.mesh.vertex_count(); ++v)
+            if (number++ % step == 0) gatherer.add_point(part.mesh, part.transform, v);
+    return gatherer.finish();
+}
+
+/// The triangles of a mesh of triangles that these corners are of, three each.
+Mesh with_corners(Mesh mesh, const std::vector<Index>& corners) {
+    std::vector<Index> wedges(corners.size()), faces(corners.size() / 3);
+    for (std::size_t c = 0; c < corners.size(); ++c) wedges[c] = mesh.corners[corners[c]];
+    for (std::size_t f = 0; f < faces.size(); ++f) faces[f] = corners[3 * f] / 3;
+    mesh.corners = std::move(wedges);
+    for (Attribute& a : mesh.attributes)
+        if (a.domain == Domain::face) a.select(faces);
+    drop_unused(mesh);
+    return mesh;
+}
+
+/// Corners of so many faces at most.
+std::vector<Index> every_nth_face(const Mesh& mesh, std::size_t faces) {
+    const std::size_t step = (mesh.face_count() + faces - 1) / faces;
+    std::vector<Index> corners;
+    for (std::size_t f = 0; f < mesh.face_count(); f += step)
+        for (std::size_t c = 3 * f; c < 3 * f + 3; ++c) corners.push_back(static_cast<Index>(c));
+    return corners;
+}
+
+/// Every n-th component, so that about so many faces are left where components are small.
+Mesh without_some_components(Mesh mesh, std::size_t faces) {
+    const Components components = face_components(mesh);
+    const std::size_t step = (mesh.face_count() + faces - 1) / faces;
+    if (components.count < 2 * step) return mesh;
+    std::vector<Index> corners;
+    for (Index f = 0; f < mesh.face_count(); ++f)
+        if (components.of_face[f] % step == 0)
+            for (Index c = 3 * f; c < 3 * f + 3; ++c) corners.push_back(c);
+    return with_corners(std::move(mesh), corners);
+}
+
+/// The mesh with about so many triangles at most, its vertices among those that it had.
+Mesh reduced(Mesh mesh, std::size_t faces) {
+    SimplifySettings settings;
+    settings.method = SimplifySettings::Method::quadric_endpoints;
+    settings.faces = faces;
+    mesh = simplify(std::move(mesh), settings).mesh;
+    const std::size_t enough = faces + faces / 4;
+    if (mesh.face_count() > enough) mesh = without_some_components(std::move(mesh), faces);
+    // A surface that is nowhere manifold: nothing is left that may be collapsed.
+    double cell = std::sqrt(area_of(mesh, {}) / static_cast<double>(faces));
+    while (mesh.face_count() > enough) {
+        auto corners = corners_in_cells(mesh, {}, cell);
+        if (corners.empty() || corners.size() == mesh.corner_count()) corners = every_nth_face(mesh, faces);
+        mesh = with_corners(std::move(mesh), corners);
+        cell *= 1.5;
+    }
+    return mesh;
+}
+
+} // namespace
+
+Preview preview_of(const Scene& scene, const PreviewSettings& settings) {
+    std::size_t faces = 0;
+    for (const Part& part : scene.parts) faces += triangles_in(part.mesh);
+    if (faces == 0) return points_of(scene, settings.faces);
+    const MaterialLooks* looks = settings.looks.get();
+    PreviewAttributes wanted = preview_attributes(scene, looks);
+    wanted.baked = wanted.textures && faces > many_with_textures * settings.faces;
+    if (wanted.baked) wanted.textures = false;
+    const bool by_grid = !wanted.textures && faces > many * settings.faces;
+    const double cell = by_grid ? cell_edge(scene, 2 * settings.faces) : 0;
+    Gatherer gatherer(scene, looks, wanted);
+    for (const Part& part : scene.parts) {
+        if (part.mesh.face_count() == 0) continue;
+        const bool as_it_is = part.mesh.all_triangles();
+        const Mesh cut = as_it_is ? Mesh{} : triangles_of(part.mesh);
+        const Mesh& triangles = as_it_is ? part.mesh : cut;
+        std::vector<Index> corners;
+        if (by_grid)
+            corners = corners_in_cells(triangles, part.transform, cell);
+        else {
+            corners.resize(triangles.corner_count());
+            std::iota(corners.begin(), corners.end(), Index{0});
+        }
+        gatherer.add(triangles, part.transform, corners);
+    }
+    Preview out = gatherer.finish();
+    out.faces = faces;
+    if (out.mesh.face_count() > settings.faces) out.mesh = reduced(std::move(out.mesh), settings.faces);
+    return out;
+}
+
+} // namespace facetmill

@@ -1,0 +1,39 @@
+#pragma once
+// A scene as one mesh of few triangles, for a view that is turned on a screen. The one header of this folder
+// that others include.
+
+#include "geometry/render/texture.hpp"
+#include "mesh/scene.hpp"
+
+namespace facetmill {
+
+struct PreviewSettings {
+    std::size_t faces = 60000; ///< about so many triangles at most; of points without faces, exactly so many
+    std::shared_ptr<const MaterialLooks> looks{}; ///< whose base textures will be laid on; or none
+};
+
+/// What the faces of a primitive of the preview are painted with.
+struct PreviewPaint {
+    Index material = none; ///< of the scene
+    bool coloured = false; ///< their part has colours
+};
+
+struct Preview {
+    /// Triangles in world space with the wedge attributes NORMAL where all parts with faces have it, COLOR_0
+    /// where a part has colours (linear, clamped to 0 to 1) and TEXCOORD_0 where a material has a base
+    /// texture (as the image is sampled: Texture::set and Texture::transform are applied). Each vertex is one
+    /// of the scene's. A scene without faces gives its points, every n-th of them, and no corners.
+    Mesh mesh;
+    std::vector<PreviewPaint> paints; ///< [mesh.primitives]
+    std::size_t faces = 0;            ///< triangles of the scene
+};
+
+/// Makes one mesh of all parts and simplifies it, to vertices among those that it has; a scene of many more
+/// triangles than asked for, without textures, goes through a grid first, in each cell of which one vertex
+/// stays. What is made of very many small components loses some of them. Points that are not finite, and
+/// their faces, are left out. Colours of faces stay apart. The same for any number of threads. About O(n);
+/// memory: as the mesh of the scene where it is not large, else a few times that of the preview and 4 bytes
+/// for each vertex of the largest part.
+Preview preview_of(const Scene& scene, const PreviewSettings& settings = {});
+
+} // namespace facetmill

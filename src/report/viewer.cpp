@@ -1,0 +1,189 @@
+#include "report/viewer.hpp"
+
+#include "base/words.hpp"
+#include "geometry/preview/preview.hpp"
+#include "geometry/render/render.hpp"
+#include "geometry/spatial/signed_distances.hpp"
+#include "io/encode_image.hpp"
+#include "io/png.hpp"
+#include "report/viewer_data.hpp"
+#include "report/viewer_script.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::report {
+
+namespace {
+
+constexpr std::size_t all_faces = 150000, most_faces = 60000; ///< of all scenes, and of one
+constexpr std::size_t most_scenes = 6;                        ///< that have their share of the faces
+/// Of a page of 3 MB, as text: of all scenes with their textures, and of the textures.
+constexpr std::size_t most_bytes = 1200000, most_texture_bytes = 500000;
+constexpr int largest_texture = 512; ///< pixels a side
+
+/// The 99th percentile of the sizes, and the largest: what colours span, and what is told beside it.
+std::pair<double, double> spans(const std::vector<float>& distances) {
+    std::vector<float> sizes(distances.size());
+    for (std::size_t i = 0; i < sizes.size(); ++i) sizes[i] = std::abs(distances[i]);
+    std::sort(sizes.begin(), sizes.end());
+    if (sizes.empty()) return {0, 0};
+    return {sizes[(sizes.size() - 1) * 99 / 100], sizes.back()};
+}
+
+/// The image of the first level that is not too large.
+io::Pixels pixels_of(const TextureImage& image, int largest) {
+    const auto fits = std::find_if(image.levels.begin(), image.levels.end(), [&](const auto& level) {
+        return std::max(level.width, level.height) <= largest;
+    });
+    const auto& level = fits == image.levels.end() ? image.levels.back() : *fits;
+    return {static_cast<std::size_t>(level.width), static_cast<std::size_t>(level.height), level.rgba, false};
+}
+
+const char* word_of(TextureWrap wrap) {
+    return wrap == TextureWrap::clamp ? "clamp" : wrap == TextureWrap::mirror ? "mirror" : "repeat";
+}
+
+const char* word_of(MaterialLook::Alpha alpha) {
+    return alpha == MaterialLook::Alpha::mask    ? "mask"
+           : alpha == MaterialLook::Alpha::blend ? "blend"
+                                                 : "opaque";
+}
+
+Json list_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+} // namespace
+
+ViewedScenes::ViewedScenes(std::size_t expected)
+    : faces_(std::min(most_faces, all_faces / std::clamp<std::size_t>(expected, 1, most_scenes))) {}
+
+void ViewedScenes::add_before(const Scene& scene, const std::string& name,
+                              const std::shared_ptr<const MaterialLooks>& looks) {
+    auto json = packed(scene, name, looks, nullptr);
+    if (!json) return;
+    (*json)["before"] = true;
+    scenes_.push_back(std::move(*json));
+}
+
+void ViewedScenes::add_after(const Scene& scene, const std::string& name,
+                             const std::shared_ptr<const MaterialLooks>& looks, const FaceTree* from,
+                             const std::string& from_name) {
+    if (bytes_ > most_bytes * 3 / 4 || scenes_.size() > most_scenes) {
+        ++left_out_;
+        return;
+    }
+    auto json = packed(scene, name, looks, from);
+    if (!json) return;
+    (*json)["before"] = false;
+    (*json)["reference"] = from_name;
+    if (!scenes_.empty()) {
+        Json& last = scenes_.back();
+        if (!last["before"] && last["data"] == (*json)["data"] && last["groups"] == (*json)["groups"]) {
+            last["name"] = last["name"].get<std::string>() + ", " + name;
+            return;
+        }
+    }
+    scenes_.push_back(std::move(*json));
+}
+
+std::optional<Json> ViewedScenes::packed(const Scene& scene, const std::string& name,
+                                         const std::shared_ptr<const MaterialLooks>& looks,
+                                         const FaceTree* from) {
+    const Preview preview = preview_of(scene, {faces_, looks});
+    if (preview.mesh.vertex_count() == 0) return {};
+    std::vector<float> distances;
+    if (from && !from->empty() && preview.mesh.face_count() > 0)
+        distances = signed_distances(*from, preview.mesh.positions);
+    const auto [most, largest] = spans(distances);
+    PackedMesh mesh = report::packed(preview, distances, most > 0 ? most : 1);
+    const Camera camera = camera_of(scene);
+    std::size_t points = 0;
+    for (const Part& part : scene.parts) points += part.mesh.vertex_count();
+    Json json = {{"name", name},
+                 {"faces", preview.faces},
+                 {"points", points},
+                 {"up", list_of(camera.up)},
+                 {"front", list_of(camera.front)},
+                 {"unit", scene.unit == Unit::unknown ? "" : to_string(scene.unit)},
+                 {"groups", Json::array()}};
+    json.update(mesh.json);
+    if (!distances.empty()) {
+        json["deviation"] = most > 0 ? most : 1;
+        json["largest"] = largest;
+    }
+    const bool textures = preview.mesh.find("TEXCOORD_0", Domain::wedge) != nullptr;
+    for (const PackedGroup& g : mesh.groups)
+        json["groups"].push_back(
+            group(scene, g.paint.material, g.paint.coloured, g.faces, textures, looks.get()));
+    bytes_ += json["data"].get_ref<const std::string&>().size();
+    return json;
+}
+
+Json ViewedScenes::group(const Scene& scene, Index material, bool coloured, std::size_t count, bool textures,
+                         const MaterialLooks* looks) {
+    const MaterialLook* look = looks && material < looks->size() ? &(*looks)[material] : nullptr;
+    const double grey[3] = {0.72, 0.74, 0.78}; // as in pictures
+    Json base = Json::array();
+    for (std::size_t c = 0; c < 4; ++c)
+        base.push_back(look ? static_cast<double>(look->base[c]) : coloured || c == 3 ? 1.0 : grey[c]);
+    const auto alpha = look ? look->alpha : MaterialLook::Alpha::opaque;
+    Json image;
+    if (look && look->base_texture && textures)
+        image = texture(look->base_texture, alpha != MaterialLook::Alpha::opaque);
+    return {{"count", count},
+            {"base", std::move(base)},
+            {"coloured", coloured},
+            {"texture", std::move(image)},
+            {"alpha", word_of(alpha)},
+            {"cutoff", look ? static_cast<double>(look->cutoff) : 0.5},
+            {"unlit", look && look->unlit},
+            {"double_sided", material < scene.materials.size() && scene.materials[material].double_sided}};
+}
+
+/// The place of the texture among those of the page; null when there is no room.
+Json ViewedScenes::texture(const Texture& texture, bool with_alpha) {
+    const TextureKey key{texture.image.get(), texture.wrap_u, texture.wrap_v, texture.nearest, with_alpha};
+    if (const auto known = images_.find(key); known != images_.end()) return known->second;
+    io::Pixels pixels;
+    std::string text;
+    for (int largest = largest_texture; largest >= 64; largest /= 2) {
+        pixels = pixels_of(*texture.image, largest);
+        const bool opaque = !with_alpha || io::is_opaque(pixels);
+        text = (opaque ? "data:image/jpeg;base64," : "data:image/webp;base64,") +
+               io::base64(opaque ? io::encoded_jpeg(pixels, {}) : io::encoded_webp(pixels, {}));
+        if (texture_bytes_ + text.size() <= most_texture_bytes) break;
+        text.clear();
+    }
+    Json place;
+    if (!text.empty()) {
+        place = textures_.size();
+        texture_bytes_ += text.size();
+        bytes_ += text.size();
+        textures_.push_back({{"src", std::move(text)},
+                             {"wrap", {word_of(texture.wrap_u), word_of(texture.wrap_v)}},
+                             {"nearest", texture.nearest}});
+    }
+    kept_.push_back(texture.image);
+    images_.emplace(key, place);
+    return place;
+}
+
+Json ViewedScenes::json() const {
+    if (scenes_.empty()) return nullptr;
+    return {{"scenes", scenes_},
+            {"textures", textures_},
+            {"left_out",
+             left_out_ == 0 ? "" : fmt::format("{} not shown here.", counted(left_out_, "further output"))}};
+}
+
+std::string viewer_section(const Json& viewed) {
+    if (viewed.is_null()) return {};
+    std::string text;
+    for (const char c : viewed.dump(-1, ' ', true, Json::error_handler_t::replace))
+        text += c == '<' ? std::string("\\u003c") : std::string(1, c); // no name ends the element
+    return fmt::format("<section class=\"viewer\" hidden>\n<h2>3D view</h2>\n"
+                       "<script type=\"application/json\">{}</script>\n</section>\n<script>{}</script>\n",
+                       text, viewer_script());
+}
+
+} // namespace facetmill::report

@@ -1,0 +1,51 @@
+#pragma once
+// The 3D view of a page: scenes as few triangles, packed into the page, and drawn there by viewer.js.
+
+#include "base/json.hpp"
+#include "geometry/render/texture.hpp"
+#include "geometry/spatial/face_tree.hpp"
+#include "mesh/scene.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+
+namespace facetmill::report {
+
+/// Gathers the scenes that one view shows: one before, and those after it.
+class ViewedScenes {
+  public:
+    /// expected: about how many there will be, before which each gets its share of the triangles.
+    explicit ViewedScenes(std::size_t expected);
+
+    /// The scene that the others are compared with, first of all.
+    void add_before(const Scene& scene, const std::string& name,
+                    const std::shared_ptr<const MaterialLooks>& looks);
+    /// A scene after it; one that looks as the last only adds its name to that. from: coloured by the signed
+    /// distances of its vertices from this, too, which is called so; none: no such colours.
+    void add_after(const Scene& scene, const std::string& name,
+                   const std::shared_ptr<const MaterialLooks>& looks, const FaceTree* from = nullptr,
+                   const std::string& from_name = {});
+    /// What viewer_section() takes; null where there is nothing to be seen.
+    Json json() const;
+
+  private:
+    std::optional<Json> packed(const Scene& scene, const std::string& name,
+                               const std::shared_ptr<const MaterialLooks>& looks, const FaceTree* from);
+    Json group(const Scene& scene, Index material, bool coloured, std::size_t count, bool textures,
+               const MaterialLooks* looks);
+    Json texture(const Texture& texture, bool with_alpha);
+
+    std::size_t faces_; ///< of each scene
+    std::size_t bytes_ = 0, texture_bytes_ = 0, left_out_ = 0;
+    Json scenes_ = Json::array(), textures_ = Json::array();
+    using TextureKey = std::tuple<const TextureImage*, TextureWrap, TextureWrap, bool, bool>;
+    std::map<TextureKey, Json> images_;                     ///< their places among the textures, or null
+    std::vector<std::shared_ptr<const TextureImage>> kept_; ///< so that their addresses stay theirs
+};
+
+/// The section of a page; empty for null.
+std::string viewer_section(const Json& viewed);
+
+} // namespace facetmill::report

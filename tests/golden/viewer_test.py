@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""The 3D view of pages in a real browser (Chromium, where there is one): it draws, its switches and keys change what is
+seen, and it asks for nothing."""
+
+import json
+import unittest
+
+from browser import CHROMIUM, Browser
+from support import SCAN, Case, png
+
+# What the canvas shows, drawn again: how many pixels are covered, the sum of their colours, and a hash.
+SHOWN = """new Promise((done) => {
+  const canvas = document.querySelector(".viewer canvas");
+  dispatchEvent(new Event("resize"));
+  document.querySelector(".viewer [name=wireframe]").dispatchEvent(new Event("change"));
+  requestAnimationFrame(() => {
+    const flat = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
+    const context = flat.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    const pixels = context.getImageData(0, 0, flat.width, flat.height).data;
+    let covered = 0, red = 0, blue = 0, hash = 7;
+    for (let i = 0; i < pixels.length; i += 4) {
+      if (pixels[i + 3] < 128) continue;
+      ++covered;
+      red += pixels[i];
+      blue += pixels[i + 2];
+      hash = (hash * 31 + i * 7 + pixels[i] * 5 + pixels[i + 1] * 3 + pixels[i + 2]) % 1000000007;
+    }
+    done({ covered: covered / (flat.width * flat.height), red: red / covered, blue: blue / covered, hash });
+  });
+})"""
+
+
+@unittest.skipUnless(CHROMIUM, "there is no Chromium")
+class Viewer(Case):
+    def page(self, browser, path):
+        browser.open(path)
+        browser.wait("!document.querySelector('.viewer').hidden")
+
+    def choose(self, browser, name, value):
+        browser.do(f"(() => {{ const c = document.querySelector('.viewer [name={name}]'); "
+                   f"c[c.type === 'checkbox' ? 'checked' : 'value'] = {json.dumps(value)}; "
+                   f"c.dispatchEvent(new Event('change')); }})()")
+
+    def clean(self, browser):
+        self.assertEqual(browser.problems, [])
+        self.assertEqual(browser.requests, [])
+
+    def test_switches_and_keys(self):
+        self.mill("pipe", "-q", "load", SCAN, "!", "simplify", "20%", "!", "write", "small.ply")
+        self.mill("diff", SCAN, "small.ply", "--report", "page.html", expect=1)
+        with Browser() as browser:
+            browser.size(900, 700)
+            self.page(browser, self.dir / "page.html")
+            first = browser.do(SHOWN)
+            self.assertGreater(first["covered"], 0.1)
+            self.assertLess(first["covered"], 0.9)
+            self.assertEqual(browser.do(SHOWN), first)
+            seen = {first["hash"]}
+
+            def differs(what):
+                shown = browser.do(SHOWN)
+                self.assertGreater(shown["covered"], 0.02, what)
+                self.assertNotIn(shown["hash"], seen, what)
+                seen.add(shown["hash"])
+
+            self.choose(browser, "wireframe", True)
+            differs("wireframe")
+            self.choose(browser, "wireframe", False)
+            self.choose(browser, "shading", "flat")
+            differs("flat")
+            self.choose(browser, "shading", "smooth")
+            self.choose(browser, "colours", "deviation")
+            differs("deviation")
+            self.assertFalse(browser.do("document.querySelector('.viewer .scale').hidden"))
+            self.choose(browser, "colours", "plain")
+            self.assertTrue(browser.do("document.querySelector('.viewer .scale').hidden"))
+            browser.do("document.querySelector('.viewer canvas').focus()")
+            for key, shift in (("ArrowLeft", False), ("ArrowUp", False), ("ArrowRight", True), ("+", False)):
+                browser.press(key, shift)
+                differs(key)
+            browser.press("0")
+            self.choose(browser, "colours", "material")
+            self.assertEqual(browser.do(SHOWN), first)  # back where it was
+            browser.do("document.querySelector('.viewer [type=radio]').click()")
+            browser.wait("document.querySelector('.viewer .caption').textContent.startsWith('Before')")
+            differs("before")
+            self.assertRegex(browser.do("document.querySelector('.viewer .caption').textContent"),
+                             r"shown with 60,000 of 70,000 triangles|shown with all [\d,]+ triangles")
+            browser.size(390, 800)
+            self.assertLessEqual(browser.do("document.documentElement.scrollWidth"), 390)
+            self.assertGreater(browser.do(SHOWN)["covered"], 0.05)
+            self.clean(browser)
+
+    def test_textures_and_colours(self):
+        self.write("red.obj", "mtllib red.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl red\n"
+                   "f 1/1 2/2 3/3 4/4\n")
+        self.write("red.mtl", "newmtl red\nmap_Kd red.png\n")
+        (self.dir / "red.png").write_bytes(png(255, 0, 0))
+        self.write("blue.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                   "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+                   "property list uchar int vertex_indices\nend_header\n0 0 0 0 0 255\n1 0 0 0 0 255\n0 0 1 0 0 255\n3 0 1 2\n")
+        with Browser() as browser:
+            for name, is_red in (("red.obj", True), ("blue.ply", False)):
+                self.mill("diff", name, name, "--report", "page.html")
+                self.page(browser, self.dir / "page.html")
+                shown = browser.do(SHOWN)
+                self.assertGreater(shown["covered"], 0.05)
+                self.assertEqual(shown["red"] > 100 > 60 > shown["blue"], is_red, shown)
+                self.assertEqual(shown["blue"] > 100 > 60 > shown["red"], not is_red, shown)
+                self.clean(browser)
+
+    def test_points_and_names(self):
+        name = "<script>alert(1)<.ply"
+        self.write(name, "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                   "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")
+        self.mill("diff", name, name, "--report", "page.html")
+        with Browser() as browser:
+            self.page(browser, self.dir / "page.html")
+            self.assertGreater(browser.do(SHOWN)["covered"], 0)
+            self.assertEqual(browser.do("document.querySelector('.viewer .caption').textContent"),
+                             f"{name}, shown with all 4 points.")
+            self.clean(browser)
+
+    def test_without_webgl_the_pictures_are_there(self):
+        self.mill("diff", SCAN, SCAN, "--report", "page.html")
+        with Browser("--disable-gpu", "--disable-3d-apis") as browser:
+            browser.open(self.dir / "page.html")
+            self.assertTrue(browser.do("document.querySelector('.viewer').hidden"))
+            self.assertGreater(browser.do("document.querySelector('figure img').naturalWidth"), 100)
+            self.clean(browser)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,96 @@
+#include "report/viewer.hpp"
+#include "support/catch.hpp"
+
+#include "base/parallel.hpp"
+#include "mesh/shapes.hpp"
+#include "mesh/surface.hpp"
+#include "support/run_stage.hpp"
+
+using namespace facetmill;
+using report::ViewedScenes;
+using test::scene_of;
+
+TEST_CASE("a view has a scene before and those after it, each once", "[report]") {
+    ViewedScenes viewed(3);
+    CHECK(viewed.json().is_null());
+    CHECK(report::viewer_section(viewed.json()).empty());
+    const Scene before = scene_of(shapes::icosphere(2), Unit::mm), after = scene_of(shapes::icosphere(1));
+    const FaceTree tree(surface_of(before), FaceTree::Use::near);
+    viewed.add_before(before, "a.ply", nullptr);
+    viewed.add_after(after, "b.glb", nullptr, &tree, "a.ply");
+    viewed.add_after(after, "b.stl", nullptr, &tree, "a.ply");
+    viewed.add_after(scene_of(Mesh{}), "empty.ply", nullptr, &tree, "a.ply");
+    const Json json = viewed.json();
+    REQUIRE(json["scenes"].size() == 2);
+    CHECK(json["scenes"][0]["name"] == "a.ply");
+    CHECK(json["scenes"][0]["before"] == true);
+    CHECK(json["scenes"][0]["unit"] == "mm");
+    CHECK(!json["scenes"][0].contains("deviation"));
+    CHECK(json["scenes"][1]["name"] == "b.glb, b.stl");
+    CHECK(json["scenes"][1]["triangles"] == 80);
+    CHECK(json["scenes"][1]["faces"] == 80);
+    CHECK(json["scenes"][1]["largest"].get<double>() < 1e-6); // its vertices are among the other's
+    CHECK(json["left_out"] == "");
+}
+
+TEST_CASE("a view tells how many triangles are shown, and stays small", "[report]") {
+    const Scene sphere = scene_of(shapes::icosphere(7));
+    Json first;
+    for (const int threads : {1, 3}) {
+        set_threads(threads);
+        ViewedScenes viewed(2);
+        viewed.add_before(sphere, "a", nullptr);
+        const Json json = viewed.json();
+        if (first.is_null()) first = json;
+        CHECK(json == first);
+    }
+    set_threads(0);
+    CHECK(first["scenes"][0]["faces"] == 327680);
+    CHECK(first["scenes"][0]["triangles"] <= 75000);
+    CHECK(first.dump().size() < 800000);
+
+    ViewedScenes many(20);
+    for (int i = 0; i < 20; ++i)
+        many.add_after(scene_of(shapes::torus(10 + i, 20)), "out" + std::to_string(i), nullptr);
+    CHECK(many.json()["scenes"].size() == 7);
+    CHECK(many.json()["left_out"] == "13 further outputs not shown here.");
+}
+
+TEST_CASE("a texture of several materials is in a view once, in a size that fits", "[report]") {
+    auto looks = std::make_shared<MaterialLooks>(3);
+    (*looks)[0].base_texture.image =
+        texture_image(1024, 1024, std::vector<std::uint8_t>(4 << 20, 128), true, 4096);
+    (*looks)[2] = (*looks)[1] = (*looks)[0];
+    (*looks)[1].alpha = MaterialLook::Alpha::blend;
+    (*looks)[1].base = {1, 0, 0, 0.5f};
+    Scene scene = scene_of(shapes::uv_cube());
+    scene.materials.resize(3);
+    scene.materials[1].double_sided = true;
+    Part other = scene.parts[0];
+    scene.parts.resize(3, other);
+    for (Index m = 0; m < 3; ++m) scene.parts[m].mesh.primitives = {{m, {}, {}}};
+    ViewedScenes viewed(1);
+    viewed.add_after(scene, "a.glb", looks);
+    const Json json = viewed.json();
+    REQUIRE(json["textures"].size() == 2); // with alpha and without
+    CHECK(json["textures"][0]["src"].get<std::string>().starts_with("data:image/jpeg;base64,"));
+    CHECK(json["textures"][1]["src"].get<std::string>().starts_with("data:image/webp;base64,"));
+    CHECK(json["textures"][0]["wrap"] == Json({"repeat", "repeat"}));
+    const Json& groups = json["scenes"][0]["groups"];
+    REQUIRE(groups.size() == 3);
+    CHECK(groups[0]["texture"] == 0);
+    CHECK(groups[1]["texture"] == 1);
+    CHECK(groups[2]["texture"] == 0);
+    CHECK(groups[1]["alpha"] == "blend");
+    CHECK(groups[1]["double_sided"] == true);
+    CHECK(groups[1]["base"] == Json({1.0, 0.0, 0.0, 0.5}));
+}
+
+TEST_CASE("no name of a scene ends its element in the page", "[report]") {
+    ViewedScenes viewed(1);
+    viewed.add_after(scene_of(shapes::cube()), "</script><script>alert(1)</script>.ply", nullptr);
+    const std::string page = report::viewer_section(viewed.json());
+    CHECK(page.starts_with("<section class=\"viewer\" hidden>"));
+    CHECK(page.find("alert(1)<") == std::string::npos);
+    CHECK(page.find("\\u003c/script>\\u003cscript>alert(1)") != std::string::npos);
+}
