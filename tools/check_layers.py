@@ -61,6 +61,7 @@ LIBRARIES = {
     "openssl": ["src/base/"],
     "zlib.h": ["src/io/"],
     "zstd.h": ["src/io/packing.cpp"],
+    "expat.h": ["src/io/threemf/xml.cpp"],
     "png.h": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
     "jpeglib.h": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],
     "webp": ["src/io/pixels.cpp", "src/io/encode_image.cpp"],

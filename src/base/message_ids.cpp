@@ -8,6 +8,10 @@ namespace facetmill {
 std::span<const MessageId> message_ids() {
     using Kind = ErrorKind;
     static constexpr MessageId all[] = {
+        {"E-3MF",
+         {Kind::malformed},
+         "A 3MF file is malformed: its XML, its numbers, or what they refer to.",
+         "Export it again; the message gives the line of the model in the archive."},
         {"E-ARGUMENT",
          {Kind::usage},
          "The command line has an argument that the command does not take, or lacks one that it needs.",
@@ -382,7 +386,7 @@ std::span<const MessageId> message_ids() {
          "The message says what was expected, with an example."},
         {"E-UNIT",
          {Kind::usage, Kind::stage},
-         "A length has a physical unit, but the scene has none.",
+         "A length has a physical unit, but the scene has none; or a format lacks a unit (3MF has no km).",
          "Give the unit of the file, `load: {unit: mm}`, or use a bare number or a percentage."},
         {"E-UNQUOTED",
          {Kind::usage},
@@ -421,6 +425,10 @@ std::span<const MessageId> message_ids() {
          {Kind::usage},
          "The text of a pipeline is not valid YAML, or uses YAML that pipelines do not support.",
          "Correct the line given in the message."},
+        {"E-ZIP",
+         {Kind::malformed},
+         "A zip archive (3MF) is damaged, truncated, or encrypted.",
+         "Export it again, or download it again."},
         {"E-ZSTD",
          {Kind::malformed},
          "A compressed file is damaged or truncated, or needs more memory than zstd allows by default.",

@@ -169,8 +169,9 @@ FileHeader file_header(const Input& file, const ReadSettings& settings, const Co
     const Input input = readable(file);
     ReadLog log; // its warnings come again when the file is read
     const Codec& codec = reader_for(input, log, forced);
-    FileHeader header{codec.name, settings.unit.value_or(codec.unit), settings.up.value_or(codec.up)};
+    FileHeader header{codec.name, codec.unit, settings.up.value_or(codec.up)};
     if (codec.peek) codec.peek(input, header);
+    if (settings.unit) header.unit = *settings.unit;
     for (auto& name : header.parts)
         if (name.empty()) name = stem_of(input);
     return header;

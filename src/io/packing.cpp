@@ -53,14 +53,18 @@ struct Unpacker {
     const char* tool = "";
 };
 
-struct Gunzip final : Unpacker {
-    Gunzip() {
-        id = "E-GZIP", format = "gzip", tool = "gzip -d";
-        if (::inflateInit2(&z, 15 + 16) != Z_OK) throw out_of_memory("no memory to inflate a file");
+/// gzip, or deflate without a header.
+struct Inflate final : Unpacker {
+    explicit Inflate(bool header) : gzip(header) {
+        id = header ? "E-GZIP" : "E-ZIP";
+        format = header ? "gzip" : "deflate";
+        tool = header ? "gzip -d" : "unzip";
+        if (::inflateInit2(&z, header ? 15 + 16 : -15) != Z_OK)
+            throw out_of_memory("no memory to inflate a file");
     }
-    Gunzip(const Gunzip&) = delete;
-    Gunzip& operator=(const Gunzip&) = delete;
-    ~Gunzip() override { ::inflateEnd(&z); }
+    Inflate(const Inflate&) = delete;
+    Inflate& operator=(const Inflate&) = delete;
+    ~Inflate() override { ::inflateEnd(&z); }
     State step(Span& in, std::span<std::byte>& out) override {
         const auto take = static_cast<uInt>(std::min(in.size(), at_once));
         const auto room = static_cast<uInt>(std::min(out.size(), at_once));
@@ -74,14 +78,17 @@ struct Gunzip final : Unpacker {
         if (state == Z_MEM_ERROR) throw std::bad_alloc();
         return state == Z_STREAM_END ? State::end_of_member : state == Z_OK ? State::more : State::broken;
     }
-    bool next_member(Span in) override { return begins_as_gzip(in) && ::inflateReset(&z) == Z_OK; }
+    bool next_member(Span in) override { return gzip && begins_as_gzip(in) && ::inflateReset(&z) == Z_OK; }
     const char* problem() const override { return z.msg ? z.msg : "it ends early"; }
     z_stream z{};
+    bool gzip;
 };
 
 struct Unzstd final : Unpacker {
     Unzstd() : z(::ZSTD_createDCtx()) {
-        id = "E-ZSTD", format = "zstd", tool = "zstd -d";
+        id = "E-ZSTD";
+        format = "zstd";
+        tool = "zstd -d";
         if (!z) throw out_of_memory("no memory to decompress a file");
         // 128 MiB: the largest window that readers are advised to have memory for, and zstd's own default.
         ::ZSTD_DCtx_setParameter(z, ZSTD_d_windowLogMax, 27);
@@ -107,9 +114,7 @@ struct Unzstd final : Unpacker {
 };
 
 Bytes unpack_all(Span bytes, Unpacker& unpacker, std::size_t most, const std::string& name) {
-    constexpr std::size_t harmless = std::size_t{64} << 20, ratio = 200;
-    const std::size_t usual =
-        bytes.size() > SIZE_MAX / ratio ? SIZE_MAX : std::max(harmless, ratio * bytes.size());
+    const std::size_t usual = most_unpacked(bytes.size());
     const std::size_t limit = std::min(most, usual);
     Bytes out;
     std::size_t size = 0;
@@ -136,9 +141,9 @@ Bytes unpack_all(Span bytes, Unpacker& unpacker, std::size_t most, const std::st
     return out;
 }
 
-Bytes gzipped(Span bytes) {
+Bytes deflated(Span bytes, bool header) {
     z_stream z{};
-    if (::deflateInit2(&z, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+    if (::deflateInit2(&z, 6, Z_DEFLATED, header ? 15 + 16 : -15, 8, Z_DEFAULT_STRATEGY) != Z_OK)
         throw out_of_memory("no memory to compress a file");
     Bytes out;
     std::size_t at = 0, size = 0;
@@ -188,6 +193,11 @@ void too_large(const std::string& name, std::size_t limit) {
                 "write it to a file first, uncompressed");
 }
 
+std::size_t most_unpacked(std::size_t compressed) {
+    constexpr std::size_t harmless = std::size_t{64} << 20, ratio = 200;
+    return compressed > SIZE_MAX / ratio ? SIZE_MAX : std::max(harmless, ratio * compressed);
+}
+
 Packing packing_of(Span bytes) {
     return begins_as_gzip(bytes) ? Packing::gzip : begins_as_zstd(bytes) ? Packing::zstd : Packing::none;
 }
@@ -205,9 +215,9 @@ std::filesystem::path without_packing(const std::filesystem::path& path) {
 
 Bytes unpacked(Span bytes, Packing packing, std::size_t limit, const std::string& name) {
     if (packing == Packing::none) return {bytes.begin(), bytes.end()};
-    if (packing == Packing::gzip) {
-        Gunzip gunzip;
-        return unpack_all(bytes, gunzip, limit, name);
+    if (packing != Packing::zstd) {
+        Inflate inflate(packing == Packing::gzip);
+        return unpack_all(bytes, inflate, limit, name);
     }
     Unzstd unzstd;
     return unpack_all(bytes, unzstd, limit, name);
@@ -215,7 +225,7 @@ Bytes unpacked(Span bytes, Packing packing, std::size_t limit, const std::string
 
 Bytes packed(Span bytes, Packing packing) {
     if (packing == Packing::none) return {bytes.begin(), bytes.end()};
-    return packing == Packing::gzip ? gzipped(bytes) : zstd_packed(bytes);
+    return packing == Packing::zstd ? zstd_packed(bytes) : deflated(bytes, packing == Packing::gzip);
 }
 
 } // namespace facetmill::io

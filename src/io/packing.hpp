@@ -6,7 +6,8 @@
 
 namespace facetmill::io {
 
-enum class Packing { none, gzip, zstd };
+/// deflate: without a header, as archives have it; no file is.
+enum class Packing { none, gzip, zstd, deflate };
 
 /// How the bytes are compressed, by their first ones.
 Packing packing_of(Span bytes);
@@ -15,9 +16,12 @@ Packing packing_named(const std::filesystem::path& path);
 /// The path without .gz or .zst.
 std::filesystem::path without_packing(const std::filesystem::path& path);
 
+/// How many bytes a compressed file of that size may hold: 64 MiB, or 200 times its size when that is more.
+/// Meshes as text come to 50 times at most; deflate can do 1032, which nothing but a bomb does.
+std::size_t most_unpacked(std::size_t compressed);
+
 /// The bytes that a compressed file holds, of one or more members. Memory is taken as they come, and no more
-/// than the limit, nor than a file of that size may hold: 64 MiB, or 200 times its size when that is more
-/// (meshes as text come to 50 times at most). Throws limit (E-SIZE) beyond, malformed (E-GZIP, E-ZSTD) with
+/// than the limit and most_unpacked(). Throws limit (E-SIZE) beyond, malformed (E-GZIP, E-ZSTD) with
 /// the offset.
 Bytes unpacked(Span bytes, Packing packing, std::size_t limit, const std::string& name);
 

@@ -151,7 +151,7 @@ void declare_write(Declare<WriteOptions>& d) {
     d.option("big_endian", &WriteOptions::big_endian, "Binary PLY with the most significant byte first.");
     d.choice<Precision>("precision", &WriteOptions::precision,
                         {{"single", Precision::single, "rounded to 32-bit floats"},
-                         {"full", Precision::full, "with all 64 bits (PLY, OBJ, OFF)"}},
+                         {"full", Precision::full, "with all 64 bits (PLY, OBJ, OFF, 3MF)"}},
                         "How positions are written.");
     d.choice<NormalKind>(
         "normals", &WriteOptions::normals,

@@ -1,0 +1,287 @@
+#include "io/threemf/model.hpp"
+
+#include "base/words.hpp"
+#include "io/text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <fmt/format.h>
+
+namespace facetmill::io::threemf {
+
+namespace {
+
+class ModelReader {
+  public:
+    ModelReader(const std::string& archive, const std::string& path, std::size_t max_vertices)
+        : name_(archive + path), path_(path), max_vertices_(max_vertices) {}
+
+    Model read(Span xml) {
+        read_xml(xml, name_, handler());
+        if (!is_model_) malformed(name_, 0, "E-3MF", "expected <model> as the outermost element");
+        for (const auto& [id, object] : model_.objects) check(id, object);
+        return std::move(model_);
+    }
+
+    XmlHandler handler() {
+        return {[this](const Element& e) { start(e); }, [this] { end(); },
+                [this](std::string_view prefix, std::string_view space) {
+                    spaces_[std::string(prefix)] = space;
+                }};
+    }
+    Unit unit() const { return model_.unit; }
+
+    void start(const Element& e) {
+        const std::string_view parent = open_.empty() ? std::string_view() : open_.back();
+        const bool known = skipping_ == 0 && is_known(e, parent);
+        if (!known) {
+            if (skipping_++ == 0 && e.name != "metadata" && e.name != "metadatagroup")
+                ++model_.skipped[std::string(e.name)];
+            return;
+        }
+        open_.emplace_back(e.name);
+        if (e.name == "vertex")
+            vertex(e);
+        else if (e.name == "triangle")
+            triangle(e);
+        else if (e.name == "model")
+            model(e);
+        else if (e.name == "object")
+            object(e);
+        else if (e.name == "component")
+            object_->components.push_back(use(e));
+        else if (e.name == "item")
+            model_.items.push_back(use(e));
+        else if (e.name == "basematerials" || e.name == "colorgroup")
+            group(e);
+        else if (e.name == "base")
+            base(e);
+        else if (e.name == "color")
+            group_->colours.push_back(colour(e, "color"));
+    }
+
+  private:
+    [[noreturn]] void fail(const Element& e, const std::string& message) const {
+        malformed(name_, static_cast<int>(std::min<std::size_t>(e.line, INT32_MAX)), "E-3MF", message);
+    }
+    std::string_view need(const Element& e, const char* attribute) const {
+        const auto value = e.find(attribute);
+        if (!value) fail(e, fmt::format("<{}> has no attribute '{}'", e.name, attribute));
+        return *value;
+    }
+    double real(const Element& e, const char* attribute, std::string_view text) const {
+        text = trimmed(text);
+        const char* at = text.data();
+        double value = 0;
+        if (!scan_real(at, text.data() + text.size(), value) || at != text.data() + text.size())
+            fail(e, fmt::format("<{}> has {}={}, expected a number", e.name, attribute, in_quotes(text)));
+        return value;
+    }
+    double real(const Element& e, const char* attribute) const {
+        return real(e, attribute, need(e, attribute));
+    }
+    std::uint32_t natural(const Element& e, const char* attribute, std::string_view text) const {
+        text = trimmed(text);
+        std::uint32_t value = 0;
+        const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc{} || stop != text.data() + text.size() || value == none)
+            fail(e, fmt::format("<{}> has {}={}, expected a whole number from 0 on", e.name, attribute,
+                                in_quotes(text)));
+        return value;
+    }
+    std::uint32_t natural(const Element& e, const char* attribute) const {
+        return natural(e, attribute, need(e, attribute));
+    }
+    std::uint32_t natural_or(const Element& e, const char* attribute, std::uint32_t otherwise) const {
+        const auto text = e.find(attribute);
+        return text ? natural(e, attribute, *text) : otherwise;
+    }
+
+    /// Twelve numbers by columns of the usual matrix: 3MF multiplies rows from the left.
+    Transform transform(const Element& e) const {
+        Transform t;
+        const auto given = e.find("transform");
+        if (!given) return t;
+        std::string_view rest = *given;
+        for (std::size_t k = 0; k < 12; ++k) {
+            rest = trimmed(rest);
+            const auto stop = std::min(rest.find_first_of(" \t"), rest.size());
+            if (stop == 0) fail(e, fmt::format("a transform has 12 numbers, found {}", k));
+            t.m[k % 3][k / 3] = real(e, "transform", rest.substr(0, stop));
+            rest = rest.substr(stop);
+        }
+        if (!trimmed(rest).empty()) fail(e, "a transform has 12 numbers, found more");
+        return t;
+    }
+    Use use(const Element& e) const {
+        const auto path = e.find(fmt::format("{}|path", production_space));
+        return {{path ? std::string(*path) : path_, natural(e, "objectid")}, transform(e)};
+    }
+
+    /// "#RRGGBB" or "#RRGGBBAA".
+    Colour colour(const Element& e, const char* attribute) const {
+        const std::string_view text = trimmed(need(e, attribute));
+        Colour c{0, 0, 0, 255};
+        bool good = (text.size() == 7 || text.size() == 9) && text[0] == '#';
+        for (std::size_t k = 0; good && k < text.size() / 2; ++k) {
+            const char* at = text.data() + 1 + 2 * k;
+            const auto [stop, error] = std::from_chars(at, at + 2, c.at(k), 16);
+            good = error == std::errc{} && stop == at + 2;
+        }
+        if (!good)
+            fail(e, fmt::format("<{}> has {}={}, expected #RRGGBB or #RRGGBBAA", e.name, attribute,
+                                in_quotes(text)));
+        return c;
+    }
+
+    void end() {
+        if (skipping_ > 0)
+            --skipping_;
+        else
+            open_.pop_back();
+    }
+
+    /// Whether the element is one that is read, where it stands.
+    bool is_known(const Element& e, std::string_view parent) const {
+        static constexpr std::pair<std::string_view, std::string_view> core[] = {
+            {"", "model"},
+            {"model", "resources"},
+            {"resources", "basematerials"},
+            {"basematerials", "base"},
+            {"resources", "object"},
+            {"object", "mesh"},
+            {"mesh", "vertices"},
+            {"vertices", "vertex"},
+            {"mesh", "triangles"},
+            {"triangles", "triangle"},
+            {"object", "components"},
+            {"components", "component"},
+            {"model", "build"},
+            {"build", "item"}};
+        static constexpr std::pair<std::string_view, std::string_view> colours[] = {
+            {"resources", "colorgroup"}, {"colorgroup", "color"}};
+        const std::pair here(parent, e.name);
+        if (e.space == material_space)
+            return std::find(std::begin(colours), std::end(colours), here) != std::end(colours);
+        return e.space == core_space && std::find(std::begin(core), std::end(core), here) != std::end(core);
+    }
+
+    void model(const Element& e) {
+        is_model_ = true;
+        const std::string_view unit = e.find("unit").value_or("millimeter");
+        const auto* const known = std::find_if(std::begin(unit_names), std::end(unit_names),
+                                               [&](const UnitName& u) { return u.name == unit; });
+        if (known == std::end(unit_names)) fail(e, fmt::format("there is no unit {}", in_quotes(unit)));
+        model_.unit = known->unit;
+        std::string_view required = e.find("requiredextensions").value_or("");
+        while (!(required = trimmed(required)).empty()) {
+            const auto stop = std::min(required.find_first_of(" \t\r\n"), required.size());
+            const std::string prefix(required.substr(0, stop));
+            required = required.substr(stop);
+            const std::string& space = spaces_[prefix];
+            if (space != material_space && space != production_space && space != core_space)
+                malformed(
+                    name_, static_cast<int>(std::min<std::size_t>(e.line, INT32_MAX)), "E-EXTENSION",
+                    fmt::format("the extension '{}' ({}) is required and not supported", prefix, space));
+        }
+    }
+
+    void object(const Element& e) {
+        const std::uint32_t id = natural(e, "id");
+        const auto [at, fresh] = model_.objects.try_emplace(id);
+        if (!fresh) fail(e, fmt::format("there are two objects {}", id));
+        object_ = &at->second;
+        object_->name = e.find("name").value_or("");
+        object_->properties.group = natural_or(e, "pid", none);
+        object_->properties.index.fill(natural_or(e, "pindex", object_->properties.group == none ? none : 0));
+    }
+
+    void vertex(const Element& e) {
+        if (++vertices_ > max_vertices_ || object_->positions.size() >= none - 1)
+            beyond_limit(name_, "too many vertices");
+        // What is not a number is found with all others.
+        object_->positions.push_back({real(e, "x"), real(e, "y"), real(e, "z")});
+    }
+
+    void triangle(const Element& e) {
+        for (const char* corner : {"v1", "v2", "v3"}) object_->corners.push_back(natural(e, corner));
+        if (object_->corners.size() >= none - 3) beyond_limit(name_, "too many triangles");
+        Properties p;
+        p.index[0] = natural_or(e, "p1", none);
+        if (p.index[0] == none) {
+            if (!object_->triangles.empty()) object_->triangles.emplace_back();
+            return;
+        }
+        p.group = natural_or(e, "pid", none);
+        p.index[1] = natural_or(e, "p2", p.index[0]);
+        p.index[2] = natural_or(e, "p3", p.index[0]);
+        object_->triangles.resize(object_->corners.size() / 3 - 1);
+        object_->triangles.push_back(p);
+    }
+
+    void group(const Element& e) {
+        const std::uint32_t id = natural(e, "id");
+        const auto [at, fresh] = model_.groups.try_emplace(id);
+        if (!fresh) fail(e, fmt::format("there are two groups {}", id));
+        group_ = &at->second;
+        group_->materials = e.name == "basematerials";
+    }
+    void base(const Element& e) {
+        group_->names.emplace_back(e.find("name").value_or(""));
+        group_->colours.push_back(colour(e, "displaycolor"));
+    }
+
+    /// The vertices and properties that triangles name are there.
+    void check(std::uint32_t id, const Object& object) const {
+        for (std::size_t c = 0; c < object.corners.size(); ++c)
+            if (object.corners[c] >= object.positions.size())
+                malformed(name_, 0, "E-3MF",
+                          fmt::format("triangle {} of object {} names vertex {}, there are {}", c / 3, id,
+                                      object.corners[c], object.positions.size()));
+        check(id, object.properties, none);
+        for (const Properties& p : object.triangles) check(id, p, object.properties.group);
+    }
+    void check(std::uint32_t id, const Properties& p, std::uint32_t otherwise) const {
+        const auto group = model_.groups.find(p.group == none ? otherwise : p.group);
+        if (group == model_.groups.end()) return; // of a kind that is not read, or none
+        for (const std::uint32_t index : p.index)
+            if (index != none && index >= group->second.colours.size())
+                malformed(name_, 0, "E-3MF",
+                          fmt::format("object {} names property {} of group {}, which has {}", id, index,
+                                      group->first, group->second.colours.size()));
+    }
+
+    std::string name_; ///< for messages: "a.3mf/3D/3dmodel.model"
+    const std::string& path_;
+    std::size_t max_vertices_, vertices_ = 0;
+    Model model_;
+    bool is_model_ = false;
+    std::vector<std::string> open_; ///< the elements around, those that are read
+    int skipping_ = 0;              ///< how deep in one that is not
+    std::map<std::string, std::string> spaces_;
+    Object* object_ = nullptr;
+    Group* group_ = nullptr;
+};
+
+} // namespace
+
+Model read_model(Span xml, const std::string& archive, const std::string& path, std::size_t max_vertices) {
+    return ModelReader(archive, path, max_vertices).read(xml);
+}
+
+Unit unit_of_model(Span xml, const std::string& archive, const std::string& path) {
+    struct Found {};
+    ModelReader reader(archive, path, 0);
+    XmlHandler handler = reader.handler();
+    handler.start = [&](const Element& e) {
+        reader.start(e);
+        throw Found{};
+    };
+    try {
+        read_xml(xml, archive + path, handler);
+    } catch (const Found&) { // the first element has it
+    }
+    return reader.unit();
+}
+
+} // namespace facetmill::io::threemf

@@ -1,0 +1,78 @@
+#pragma once
+// What the parts of a 3MF archive say, before it becomes a scene. Private to threemf.
+
+#include "io/threemf/xml.hpp"
+#include "mesh/scene.hpp"
+
+#include <array>
+#include <map>
+#include <set>
+
+namespace facetmill::io::threemf {
+
+inline constexpr std::string_view core_space = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
+inline constexpr std::string_view material_space =
+    "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
+inline constexpr std::string_view production_space =
+    "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
+
+/// The names of units in 3MF.
+struct UnitName {
+    const char* name;
+    Unit unit;
+};
+inline constexpr UnitName unit_names[] = {{"micron", Unit::um},     {"millimeter", Unit::mm},
+                                          {"centimeter", Unit::cm}, {"inch", Unit::inch},
+                                          {"foot", Unit::foot},     {"meter", Unit::m}};
+
+using Colour = std::array<std::uint8_t, 4>; ///< sRGB and alpha
+
+/// Where properties of a triangle come from: a group of resources and three indices into it.
+struct Properties {
+    std::uint32_t group = none; ///< none: those of the object
+    std::array<std::uint32_t, 3> index{none, none, none};
+};
+
+struct ObjectId {
+    std::string path; ///< of the model part: "/3D/3dmodel.model"
+    std::uint32_t id = 0;
+    auto operator<=>(const ObjectId&) const = default;
+};
+
+struct Use { ///< a component, or an item to build
+    ObjectId object;
+    Transform transform;
+};
+
+struct Object {
+    std::string name;
+    Properties properties;
+    std::vector<Vec3> positions;
+    std::vector<Index> corners;
+    std::vector<Properties> triangles; ///< [triangles], or empty: all as the object
+    std::vector<Use> components;
+};
+
+struct Group {
+    bool materials = false;         ///< named ones; else colours
+    std::vector<std::string> names; ///< of materials
+    std::vector<Colour> colours;
+};
+
+/// One XML part of the archive.
+struct Model {
+    Unit unit = Unit::mm;
+    std::map<std::uint32_t, Object> objects;
+    std::map<std::uint32_t, Group> groups;
+    std::vector<Use> items;
+    std::map<std::string, std::size_t> skipped; ///< elements that are not read, and how many
+};
+
+/// path: of the part in the archive. Throws as read_xml, E-EXTENSION for a required extension that is not
+/// read, limit (E-SIZE) beyond max_vertices.
+Model read_model(Span xml, const std::string& archive, const std::string& path, std::size_t max_vertices);
+
+/// The unit of the part; the rest is not looked at. Throws as read_model.
+Unit unit_of_model(Span xml, const std::string& archive, const std::string& path);
+
+} // namespace facetmill::io::threemf

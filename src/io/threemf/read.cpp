@@ -1,0 +1,267 @@
+#include "io/threemf/threemf.hpp"
+
+#include "base/memory.hpp"
+#include "base/words.hpp"
+#include "geometry/render/srgb.hpp"
+#include "io/attributes.hpp"
+#include "io/material_document.hpp"
+#include "io/text.hpp"
+#include "io/threemf/model.hpp"
+#include "io/threemf/zip.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace facetmill::io::threemf {
+
+namespace {
+
+/// The path of the main model: the relation of the archive that names it, else where all writers put it.
+std::string main_model(Archive& archive, const std::string& name) {
+    std::string path = "/3D/3dmodel.model";
+    if (const auto relations = archive.file("/_rels/.rels"))
+        read_xml(*relations, name + "/_rels/.rels",
+                 {[&](const Element& e) {
+                      const auto type = e.find("Type"), target = e.find("Target");
+                      if (target && type == "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel")
+                          path = *target;
+                  },
+                  [] {},
+                  {}});
+    if (!path.starts_with('/')) path = "/" + path;
+    return path;
+}
+
+class SceneMaker {
+  public:
+    SceneMaker(const Input& input, const ReadSettings& settings, ReadLog& log)
+        : name_(input.name()), settings_(settings), log_(log), archive_(input.bytes(), input.name()),
+          document_(input.name()) {}
+
+    Scene make() {
+        const std::string path = main_model(archive_, name_);
+        const Model& main = model(path);
+        scene_.unit = main.unit;
+        scene_.up = UpAxis::z;
+        std::vector<Use> items = main.items;
+        if (items.empty()) items = unused(main, path);
+        for (const Use& item : items) place(item, {}, "");
+        if (!document_.empty()) scene_.documents.push_back(document_.finish());
+        warn_of_skipped();
+        return std::move(scene_);
+    }
+
+  private:
+    const Model& model(const std::string& path) {
+        if (const auto known = models_.find(path); known != models_.end()) return known->second;
+        const auto xml = archive_.file(path);
+        if (!xml) malformed(name_, 0, "E-3MF", fmt::format("the archive has no model '{}'", path));
+        constexpr double memory_per_byte = 2; // of positions and corners beside their text
+        require_memory(memory_per_byte * static_cast<double>(xml->size()), fmt::format("reading '{}'", name_),
+                       "use a machine with more memory");
+        return models_.emplace(path, read_model(*xml, name_, path, settings_.max_vertices)).first->second;
+    }
+
+    /// Objects of a model without items to build that are not components of others.
+    static std::vector<Use> unused(const Model& model, const std::string& path) {
+        std::set<std::uint32_t> components;
+        for (const auto& [id, object] : model.objects)
+            for (const Use& use : object.components)
+                if (use.object.path == path) components.insert(use.object.id);
+        std::vector<Use> items;
+        for (const auto& [id, object] : model.objects)
+            if (!components.contains(id)) items.push_back({{path, id}, {}});
+        return items;
+    }
+
+    /// Adds the parts of an object: its own mesh or those of its components. name: of the object around; of
+    /// an instance where that has but this component.
+    void place(const Use& use, const Transform& above, const std::string& name,
+               bool is_name_of_instance = false) {
+        constexpr std::size_t most_uses = 1'000'000, deepest = 32;
+        if (++uses_ > most_uses)
+            beyond_limit(name_, fmt::format("its components place more than {} objects", most_uses));
+        const Model& there = model(use.object.path);
+        const auto found = there.objects.find(use.object.id);
+        if (found == there.objects.end())
+            malformed(name_, 0, "E-3MF",
+                      fmt::format("there is no object {} in '{}'", use.object.id, use.object.path));
+        if (open_.size() >= deepest || std::find(open_.begin(), open_.end(), use.object) != open_.end())
+            malformed(name_, 0, "E-3MF",
+                      fmt::format("object {} is a component of itself, or nested deeper than {} levels",
+                                  use.object.id, deepest));
+        const Object& object = found->second;
+        const Transform world = above * use.transform;
+        const std::string& named = object.name.empty() || is_name_of_instance ? name : object.name;
+        if (!object.positions.empty()) add_part(use.object, object, world, named);
+        open_.push_back(use.object);
+        const bool instance = object.components.size() == 1 && !named.empty();
+        for (const Use& component : object.components) place(component, world, named, instance);
+        open_.pop_back();
+    }
+
+    void add_part(const ObjectId& id, const Object& object, const Transform& world, const std::string& name) {
+        const auto known = first_part_.find(id);
+        vertices_ += object.positions.size();
+        if (vertices_ > settings_.max_vertices) beyond_limit(name_, "too many vertices");
+        if (known != first_part_.end())
+            require_memory(bytes_of(object), "copying the meshes of items", "use a machine with more memory");
+        Mesh mesh = known == first_part_.end() ? mesh_of(id, object) : scene_.parts[known->second].mesh;
+        first_part_.emplace(id, scene_.parts.size());
+        Part& part = scene_.parts.emplace_back();
+        part.name = name;
+        part.mesh = std::move(mesh);
+        part.transform = world;
+    }
+    static double bytes_of(const Object& object) {
+        return static_cast<double>(object.positions.size() * sizeof(Vec3) +
+                                   object.corners.size() * sizeof(Index));
+    }
+
+    Mesh mesh_of(const ObjectId& id, const Object& object) {
+        Mesh mesh;
+        mesh.positions = object.positions;
+        mesh.corners = object.corners;
+        if (object.properties.group == none && object.triangles.empty()) return mesh;
+        const Model& there = model(id.path);
+        std::vector<std::uint64_t> colours(mesh.corners.size(), no_key);
+        std::vector<std::uint32_t> primitives;
+        bool coloured = false;
+        for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+            Properties p = object.triangles.empty() ? object.properties : object.triangles[f];
+            if (p.index[0] == none) p = object.properties;
+            if (p.group == none) p.group = object.properties.group;
+            const auto group = there.groups.find(p.group);
+            const bool known = group != there.groups.end();
+            primitives.push_back(primitive(mesh, known && group->second.materials
+                                                     ? material(id.path, p.group, p.index[0], group->second)
+                                                     : none));
+            for (std::size_t k = 0; known && !group->second.materials && k < 3; ++k) {
+                const Colour& c = group->second.colours[p.index.at(k)];
+                colours[3 * f + k] = std::uint64_t{c[0]} | c[1] << 8 | c[2] << 16 | std::uint64_t{c[3]} << 24;
+                coloured = true;
+            }
+        }
+        finish_primitives(mesh, std::move(primitives));
+        if (coloured) add_colours(mesh, colours);
+        return mesh;
+    }
+
+    /// The entry of the mesh's table for the material.
+    static std::uint32_t primitive(Mesh& mesh, Index material) {
+        for (std::size_t p = mesh.primitives.size(); p-- > 0;)
+            if (mesh.primitives[p].material == material) return static_cast<std::uint32_t>(p);
+        mesh.primitives.push_back({.material = material, .attributes = {}, .json = {}});
+        return static_cast<std::uint32_t>(mesh.primitives.size() - 1);
+    }
+    static void finish_primitives(Mesh& mesh, std::vector<std::uint32_t> of_face) {
+        if (mesh.primitives.size() == 1 && mesh.primitives[0].material == none) mesh.primitives.clear();
+        if (mesh.primitives.size() > 1)
+            mesh.attributes.push_back(
+                {std::string(primitive_attribute), Domain::face, Role::index, 1, false, std::move(of_face)});
+    }
+
+    /// Corners of different colours at a vertex are wedges of their own. Triangles without a colour are
+    /// white.
+    static void add_colours(Mesh& mesh, std::vector<std::uint64_t> colours) {
+        constexpr std::uint64_t white = 0xffffffff;
+        for (std::uint64_t& colour : colours)
+            if (colour == no_key) colour = white;
+        Wedges wedges = make_wedges(mesh.positions.size(), std::move(mesh.corners), colours);
+        mesh.corners = std::move(wedges.corners);
+        mesh.wedge_vertex = std::move(wedges.wedge_vertex);
+        std::vector<std::uint8_t> bytes;
+        for (const std::uint64_t key : wedges.keys)
+            for (int c = 0; c < 4; ++c)
+                bytes.push_back(static_cast<std::uint8_t>((key == no_key ? white : key) >> 8 * c));
+        mesh.attributes.push_back({"COLOR_0", Domain::wedge, Role::colour, 4, true, std::move(bytes)});
+    }
+
+    Index material(const std::string& path, std::uint32_t group, std::uint32_t index, const Group& from) {
+        const auto [at, fresh] = materials_.try_emplace({path, group, index}, none);
+        if (!fresh) return at->second;
+        const Colour& c = from.colours[index];
+        Json json = {{"name", from.names[index]},
+                     {"pbrMetallicRoughness",
+                      {{"baseColorFactor", {linear_of(c[0]), linear_of(c[1]), linear_of(c[2]), c[3] / 255.0}},
+                       {"metallicFactor", 0}}}};
+        if (c[3] < 255) json["alphaMode"] = "BLEND";
+        at->second = static_cast<Index>(scene_.materials.size());
+        scene_.materials.push_back(document_.add(std::move(json), 0));
+        return at->second;
+    }
+
+    void warn_of_skipped() {
+        std::map<std::string, std::size_t> all;
+        for (const auto& [path, model] : models_)
+            for (const auto& [what, count] : model.skipped) all[what] += count;
+        std::vector<std::string> words;
+        for (const auto& [what, count] : all) words.push_back(fmt::format("{} ({})", what, count));
+        if (!words.empty())
+            log_.warnings.push_back(
+                {Severity::warning, "W-SKIPPED",
+                 fmt::format("elements that cannot be kept are skipped: {}", fmt::join(words, ", ")),
+                 file_mark(name_), ""});
+    }
+
+    struct MaterialId {
+        std::string path;
+        std::uint32_t group, index;
+        auto operator<=>(const MaterialId&) const = default;
+    };
+
+    const std::string& name_;
+    const ReadSettings& settings_;
+    ReadLog& log_;
+    Archive archive_;
+    MaterialDocument document_;
+    Scene scene_;
+    std::map<std::string, Model> models_;
+    std::map<ObjectId, std::size_t> first_part_; ///< of each object: items copy it
+    std::map<MaterialId, Index> materials_;
+    std::vector<ObjectId> open_;
+    std::size_t uses_ = 0, vertices_ = 0;
+};
+
+/// A zip archive; whether it holds a model its content types tell, near the beginning as all writers put
+/// them.
+int sniff(Span bytes) {
+    const std::string_view text = as_text(bytes);
+    if (!text.starts_with("PK\3\4")) return 0;
+    constexpr std::size_t near = 65536;
+    const std::string_view tail = text.substr(text.size() > near ? text.size() - near : 0);
+    return tail.find(".model") != std::string_view::npos ? 2 : 1;
+}
+
+/// The unit stands at the beginning of the model.
+void peek(const Input& input, FileHeader& header) {
+    Archive archive(input.bytes(), input.name());
+    const std::string path = main_model(archive, input.name());
+    if (const auto xml = archive.file(path)) header.unit = unit_of_model(*xml, input.name(), path);
+}
+
+} // namespace
+
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log) {
+    return SceneMaker(input, settings, log).make();
+}
+
+namespace {
+const RegisterCodec codec({
+    .name = "3mf",
+    .about = "3D Manufacturing Format: objects with units, colours and materials, placed for a build",
+    .extensions = {"3mf"},
+    .unit = Unit::mm,
+    .up = UpAxis::z,
+    .can = {.normals = false,
+            .transforms = true,
+            .full_precision = true,
+            .attributes = "colours at corners or materials, none else"},
+    .sniff = sniff,
+    .read = read,
+    .write = write,
+    .peek = peek,
+});
+} // namespace
+
+} // namespace facetmill::io::threemf

@@ -1,0 +1,13 @@
+#pragma once
+// 3MF (3D Manufacturing Format, core specification 1.3, with colours of the materials extension and model
+// parts of the production extension): a zip archive of XML models with units, objects, components and items
+// to build.
+
+#include "io/codec.hpp"
+
+namespace facetmill::io::threemf {
+
+Scene read(const Input& input, const ReadSettings& settings, ReadLog& log);
+Written write(const Scene& scene, const WriteSettings& settings);
+
+} // namespace facetmill::io::threemf

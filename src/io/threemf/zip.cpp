@@ -1,0 +1,195 @@
+#include "io/threemf/zip.hpp"
+
+#include "base/error.hpp"
+#include "base/spelling.hpp"
+#include "io/packing.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <zlib.h>
+
+namespace facetmill::io::threemf {
+
+namespace {
+
+constexpr std::uint64_t local_magic = 0x04034b50, entry_magic = 0x02014b50, end_magic = 0x06054b50,
+                        end64_magic = 0x06064b50, locator64_magic = 0x07064b50;
+constexpr std::uint64_t local_size = 30, entry_size = 46, end_size = 22, end64_size = 56, locator64_size = 20;
+constexpr std::uint64_t most16 = 0xffff, most32 = 0xffffffff;
+constexpr unsigned stored = 0, deflated = 8;
+
+std::uint32_t crc_of(Span bytes) {
+    uLong crc = ::crc32(0, nullptr, 0);
+    constexpr std::size_t at_once = std::size_t{1} << 30;
+    for (std::size_t at = 0; at < bytes.size(); at += at_once)
+        crc = ::crc32(crc, reinterpret_cast<const Bytef*>(bytes.data() + at),
+                      static_cast<uInt>(std::min(at_once, bytes.size() - at)));
+    return static_cast<std::uint32_t>(crc);
+}
+
+} // namespace
+
+Archive::Archive(Span bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {
+    read_directory(find_end());
+}
+
+void Archive::fail(std::uint64_t at, const std::string& message) const {
+    throw Error(ErrorKind::malformed, "E-ZIP", fmt::format("at byte {}: {}", at, message),
+                "export it again, or download it again", file_mark(name_));
+}
+
+std::uint64_t Archive::number(std::uint64_t at, int bytes) const {
+    if (at > bytes_.size() || bytes_.size() - at < static_cast<std::uint64_t>(bytes))
+        fail(bytes_.size(), "the archive ends early");
+    std::uint64_t value = 0;
+    for (int i = bytes; i-- > 0;)
+        value = value << 8 | std::to_integer<std::uint64_t>(bytes_[at + static_cast<std::uint64_t>(i)]);
+    return value;
+}
+
+/// The record behind the directory; a comment of at most 64 KiB may follow it.
+std::uint64_t Archive::find_end() const {
+    if (bytes_.size() >= end_size) {
+        const std::uint64_t last = bytes_.size() - end_size, first = last > most16 ? last - most16 : 0;
+        for (std::uint64_t at = last + 1; at-- > first;)
+            if (number(at, 4) == end_magic) return at;
+    }
+    fail(bytes_.size(), "the archive has no directory at its end");
+}
+
+void Archive::read_directory(std::uint64_t end) {
+    std::uint64_t count = number(end + 10, 2), at = number(end + 16, 4);
+    const bool is64 = (count == most16 || at == most32) && end >= locator64_size &&
+                      number(end - locator64_size, 4) == locator64_magic;
+    if (is64) {
+        const std::uint64_t end64 = number(end - locator64_size + 8, 8);
+        if (end64 > bytes_.size() || bytes_.size() - end64 < end64_size || number(end64, 4) != end64_magic)
+            fail(end - locator64_size, "the directory of Zip64 is not where it should be");
+        count = number(end64 + 32, 8);
+        at = number(end64 + 48, 8);
+    }
+    if (at > end || count > (end - at) / entry_size)
+        fail(end, fmt::format("a directory of {} entries does not fit before it", count));
+    for (std::uint64_t i = 0; i < count; ++i) at = read_entry(at);
+}
+
+/// Returns where the next entry begins.
+std::uint64_t Archive::read_entry(std::uint64_t at) {
+    if (number(at, 4) != entry_magic) fail(at, "expected an entry of the directory");
+    Entry entry;
+    entry.flags = static_cast<unsigned>(number(at + 8, 2));
+    entry.method = static_cast<unsigned>(number(at + 10, 2));
+    entry.crc = static_cast<std::uint32_t>(number(at + 16, 4));
+    entry.packed = number(at + 20, 4);
+    entry.size = number(at + 24, 4);
+    entry.at = number(at + 42, 4);
+    const std::uint64_t name = number(at + 28, 2), extra = number(at + 30, 2), comment = number(at + 32, 2);
+    const std::uint64_t begin = at + entry_size, next = begin + name + extra + comment;
+    if (next > bytes_.size()) fail(at, "an entry of the directory goes beyond the end");
+    take_zip64(entry, begin + name, begin + name + extra);
+    const std::string path(as_text(bytes_.subspan(begin, name)));
+    if (!entries_.emplace(lower_case(path), entry).second)
+        fail(at, fmt::format("the entry '{}' is there twice", path));
+    return next;
+}
+
+/// What does not fit in 32 bits stands in the extra field 1, in this order.
+void Archive::take_zip64(Entry& entry, std::uint64_t at, std::uint64_t end) const {
+    for (std::uint64_t size = 0; end - at >= 4; at += 4 + size) {
+        size = number(at + 2, 2);
+        if (size > end - at - 4) return;
+        if (number(at, 2) != 1) continue;
+        std::uint64_t from = at + 4;
+        for (std::uint64_t* value : {&entry.size, &entry.packed, &entry.at}) {
+            if (*value != most32 || at + 4 + size - from < 8) continue;
+            *value = number(from, 8);
+            from += 8;
+        }
+    }
+}
+
+std::optional<Bytes> Archive::file(const std::string& path) {
+    const auto found = entries_.find(lower_case(path.starts_with('/') ? path.substr(1) : path));
+    if (found == entries_.end()) return {};
+    const Entry& entry = found->second;
+    if (number(entry.at, 4) != local_magic) fail(entry.at, fmt::format("expected the entry '{}'", path));
+    const std::uint64_t at = entry.at + local_size + number(entry.at + 26, 2) + number(entry.at + 28, 2);
+    if (at > bytes_.size() || entry.packed > bytes_.size() - at)
+        fail(entry.at, fmt::format("the entry '{}' goes beyond the end", path));
+    if ((entry.flags & 1) != 0) fail(entry.at, fmt::format("the entry '{}' is encrypted", path));
+    if (entry.method != stored && entry.method != deflated)
+        fail(entry.at,
+             fmt::format("the entry '{}' is compressed by method {}, expected deflate", path, entry.method));
+    const Span packed = bytes_.subspan(at, entry.packed);
+    // All entries together, since several may share their bytes.
+    const std::size_t most = most_unpacked(bytes_.size());
+    if (unpacked_ >= most) too_large(name_, most);
+    Bytes bytes = unpacked(packed, entry.method == stored ? Packing::none : Packing::deflate,
+                           most - unpacked_, fmt::format("{}: {}", name_, path));
+    if (bytes.size() != entry.size || crc_of(bytes) != entry.crc)
+        fail(entry.at,
+             fmt::format("the entry '{}' does not have the size and checksum that it should", path));
+    unpacked_ += bytes.size();
+    return bytes;
+}
+
+namespace {
+
+void put(Bytes& out, std::uint64_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> (8 * i) & 255));
+}
+
+/// From the version that is needed to the lengths of the name and the extra field: the same in an entry and
+/// in the directory. The time is the first one that there is: 1 January 1980.
+void put_description(Bytes& out, const ArchiveFile& file, const Bytes& packed) {
+    put(out, 20, 2); // version 2.0
+    put(out, 0, 2);  // flags
+    put(out, deflated, 2);
+    put(out, 0, 2);    // 0 o'clock
+    put(out, 0x21, 2); // 1 January 1980
+    put(out, crc_of(file.bytes), 4);
+    put(out, packed.size(), 4);
+    put(out, file.bytes.size(), 4);
+    put(out, file.path.size(), 2);
+    put(out, 0, 2);
+}
+
+void put_bytes(Bytes& out, Span bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); }
+
+} // namespace
+
+Bytes make_archive(const std::vector<ArchiveFile>& files) {
+    Bytes out, directory;
+    for (const ArchiveFile& file : files) {
+        const Bytes packed = io::packed(file.bytes, Packing::deflate);
+        if (file.bytes.size() >= most32 || out.size() + packed.size() >= most32)
+            throw Error(ErrorKind::stage, "E-SIZE", "the scene takes more than 4 GiB as 3MF",
+                        "write several files, or another format");
+        const auto name = std::as_bytes(std::span(file.path));
+        put(directory, entry_magic, 4);
+        put(directory, 20, 2); // made by version 2.0
+        put_description(directory, file, packed);
+        put(directory, 0, 2); // comment
+        put(directory, 0, 2); // disk
+        put(directory, 0, 2); // attributes
+        put(directory, 0, 4);
+        put(directory, out.size(), 4);
+        put_bytes(directory, name);
+        put(out, local_magic, 4);
+        put_description(out, file, packed);
+        put_bytes(out, name);
+        put_bytes(out, packed);
+    }
+    const std::uint64_t at = out.size();
+    put_bytes(out, directory);
+    put(out, end_magic, 4);
+    put(out, 0, 4); // disks
+    put(out, files.size(), 2);
+    put(out, files.size(), 2);
+    put(out, directory.size(), 4);
+    put(out, at, 4);
+    put(out, 0, 2); // comment
+    return out;
+}
+
+} // namespace facetmill::io::threemf
