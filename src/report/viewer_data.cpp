@@ -1,5 +1,6 @@
 #include "report/viewer_data.hpp"
 
+#include "io/packing.hpp"
 #include "io/png.hpp"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ class Planes {
         }
         numbers(values, width);
     }
-    std::string packed() const { return io::base64(io::gzipped(bytes_)); }
+    std::string packed() const { return io::base64(io::packed(bytes_, io::Packing::gzip)); }
 
   private:
     io::Bytes bytes_;
