@@ -34,6 +34,8 @@ std::string to_string(double value) {
     return {buffer, result.ptr};
 }
 
-double as_float32(double x) { return static_cast<double>(static_cast<float>(x)); }
+[[gnu::noinline]] double as_float32(double x) { return static_cast<double>(static_cast<float>(x)); }
+
+Vec3 as_float32(const Vec3& p) { return {as_float32(p.x), as_float32(p.y), as_float32(p.z)}; }
 
 } // namespace facetmill

@@ -47,7 +47,7 @@ class TestSheet {
         const Mesh& from = *sheet.mesh;
         const std::size_t n = from.vertex_count();
         before_.resize(n);
-        parallel_for(n, [&](std::size_t v) { before_[v] = float32(from.positions[v]); });
+        parallel_for(n, [&](std::size_t v) { before_[v] = as_float32(from.positions[v]); });
         weld();
         mesh_.face_offsets = from.face_offsets;
         mesh_.corners.resize(from.corner_count());
@@ -72,7 +72,7 @@ class TestSheet {
             if (!changed.empty() && !changed[places_[from]]) return;
             const Vec3& start = sheet_.mesh->positions[from];
             const double share = share_of(levels[places_[from]]);
-            mesh_.positions[v] = share == 0 ? before_[from] : float32(start + moves[from] * share);
+            mesh_.positions[v] = share == 0 ? before_[from] : as_float32(start + moves[from] * share);
         });
         touched_.assign(mesh_.face_count(), changed.empty());
         parallel_for(changed.empty() ? 0 : touched_.size(), [&](std::size_t f) {
@@ -158,8 +158,6 @@ class TestSheet {
     const Vec3& position(std::size_t vertex) const { return mesh_.positions[first_[vertex]]; }
 
   private:
-    static Vec3 float32(const Vec3& p) { return {as_float32(p.x), as_float32(p.y), as_float32(p.z)}; }
-
     /// first_[v]: the first vertex at the place of v that starts at the same point.
     void weld() {
         const std::size_t n = before_.size();

@@ -121,7 +121,7 @@ void warn_of_rounding(const CrumpledPart& part, const CrumpleMoves& moves, doubl
     double farthest = 0;
     for (std::size_t v = 0; v < part.before.size(); ++v) {
         const Vec3 to = part.before[v] + moves.moves[v];
-        const Vec3 rounded{as_float32(to.x), as_float32(to.y), as_float32(to.z)};
+        const Vec3 rounded = as_float32(to);
         farthest = std::max(farthest, length(part.to_world.vector(rounded - to)));
     }
     if (!(amplitude > 0 && farthest > amplitude / 100)) return;
