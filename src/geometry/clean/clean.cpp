@@ -108,6 +108,7 @@ bool one_round(Work& work, const CleanSettings& s) {
     };
     // What a patch runs into is united with it in the next round, or told there.
     const bool may_cross = s.self_intersections == Untangle::unite || s.self_intersections == Untangle::all;
+    if (s.single) did(round_to_single(work));
     if (s.weld != Nearness::off) did(weld_equal(work, s.non_manifold));
     if (s.weld == Nearness::near) did(weld_near(work, s.tolerance));
     if (s.degenerate) did(remove_degenerate(work));
@@ -123,6 +124,7 @@ bool one_round(Work& work, const CleanSettings& s) {
     if (s.non_manifold) did(take_apart_non_manifold(work));
     changed |= untangle(work, s);
     if (s.holes) did(fill_holes(work, *s.holes, nullptr, may_cross));
+    if (s.open_components) did(remove_open_components(work));
     if (s.components) did(remove_components(work, *s.components));
     if (s.inner_components) did(remove_inner_components(work));
     if (s.isolated) did(remove_isolated(work));
@@ -137,9 +139,10 @@ AttributeChanges changes_of(const Mesh& mesh, const AttributeChanges& mixed) {
 } // namespace
 
 std::size_t CleanCounts::total() const {
-    return welded_vertices + stitched_edges + t_junctions + repeated_corners + degenerate_faces +
-           duplicate_faces + split_vertices + split_edges + filled_holes + components + inner_components +
-           isolated_vertices + intersecting_faces + united_components;
+    return rounded_vertices + welded_vertices + stitched_edges + t_junctions + repeated_corners +
+           degenerate_faces + duplicate_faces + split_vertices + split_edges + filled_holes +
+           open_components + components + inner_components + isolated_vertices + intersecting_faces +
+           united_components;
 }
 
 CleanResult clean(Mesh mesh, const CleanSettings& settings) {

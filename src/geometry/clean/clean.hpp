@@ -60,11 +60,13 @@ struct CleanSettings {
     bool duplicates = true;   ///< one face of each set with the same vertices stays, none of an inner wall
     bool non_manifold = true; ///< edges of more than two faces and vertices of several fans come apart
     bool isolated = true;     ///< vertices that no face uses go
+    bool open_components = false;  ///< components that stay open go, where closed ones are left
     bool inner_components = false; ///< closed components inside others go
     Untangle self_intersections = Untangle::off;
     std::optional<HoleSettings> holes;
     std::optional<ComponentSettings> components;
     double tolerance = 0; ///< how near is near
+    bool single = false;  ///< positions are those of 32-bit floats, before the first step and at new vertices
     UntangleBudget budget;
 };
 
@@ -78,9 +80,10 @@ struct NotDone {
 
 /// What was done, counted.
 struct CleanCounts {
-    std::size_t welded_vertices = 0, stitched_edges = 0, t_junctions = 0, repeated_corners = 0,
-                degenerate_faces = 0, duplicate_faces = 0, split_vertices = 0, split_edges = 0,
-                filled_holes = 0, hole_faces = 0, components = 0, component_faces = 0, inner_components = 0,
+    std::size_t rounded_vertices = 0, welded_vertices = 0, stitched_edges = 0, t_junctions = 0,
+                repeated_corners = 0, degenerate_faces = 0, duplicate_faces = 0, split_vertices = 0,
+                split_edges = 0, filled_holes = 0, hole_faces = 0, open_components = 0,
+                open_component_faces = 0, components = 0, component_faces = 0, inner_components = 0,
                 inner_component_faces = 0, isolated_vertices = 0, intersecting_faces = 0;
     std::size_t united_components = 0; ///< closed components that intersected and are part of a union now
     std::size_t refined_faces = 0;     ///< cut where they intersected, once per pass
@@ -105,10 +108,10 @@ struct CleanResult {
 
 /// Applies the steps that are on, in rounds, until a round changes nothing; so a mesh that was cleaned is not
 /// changed by cleaning it again. Faces that no step concerns keep their corners, attributes and order. In a
-/// round: weld, degenerate, duplicates, t_junctions, stitch, non_manifold, self_intersections, holes,
-/// components, inner_components, isolated. Each step's meaning is told with its setting; see clean_steps.hpp
-/// for how each decides. Attributes are copied, and interpolated at new vertices. Never throws for a valid
-/// mesh.
+/// round: rounding to single, weld, degenerate, duplicates, t_junctions, stitch, non_manifold,
+/// self_intersections, holes, open_components, components, inner_components, isolated. Each step's meaning is
+/// told with its setting; see clean_steps.hpp for how each decides. Attributes are copied, and interpolated
+/// at new vertices. Never throws for a valid mesh.
 CleanResult clean(Mesh mesh, const CleanSettings& settings);
 
 /// The components of a mesh (faces that hang together over edges), a cavity with the solid around it: a

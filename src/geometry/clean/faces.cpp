@@ -283,6 +283,21 @@ std::vector<std::uint8_t> closed_components(const Mesh& mesh, const Components& 
 
 } // namespace
 
+bool remove_open_components(Work& work) {
+    const Mesh& mesh = work.mesh;
+    const Components components = face_components(mesh, false);
+    const auto closed = closed_components(mesh, components);
+    const auto open = static_cast<std::size_t>(std::count(closed.begin(), closed.end(), 0));
+    if (open == 0 || open == components.count) return false;
+    std::vector<std::uint8_t> gone(mesh.face_count());
+    for (Index f = 0; f < gone.size(); ++f) gone[f] = !closed[components.of_face[f]];
+    const auto kept = faces_without(gone);
+    work.counts.open_components += open;
+    work.counts.open_component_faces += gone.size() - kept.size();
+    work.mesh = keep_faces(mesh, kept);
+    return true;
+}
+
 bool remove_inner_components(Work& work) {
     const Mesh& mesh = work.mesh;
     const Components components = face_components(mesh, false); // all faces of an edge are of one component

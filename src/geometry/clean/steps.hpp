@@ -32,6 +32,8 @@ struct Work {
     std::size_t max_box_pairs() const { return 32 * mesh.face_count() + budget.box_pairs; }
 };
 
+/// Positions become the nearest ones of 32-bit floats, as far as those are finite.
+bool round_to_single(Work& work);
 /// Vertices at one place become the lowest of them. Where the faces that meet there would only come apart
 /// again (non_manifold, see split_non_manifold), they are left as they are.
 bool weld_equal(Work& work, bool comes_apart);
@@ -61,6 +63,8 @@ using EdgeList = std::vector<std::pair<Index, Index>>;
 /// with an edge of other_than stay, and so do those whose patch would run into other faces, unless it may,
 /// or lie on the faces beside it (but for the rounding of 32 bits): where a flat sheet ends is no hole.
 bool fill_holes(Work& work, const HoleSettings& settings, const EdgeList* other_than, bool may_cross);
+/// Components with boundary edges go; none, unless a closed one is left.
+bool remove_open_components(Work& work);
 bool remove_components(Work& work, const ComponentSettings& settings);
 /// Closed components that lie inside other closed components and touch none go.
 bool remove_inner_components(Work& work);

@@ -13,6 +13,8 @@ constexpr int max_passes = 8;
 /// Where passes make new crossings, points that are this near (of the size of the mesh) become one, and eight
 /// times as far in each pass after; in the first, only those that round to one place.
 constexpr double nearest = 1.0 / static_cast<double>(std::int64_t{1} << 50);
+/// ... where positions have 32 bits: the rounding of those.
+constexpr double nearest_single = 1.0 / static_cast<double>(std::int64_t{1} << 22);
 /// Face attribute that tells, while this step works, the cluster (counted from 1) that a face came from, and
 /// whether the last pass made it.
 constexpr std::string_view mark_name = "facetmill:solid";
@@ -47,7 +49,9 @@ Failures Trial::run(const SelfIntersections& first, const Operands* operands) {
     Solids solids = solids_;
     for (int pass = 0; pass < max_passes; ++pass) {
         if (!one_pass(solids, found, tolerance, pass == 0 ? operands : nullptr)) return std::move(failures_);
-        tolerance = tolerance > 0 ? 8 * tolerance : nearest * work_.mesh.bounds().diagonal();
+        tolerance = tolerance > 0
+                        ? 8 * tolerance
+                        : (settings_.single ? nearest_single : nearest) * work_.mesh.bounds().diagonal();
         tidy();
         found = crossings_of_fresh();
         if (found.pairs.empty()) return std::move(failures_);
@@ -75,7 +79,7 @@ void Trial::fail(std::uint32_t mark, const std::string& why) {
 
 bool Trial::one_pass(const Solids& solids, const SelfIntersections& found, double tolerance,
                      const Operands* operands) {
-    United united = unite(work_.mesh, solids, found, tolerance, operands);
+    United united = unite(work_.mesh, solids, found, {tolerance, settings_.single}, operands);
     short_of_memory_ |= united.short_of_memory;
     for (const auto& refused : united.refused) { // a cluster of this pass; its marks say which of the first
         for (Index f = 0; f < work_.mesh.face_count(); ++f)

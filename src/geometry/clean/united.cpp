@@ -70,9 +70,9 @@ enum class Fate : std::uint8_t { goes, stays, stays_turned };
 
 class Uniting {
   public:
-    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance,
+    Uniting(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
             const Operands* operands)
-        : mesh_(mesh), solids_(solids), found_(found), tolerance_(tolerance), operands_(operands) {}
+        : mesh_(mesh), solids_(solids), found_(found), rounding_(rounding), operands_(operands) {}
 
     United run() {
         mark_cut_faces();
@@ -340,14 +340,13 @@ class Uniting {
         result_.cut_faces = static_cast<std::size_t>(std::count(cut_.begin(), cut_.end(), 1));
         const auto uncut = faces_without(goes);
         result_.uncut_faces = uncut.size();
-        result_.mesh =
-            united_mesh(mesh_, uncut, pieces, arrangement, triangles_, tolerance_, result_.changes);
+        result_.mesh = united_mesh(mesh_, uncut, pieces, arrangement, triangles_, rounding_, result_.changes);
     }
 
     Mesh mesh_; ///< vertices merged where faces are cut
     const Solids& solids_;
     const SelfIntersections& found_;
-    double tolerance_;
+    Rounding rounding_;
     const Operands* operands_;                   ///< or nothing
     std::vector<std::uint8_t> cut_;              ///< [faces]
     std::vector<std::pair<Index, Index>> pairs_; ///< of faces that are cut
@@ -363,9 +362,9 @@ class Uniting {
 
 } // namespace
 
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance,
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
              const Operands* operands) {
-    return Uniting(mesh, solids, found, tolerance, operands).run();
+    return Uniting(mesh, solids, found, rounding, operands).run();
 }
 
 } // namespace facetmill::clean_steps

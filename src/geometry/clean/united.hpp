@@ -3,6 +3,7 @@
 
 #include "geometry/clean/combine.hpp"
 #include "geometry/clean/solids.hpp"
+#include "geometry/clean/united_mesh.hpp"
 
 namespace facetmill::clean_steps {
 
@@ -32,9 +33,9 @@ struct Operands {
 /// and keep their order; the pieces of cut ones are triangles and come last. Vertices at one place where
 /// faces are cut become one. Attributes of new corners are mixed within the face that they are part of, those
 /// on an edge between its ends only, so that seams stay seams. Coordinates are rounded, and new vertices
-/// within tolerance of others become them: the result may intersect again. With operands there is one
+/// within the tolerance of others become them: the result may intersect again. With operands there is one
 /// cluster, of all components; solids are as before the second was turned inside out.
-United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, double tolerance,
+United unite(const Mesh& mesh, const Solids& solids, const SelfIntersections& found, const Rounding& rounding,
              const Operands* operands = nullptr);
 
 /// Takes triangles of exactly no area out of a closed surface without opening it: the vertex between the two

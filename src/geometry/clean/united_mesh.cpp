@@ -1,5 +1,6 @@
 #include "geometry/clean/united_mesh.hpp"
 
+#include "base/numbers.hpp"
 #include "geometry/edit/surgery.hpp"
 
 #include <algorithm>
@@ -40,9 +41,9 @@ std::array<double, 3> barycentric(const Vec3& p, const Vec3& a, const Vec3& b, c
 class Assembly {
   public:
     Assembly(const Mesh& mesh, const Arrangement& arrangement, const TriangleFaces& triangles,
-             double tolerance)
-        : mesh_(mesh), arrangement_(arrangement), triangles_(triangles), tolerance_(tolerance),
-          plain_(is_plain(mesh)) {
+             const Rounding& rounding)
+        : mesh_(mesh), arrangement_(arrangement), triangles_(triangles), tolerance_(rounding.tolerance),
+          single_(rounding.single), plain_(is_plain(mesh)) {
         result_.positions = mesh.positions;
         result_.face_offsets = mesh.face_offsets;
         result_.corners = mesh.corners;
@@ -113,7 +114,8 @@ class Assembly {
 
     Index vertex_of(Index node, Index triangle) {
         if (node < mesh_.vertex_count()) return node;
-        const Vec3 place = arrangement_.position(node);
+        const Vec3 exact = arrangement_.position(node);
+        const Vec3 place = single_ && is_finite(as_float32(exact)) ? as_float32(exact) : exact;
         const auto [known, unknown] = of_node_.try_emplace(node, none);
         if (!unknown) return known->second;
         known->second = vertex_near(place);
@@ -174,6 +176,7 @@ class Assembly {
     const Arrangement& arrangement_;
     const TriangleFaces& triangles_;
     double tolerance_;
+    bool single_;
     bool plain_; ///< a vertex is all there is to a wedge
     Mesh result_;
     Descent descent_;
@@ -185,9 +188,9 @@ class Assembly {
 } // namespace
 
 Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
-                 const Arrangement& arrangement, const TriangleFaces& triangles, double tolerance,
+                 const Arrangement& arrangement, const TriangleFaces& triangles, const Rounding& rounding,
                  AttributeChanges& changes) {
-    return Assembly(mesh, arrangement, triangles, tolerance).run(uncut, pieces, changes);
+    return Assembly(mesh, arrangement, triangles, rounding).run(uncut, pieces, changes);
 }
 
 } // namespace facetmill::clean_steps

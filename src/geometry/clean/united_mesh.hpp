@@ -19,11 +19,17 @@ struct TriangleFaces {
     std::vector<std::array<Index, 3>> corners; ///< [triangles] of the face
 };
 
+/// Where new vertices may be.
+struct Rounding {
+    double tolerance = 0; ///< those that are this near to others become these
+    bool single = false;  ///< at positions of 32-bit floats
+};
+
 /// The uncut faces, then the pieces; vertices and wedges that lose their last face go. New nodes that round
 /// to the place of a vertex, or within tolerance of it (the lowest such), become it, and pieces that lose a
 /// corner by that are left out.
 Mesh united_mesh(const Mesh& mesh, const std::vector<Index>& uncut, const std::vector<OuterPiece>& pieces,
-                 const Arrangement& arrangement, const TriangleFaces& triangles, double tolerance,
+                 const Arrangement& arrangement, const TriangleFaces& triangles, const Rounding& rounding,
                  AttributeChanges& changes);
 
 } // namespace facetmill::clean_steps

@@ -1,4 +1,5 @@
 // Steps of clean that merge vertices.
+#include "base/numbers.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/spatial/box_tree.hpp"
@@ -69,6 +70,18 @@ Index root(const std::vector<Index>& target, Index v) {
 }
 
 } // namespace
+
+bool round_to_single(Work& work) {
+    std::size_t moved = 0;
+    for (Vec3& p : work.mesh.positions) {
+        const Vec3 rounded = as_float32(p);
+        if (p == rounded || !is_finite(rounded)) continue;
+        p = rounded;
+        ++moved;
+    }
+    work.counts.rounded_vertices += moved;
+    return moved > 0;
+}
 
 bool weld_equal(Work& work, bool comes_apart) {
     auto target = lowest_at_place(work.mesh);

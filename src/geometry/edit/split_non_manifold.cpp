@@ -31,11 +31,35 @@ std::vector<std::pair<Index, Index>> pairs_along(std::vector<EdgeLeaf> leaves) {
     return pairs;
 }
 
+bool has_crowded_edges(const EdgeTable& edges) {
+    for (Index e = 0; e < edges.size(); ++e)
+        if (edges.corners_of(e).size() > 2) return true;
+    return false;
+}
+
+/// Faces whose sheet has a boundary: what hangs together over edges of two faces.
+std::vector<std::uint8_t> faces_of_open_sheets(const Mesh& mesh, const EdgeTable& edges,
+                                               const std::vector<Index>& faces) {
+    DisjointSets sheets(mesh.face_count());
+    for (Index e = 0; e < edges.size(); ++e) {
+        const auto corners = edges.corners_of(e);
+        if (corners.size() == 2) sheets.join(faces[corners[0]], faces[corners[1]]);
+    }
+    std::vector<std::uint8_t> open(mesh.face_count(), 0);
+    for (Index e = 0; e < edges.size(); ++e)
+        if (const auto corners = edges.corners_of(e); corners.size() == 1)
+            open[sheets.find(faces[corners[0]])] = 1;
+    for (Index f = 0; f < open.size(); ++f) open[f] = open[sheets.find(f)];
+    return open;
+}
+
 /// The faces that are joined along each edge, as pairs of corners.
 class Joints {
   public:
     Joints(const Mesh& mesh, const EdgeTable& edges, const std::vector<Index>& faces)
-        : mesh_(mesh), edges_(edges), faces_(faces) {}
+        : mesh_(mesh), edges_(edges), faces_(faces) {
+        if (has_crowded_edges(edges)) open_ = faces_of_open_sheets(mesh, edges, faces);
+    }
 
     std::vector<std::pair<Index, Index>> at(Index e) const {
         const auto corners = edges_.corners_of(e);
@@ -46,20 +70,28 @@ class Joints {
         for (const Index c : corners)
             leaves.push_back({c, beside_edge(mesh_, faces_[c], c), mesh_.vertex(c) == low});
         sort_around_edge(mesh_.positions[low], mesh_.positions[high], leaves);
-        return pairs_along(leaves);
+        return joined(leaves);
     }
 
   private:
+    /// A fin on a solid lies between two of its faces, or beside them; they stay together without it.
+    std::vector<std::pair<Index, Index>> joined(const std::vector<EdgeLeaf>& leaves) const {
+        std::vector<EdgeLeaf> closed, open;
+        for (const EdgeLeaf& leaf : leaves) (open_[faces_[leaf.corner]] ? open : closed).push_back(leaf);
+        const auto forward =
+            std::count_if(closed.begin(), closed.end(), [](const EdgeLeaf& leaf) { return leaf.forward; });
+        if (2 * static_cast<std::size_t>(forward) != closed.size()) return pairs_along(leaves);
+        auto pairs = pairs_along(std::move(closed));
+        const auto fins = pairs_along(std::move(open));
+        pairs.insert(pairs.end(), fins.begin(), fins.end());
+        return pairs;
+    }
+
     const Mesh& mesh_;
     const EdgeTable& edges_;
     const std::vector<Index>& faces_;
+    std::vector<std::uint8_t> open_; ///< [faces] where there are crowded edges
 };
-
-bool has_crowded_edges(const EdgeTable& edges) {
-    for (Index e = 0; e < edges.size(); ++e)
-        if (edges.corners_of(e).size() > 2) return true;
-    return false;
-}
 
 /// Puts a point in the middle of crowded edges that no vertex could take apart, for every pair (but the first
 /// unless `all`) and every face left over.

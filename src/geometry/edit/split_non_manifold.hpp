@@ -11,7 +11,8 @@ struct Fans {
     std::vector<Index> copies;           ///< new vertices, numbered from the vertex count on
 };
 /// At an edge of more than two faces those stay together that have the inside of the surface between them, by
-/// the exact order around the edge; each fan of faces around a vertex gets a vertex of its own.
+/// the exact order around the edge, those of sheets with a boundary after all others; each fan of faces
+/// around a vertex gets a vertex of its own.
 Fans disjoint_fans(const Mesh& mesh);
 
 struct NonManifoldSplit {

@@ -7,8 +7,8 @@ inline constexpr const char* about = R"(Repairs a mesh step by step and leaves w
 
 inline constexpr const char* details =
     R"(The steps, each on or off, are: weld, degenerate, duplicates, t_junctions, stitch, non_manifold,
-self_intersections, holes, components, inner_components, isolated. They run in this order, and again
-until nothing changes, so cleaning a second time changes nothing. Steps whose result needs no
+self_intersections, holes, open_components, components, inner_components, isolated. They run in this
+order, and again until nothing changes, so cleaning a second time changes nothing. Steps whose result needs no
 decision by the user are on by default. All decisions are exact: positions, lines and planes are
 compared without a tolerance unless a step is set to near.
 

@@ -99,10 +99,18 @@ void declare_clean(Declare<CleanOptions>& d) {
     d.group("holes", &CleanOptions::holes, "Fills holes; if not given, they stay open.", declare_holes);
     d.group("components", &CleanOptions::components, "Removes small components; if not given, they are kept.",
             declare_components);
+    d.option("open_components", &CleanOptions::open_components,
+             "Removes components that stay open (sheets, fins on a solid), where closed ones are left.");
     d.option("inner_components", &CleanOptions::inner_components,
              "Removes closed components that lie inside others.");
     d.option("isolated", &CleanOptions::isolated, "Removes vertices that no face uses.");
     d.option("tolerance", &CleanOptions::tolerance, "The distance for steps that are set to near.").above(0);
+    d.choice<bool>(
+        "precision", &CleanOptions::single,
+        {{"full", false, "64-bit floats"},
+         {"single", true,
+          "32-bit floats, as in glTF, STL and most PLY files, so that the result stays sound there"}},
+        "The coordinates that vertices may have in their part.");
 }
 
 CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Part& part, Context& context) {
@@ -118,9 +126,10 @@ CleanSettings clean_settings(const CleanOptions& o, const Scene& scene, const Pa
     s.duplicates = o.duplicates;
     s.non_manifold = o.non_manifold;
     s.isolated = o.isolated;
+    s.open_components = o.open_components;
     s.inner_components = o.inner_components;
-
     s.self_intersections = o.self_intersections;
+    s.single = o.single;
     s.tolerance = local(o.tolerance, "tolerance");
     if (o.holes)
         s.holes = HoleSettings{o.holes->method, static_cast<std::size_t>(o.holes->max_edges),

@@ -21,9 +21,11 @@ struct CleanComponentOptions {
 
 struct CleanOptions {
     Nearness weld = Nearness::exact, stitch = Nearness::off, t_junctions = Nearness::exact;
-    bool degenerate = true, duplicates = true, non_manifold = true, isolated = true, inner_components = false;
+    bool degenerate = true, duplicates = true, non_manifold = true, isolated = true, open_components = false,
+         inner_components = false;
     Untangle self_intersections = Untangle::off;
     std::optional<Length> tolerance;
+    bool single = false;
     std::optional<CleanHoleOptions> holes;
     std::optional<CleanComponentOptions> components;
 };

@@ -21,6 +21,7 @@ void declare_part(DeclareFields<CleanedPart>& d) {
             name, [member](const CleanedPart& p) { return p.counts.*member; }, help);
     };
     using C = CleanCounts;
+    count("rounded_vertices", &C::rounded_vertices, "Vertices that were moved to coordinates of 32 bits.");
     count("welded_vertices", &C::welded_vertices, "Vertices that were merged with others.");
     count("degenerate_faces", &C::degenerate_faces, "Faces without area that were removed.");
     count("repeated_corners", &C::repeated_corners, "Corners that repeated the one before.");
@@ -31,6 +32,8 @@ void declare_part(DeclareFields<CleanedPart>& d) {
     count("split_edges", &C::split_edges, "Edges of more than two faces that were separated.");
     count("filled_holes", &C::filled_holes, "Holes that were filled.");
     count("hole_faces", &C::hole_faces, "Faces that fill them.");
+    count("removed_open_components", &C::open_components, "Components that stayed open and were removed.");
+    count("open_component_faces", &C::open_component_faces, "Faces of those.");
     count("removed_components", &C::components, "Small components that were removed.");
     count("component_faces", &C::component_faces, "Faces of those.");
     count("removed_inner_components", &C::inner_components, "Components inside others that were removed.");

@@ -35,7 +35,7 @@ Scene run(Scene scene, const CleanOptions& o, Context& context, CleanReport& rep
 
 /// Components and what lies inside others go as asked; a union takes what solids have in common.
 MayLose may_lose(const CleanOptions& o) {
-    if (o.components || o.inner_components) return MayLose::area;
+    if (o.components || o.inner_components || o.open_components) return MayLose::area;
     const bool unites = o.self_intersections == Untangle::unite || o.self_intersections == Untangle::all;
     return unites ? MayLose::half : MayLose::tenth;
 }

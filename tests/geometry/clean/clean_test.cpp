@@ -319,6 +319,44 @@ TEST_CASE("clean removes small components by faces, size, area or rank", "[geome
     CHECK(left({0, 0, 0, 0}) == 3);
 }
 
+TEST_CASE("clean takes a fin off a solid, whichever way it points", "[geometry]") {
+    CleanSettings s;
+    s.open_components = true;
+    const Mesh cube = shapes::cube();
+    const Vec3 a = cube.point(0), b = cube.point(1), middle = cube.bounds().centre();
+    for (const double outward : {-0.5, 0.5, 3.0})
+        for (const bool turned : {false, true}) {
+            Mesh mesh = cube;
+            const Vec3 tip = mix(a, b, 0.5) + (mix(a, b, 0.5) - middle) * outward;
+            append(mesh, triangles({turned ? b : a, turned ? a : b, tip}, {0, 1, 2}));
+            const auto r = cleaned(mesh, s);
+            INFO(outward << " " << turned);
+            CHECK(is_sound_solid(r.mesh));
+            CHECK(test::volume(r.mesh) == Approx(test::volume(cube)));
+            CHECK(r.counts.open_components == 1);
+            CHECK(r.counts.open_component_faces == 1);
+        }
+}
+
+TEST_CASE("clean keeps open components where no closed one is left", "[geometry]") {
+    CleanSettings s;
+    s.open_components = true;
+    const auto r = cleaned(without_face(shapes::cube(), 0), s);
+    CHECK(r.mesh.face_count() == 11);
+    CHECK(r.counts.open_components == 0);
+}
+
+TEST_CASE("clean rounds to single precision what is finite there", "[geometry]") {
+    CleanSettings s = nothing();
+    s.single = true;
+    const auto r = cleaned(triangles({{0.1, 0.5, 1e300}, {1, 2, 3}, {0, 0, 1}}, {0, 1, 2}), s);
+    CHECK(r.mesh.positions[0] == Vec3{0.1, 0.5, 1e300});
+    CHECK(r.counts.rounded_vertices == 0);
+    const auto near = cleaned(triangles({{0.1, 0.5, 0}, {1, 2, 3}, {0, 0, 1}}, {0, 1, 2}), s);
+    CHECK(near.mesh.positions[0] == Vec3{0.100000001490116119384765625, 0.5, 0}); // the float nearest to 0.1
+    CHECK(near.counts.rounded_vertices == 1);
+}
+
 TEST_CASE("clean removes isolated vertices", "[geometry]") {
     Mesh mesh = shapes::cube();
     mesh.positions.push_back({7, 7, 7});

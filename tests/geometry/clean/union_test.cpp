@@ -5,6 +5,7 @@
 #include "support/measure.hpp"
 #include "support/meshes.hpp"
 
+#include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "geometry/clean/clean.hpp"
 #include "geometry/clean/steps.hpp"
@@ -289,6 +290,22 @@ TEST_CASE("the union of turned spheres is CGAL's", "[geometry]") {
         CHECK(test::volume(mesh) == Approx(test::volume(oracle)).epsilon(1e-12));
         CHECK(test::area(mesh) == Approx(test::area(oracle)).epsilon(1e-12));
         CHECK(test::euler(mesh) == test::euler(oracle));
+    }
+}
+
+TEST_CASE("a union in single precision is sound in a file of single precision", "[geometry]") {
+    CleanSettings s = uniting();
+    s.single = true;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        const Mesh a = noisy_icosphere(3, 0.05, seed);
+        const Mesh b = moved(noisy_icosphere(3, 0.05, seed + 100), {0.9 - 0.1 * seed, 0.07 * seed, 0.3});
+        const Mesh mesh = clean(together({a, b}), s).mesh;
+        CHECK(std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                          [](const Vec3& p) { return as_float32(p) == p; }));
+        const Properties properties = inspect(mesh, {.self_intersections = true});
+        CHECK(properties.closed);
+        CHECK(properties.self_intersections == 0);
+        CHECK(test::volume(mesh) == Approx(test::volume(oracle::union_of(a, b))).epsilon(1e-6));
     }
 }
 
