@@ -15,8 +15,8 @@ namespace facetmill::cli {
 namespace {
 
 constexpr const char* run_examples =
-    R"(A PIPELINE is a YAML file, "-" for standard input, or the name of a ready pipeline (quickstart, scan-to-web,
-lod-chain).
+    R"(A PIPELINE is a YAML file, "-" for standard input, or the name of a ready pipeline (quickstart, scan-to-web, web,
+lod-chain, repair).
 
 Examples
   facetmill run scan.yaml

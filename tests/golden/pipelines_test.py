@@ -105,6 +105,29 @@ class Ready(Case):
             self.assertIn("-D input=", self.mill("run", path.stem, expect=2).stderr)
             self.mill("run", path.stem, "-D", "input=scan.ply", "--quiet")
 
+    def test_repair_makes_a_solid_of_what_overlaps_and_has_holes_and_fins(self):
+        def cube(low, high, first):
+            corners = [(x, y, z) for x in (low, high) for y in (low, high) for z in (low, high)]
+            faces = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+            return corners, [[first + i for i in face] for face in faces]
+
+        a, faces_a = cube(0, 1, 0)
+        b, faces_b = cube(0.5, 1.7, 8)
+        faces_b[2].reverse()
+        corners, faces = [*a, *b, (0, 0, 9)], [*faces_a[1:], *faces_b, [0, 4, 16]]  # a hole, a turned face and a fin
+        (self.dir / "broken.off").write_text(
+            f"OFF\n{len(corners)} {len(faces)} 0\n" + "".join("%r %r %r\n" % p for p in corners)
+            + "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in faces))
+        self.mill("pipe", "load", "broken.off", "!", "validate", "--for", "printing", expect=1)
+        self.mill("run", "repair", "-D", "input=broken.off")
+        found = json.loads(self.mill("info", "--json", "broken.repaired.stl").stdout)
+        self.assertAlmostEqual(found["volume"], 1 + 1.2 ** 3 - 0.5 ** 3, places=6)
+        self.mill("pipe", "load", "broken.repaired.stl", "!", "validate", "--for", "printing")
+        (self.dir / "sheet.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+        refused = self.mill("run", "repair", "-D", "input=sheet.off", expect=1)
+        self.assertIn("'closed' must be true", refused.stderr)
+        self.assertFalse((self.dir / "sheet.repaired.stl").exists())
+
     def test_a_gltf_is_written_where_nothing_is(self):
         self.mill("pipe", "--quiet", "load", SCAN, "--unit", "mm", "!", "simplify", "--faces=100", "!",
                   "write", "a.gltf")
