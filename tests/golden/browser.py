@@ -90,7 +90,9 @@ class Browser:
 
     def open(self, path):
         """Opens a file. requests holds what it asks for beside itself."""
-        url = pathlib.Path(path).resolve().as_uri()
+        self.go(pathlib.Path(path).resolve().as_uri())
+
+    def go(self, url):
         self.loaded = False
         self.problems.clear()
         self.requests.clear()

@@ -92,14 +92,22 @@ void for_each_sample(const CanvasTriangle& t, bool front, int first, int last, i
     const int right = within(std::floor(x1 - 0.5), -1, width - 1);
     const int top = within(std::ceil(y0 - 0.5), first, last);
     const int bottom = within(std::floor(y1 - 0.5), first - 1, last - 1);
+    if (left > right || top > bottom) return;
     const double behind = front ? 0 : 1e-3, side = t.area > 0 ? 1 : -1, share = 1 / t.area;
-    for (int y = top; y <= bottom; ++y)
+    const EdgeLine &e = t.edges[0], &f = t.edges[1], &g = t.edges[2];
+    for (int y = top; y <= bottom; ++y) {
+        const double py = y + 0.5, ey = e.dx * (py - e.y), fy = f.dx * (py - f.y), gy = g.dx * (py - g.y);
         for (int x = left; x <= right; ++x) {
-            const double a = t.edges[0].of(x + 0.5, y + 0.5), b = t.edges[1].of(x + 0.5, y + 0.5),
-                         c = t.edges[2].of(x + 0.5, y + 0.5);
-            if (!(a * side >= 0 && b * side >= 0 && c * side >= 0)) continue;
+            const double px = x + 0.5; // as EdgeLine::of
+            const double a = e.sign * (e.dy * (px - e.x) - ey);
+            if (!(a * side >= 0)) continue;
+            const double b = f.sign * (f.dy * (px - f.x) - fy);
+            if (!(b * side >= 0)) continue;
+            const double c = g.sign * (g.dy * (px - g.x) - gy);
+            if (!(c * side >= 0)) continue;
             visit(x, y, (a * t.p[0].z + b * t.p[1].z + c * t.p[2].z) * share - behind);
         }
+    }
 }
 
 /// Draws a square of side pixels around p, cut off at the canvas' borders.

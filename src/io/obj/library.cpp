@@ -116,6 +116,8 @@ class LibraryReader {
         Text ahead = text_;
         if (ahead.word_on_line() == "-halo") return;
         const auto n = take_numbers(text_, 1);
+        // MeshLab wrote Tr 1 for what is opaque, and nobody means a material that is never seen.
+        if (inverted && !n.empty() && n[0] >= 1) return;
         if (!n.empty()) current_->opacity = inverted ? 1 - fraction(n[0]) : fraction(n[0]);
     }
 

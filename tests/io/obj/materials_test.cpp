@@ -65,6 +65,8 @@ TEST_CASE("a transparent MTL material is drawn transparent", "[io]") {
         CHECK(m["pbrMetallicRoughness"]["metallicFactor"] == 0);
     }
     CHECK_FALSE(load_quad(dir, "Kd 1 1 1\nd 1\n").material().contains("alphaMode"));
+    // MeshLab writes so for what is opaque.
+    CHECK_FALSE(load_quad(dir, "Kd 1 1 1\nTr 1\n").material().contains("alphaMode"));
 }
 
 TEST_CASE("MTL highlights, light and physical words are kept", "[io]") {
