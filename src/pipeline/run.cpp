@@ -11,6 +11,7 @@
 #include "mesh/power_scale.hpp"
 #include "pipeline/failures.hpp"
 #include "pipeline/join.hpp"
+#include "pipeline/page_view.hpp"
 #include "pipeline/reuse.hpp"
 #include "report/check_text.hpp"
 #include "report/contents.hpp"
@@ -66,8 +67,8 @@ bool loads(const Steps& steps) {
 }
 
 void write_report(const Plan& plan, const std::string& path, const report::RunRecord& record,
-                  const io::CommitSettings& commit = {}) {
-    const std::string text = report::render_for(path, record);
+                  const io::CommitSettings& commit = {}, const Json& view = nullptr) {
+    const std::string text = report::render_for(path, record, view);
     io::write_now(plan.places.output(path), std::as_bytes(std::span(text)), commit);
 }
 
@@ -106,6 +107,7 @@ class Runner {
             fetch({}, "the inspection at the end", flow))
             failures_.guarded({}, "the inspection at the end", [&] {
                 record().final_properties = report::scene_json(flow.scene, inspect(flow.scene));
+                if (takes_pictures_) view_.at_end(flow.scene);
             });
         if (settings_.last_picture && !takes_pictures_ && !failures_.any() && !record().stages.empty() &&
             fetch({}, "a picture", flow))
@@ -206,6 +208,9 @@ class Runner {
 
     bool run_stage(const Step& step, Flow& flow) {
         auto stage = new_record(step);
+        const std::size_t outputs_before = record().outputs.size();
+        if (takes_pictures_ && fetch(step.where, "a picture", flow))
+            failures_.guarded({}, "the 3D view", [&] { view_.before(step, flow.scene); });
         const Stopwatch watch;
         const bool recalled = reuse_.recall(step, flow, state_, stage);
         const bool done = recalled || perform_stage(step, flow, stage);
@@ -214,6 +219,9 @@ class Runner {
         if (settings_.on_stage) settings_.on_stage(stage);
         for (const auto& warning : stage.warnings) failures_.warn(warning);
         record().stages.push_back(std::move(stage));
+        if (done && takes_pictures_)
+            failures_.guarded({}, "the 3D view",
+                              [&] { view_.after(step, flow.scene, record(), outputs_before); });
         return done;
     }
 
@@ -503,8 +511,9 @@ class Runner {
         for (const auto& path : plan_.reports) {
             if (settings_.progress) settings_.progress->after_stages(path);
             if (!unwritable_.contains(plan_.places.output(path).parent_path()) &&
-                failures_.guarded({}, "the report",
-                                  [&] { write_report(plan_, path, record(), settings_.commit); }))
+                failures_.guarded({}, "the report", [&] {
+                    write_report(plan_, path, record(), settings_.commit, view_.json());
+                }))
                 record().reports.push_back(path);
         }
     }
@@ -525,6 +534,7 @@ class Runner {
     RunState state_;
     Failures failures_{state_.record, settings_, plan_.allowed};
     Trace trace_;
+    PageView view_{plan_.steps};
     Reuse reuse_{settings_.check_invariants ? nullptr : settings_.store, plan_.places, trace_};
     std::set<fs::path> unwritable_; ///< folders
     bool keeps_loaded_ = false, takes_pictures_ = false;

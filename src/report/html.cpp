@@ -5,6 +5,7 @@
 #include "report/html_parts.hpp"
 #include "report/html_stages.hpp"
 #include "report/render.hpp"
+#include "report/viewer.hpp"
 
 #include <fmt/format.h>
 
@@ -79,12 +80,13 @@ std::string verdict(const RunRecord& record) {
 
 } // namespace
 
-std::string to_html(const RunRecord& record) {
+std::string to_html(const RunRecord& record, const Json& view) {
     std::string out = html_begin(record.pipeline, record.about);
     out += verdict(record);
     out += table("At a glance", "", glance_rows(record));
     out += table("Errors", heads({"id", "what", "where", "hint"}), diagnostics(record.errors, "bad"));
     out += table("Warnings", heads({"id", "what", "where", "hint"}), diagnostics(record.warnings, "warn"));
+    out += viewer_section(view);
     out += stage_sections(record);
     out += table("Checks",
                  heads({"outcome", "property", "expected", "found", "part", "locations", "stage", "hint"}),

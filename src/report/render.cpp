@@ -4,12 +4,12 @@
 
 namespace facetmill::report {
 
-std::string render_for(const std::string& path, const RunRecord& record) {
+std::string render_for(const std::string& path, const RunRecord& record, const Json& view) {
     switch (form_of(path)) {
     case ReportForm::json:
         return to_json(record).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     case ReportForm::html:
-        return to_html(record);
+        return to_html(record, view);
     case ReportForm::markdown:
         return to_markdown(record);
     case ReportForm::junit:

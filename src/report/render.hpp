@@ -27,11 +27,12 @@ std::string to_text(const RunRecord& record); ///< the report for people
 /// What was done, for a terminal: with times and memory, without warnings and errors, which were told when
 /// they arose.
 std::string to_terminal(const RunRecord& record, bool colour);
-std::string to_html(const RunRecord& record);     ///< one self-contained page
+/// One self-contained page. view: what its 3D view shows (report/viewer.hpp), or null.
+std::string to_html(const RunRecord& record, const Json& view = nullptr);
 std::string to_markdown(const RunRecord& record); ///< for the description of a change
 std::string to_junit(const RunRecord& record);    ///< checks as test cases
 /// The renderer for a report's file name (form_of). The same inputs give the same text, in any run. Throws
 /// usage (E-REPORT) otherwise.
-std::string render_for(const std::string& path, const RunRecord& record);
+std::string render_for(const std::string& path, const RunRecord& record, const Json& view = nullptr);
 
 } // namespace facetmill::report

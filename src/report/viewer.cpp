@@ -78,8 +78,9 @@ void ViewedScenes::add_after(const Scene& scene, const std::string& name,
     (*json)["reference"] = from_name;
     if (!scenes_.empty()) {
         Json& last = scenes_.back();
-        if (!last["before"] && last["data"] == (*json)["data"] && last["groups"] == (*json)["groups"]) {
-            last["name"] = last["name"].get<std::string>() + ", " + name;
+        if (last["data"] == (*json)["data"] && last["groups"] == (*json)["groups"]) {
+            if (last["name"] != name) last["name"] = last["name"].get<std::string>() + ", " + name;
+            last["before"] = false;
             return;
         }
     }

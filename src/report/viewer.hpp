@@ -22,7 +22,8 @@ class ViewedScenes {
     /// The scene that the others are compared with, first of all.
     void add_before(const Scene& scene, const std::string& name,
                     const std::shared_ptr<const MaterialLooks>& looks);
-    /// A scene after it; one that looks as the last only adds its name to that. from: coloured by the signed
+    /// A scene after it; one that looks as the last only adds its name to that, as it does where nothing has
+    /// changed. from: coloured by the signed
     /// distances of its vertices from this, too, which is called so; none: no such colours.
     void add_after(const Scene& scene, const std::string& name,
                    const std::shared_ptr<const MaterialLooks>& looks, const FaceTree* from = nullptr,

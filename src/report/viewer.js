@@ -63,6 +63,7 @@ zoom. With the keyboard: arrows orbit, Shift and arrows pan, + and &minus; zoom,
     fieldset.append(label);
     scene.radio = radio;
   });
+  fieldset.hidden = scenes.length === 1;
   for (const name of ["colours", "shading", "wireframe"]) control(name).addEventListener("change", () => told());
 
   // --- scenes

@@ -1,0 +1,77 @@
+#include "pipeline/page_view.hpp"
+
+#include "geometry/triangulate/crossing_faces.hpp"
+
+#include <algorithm>
+
+namespace facetmill::pipeline {
+
+namespace {
+
+/// A surface of more triangles is not kept to be compared with: some 150 bytes each, with its tree.
+constexpr std::size_t most_to_compare = 8000000;
+
+/// How many outputs there will be, about: files that stages name.
+std::size_t count_outputs(const Steps& steps) {
+    std::size_t count = 0;
+    for (const Step& step : steps) {
+        if (step.kind == Step::Kind::stage) count += step.stage->tells && !step.stage->checks;
+        for (const Arm& arm : step.arms) count += count_outputs(*arm.steps);
+    }
+    return count;
+}
+
+bool has_measured(const report::RunRecord& record) {
+    const auto told = [](const report::StageRecord& stage) {
+        return stage.result.is_object() && stage.result.contains("deviation") &&
+               !stage.result["deviation"].is_null();
+    };
+    return std::any_of(record.stages.begin(), record.stages.end(), told) ||
+           std::any_of(record.checks.begin(), record.checks.end(),
+                       [](const report::Check& check) { return check.name == "deviation"; });
+}
+
+} // namespace
+
+PageView::PageView(const Steps& steps) : viewed_(1 + count_outputs(steps)) {}
+
+std::shared_ptr<const MaterialLooks> PageView::looks(const Scene& scene) {
+    std::vector<Diagnostic> ignored; // a texture that cannot be drawn is no fault of the run
+    return reader_.looks(scene, ignored);
+}
+
+void PageView::before(const Step& step, const Scene& scene) {
+    if (step.stage->loads) {
+        if (has_before_) { // another scene begins
+            loaded_.reset();
+            tree_.reset();
+        }
+        return;
+    }
+    if (has_before_) return;
+    has_before_ = true;
+    if (scene.face_count() == 0 && scene.parts.empty()) return;
+    viewed_.add_before(scene, "as loaded", looks(scene));
+    if (scene.face_count() > 0 && scene.face_count() <= most_to_compare)
+        loaded_ = surface_of(scene, filled_surface);
+}
+
+void PageView::add(const Scene& scene, const std::string& name, bool show_deviation) {
+    if (show_deviation && loaded_ && !tree_) tree_.emplace(*loaded_, FaceTree::Use::near);
+    viewed_.add_after(scene, name, looks(scene), show_deviation && tree_ ? &*tree_ : nullptr,
+                      "the scene as loaded");
+    any_after_ = true;
+}
+
+void PageView::after(const Step& step, const Scene& scene, const report::RunRecord& record,
+                     std::size_t first_output) {
+    if (step.stage->loads) return;
+    for (std::size_t i = first_output; i < record.outputs.size(); ++i)
+        if (io::codec_for(record.outputs[i].path)) add(scene, record.outputs[i].path, has_measured(record));
+}
+
+void PageView::at_end(const Scene& scene) {
+    if (!any_after_) add(scene, "the scene at the end", false);
+}
+
+} // namespace facetmill::pipeline
