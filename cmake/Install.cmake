@@ -9,7 +9,7 @@ install(EXPORT facetmill NAMESPACE facetmill:: FILE facetmillTargets.cmake DESTI
 install(FILES cmake/facetmillConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/facetmillConfigVersion.cmake
         DESTINATION ${package_dir})
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY pipelines examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY pipelines examples docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES man/facetmill.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES man/facetmill-pipeline.5 DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
 

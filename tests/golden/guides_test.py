@@ -45,6 +45,27 @@ class Guides(Case):
                     self.assertNotIn("error[", run.stderr)
         self.assertIn("<h3>clean", (self.dir / "scan-to-web/out/page.html").read_text())
 
+    @unittest.skipIf(SLOW, "the same commands on the same scan, ten times slower")
+    def test_the_one_liners_of_the_readme_run(self):
+        readme = (SOURCE / "README.md").read_text()
+        block = re.search(r"## In one line\n\n```sh\n(.*?)^```", readme, flags=re.M | re.S)[1]
+        shutil.copy(SCAN, self.dir / "scan.ply")
+        self.mill("pipe", "-q", "load", "scan.ply", "!", "write", "part.stl")
+        (self.dir / "bin").mkdir()
+        (self.dir / "bin/facetmill").symlink_to(FACETMILL)
+        self.assertEqual(len(block.splitlines()), 5)
+        for line in block.splitlines():
+            command, _, says = line.partition("  #")
+            if not shutil.which("jq"):
+                command = command.partition(" | jq")[0]
+            with self.subTest(command=command):
+                run = subprocess.run(command, shell=True, cwd=self.dir, capture_output=True, text=True, timeout=600,
+                                     env={**os.environ, "PATH": f"{self.dir / 'bin'}:{os.environ['PATH']}"})
+                self.assertIn(run.returncode, (0, 1) if "exit code" in says else (0,), run.stderr)
+                self.assertNotIn("error[E-", run.stderr.replace("error[E-CHECK", ""))
+        for made in ("web.glb", "changes.html", "part.png"):
+            self.assertTrue((self.dir / made).stat().st_size > 1000, made)
+
     @unittest.skipIf(SLOW, "pictures of the same scenes, ten times slower")
     def test_the_pages_of_the_manual_can_be_made(self):
         python = self.python_with_yaml()
@@ -57,6 +78,9 @@ class Guides(Case):
         for page in pages.rglob("*.md"):
             for target in re.findall(r"\]\((?!https?:|#)([^)#]+)", page.read_text()):
                 self.assertTrue((page.parent / target).exists(), f"{page.relative_to(pages)} links to {target}")
+        gallery = (pages / "gallery.md").read_text()
+        for picture in (pages / "stages").glob("*.png"):
+            self.assertIn(f"](stages/{picture.name})", gallery)
         self.assertEqual({p.stem for p in (pages / "guides").glob("*.md")}, {p.stem for p in GUIDES})
 
 

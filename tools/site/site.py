@@ -2,7 +2,7 @@
 """site.py FOLDER [--mill FACETMILL] [--pages]: the manual as a site that works without a server or a network.
 
 Pages: the README, the guides and pages of docs/, a page for each stage (from its declaration, with pictures before and after
-it that are rendered here), and one for all errors and warnings. Builds FOLDER/html with MkDocs, which refuses links that lead
+it that are rendered here), a gallery of these, and one for all errors and warnings. Builds FOLDER/html with MkDocs, which refuses links that lead
 nowhere; --pages stops before that, with the Markdown in FOLDER/pages.
 """
 import argparse
@@ -75,20 +75,33 @@ class Site:
         self.titles["stages/index.md"] = "All stages"
         return ["stages/index.md"] + [f"stages/{name}.md" for name in names]
 
+    def gallery(self, stages):
+        """All pictures of the stages, each stage's beside each other, and the figures."""
+        text = ("# Gallery\n\nWhat the stages do, before and after; the commands are on the page of each. All pictures are made "
+                "by `make site`. More: [figures](figures.md) after the notes that facetmill is based on.\n")
+        for name in stages:
+            pictures = sorted((self.pages / "stages").glob(f"{name}-[0-9].png"))
+            if pictures:
+                cells = " | ".join(f"![{name}](stages/{picture.name})" for picture in pictures)
+                text += f"\n## [{name}](stages/{name}.md)\n\n|{' |' * len(pictures)}\n|{'---|' * len(pictures)}\n| {cells} |\n"
+        (self.pages / "gallery.md").write_text(text)
+        self.titles["gallery.md"] = "Gallery"
+
     def fill(self):
-        self.put("index.md", (SOURCE / "README.md").read_text())
+        self.put("index.md", (SOURCE / "README.md").read_text().replace("](docs/figures/", "](figures/"))
         for name in GUIDES:
             self.put(f"guides/{name}.md", (SOURCE / "docs/guides" / f"{name}.md").read_text())
         for name in PAGES:
             self.put(f"{name}.md", (SOURCE / "docs" / f"{name}.md").read_text())
         shutil.copytree(SOURCE / "docs/figures", self.pages / "figures")
         stages = self.stage_pages()
+        self.gallery([pathlib.PurePath(page).stem for page in stages[1:]])
         self.put("messages.md", self.run("explain", "--markdown"))
 
         def titled(names):
             return [{self.titles[name]: name} for name in names]
         return [{"facetmill": "index.md"}, {"Guides": titled(f"guides/{name}.md" for name in GUIDES)},
-                {"Stages": titled(stages)}, {"More": titled([f"{name}.md" for name in PAGES])},
+                {"Gallery": "gallery.md"}, {"Stages": titled(stages)}, {"More": titled([f"{name}.md" for name in PAGES])},
                 {"Errors and warnings": "messages.md"}]
 
 
