@@ -20,12 +20,15 @@ from peers import ROOT
 STAGES = {
     "clean": "clean",
     "clip": "clip z=50% --cap",
+    "combine": "combine",
     "crop": "crop [[0.1,0.1],[90.3,0.2],[90.3,90.3],[0.2,90.1]] --axis z",
     "crumple": "crumple 1%",
+    "crumple, no crossings": "crumple 0.1% --self_intersections avoid",
     "ensure": "ensure --faces.min 1",
     "load": "",
     "measure": "measure",
     "merge": "merge",
+    "optimize": "optimize",
     "orient": "orient",
     "probe": "probe 0.5,0.5,0.5",
     "relax": "relax 3",
@@ -33,7 +36,9 @@ STAGES = {
     "section": "section z=50%",
     "separate": "separate",
     "simplify": "simplify 50%",
+    "simplify by error": "simplify --max_error 1%",
     "split": "split midpoint",
+    "textures": "textures 64",
     "thicken": "thicken 0.01",
     "tile": "tile 50%",
     "transform": "transform --scale 2",
@@ -138,7 +143,9 @@ def seconds(mill, file, stage, folder, repeat):
 def compared(mill, files, line, folder, repeat, loading):
     """Of each scene what the stage adds to loading; or the first reason why there is none."""
     whole = [seconds(mill, f, line, folder, repeat) for f in files]
-    return next(([x] for x in whole if isinstance(x, str)), [w - l for w, l in zip(whole, loading)])
+    if reason := next((x for x in whole if isinstance(x, str)), None):
+        return [reason]
+    return [w - l for w, l in zip(whole, loading)]
 
 
 def main():

@@ -265,9 +265,9 @@ std::size_t component_count(const Mesh& mesh) {
 }
 
 Components face_components(const Mesh& mesh, bool by_vertex) {
-    const std::size_t faces = mesh.face_count();
-    std::vector<Index> roots(faces);
     if (by_vertex) {
+        const std::size_t faces = mesh.face_count();
+        std::vector<Index> roots(faces);
         DisjointSets sets(mesh.vertex_count());
         parallel_for(faces, [&](std::size_t f) {
             const Index begin = mesh.face_begin(static_cast<Index>(f)),
@@ -279,7 +279,12 @@ Components face_components(const Mesh& mesh, bool by_vertex) {
         });
         return numbered(std::move(roots), mesh.vertex_count());
     }
-    const auto edges = build_edges(mesh);
+    return face_components(mesh, build_edges(mesh));
+}
+
+Components face_components(const Mesh& mesh, const EdgeTable& edges) {
+    const std::size_t faces = mesh.face_count();
+    std::vector<Index> roots(faces);
     const auto face_of = corner_faces(mesh);
     DisjointSets sets(faces);
     parallel_for(edges.size(), [&](std::size_t e) {

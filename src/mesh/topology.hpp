@@ -62,6 +62,8 @@ struct Components {
     std::size_t count = 0;
 };
 Components face_components(const Mesh& mesh, bool by_vertex = true);
+/// Those that hang together over edges.
+Components face_components(const Mesh& mesh, const EdgeTable& edges);
 /// face_components(mesh).count, without the numbering.
 std::size_t component_count(const Mesh& mesh);
 

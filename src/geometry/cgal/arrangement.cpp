@@ -1,5 +1,6 @@
 #include "geometry/cgal/arrangement.hpp"
 
+#include "base/parallel.hpp"
 #include "geometry/cgal/plane_cut.hpp"
 #include "geometry/spatial/box_tree.hpp"
 #include "mesh/topology.hpp"
@@ -57,7 +58,7 @@ class Meetings {
             const Corners t = corners(soup.cut[i]);
             flat_[i] = CGAL::collinear(t[0], t[1], t[2]);
         }
-        for (const auto& [s, t] : soup.pairs) meet(s, t);
+        find_all();
     }
 
     /// By their first triangles.
@@ -85,61 +86,110 @@ class Meetings {
         return {quick(soup_.points[a]), quick(soup_.points[b]), quick(soup_.points[c])};
     }
 
-    void meet(Index s, Index t) {
-        const Index i = place_of_[s], j = place_of_[t];
+    /// A corner, or where the side from low to high passes through triangle t.
+    struct End {
+        Index low, high = none, triangle = none;
+        bool is_corner() const { return high == none; }
+        auto key() const { return std::tuple(low, high, triangle); }
+    };
+
+    /// What two triangles have in common.
+    struct Meeting {
+        bool coplanar = false;
+        std::vector<End> ends;                     ///< of a point or a segment on both, each maybe twice
+        std::array<std::vector<Index>, 2> corners; ///< of the one on the other: where one has no area
+    };
+
+    /// Pairs are looked at in parallel; what they come to is told in their order.
+    void find_all() {
+        std::vector<Meeting> meetings(soup_.pairs.size());
+        parallel_for(
+            meetings.size(),
+            [&](std::size_t i) { meetings[i] = meeting(soup_.pairs[i].first, soup_.pairs[i].second); }, 256);
+        make_crossings(meetings);
+        for (std::size_t i = 0; i < meetings.size(); ++i)
+            note(place_of_[soup_.pairs[i].first], place_of_[soup_.pairs[i].second], meetings[i]);
+    }
+
+    Meeting meeting(Index s, Index t) const {
+        Meeting found;
         const Corners a = corners(s), b = corners(t);
-        if (flat_[i] || flat_[j]) {
-            if (!flat_[j]) put_on(a, soup_.triangles[s], b, j);
-            if (!flat_[i]) put_on(b, soup_.triangles[t], a, i);
-            return;
+        if (const bool flat_s = flat_[place_of_[s]], flat_t = flat_[place_of_[t]]; flat_s || flat_t) {
+            if (!flat_t) found.corners[1] = those_on(a, soup_.triangles[s], b);
+            if (!flat_s) found.corners[0] = those_on(b, soup_.triangles[t], a);
+            return found;
         }
         const auto of_s = sides(b, a);
-        if (of_s == std::array{0, 0, 0}) {
-            sets_.join(i, j);
-            return;
-        }
-        const auto of_t = sides(a, b);
+        found.coplanar = of_s == std::array{0, 0, 0};
+        if (found.coplanar) return found;
+        collect(s, a, of_s, t, b, found.ends);
+        collect(t, b, sides(a, b), s, a, found.ends);
+        return found;
+    }
+
+    static std::vector<Index> those_on(const Corners& points, const std::array<Index, 3>& nodes,
+                                       const Corners& t) {
         std::vector<Index> found;
-        collect(s, a, of_s, t, b, found);
-        collect(t, b, of_t, s, a, found);
+        const auto side = sides(t, points);
+        for (std::size_t k = 0; k < 3; ++k)
+            if (side[k] == 0 && holds(t, points[k])) found.push_back(nodes[k]);
+        return found;
+    }
+
+    /// The ends of what the sides of s have in common with t.
+    void collect(Index s, const Corners& a, const std::array<int, 3>& side, Index t, const Corners& b,
+                 std::vector<End>& found) const {
+        const auto& nodes = soup_.triangles[s];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            if (side[k] == 0 && holds(b, a[k])) found.push_back({nodes[k]});
+            if (side[k] * side[next] < 0 && passes_through(a[k], a[next], b)) {
+                const auto [low, high] = std::minmax(nodes[k], nodes[next]);
+                found.push_back({low, high, t});
+            }
+        }
+    }
+
+    /// Makes a node of each crossing, in the order of the pairs; the points are computed in parallel.
+    void make_crossings(const std::vector<Meeting>& meetings) {
+        std::vector<End> fresh;
+        for (const Meeting& m : meetings)
+            for (const End& end : m.ends)
+                if (!end.is_corner() && known_.try_emplace(end.key(), none).second) fresh.push_back(end);
+        std::vector<std::pair<ExactNodes::Point, Vec3>> made(fresh.size());
+        parallel_for(
+            fresh.size(),
+            [&](std::size_t i) {
+                made[i].first = crossing(fresh[i]);
+                made[i].second = ExactNodes::place_of(made[i].first);
+            },
+            64);
+        for (std::size_t i = 0; i < fresh.size(); ++i)
+            known_[fresh[i].key()] = nodes_.find_or_add(made[i].first, made[i].second);
+    }
+
+    ExactNodes::Point crossing(const End& end) const {
+        const auto p = nodes_.at(end.low), q = nodes_.at(end.high);
+        const auto& corner = soup_.triangles[end.triangle];
+        const auto o = nodes_.at(corner[0]);
+        const auto normal = CGAL::cross_product(nodes_.at(corner[1]) - o, nodes_.at(corner[2]) - o);
+        const ExactKernel::FT above = normal * (p - o), below = normal * (q - o);
+        return p + (above / (above - below)) * (q - p);
+    }
+
+    void note(Index i, Index j, const Meeting& meeting) {
+        if (meeting.coplanar) sets_.join(i, j);
+        points_[i].insert(points_[i].end(), meeting.corners[0].begin(), meeting.corners[0].end());
+        points_[j].insert(points_[j].end(), meeting.corners[1].begin(), meeting.corners[1].end());
+        std::vector<Index> found;
+        for (const End& end : meeting.ends)
+            found.push_back(end.is_corner() ? end.low : known_.find(end.key())->second);
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
         for (const Index k : {i, j}) {
             if (found.size() == 1) points_[k].push_back(found[0]);
             if (found.size() == 2) segments_[k].emplace_back(found[0], found[1]);
         }
-    }
-
-    void put_on(const Corners& points, const std::array<Index, 3>& nodes, const Corners& t, Index at) {
-        const auto side = sides(t, points);
-        for (std::size_t k = 0; k < 3; ++k)
-            if (side[k] == 0 && holds(t, points[k])) points_[at].push_back(nodes[k]);
-    }
-
-    /// The ends of what the sides of s have in common with t.
-    void collect(Index s, const Corners& a, const std::array<int, 3>& side, Index t, const Corners& b,
-                 std::vector<Index>& found) {
-        const auto& nodes = soup_.triangles[s];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t next = (k + 1) % 3;
-            if (side[k] == 0 && holds(b, a[k])) found.push_back(nodes[k]);
-            if (side[k] * side[next] < 0 && passes_through(a[k], a[next], b))
-                found.push_back(crossing(nodes[k], nodes[next], t));
-        }
-    }
-
-    Index crossing(Index from, Index to, Index t) {
-        const auto [low, high] = std::minmax(from, to);
-        const auto [at, fresh] = known_.try_emplace({low, high, t});
-        if (fresh) {
-            const auto p = nodes_.at(low), q = nodes_.at(high);
-            const auto& corner = soup_.triangles[t];
-            const auto o = nodes_.at(corner[0]);
-            const auto normal = CGAL::cross_product(nodes_.at(corner[1]) - o, nodes_.at(corner[2]) - o);
-            const ExactKernel::FT above = normal * (p - o), below = normal * (q - o);
-            at->second = nodes_.find_or_add(p + (above / (above - below)) * (q - p));
-        }
-        return at->second;
     }
 
     const TriangleSoup& soup_;
@@ -206,7 +256,7 @@ struct Arrangement::Own {
         }
         if (possible > max_crossings) return;
         overfull.reset();
-        for (const PlaneGroup& g : groups) cut_in_plane(soup, g, nodes, pieces, sides);
+        cut_in_planes(soup, groups, nodes, pieces, sides);
     }
 
     /// The triangle of most pairs.

@@ -1,11 +1,15 @@
 #include "geometry/cgal/plane_cut.hpp"
 
+#include "base/parallel.hpp"
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <algorithm>
+#include <iterator>
+#include <memory>
 #include <set>
 
 namespace facetmill {
@@ -59,12 +63,12 @@ class Frame {
     int drop_ = 2, u_ = 0, v_ = 1;
 };
 
+/// Cuts one group in three steps, of which only the second changes what others use.
 class Cutter {
   public:
-    Cutter(const TriangleSoup& soup, const PlaneGroup& group, ExactNodes& nodes)
-        : soup_(soup), group_(group), nodes_(nodes), frame_(frame_of(group.triangles.front())) {}
-
-    void run(std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides) {
+    /// The first: triangulates.
+    Cutter(const TriangleSoup& soup, const PlaneGroup& group, const ExactNodes& nodes)
+        : soup_(soup), group_(group), nodes_(nodes), frame_(frame_of(group.triangles.front())) {
         for (const Index t : group_.triangles)
             for (const Index p : soup_.triangles[t]) vertex_of(p);
         for (const Index p : group_.points) vertex_of(p);
@@ -76,7 +80,19 @@ class Cutter {
             for (std::size_t i = 0; i < 3; ++i)
                 constrain(soup_.triangles[t][i], soup_.triangles[t][(i + 1) % 3]);
         for (const auto& [a, b] : group_.segments) constrain(a, b);
-        name_vertices();
+    }
+
+    /// Makes nodes of the points where segments crossed.
+    void name_vertices(ExactNodes& nodes) {
+        for (auto v = t_.finite_vertices_begin(); v != t_.finite_vertices_end(); ++v) v->info() = none;
+        for (const auto& [node, v] : vertices_) v->info() = node;
+        if (vertices_.size() == t_.number_of_vertices()) return;
+        for (auto v = t_.finite_vertices_begin(); v != t_.finite_vertices_end(); ++v)
+            if (v->info() == none) v->info() = nodes.find_or_add(frame_.lifted(v->point()));
+    }
+
+    using Sides = std::vector<std::pair<std::pair<Index, Index>, int>>;
+    void finish(std::vector<Arrangement::Piece>& pieces, Sides& sides) const {
         for (const Index t : group_.triangles) spread(t, sides);
         emit(pieces);
     }
@@ -100,13 +116,6 @@ class Cutter {
             at->second = t_.insert_constraint(vertices_.at(at->first.first), vertices_.at(at->first.second));
     }
 
-    void name_vertices() {
-        for (auto v = t_.finite_vertices_begin(); v != t_.finite_vertices_end(); ++v) v->info() = none;
-        for (const auto& [node, v] : vertices_) v->info() = node;
-        for (auto v = t_.finite_vertices_begin(); v != t_.finite_vertices_end(); ++v)
-            if (v->info() == none) v->info() = nodes_.find_or_add(frame_.lifted(v->point()));
-    }
-
     /// The vertices along a side of a triangle, from its first corner to its second.
     std::vector<Vertex> path(Index from, Index to) const {
         const Constraint c = constraints_.at(std::minmax({from, to}));
@@ -126,7 +135,7 @@ class Cutter {
     }
 
     /// Tells the faces within triangle t that they are part of it.
-    void spread(Index t, SidesOfNodes& sides) {
+    void spread(Index t, Sides& sides) const {
         const auto& corners = soup_.triangles[t];
         const auto flat = [&](std::size_t i) { return vertices_.at(corners[i])->point(); };
         const bool left = CGAL::orientation(flat(0), flat(1), flat(2)) == CGAL::LEFT_TURN;
@@ -137,7 +146,7 @@ class Cutter {
             for (std::size_t k = 0; k + 1 < along.size(); ++k) {
                 border.insert(std::minmax({along[k]->info(), along[k + 1]->info()}));
                 stack.push_back(left ? left_of(along[k], along[k + 1]) : left_of(along[k + 1], along[k]));
-                if (k > 0) sides[{t, along[k]->info()}] = static_cast<int>(i);
+                if (k > 0) sides.push_back({{t, along[k]->info()}, static_cast<int>(i)});
             }
         }
         while (!stack.empty()) {
@@ -167,7 +176,7 @@ class Cutter {
 
     const TriangleSoup& soup_;
     const PlaneGroup& group_;
-    ExactNodes& nodes_;
+    const ExactNodes& nodes_;
     Frame frame_;
     Triangulation t_;
     std::map<Index, Vertex> vertices_; ///< of the nodes that were given
@@ -176,9 +185,31 @@ class Cutter {
 
 } // namespace
 
-void cut_in_plane(const TriangleSoup& soup, const PlaneGroup& group, ExactNodes& nodes,
-                  std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides) {
-    Cutter(soup, group, nodes).run(pieces, sides);
+void cut_in_planes(const TriangleSoup& soup, const std::vector<PlaneGroup>& groups, ExactNodes& nodes,
+                   std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides) {
+    constexpr std::size_t together = 4096, few = 16; // as many are in memory at a time
+    for (std::size_t begin = 0; begin < groups.size(); begin += together) {
+        const std::size_t count = std::min(together, groups.size() - begin);
+        std::vector<std::unique_ptr<Cutter>> cutters(count);
+        parallel_for(
+            count,
+            [&](std::size_t i) { cutters[i] = std::make_unique<Cutter>(soup, groups[begin + i], nodes); },
+            few);
+        for (auto& cutter : cutters) cutter->name_vertices(nodes);
+        std::vector<std::vector<Arrangement::Piece>> of_each(count);
+        std::vector<Cutter::Sides> sides_of_each(count);
+        parallel_for(
+            count,
+            [&](std::size_t i) {
+                cutters[i]->finish(of_each[i], sides_of_each[i]);
+                cutters[i].reset();
+            },
+            few);
+        for (std::size_t i = 0; i < count; ++i) {
+            std::move(of_each[i].begin(), of_each[i].end(), std::back_inserter(pieces));
+            for (const auto& [at, side] : sides_of_each[i]) sides[at] = side;
+        }
+    }
 }
 
 } // namespace facetmill

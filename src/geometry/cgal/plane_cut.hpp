@@ -29,8 +29,10 @@ class ExactNodes {
             if (other == point) return;
         here.push_back(point);
     }
-    Index find_or_add(const Point& p) {
-        const Vec3 place{nearest(p.x()), nearest(p.y()), nearest(p.z())};
+    /// Where p is, rounded: of a lazy number alone, its double depends on what was asked before.
+    static Vec3 place_of(const Point& p) { return {nearest(p.x()), nearest(p.y()), nearest(p.z())}; }
+    Index find_or_add(const Point& p) { return find_or_add(p, place_of(p)); }
+    Index find_or_add(const Point& p, const Vec3& place) {
         auto& here = at_place_[hash(place)];
         for (const Index other : here)
             if (rounded(other) == place && at(other) == p) return other;
@@ -52,7 +54,6 @@ class ExactNodes {
     }
 
   private:
-    /// Of a lazy number alone, its double depends on what was asked before.
     static double nearest(const ExactKernel::FT& x) { return CGAL::to_double(CGAL::exact(x)); }
 
     static std::uint64_t hash(const Vec3& p) {
@@ -80,9 +81,9 @@ struct PlaneGroup {
 /// (triangle, node) -> the side of the triangle that the node is on.
 using SidesOfNodes = std::map<std::pair<Index, Index>, int>;
 
-/// Appends the pieces by a constrained triangulation with exact intersections, whose points become nodes. The
-/// same for the same input.
-void cut_in_plane(const TriangleSoup& soup, const PlaneGroup& group, ExactNodes& nodes,
-                  std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides);
+/// Appends the pieces, group by group, by constrained triangulations with exact intersections, whose points
+/// become nodes. Parallel; the same for the same input.
+void cut_in_planes(const TriangleSoup& soup, const std::vector<PlaneGroup>& groups, ExactNodes& nodes,
+                   std::vector<Arrangement::Piece>& pieces, SidesOfNodes& sides);
 
 } // namespace facetmill

@@ -69,11 +69,11 @@ class Combining {
             return failed({fmt::format("{} pairs of faces intersect, and at most {} are processed",
                                        found.count, max_pairs),
                            none, corner_mean(work_.mesh, found.pairs[0].first)});
-        for (const auto& pair : overlaps_at_edges(work_.mesh)) found.pairs.push_back(pair);
+        Solids solids = find_solids(work_.mesh, {});
+        if (auto failure = misfit(work_.mesh, solids)) return failed(std::move(*failure));
+        for (const auto& pair : overlaps_at_edges(work_.mesh, solids.edges)) found.pairs.push_back(pair);
         std::sort(found.pairs.begin(), found.pairs.end());
         found.pairs.erase(std::unique(found.pairs.begin(), found.pairs.end()), found.pairs.end());
-        Solids solids = find_solids(work_.mesh, found);
-        if (auto failure = misfit(work_.mesh, solids)) return failed(std::move(*failure));
         make_one_cluster(solids);
         const Operands operands = operands_of(solids);
         turn_what_is_taken();

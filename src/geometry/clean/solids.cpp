@@ -30,9 +30,8 @@ const char* reason(Fitness f) {
     return "";
 }
 
-std::vector<Fitness> fitness_of(const Mesh& mesh, const Components& components) {
+std::vector<Fitness> fitness_of(const Mesh& mesh, const EdgeTable& edges, const Components& components) {
     std::vector<Fitness> fitness(components.count, Fitness::fit);
-    const auto edges = build_edges(mesh);
     const auto faces = corner_faces(mesh);
     for (Index e = 0; e < edges.size(); ++e) {
         int balance = 0;
@@ -87,10 +86,30 @@ SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among, s
         plain, {.limit = max_pairs, .among = std::move(among), .max_box_pairs = max_box_pairs});
 }
 
+Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces) {
+    Mesh some;
+    std::vector<Index> number(mesh.vertex_count(), none);
+    some.face_offsets.push_back(0);
+    for (const Index f : faces) {
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c) {
+            Index& n = number[mesh.vertex(c)];
+            if (n == none) {
+                n = static_cast<Index>(some.positions.size());
+                some.positions.push_back(mesh.point(c));
+            }
+            some.corners.push_back(n);
+        }
+        some.face_offsets.push_back(static_cast<Index>(some.corners.size()));
+    }
+    normalise_offsets(some);
+    return some;
+}
+
 Solids find_solids(const Mesh& mesh, const SelfIntersections& found) {
     Solids s;
-    s.components = face_components(mesh, false);
-    const auto fitness = fitness_of(mesh, s.components);
+    s.edges = build_edges(mesh);
+    s.components = face_components(mesh, s.edges);
+    const auto fitness = fitness_of(mesh, s.edges, s.components);
     const auto volumes = six_volumes(mesh, s.components);
     for (Index p = 0; p < s.components.count; ++p) {
         s.closed.push_back(fitness[p] == Fitness::fit);

@@ -9,6 +9,7 @@ namespace facetmill::clean_steps {
 /// Closed components that intersect, directly or by way of others: what becomes one solid, or is left,
 /// together.
 struct Solids {
+    EdgeTable edges;                  ///< of the mesh
     Components components;            ///< faces that hang together over edges
     std::vector<std::uint8_t> closed; ///< [components] and consistent, finite and without faces of no area
     std::vector<const char*> why_not; ///< [components] are they not closed

@@ -74,11 +74,15 @@ bool remove_isolated(Work& work);
 /// max_pairs are listed; none when more than max_box_pairs would have to be looked at.
 SelfIntersections crossings(const Mesh& mesh, std::vector<std::uint8_t> among = {},
                             std::size_t max_box_pairs = std::size_t(-1));
+/// The bare mesh of some of the faces, in that order, with the vertices that they use.
+Mesh only_faces(const Mesh& mesh, const std::vector<Index>& faces);
 inline constexpr std::size_t max_pairs = std::size_t{1} << 22;
 /// Pairs of faces, lower one first, ascending, that link all faces at edges around which the surface winds
 /// more than once: there solids overlap without any crossing, as grids do that pass through each other along
 /// their lines.
 std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh);
+/// Likewise; faster, given the edges of the mesh.
+std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const EdgeTable& edges);
 /// Closed components that pass through each other, or through themselves, become one solid: the union, by
 /// winding numbers (see unite). `found` are the crossings of the mesh, `overlaps` those at edges. What is
 /// closed stays closed; what intersects does not any more, but with components that are not closed: those,

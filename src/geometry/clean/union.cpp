@@ -200,4 +200,27 @@ std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh) {
     return pairs;
 }
 
+std::vector<std::pair<Index, Index>> overlaps_at_edges(const Mesh& mesh, const EdgeTable& edges) {
+    const auto place = lowest_at_place(mesh);
+    std::vector<std::uint8_t> is_shared(mesh.vertex_count(), 0); // by several vertices, or at a crowded edge
+    for (Index v = 0; v < place.size(); ++v)
+        if (place[v] != v) is_shared[place[v]] = 1;
+    for (Index e = 0; e < edges.size(); ++e)
+        if (edges.corners_of(e).size() > 2)
+            is_shared[place[edges.edges[e].low]] = is_shared[place[edges.edges[e].high]] = 1;
+    std::vector<Index> faces;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+        int count = 0;
+        for (Index c = mesh.face_begin(f); c < mesh.face_end(f); ++c)
+            count += is_shared[place[mesh.vertex(c)]];
+        if (count > 1) faces.push_back(f);
+    }
+    auto pairs = overlaps_at_edges(only_faces(mesh, faces));
+    for (auto& [f, g] : pairs) {
+        f = faces[f];
+        g = faces[g];
+    }
+    return pairs;
+}
+
 } // namespace facetmill::clean_steps

@@ -1,6 +1,7 @@
 #include "geometry/clean/united.hpp"
 
 #include "base/memory.hpp"
+#include "base/parallel.hpp"
 #include "geometry/clean/united_mesh.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "geometry/inspect/evidence.hpp"
@@ -57,9 +58,9 @@ bool encloses(const Sides& sides, const Operands* operands) {
 /// A face that was not cut, or a piece of cut ones; more of its sources turn as it does than the other way.
 struct Leaf {
     std::array<Index, 3> nodes;
-    std::vector<Index> triangles; ///< its sources; the first turns as it does, unless they cancel
-    Index face = none;            ///< not cut
-    Index against = none;         ///< the first of its sources that turns the other way
+    Index first_source = 0, sources = 0; ///< the first of them turns as it does, unless they cancel
+    Index face = none;                   ///< not cut
+    Index against = none;                ///< the first of its sources that turns the other way
     Index cluster = none;
     Sides turns; ///< how many of the sources turn as it does, less those that turn the other way
     std::array<bool, 2> of_inward{};
@@ -214,41 +215,85 @@ class Uniting {
         Leaf leaf;
         leaf.nodes = nodes;
         leaf.cluster = cluster_of(sources[0].triangle);
+        leaf.first_source = static_cast<Index>(sources_.size());
+        leaf.sources = static_cast<Index>(sources.size());
         for (const auto& [t, sign] : sources) {
             const Index p = component_of(t);
             leaf.of_inward[operand_of(p)] |= solids_.inward[p] != 0;
             count(leaf.turns, t, flip * sign);
-            leaf.triangles.push_back(t);
+            sources_.push_back(t);
             if (flip * sign < 0 && leaf.against == none) leaf.against = t;
-            if (flip * sign > 0 && flip * sources[0].sign < 0 && leaf.triangles[0] == sources[0].triangle)
-                std::swap(leaf.triangles[0], leaf.triangles.back());
+            Index& first = sources_[leaf.first_source];
+            if (flip * sign > 0 && flip * sources[0].sign < 0 && first == sources[0].triangle)
+                std::swap(first, sources_.back());
         }
-        leaves_.push_back(std::move(leaf));
+        leaves_.push_back(leaf);
+    }
+    std::span<const Index> sources_of(const Leaf& leaf) const {
+        return {sources_.data() + leaf.first_source, leaf.sources};
     }
 
     /// Leaves that hang together where no other leaf does have the same on their sides.
     void find_patches(const Arrangement& arrangement) {
-        Mesh leaves;
-        leaves.positions.resize(arrangement.node_count());
-        leaves.face_offsets.push_back(0);
-        for (const Leaf& leaf : leaves_) {
-            if (leaf.face == none)
-                leaves.corners.insert(leaves.corners.end(), leaf.nodes.begin(), leaf.nodes.end());
-            else
-                for (Index c = mesh_.face_begin(leaf.face); c < mesh_.face_end(leaf.face); ++c)
-                    leaves.corners.push_back(mesh_.vertex(c));
-            leaves.face_offsets.push_back(static_cast<Index>(leaves.corners.size()));
-        }
-        const auto edges = build_edges(leaves);
-        const auto faces = corner_faces(leaves);
         DisjointSets sets(leaves_.size());
+        std::vector<std::uint8_t> merged(mesh_.vertex_count(), 0); // may have been
+        for (Index f = 0; f < mesh_.face_count(); ++f)
+            for (Index c = mesh_.face_begin(f); cut_[f] && c < mesh_.face_end(f); ++c)
+                merged[mesh_.vertex(c)] = 1;
+        join_uncut(merged, sets);
+        join_rest(arrangement, merged, sets);
+        for (Index i = 0; i < leaves_.size(); ++i) leaves_[i].patch = sets.find(i);
+    }
+
+    /// Along edges that have no more faces than they had.
+    void join_uncut(const std::vector<std::uint8_t>& merged, DisjointSets& sets) const {
+        std::vector<Index> leaf_of_face(mesh_.face_count(), none);
+        for (Index i = 0; i < leaves_.size(); ++i)
+            if (leaves_[i].face != none) leaf_of_face[leaves_[i].face] = i;
+        const auto faces = corner_faces(mesh_);
+        parallel_for(solids_.edges.size(), [&](std::size_t e) {
+            const auto at = solids_.edges.corners_of(static_cast<Index>(e));
+            if (at.size() != 2 || mesh_.vertex(at[0]) == mesh_.vertex(at[1])) return;
+            const Index f = faces[at[0]], a = leaf_of_face[f], b = leaf_of_face[faces[at[1]]];
+            if (a == none || b == none) return;
+            if (merged[mesh_.vertex(at[0])] && merged[mesh_.vertex(next_corner(mesh_, f, at[0]))]) return;
+            sets.join(a, b);
+        });
+    }
+
+    /// Along edges of pieces, and those between vertices where others may have come.
+    void join_rest(const Arrangement& arrangement, const std::vector<std::uint8_t>& merged,
+                   DisjointSets& sets) const {
+        Mesh mesh;
+        std::vector<Index> leaf_of_face;
+        mesh.positions.resize(arrangement.node_count());
+        mesh.face_offsets.push_back(0);
+        for (Index i = 0; i < leaves_.size(); ++i) {
+            const Leaf& leaf = leaves_[i];
+            if (leaf.face == none) {
+                mesh.corners.insert(mesh.corners.end(), leaf.nodes.begin(), leaf.nodes.end());
+            } else {
+                std::size_t count = 0;
+                for (Index c = mesh_.face_begin(leaf.face); c < mesh_.face_end(leaf.face); ++c)
+                    count += merged[mesh_.vertex(c)];
+                if (count < 2) continue;
+                for (Index c = mesh_.face_begin(leaf.face); c < mesh_.face_end(leaf.face); ++c)
+                    mesh.corners.push_back(mesh_.vertex(c));
+            }
+            mesh.face_offsets.push_back(static_cast<Index>(mesh.corners.size()));
+            leaf_of_face.push_back(i);
+        }
+        const auto edges = build_edges(mesh);
+        const auto faces = corner_faces(mesh);
+        const auto may_be_another = [&](Index v) { return v >= merged.size() || merged[v]; };
         for (Index e = 0; e < edges.size(); ++e) {
             const auto at = edges.corners_of(e);
-            if (at.size() != 2 || leaves.corners[at[0]] == leaves.corners[at[1]]) continue;
-            const Leaf &a = leaves_[faces[at[0]]], &b = leaves_[faces[at[1]]];
-            if (a.turns == b.turns && a.of_inward == b.of_inward) sets.join(faces[at[0]], faces[at[1]]);
+            if (at.size() != 2 || mesh.corners[at[0]] == mesh.corners[at[1]]) continue;
+            if (!may_be_another(edges.edges[e].low) || !may_be_another(edges.edges[e].high)) continue;
+            const Index i = leaf_of_face[faces[at[0]]], j = leaf_of_face[faces[at[1]]];
+            const Leaf &a = leaves_[i], &b = leaves_[j];
+            if (a.turns == b.turns && a.of_inward == b.of_inward) sets.join(i, j);
         }
-        for (Index i = 0; i < leaves_.size(); ++i) leaves_[i].patch = sets.find(i);
     }
 
     /// The winding number in front of a leaf; without the components that the cluster does not hold, unless
@@ -256,7 +301,7 @@ class Uniting {
     Sides front_of(const Arrangement& arrangement, const Leaf& leaf) {
         Sides ahead;
         int around = 0;
-        const int way = arrangement.look_ahead(leaf.nodes, leaf.triangles, [&](Index t, int turn) {
+        const int way = arrangement.look_ahead(leaf.nodes, sources_of(leaf), [&](Index t, int turn) {
             if (cluster_of(t) != leaf.cluster)
                 around += turn;
             else
@@ -331,7 +376,7 @@ class Uniting {
             if (leaf.face != none || fate_[i] == Fate::goes) continue;
             const auto& [a, b, c] = leaf.nodes;
             if (fate_[i] == Fate::stays)
-                pieces.push_back({leaf.nodes, leaf.triangles[0]});
+                pieces.push_back({leaf.nodes, sources_[leaf.first_source]});
             else
                 pieces.push_back({{a, c, b}, leaf.against});
         }
@@ -354,6 +399,7 @@ class Uniting {
     TriangleFaces triangles_;  ///< of closed components
     std::vector<Index> first_; ///< [faces + 1] into triangles_
     std::vector<Leaf> leaves_;
+    std::vector<Index> sources_;           ///< triangles, of leaf after leaf
     std::vector<std::uint8_t> has_cavity_; ///< [clusters] or an inward component at least
     std::vector<Fate> fate_;               ///< [leaves]
     std::vector<std::uint8_t> filled_;     ///< [components]

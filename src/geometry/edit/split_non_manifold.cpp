@@ -95,10 +95,9 @@ class Joints {
 
 /// Puts a point in the middle of crowded edges that no vertex could take apart, for every pair (but the first
 /// unless `all`) and every face left over.
-bool divide_crowded_edges(NonManifoldSplit& work, bool all) {
+void divide_crowded_edges(NonManifoldSplit& work, const EdgeTable& edges, bool all) {
     const Mesh& mesh = work.mesh;
-    const auto edges = build_edges(mesh);
-    if (!has_crowded_edges(edges)) return false;
+    if (!has_crowded_edges(edges)) return;
     const auto faces = corner_faces(mesh);
     const Joints joints(mesh, edges, faces);
     std::vector<Insertion> insertions;
@@ -121,13 +120,13 @@ bool divide_crowded_edges(NonManifoldSplit& work, bool all) {
         ++work.split_edges;
     }
     work.mesh = insert_on_edges(mesh, std::move(insertions), added, &work.changes);
-    return true;
 }
 
 } // namespace
 
-Fans disjoint_fans(const Mesh& mesh) {
-    const auto edges = build_edges(mesh);
+Fans disjoint_fans(const Mesh& mesh) { return disjoint_fans(mesh, build_edges(mesh)); }
+
+Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges) {
     const auto faces = corner_faces(mesh);
     const Joints joints(mesh, edges, faces);
     // Corners at a vertex are of one fan when a joint at that vertex links them.
@@ -161,12 +160,14 @@ Fans disjoint_fans(const Mesh& mesh) {
 
 NonManifoldSplit split_non_manifold(Mesh mesh, bool divide_all) {
     NonManifoldSplit result{std::move(mesh), {}, 0, 0};
-    const Fans fans = disjoint_fans(result.mesh);
+    EdgeTable edges = build_edges(result.mesh);
+    const Fans fans = disjoint_fans(result.mesh, edges);
     if (!fans.copies.empty()) {
         result.split_vertices = fans.copies.size();
         result.mesh = part_corners(result.mesh, fans.vertex_of_corner, fans.copies);
+        edges = build_edges(result.mesh);
     }
-    divide_crowded_edges(result, divide_all);
+    divide_crowded_edges(result, edges, divide_all);
     return result;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Edges and vertices taken apart where a surface is not a manifold.
 
-#include "mesh/mesh.hpp"
+#include "mesh/topology.hpp"
 
 namespace facetmill {
 
@@ -14,6 +14,7 @@ struct Fans {
 /// the exact order around the edge, those of sheets with a boundary after all others; each fan of faces
 /// around a vertex gets a vertex of its own.
 Fans disjoint_fans(const Mesh& mesh);
+Fans disjoint_fans(const Mesh& mesh, const EdgeTable& edges); ///< given its edges
 
 struct NonManifoldSplit {
     Mesh mesh;
