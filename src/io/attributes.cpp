@@ -22,6 +22,7 @@ Role role_of(const std::string& name, int components, const AttributeData& data)
     if (is("COLOR_") && (components == 3 || components == 4) && (floats || small)) return Role::colour;
     if (is("JOINTS_") && components == 4 && small) return Role::joints;
     if (is("WEIGHTS_") && components == 4 && (floats || small)) return Role::weights;
+    if (is("_FEATURE_ID_") && components == 1) return Role::index; // numbers of features in glTF
     return data.index() >= 4 ? Role::index : Role::generic;
 }
 

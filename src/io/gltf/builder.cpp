@@ -313,7 +313,8 @@ bool known(const std::string& name) {
                                                 "EXT_mesh_manifold",          "EXT_mesh_gpu_instancing",
                                                 "KHR_lights_punctual",        "KHR_xmp_json_ld",
                                                 "KHR_node_visibility",        "MSFT_lod",
-                                                "MSFT_texture_dds",           "EXT_lights_image_based"};
+                                                "MSFT_texture_dds",           "EXT_lights_image_based",
+                                                "EXT_mesh_features",          "EXT_structural_metadata"};
     const auto starts = [&](const char* prefix) { return name.rfind(prefix, 0) == 0; };
     return names.count(name) > 0 || starts("KHR_materials_") || starts("KHR_texture_") ||
            starts("EXT_texture_");
@@ -355,6 +356,13 @@ void visit_view_references(Json& document, const Visit& visit) {
         each(member(&mesh, "primitives"), [&](Json& p) {
             reference(member(extension(&p, "KHR_draco_mesh_compression"), "bufferView"), visit);
         });
+    });
+    each(member(extension(&document, "EXT_structural_metadata"), "propertyTables"), [&](Json& table) {
+        Json* properties = member(&table, "properties");
+        if (!properties || !properties->is_object()) return;
+        for (auto& [name, property] : properties->items())
+            for (const char* column : {"values", "arrayOffsets", "stringOffsets"})
+                reference(member(&property, column), visit);
     });
 }
 

@@ -3,7 +3,9 @@
 #include "base/parallel.hpp"
 #include "io/gltf/accessor.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
 
@@ -58,6 +60,13 @@ bool fits_uint16(const Attribute& a) {
         for (int c = 0; c < a.components; ++c)
             if (const double x = a.value(i, c); !(x >= 0 && x <= 65535)) return false;
     return true;
+}
+
+/// Whether floats are whole numbers of 16 bits: as integers nothing rounds them.
+bool are_small_numbers(const Attribute& a) {
+    const auto* floats = std::get_if<std::vector<float>>(&a.data);
+    return floats && std::all_of(floats->begin(), floats->end(),
+                                 [](float x) { return x >= 0 && x <= 65535 && x == std::floor(x); });
 }
 
 template <class T>
@@ -182,6 +191,8 @@ std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings,
         }
         Column column{semantic, target, a};
         if (!allowed(semantic, target, a, settings.quantised)) convert(column.data, semantic, changes);
+        if (a.role == Role::index && are_small_numbers(column.data))
+            column.data.data = converted<std::uint16_t>(column.data);
         keep_rules(column, one_set);
         columns.push_back(std::move(column));
     }

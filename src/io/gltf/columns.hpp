@@ -19,8 +19,8 @@ struct ColumnSettings {
 
 /// All columns of the mesh, in its order of attributes. What glTF cannot hold is dropped or converted, and
 /// said: face attributes and elements of 5 to 8 numbers are dropped; 64-bit floats and 32-bit integers become
-/// float32 (or uint16 when they fit). Normals and tangents get unit length again, colours and weights the
-/// range from 0 to 1.
+/// float32 (or uint16 when they fit, as do identifiers). Normals and tangents get unit length again, colours
+/// and weights the range from 0 to 1.
 std::vector<Column> columns_of(const Mesh& mesh, const ColumnSettings& settings, AttributeChanges& changes);
 
 /// "SCALAR", "VEC3", "MAT4"; null for numbers of components that glTF has no type for.

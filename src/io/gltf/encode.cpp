@@ -4,6 +4,7 @@
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 #include "io/gltf/draco/draco.hpp"
+#include "io/gltf/features.hpp"
 #include "io/gltf/order.hpp"
 
 #include <cstring>
@@ -116,14 +117,30 @@ Json primitive_frame(const Mesh& mesh, Index p, const EncodeSettings& settings, 
             out["extensions"][name] = value;
             continue;
         }
+        std::vector<std::string> lost;
+        const Json features =
+            settings.keep_features
+                ? features_that_hold(
+                      name, value,
+                      [&](const std::string& a) {
+                          return info.has(a) && (mesh.find(a, Domain::wedge) || mesh.find(a, Domain::vertex));
+                      },
+                      lost)
+                : Json(nullptr);
+        if (!features.is_null()) {
+            out["extensions"][name] = features;
+            builder.use_extension(name, false);
+        }
+        if (!features.is_null() && lost.empty()) continue;
+        const std::string what = lost.empty() ? "the extension" : fmt::format("{} of", fmt::join(lost, ", "));
         written.changes.push_back({name, Domain::face, AttributeChange::Kind::dropped,
-                                   "an extension of a primitive that has changed"});
+                                   lost.empty() ? "an extension of a primitive that has changed"
+                                                : fmt::format("{} a primitive that has changed", what)});
         written.warnings.push_back(
             {Severity::warning,
              "W-EXTENSION",
-             fmt::format(
-                 "part '{}': the extension {} of a primitive is dropped, because the mesh has changed",
-                 settings.name, name),
+             fmt::format("part '{}': {} {} of a primitive {} dropped, because the mesh has changed",
+                         settings.name, what, name, lost.empty() ? "is" : "are"),
              {},
              ""});
     }
@@ -349,6 +366,7 @@ namespace {
 DracoKind kind_of(const std::string& semantic) {
     if (semantic == "NORMAL") return DracoKind::normal;
     if (semantic.rfind("TEXCOORD_", 0) == 0) return DracoKind::uv;
+    if (is_feature_id(semantic)) return DracoKind::identifier;
     return semantic.rfind("COLOR_", 0) == 0 ? DracoKind::colour : DracoKind::generic;
 }
 

@@ -12,9 +12,10 @@ inline constexpr int array_buffer = 34962, element_buffer = 34963;
 
 struct EncodeSettings {
     DracoSettings draco;
-    bool manifold = false;   ///< write EXT_mesh_manifold
-    bool keep_order = false; ///< of triangles and vertices
-    bool keep_exact = false; ///< positions in doubles go to Builder::exact_positions, too
+    bool manifold = false;     ///< write EXT_mesh_manifold
+    bool keep_order = false;   ///< of triangles and vertices
+    bool keep_exact = false;   ///< positions in doubles go to Builder::exact_positions, too
+    bool keep_features = true; ///< metadata that primitives refer to is in the document
     ColumnSettings columns;
     std::string name; ///< of the part, for messages
     /// The document's index for a scene material; -1: none.

@@ -3,6 +3,7 @@
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "io/gltf/draco/draco.hpp"
+#include "io/gltf/features.hpp"
 #include "io/gltf/lines.hpp"
 #include "io/gltf/nodes.hpp"
 
@@ -331,6 +332,7 @@ Role role_of(std::string_view semantic) {
     if (starts("TEXCOORD_")) return Role::uv;
     if (starts("COLOR_")) return Role::colour;
     if (starts("JOINTS_")) return Role::joints;
+    if (is_feature_id(semantic)) return Role::index;
     return starts("WEIGHTS_") ? Role::weights : Role::generic;
 }
 

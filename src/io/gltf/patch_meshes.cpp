@@ -69,6 +69,11 @@ EncodeSettings settings_for(Patch& patch, const Part& part) {
     s.keep_exact = patch.settings.quantize.on;
     s.name = part.name;
     s.material = [&patch](Index m) { return patch_material(patch, m); };
+    // Numbers of features and tables mean something in one document only.
+    for (std::size_t d = 0; d < patch.scene.documents.size(); ++d)
+        if (static_cast<int>(d) != patch.base)
+            for (const char* name : {"EXT_mesh_features", "EXT_structural_metadata"})
+                s.keep_features &= patch.scene.documents[d]->json.find(name) == std::string::npos;
     s.columns.skinned = part.document < 0 || part.document == patch.base;
     s.columns.quantised = uses_extension(patch.builder.json(), "KHR_mesh_quantization");
     return s;

@@ -24,13 +24,14 @@ void visit_members(Json& document, const char* list, const char* key, const Visi
         if (index_at(item, key)) visit(item[key]);
 }
 
-/// Textures are named by materials, "...Texture", and by whatever reads channels of them.
+/// Textures are named by materials, "...Texture", by sets of feature ids, "texture", and by whatever reads
+/// channels of them.
 void visit_texture_references(Json& json, const Visit& visit) {
     if (!json.is_structured()) return;
     for (auto& [key, value] : json.items()) {
         if (key == "extras") continue;
-        const bool texture =
-            std::string_view(key).ends_with("Texture") || (value.is_object() && value.contains("channels"));
+        const bool texture = std::string_view(key).ends_with("Texture") || key == "texture" ||
+                             (value.is_object() && value.contains("channels"));
         if (texture && index_at(value, "index")) visit(value["index"]);
         visit_texture_references(value, visit);
     }

@@ -257,6 +257,19 @@ struct Settled {
     std::vector<std::optional<DracoGrid>> grids; ///< of float columns that are no normals
 };
 
+constexpr int whole_bits = 24; // which a float32 holds exactly
+
+bool are_whole(const std::vector<float>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(),
+                       [](float x) { return x >= 0 && x < (1 << whole_bits) && x == std::floor(x); });
+}
+
+/// The grid whose steps are 1.
+DracoGrid whole_numbers(int components) {
+    return {std::vector<float>(static_cast<std::size_t>(components), 0.0F), float((1 << whole_bits) - 1),
+            whole_bits};
+}
+
 Settled settle_all(const DracoInput& given, const DracoSettings& settings) {
     Settled out{given,
                 {{given.origin[0], given.origin[1], given.origin[2]}, given.range, settings.position_bits},
@@ -269,6 +282,8 @@ Settled settle_all(const DracoInput& given, const DracoSettings& settings) {
         const int bits = bits_of(column, settings);
         if (type_of(column) == Attribute::NORMAL) {
             settle_normals(*floats, bits);
+        } else if (column.kind == DracoKind::identifier && are_whole(*floats)) {
+            grid = whole_numbers(column.components);
         } else {
             grid = grid_of(*floats, column.components, bits);
             settle(*floats, *grid);

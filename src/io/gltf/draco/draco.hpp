@@ -8,7 +8,8 @@
 namespace facetmill::io {
 
 /// What Draco takes an attribute for: it decides prediction and quantisation.
-enum class DracoKind { position, normal, uv, colour, generic };
+/// identifier: whole numbers, which nothing may round.
+enum class DracoKind { position, normal, uv, colour, generic, identifier };
 
 /// One attribute of a compressed mesh: a tuple per point.
 struct DracoColumn {
