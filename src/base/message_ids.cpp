@@ -603,6 +603,11 @@ std::span<const MessageId> message_ids() {
          {},
          "The outside of an open part is not clear.",
          "Close it first with `clean`, or check the image that `render` makes."},
+        {"W-ORIGIN",
+         {},
+         "A part keeps its origin although `write: {origin: ...}` gives another, because its node does more "
+         "than place it.",
+         "Nothing; or drop skins and animations first."},
         {"W-PROBE-OPEN",
          {},
          "The surface is open, so no point is inside or outside.",

@@ -55,6 +55,7 @@ TEXTURED = {
 RUNS = [
     "load cubes.obj ! thicken 0.1 ! section z=0.5",
     "load crossed.off ! section z=0.5",
+    "load cubes.obj --unit mm --up z ! write o.3mf --origin 1,2,3",
     "load flipped.off ! clean --holes minimal",
     "load cubes.obj ! transform --unit mm ! merge ! separate ! two-sided ! two-sided material",
     "load cubes.obj ! merge body --weld ! orient ! triangulate quads ! triangulate ! ensure --closed",

@@ -34,11 +34,11 @@ TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages
     const TemporaryDirectory dir;
     const std::string glb = (dir / "a.glb").string(), ply = (dir / "a.ply").string();
     const Scene scene = far_away(5.4e6); // a northing of UTM
-    const std::string plain = warnings_of(scene, glb);
+    const std::string plain = warnings_of(scene, fmt::format("{{path: {}, origin: keep}}", glb));
     CHECK(plain.find("W-ROUNDED") == 0);
     CHECK(plain.find("so far from the origin") != std::string::npos);
-    CHECK(plain.find("transform: {centre: true}") != std::string::npos);
-    const std::string draco = warnings_of(scene, fmt::format("{{path: {}, draco: true}}", glb));
+    CHECK(plain.find("write glTF with origin: auto") != std::string::npos);
+    const std::string draco = warnings_of(scene, fmt::format("{{path: {}, draco: true, origin: keep}}", glb));
     CHECK(draco.find("so far from the origin") != std::string::npos);
     // Its grid stands in the node, in 64 bits.
     CHECK(warnings_of(scene, fmt::format("{{path: {}, quantize: true}}", glb)).empty());
@@ -46,7 +46,8 @@ TEST_CASE("coordinates that 32-bit floats are too coarse for are said", "[stages
     CHECK(warnings_of(scene, ply).find("precision: full keeps all digits") != std::string::npos);
     CHECK(warnings_of(scene, fmt::format("{{path: {}, precision: full}}", ply)).empty());
     for (const char* options : {"{{path: {}}}", "{{path: {}, draco: true}}"})
-        CHECK(warnings_of(far_away(0), fmt::format(fmt::runtime(options), glb)).empty());
+        for (const Scene& one : {far_away(0), scene}) // which gets an origin of its own
+            CHECK(warnings_of(one, fmt::format(fmt::runtime(options), glb)).empty());
 }
 
 TEST_CASE("textures that a format does not get are said", "[stages]") {

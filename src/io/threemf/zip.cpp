@@ -163,7 +163,7 @@ Bytes make_archive(const std::vector<ArchiveFile>& files) {
     for (const ArchiveFile& file : files) {
         const Bytes packed = io::packed(file.bytes, Packing::deflate);
         if (file.bytes.size() >= most32 || out.size() + packed.size() >= most32)
-            throw Error(ErrorKind::stage, "E-SIZE", "the scene takes more than 4 GiB as 3MF",
+            throw Error(ErrorKind::limit, "E-SIZE", "the scene takes more than 4 GiB as 3MF",
                         "write several files, or another format");
         const auto name = std::as_bytes(std::span(file.path));
         put(directory, entry_magic, 4);

@@ -146,8 +146,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
                         path.string(), back.position_error, back.float_step, back.diagonal),
             codec.can.full_precision && !settings.double_positions
                 ? "precision: full keeps all digits"
-                : "transform: {centre: true} before write brings the scene to the origin; PLY, OBJ and OFF "
-                  "have precision: full");
+                : "write glTF with origin: auto, or PLY, OBJ or OFF with precision: full");
 }
 
 } // namespace facetmill::write_stage

@@ -13,6 +13,7 @@ struct WriteReport {
     std::optional<double> factor;
     std::optional<std::string> up;
     std::optional<Bits> draco, quantize;
+    std::optional<OriginReport> origin;
 };
 
 /// Converts to the file's convention, which the option or else the format says. Throws stage (E-UNIT, E-UP)

@@ -97,7 +97,8 @@ std::vector<FormatOption> format_options(const WriteOptions& o) {
             {"mesh_manifold", o.mesh_manifold, &Can::mesh_manifold},
             {"lods", o.lods, &Can::lods},
             {"textures", o.textures != io::Textures::automatic, &Can::textures},
-            {"normals", o.normals != NormalKind::keep, &Can::normals}};
+            {"normals", o.normals != NormalKind::keep, &Can::normals},
+            {"origin", o.origin.kind == OriginOption::Kind::point, &Can::transforms}};
 }
 
 /// Options that say something another format knows.
@@ -153,6 +154,13 @@ void declare_write(Declare<WriteOptions>& d) {
                         {{"single", Precision::single, "rounded to 32-bit floats"},
                          {"full", Precision::full, "with all 64 bits (PLY, OBJ, OFF, 3MF)"}},
                         "How positions are written.");
+    d.option(
+        "origin", &WriteOptions::origin,
+        "Where coordinates in the file count from, in formats whose parts have places (glTF, 3MF): a point "
+        "of "
+        "the scene, to which the parts' nodes move; keep, the origin that they have; or auto: keep, unless "
+        "float32 would move points by more than a millionth of the scene's diagonal, as with geographic "
+        "coordinates, then a point near the centre.");
     d.choice<NormalKind>(
         "normals", &WriteOptions::normals,
         {{"keep", NormalKind::keep,

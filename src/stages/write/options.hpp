@@ -3,6 +3,7 @@
 
 #include "geometry/normals/normals.hpp"
 #include "stage/stage.hpp"
+#include "stages/write/origin.hpp"
 
 namespace facetmill::write_stage {
 
@@ -37,6 +38,7 @@ struct WriteOptions {
     Precision precision = Precision::single;
     NormalKind normals = NormalKind::keep;
     std::optional<Angle> feature_angle; ///< of smooth normals
+    OriginOption origin;
     std::optional<DracoOptions> draco;
     std::optional<QuantizeOptions> quantize;
     std::optional<MeshoptOptions> meshopt;

@@ -14,6 +14,7 @@ struct Lent {
     Transform transform;
     bool changed;
     std::optional<Mesh> mesh{}; ///< with the normals that the scene keeps, when the file has others
+    std::optional<std::vector<Vec3>> positions{}; ///< when the file counts from another origin
 };
 
 /// The scene's own meshes stay with what was lent.
@@ -33,6 +34,12 @@ void declare_report(DeclareFields<WriteReport>& d) {
         .only_when("it is not 1");
     d.field("up", &WriteReport::up, "The axis that points up in the file.")
         .only_when("the scene was turned for it");
+    d.object("origin", &WriteReport::origin, "The point that coordinates in the file count from.",
+             [](DeclareFields<OriginReport>& f) {
+                 f.field("offset", &OriginReport::offset, "The point, in the scene's units.");
+                 f.field("parts", &OriginReport::parts, "Parts whose nodes stand there.");
+             })
+        .only_when("it was moved");
     const auto bits = [](DeclareFields<WriteReport::Bits>& b) {
         b.field("position_bits", &WriteReport::Bits::position_bits, "Bits of each coordinate.");
         b.field("why", &WriteReport::Bits::why, "The reason for this number.");
@@ -61,6 +68,11 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
                     "check what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
                     context.where());
     give_normals(out, lent, o, context);
+    if (codec->can.transforms && o.precision == WriteOptions::Precision::single) {
+        std::map<std::size_t, std::vector<Vec3>> moved;
+        report.origin = move_origin(out, o.origin, context, moved);
+        for (auto& [k, positions] : moved) lent[k].positions = std::move(positions);
+    }
     to_convention(out, o, *codec, context, report);
     const std::filesystem::path target = context.places().output(o.path.text);
     io::WriteSettings settings = settings_of(o, *codec, target);
@@ -73,6 +85,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
         Part& back = scene.parts[lent[k].part] = std::move(out.parts[k]);
         back.transform = lent[k].transform;
         back.changed = lent[k].changed;
+        if (lent[k].positions) back.mesh.positions = std::move(*lent[k].positions);
         if (lent[k].mesh) back.mesh = std::move(*lent[k].mesh);
     }
     return scene;
