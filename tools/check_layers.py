@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "options", "mesh", "geometry", "io", "report", "diff", "cache", "stage", "stages", "pipeline", "docs", "batch", "cli"]
+LAYERS = ["base", "options", "mesh", "geometry", "io", "report", "diff", "cache", "cells", "stage", "stages", "pipeline", "docs", "batch", "cli"]
 
 # A layer that must not include another although that stands below it.
 FORBIDDEN = {"pipeline": {"stages"}, "docs": {"stages"}, "batch": {"stages"}, "cli": {"stages"}}

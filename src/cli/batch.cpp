@@ -1,11 +1,9 @@
 // facetmill batch: one pipeline over many assets, in one process.
 
-#include "base/numbers.hpp"
 #include "base/readable_numbers.hpp"
 #include "batch/jobserver.hpp"
 #include "cli/assets.hpp"
 #include "io/outputs.hpp"
-#include "options/byte_count.hpp"
 #include "report/form.hpp"
 
 #include <algorithm>
@@ -60,23 +58,6 @@ void add_batch_options(Arguments& arguments, BatchOptions& options) {
     add_cache_options(arguments, options.common.cache);
     add_sandbox_option(arguments, options.common.sandbox);
     add_warning_options(arguments, options.common);
-}
-
-/// Bytes: "8GB", "8G", "50%" of what is there; 0 when it is not given.
-std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
-    if (text.empty()) return 0;
-    const Value value = Value::scalar(text, line.value(text));
-    Problems problems;
-    std::optional<double> bytes;
-    if (!text.ends_with('%'))
-        bytes = read_byte_count(value, problems);
-    else if (const auto share = parse_real(std::string_view(text).substr(0, text.size() - 1)))
-        bytes = static_cast<double>(batch::memory_there()) * std::min(*share, 100.0) / 100;
-    if (bytes && *bytes > 0) return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(*bytes));
-    const std::string hint = problems.all().empty() ? "" : problems.all().front().hint;
-    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--memory takes an amount, found '{}'", text),
-                hint.empty() ? "8GB (1000000000 bytes each), 8GiB or 8G (1073741824), or 50%" : hint,
-                value.mark);
 }
 
 /// A line that is drawn anew when an asset has ended: how far the batch is, and how long it will take.

@@ -101,6 +101,7 @@ Command pipe_command() {
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);
                 return [=, &arguments, &console](const Invocation& invocation) {
+                    options->cells = cell_settings(*options, invocation.line);
                     return pipe(*options, *save_to, arguments, invocation, console);
                 };
             },

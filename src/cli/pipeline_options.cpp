@@ -1,7 +1,9 @@
 #include "cli/pipeline_options.hpp"
 
 #include "base/lazy.hpp"
+#include "base/memory.hpp"
 #include "base/message_ids.hpp"
+#include "base/numbers.hpp"
 #include "base/parallel.hpp"
 #include "base/spelling.hpp"
 #include "base/words.hpp"
@@ -9,6 +11,7 @@
 #include "docs/ready.hpp"
 #include "io/output_files.hpp"
 #include "io/outputs.hpp"
+#include "options/byte_count.hpp"
 #include "report/render.hpp"
 
 #include <algorithm>
@@ -60,6 +63,48 @@ void add_sync_option(Arguments& arguments, PipelineOptions& options) {
                   "Does not wait until outputs are on the disk; a loss of power may leave them empty.");
 }
 
+std::uint64_t memory_bytes(const std::string& text, const CommandLine& line) {
+    constexpr std::uint64_t of_unknown = std::uint64_t{4} << 30;
+    if (text.empty()) return 0;
+    const Value value = Value::scalar(text, line.value(text));
+    Problems problems;
+    std::optional<double> bytes;
+    if (!text.ends_with('%'))
+        bytes = read_byte_count(value, problems);
+    else if (const auto share = parse_real(std::string_view(text).substr(0, text.size() - 1)))
+        bytes = static_cast<double>(available_memory().value_or(of_unknown)) * std::min(*share, 100.0) / 100;
+    if (bytes && *bytes > 0) return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(*bytes));
+    const std::string hint = problems.all().empty() ? "" : problems.all().front().hint;
+    throw Error(ErrorKind::usage, "E-ARGUMENT", fmt::format("--memory takes an amount, found '{}'", text),
+                hint.empty() ? "8GB (1000000000 bytes each), 8GiB or 8G (1073741824), or 50%" : hint,
+                value.mark);
+}
+
+void add_cell_options(Arguments& arguments, PipelineOptions& options) {
+    arguments.add("--memory", &options.memory,
+                  "The memory for the run: 2G, 500MB, 50% of what is available. A mesh that needs\nmore is "
+                  "processed in cells on disk, see --partition. Default: no limit.");
+    arguments
+        .add("--partition", &options.partition,
+             "Whether load and simplify work on cells on disk: auto (where --memory is too\nlittle), always "
+             "or never.")
+        .one_of({"auto", "always", "never"});
+    arguments.add("--scratch", &options.scratch,
+                  "The folder for the temporary data of cells. Default: the output folder.");
+}
+
+pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line) {
+    using When = pipeline::CellSettings::When;
+    pipeline::CellSettings settings;
+    settings.when = options.partition == "always"  ? When::always
+                    : options.partition == "never" ? When::never
+                                                   : When::automatic;
+    settings.memory = memory_bytes(options.memory, line);
+    settings.scratch = options.scratch.empty() ? options.output_dir : options.scratch;
+    if (settings.scratch.empty()) settings.scratch = ".";
+    return settings;
+}
+
 void add_run_options(Arguments& arguments, PipelineOptions& options) {
     arguments
         .add("-j,--threads", &options.threads,
@@ -77,6 +122,7 @@ void add_run_options(Arguments& arguments, PipelineOptions& options) {
     arguments.add("--restat", &options.restat,
                   "Outputs and reports that stay the same keep their times, for Ninja's restat.");
     add_sync_option(arguments, options);
+    add_cell_options(arguments, options);
     add_cache_options(arguments, options.cache);
     arguments.add("--explain", &options.explain,
                   "Says for each stage why it ran again, or that its result is from the cache.");
@@ -246,6 +292,9 @@ void confine_to(const std::vector<pipeline::Plan>& plans, const PipelineOptions&
     AllowedFiles allowed;
     for (const auto& plan : plans) allow_plan(allowed, plan);
     if (const auto folder = cache_folder(options.cache)) allowed.written.push_back(*folder);
+    if (options.cells.when != pipeline::CellSettings::When::never &&
+        (options.cells.memory > 0 || options.cells.when == pipeline::CellSettings::When::always))
+        allowed.written.push_back(options.cells.scratch);
     confine(allowed, options.sandbox, console);
 }
 
@@ -256,6 +305,7 @@ int run_with_messages(const pipeline::Plan& plan, const PipelineOptions& options
     pipeline::RunSettings settings;
     settings.progress = progress.get();
     settings.strict = options.strict;
+    settings.cells = options.cells;
     settings.check_invariants = options.check_invariants;
     const Lazy<std::vector<std::filesystem::path>> inputs([&] { return pipeline::planned_inputs(plan); });
     const auto tell = [&](const Diagnostic& d) { console.diagnostic(pipeline::about_input(*inputs, d)); };

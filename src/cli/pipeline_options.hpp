@@ -18,12 +18,20 @@ struct PipelineOptions {
     bool check_invariants = false, update_baseline = false;
     bool restat = false, explain = false;
     bool no_sync = false;
+    std::string memory, partition = "auto", scratch;
+    pipeline::CellSettings cells{}; ///< see cell_settings
     CacheOptions cache;
     SandboxOptions sandbox;
 };
 
 /// -D, --preset and --set.
 void add_param_options(Arguments& arguments, PipelineOptions& options);
+/// --memory, --partition and --scratch: meshes larger than memory.
+void add_cell_options(Arguments& arguments, PipelineOptions& options);
+/// What they ask for. Throws usage (E-ARGUMENT).
+pipeline::CellSettings cell_settings(const PipelineOptions& options, const CommandLine& line);
+/// Bytes: "8GB", "8G", "50%" of what is there; 0 of an empty text. Throws usage (E-ARGUMENT).
+std::uint64_t memory_bytes(const std::string& text, const CommandLine& line);
 /// ... and --update-baseline.
 void add_value_options(Arguments& arguments, PipelineOptions& options);
 /// --no-sync.

@@ -2,6 +2,8 @@
 
 #include "cli/pipeline_options.hpp"
 
+#include <fmt/format.h>
+
 namespace facetmill::cli {
 
 namespace {
@@ -34,12 +36,14 @@ int plan(const PlanOptions& options, const CommandLine& line, const Console& con
     if (!files_only) settle(pipeline::input_errors(plan, headers)); // names are known all the same
     if (const auto warning = pipeline::without_effect(plan); warning && !files_only)
         console.diagnostic(*warning);
+    const auto cells = pipeline::plan_cells(plan, cell_settings(options.common, line));
     std::string text;
     if (options.inputs) text += lines(pipeline::planned_inputs(plan, headers));
     if (options.inputs && options.outputs) text += "\n";
     if (options.outputs) text += lines(pipeline::planned_outputs(plan, headers));
     if (options.json) text = pipeline::describe_json(plan, headers).dump(2) + "\n";
     if (!files_only && !options.json) text = pipeline::describe(plan, headers);
+    if (!cells.why.empty() && !files_only && !options.json) text += fmt::format("\nmemory: {}\n", cells.why);
     print(text);
     return 0;
 }
@@ -60,6 +64,7 @@ Command plan_command() {
                 "-o,--output-dir", &options->common.output_dir,
                 "The folder that the paths of outputs are relative to. Default: the working directory.");
             add_value_options(arguments, options->common);
+            add_cell_options(arguments, options->common);
             add_sandbox_option(arguments, options->common.sandbox);
             add_message_options(arguments, console);
             return [=, &console](const Invocation& invocation) {

@@ -180,6 +180,7 @@ Command run_command() {
                 add_run_options(arguments, *options);
                 add_message_options(arguments, console);
                 return [=, &console](const Invocation& invocation) {
+                    options->cells = cell_settings(*options, invocation.line);
                     if (*watch) run_and_watch(*pipelines, *options, invocation.line, console);
                     return run_all(*pipelines, plan_all(*pipelines, *options, invocation.line, {}), *options,
                                    console, {});

@@ -1,5 +1,6 @@
 #include "pipeline/run.hpp"
 
+#include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "base/stopwatch.hpp"
 #include "base/words.hpp"
@@ -103,8 +104,8 @@ class Runner {
         for (const auto& error : headers.errors) failures_.add(error);
         try_outputs(headers);
         Flow flow;
-        if (!failures_.any() && run_steps(plan_.steps, flow, true) && !plan_.reports.empty() &&
-            fetch({}, "the inspection at the end", flow))
+        if (!failures_.any() && run_on_cells(flow) && run_steps(plan_.steps, flow, true, on_cells_.steps) &&
+            !plan_.reports.empty() && fetch({}, "the inspection at the end", flow))
             failures_.guarded({}, "the inspection at the end", [&] {
                 record().final_properties = report::scene_json(flow.scene, inspect(flow.scene));
                 if (takes_pictures_) view_.at_end(flow.scene);
@@ -136,11 +137,66 @@ class Runner {
                (step.kind != Step::Kind::stage && (step.join || step.arms_of_parts));
     }
 
+    /// Runs the first steps where they are to work on cells; the scene is in memory afterwards. False after a
+    /// failure.
+    bool run_on_cells(Flow& flow) {
+        if (!failures_.guarded({}, "the plan", [&] { on_cells_ = plan_cells(plan_, settings_.cells); }))
+            return false;
+        if (on_cells_.steps == 0) return true;
+        if (keeps_loaded_ && !failures_.guarded({}, "the plan", [] { refuse_reference(); })) return false;
+        CellFlow cells;
+        cells.means = {settings_.cells.scratch, settings_.cells.memory};
+        if (cells.means.memory == 0)
+            cells.means.memory = available_memory().value_or(std::uint64_t{4} << 30) / 4 * 3;
+        for (std::size_t i = 0; i < on_cells_.steps; ++i)
+            if (!run_stage_on_cells(plan_.steps[i], cells)) return false;
+        flow.scene = std::move(*cells.scene);
+        flow.replaced();
+        return true;
+    }
+
+    [[noreturn]] static void refuse_reference() {
+        throw Error(ErrorKind::usage, "E-CELLS",
+                    "a later step compares with the scene as loaded, which is not in memory",
+                    "leave the comparison out, or give more memory");
+    }
+
+    static report::Brief brief_of_cells(const CellFlow& cells) {
+        if (cells.scene) return report::brief_of(*cells.scene);
+        if (!cells.partition) return {};
+        return {.parts = 1,
+                .vertices = cells.partition->vertices(),
+                .faces = cells.partition->faces(),
+                .bounds = cells.bounds()};
+    }
+
+    bool run_stage_on_cells(const Step& step, CellFlow& cells) {
+        auto stage = new_record(step);
+        stage.before = brief_of_cells(cells);
+        trace_.push_back({step.name, step.stage->name, stage.options, {}, {}, TracedStep::Way::always});
+        const Stopwatch watch;
+        const Share share(settings_.progress ? &settings_.progress->share : nullptr);
+        const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
+            Context context(state_, stage, step.only, cells.bounds(), step.where);
+            if (step.stage->loads) context.say(on_cells_.why);
+            step.stage->on_cells(step.options.get(), cells, context);
+            if (cells.scene) require_finite(*cells.scene);
+            if (settings_.check_invariants && cells.scene) check_invariants(step, *cells.scene);
+        });
+        stage.seconds = watch.seconds();
+        if (done) stage.after = brief_of_cells(cells);
+        if (done && takes_pictures_ && cells.scene) add_picture(*cells.scene, stage);
+        if (settings_.on_stage) settings_.on_stage(stage);
+        for (const auto& warning : stage.warnings) failures_.warn(warning);
+        record().stages.push_back(std::move(stage));
+        return done;
+    }
+
     /// Runs the steps on the scene. False when the chain ended early; the scene is then worth nothing.
-    /// needed: whether the scene is looked at afterwards.
-    bool run_steps(const Steps& steps, Flow& flow, bool needed) {
+    /// needed: whether the scene is looked at afterwards. first: the steps before it are done.
+    bool run_steps(const Steps& steps, Flow& flow, bool needed, std::size_t first = 0) {
         bool holds = true; // no check has failed so far
-        for (const auto& step : steps) {
+        for (const auto& step : std::span(steps).subspan(first)) {
             const bool judges = step.kind == Step::Kind::stage && step.stage->checks;
             if (!holds && !judges) return false;
             const bool last = &step == &steps.back();
@@ -537,6 +593,7 @@ class Runner {
     PageView view_{plan_.steps};
     Reuse reuse_{settings_.check_invariants ? nullptr : settings_.store, plan_.places, trace_};
     std::set<fs::path> unwritable_; ///< folders
+    CellPlan on_cells_;
     bool keeps_loaded_ = false, takes_pictures_ = false;
     std::string last_picture_;
     Camera camera_;        ///< of the pictures of a page

@@ -2,6 +2,7 @@
 // Plan -> run: the stages in order, branches from the same scene, checks, contracts, and all outputs or none.
 
 #include "base/progress.hpp"
+#include "pipeline/cells.hpp"
 #include "pipeline/plan.hpp"
 #include "pipeline/trace.hpp"
 
@@ -15,6 +16,7 @@ struct RunSettings {
     bool last_picture = false; ///< the record of the last stage gets a small picture, whatever the reports
     cache::Store* store = nullptr; ///< results of stages are taken from it, and put there; none: no cache
     io::CommitSettings commit{};   ///< of outputs and reports
+    CellSettings cells{};          ///< whether a mesh that is larger than memory is processed on disk
     /// Called at the end, with what became of each step.
     std::function<void(const Trace&)> on_trace = {};
     /// Called after each stage, with what its options were resolved to.

@@ -18,6 +18,7 @@
 #include "io/codec.hpp"
 #include "options/declaration.hpp"
 #include "options/fields.hpp"
+#include "stage/cell_flow.hpp"
 #include "stage/context.hpp"
 #include "stage/crossing_faces.hpp"
 #include "stage/surface_loss.hpp"
@@ -55,6 +56,7 @@ struct StageInfo {
     /// most that any of them ask for.
     CrossingFacePolicy crossing_faces = CrossingFacePolicy::keep;
     OptionRoles roles = {};
+    bool ends_cells = false; ///< what on_cells makes is a scene in memory
 
     // Filled by make_stage. Declarations are made when they are first asked for.
     Lazy<Declaration> options = {};
@@ -71,6 +73,10 @@ struct StageInfo {
     Function<MayLose(const void* options)> may_lose_with = {};
     /// What these options need of faces that cross themselves. May be empty.
     Function<CrossingFacePolicy(const void* options)> crossing_faces_with = {};
+    /// As run, of a mesh that is larger than memory. Empty: the stage cannot do that.
+    Function<void(const void* options, CellFlow&, Context&)> on_cells = {};
+    /// Why these options need the mesh in memory, in words. May be empty.
+    Function<std::optional<std::string>(const void* options)> why_not_on_cells = {};
 };
 
 struct RegisterStage {
@@ -92,6 +98,8 @@ struct StageHooks {
     io::FileHeader (*header)(const Options&, const std::filesystem::path&) = nullptr;
     MayLose (*may_lose)(const Options&) = nullptr;
     CrossingFacePolicy (*crossing_faces)(const Options&) = nullptr;
+    void (*on_cells)(const Options&, CellFlow&, Context&) = nullptr;
+    std::optional<std::string> (*why_not_on_cells)(const Options&) = nullptr;
 };
 
 /// The hook, of any options; none where there is none.
@@ -121,6 +129,8 @@ void add_options(StageInfo& info, DeclareFunction declare, const StageHooks<Opti
     info.may_lose_with = of_any_options(hooks.may_lose);
     info.crossing_faces_with = of_any_options(hooks.crossing_faces);
     info.verify = of_any_options(hooks.verify);
+    info.on_cells = of_any_options(hooks.on_cells);
+    info.why_not_on_cells = of_any_options(hooks.why_not_on_cells);
 }
 
 /// Of a stage that has nothing to report.

@@ -44,4 +44,12 @@ std::string failure(Body&& body) {
     return "nothing";
 }
 
+/// Its id alone: "E-PLY"; empty when it throws none.
+template <class Body>
+std::string failure_id(Body&& body) {
+    const std::string text = failure(body);
+    const auto begin = text.find('['), end = text.find(']');
+    return begin == text.npos ? "" : text.substr(begin + 1, end - begin - 1);
+}
+
 } // namespace facetmill::test

@@ -174,6 +174,7 @@ class Collapse {
                                         : r_.sides == (boundary ? 1 : 2)))
             return blocked_topology;
         if (!link_condition(along)) return blocked_topology;
+        if (s_.rules.apart && a_stays && joins_held()) return blocked_border;
         if (s_.has_seams() && !pair_wedges(a_stays)) return blocked_border;
         if (r_.changes_topology && !find_cancelled(s_, r_)) return blocked_topology;
         if (r_.changes_topology && vanishes(s_, r_)) return 0;
@@ -271,6 +272,17 @@ class Collapse {
                 if (!(both & boundary_edge)) return false; // of a seam or border, not a lone triangle
             }
         return s_.rules.changes_topology || (!r_.changes_topology && keeps_non_manifold_edges());
+    }
+
+    /// Whether a held vertex would get an edge to another.
+    bool joins_held() const {
+        const auto held = [this](Index v) { return (*s_.rules.apart)[s_.source[v]] != 0; };
+        if (!held(r_.a)) return false;
+        const Vertices near_a(r_.at_a);
+        return std::any_of(r_.at_b.begin(), r_.at_b.end(), [&](const RingCorner& k) {
+            return (k.next != r_.a && held(k.next) && !near_a.has(k.next)) ||
+                   (k.before != r_.a && held(k.before) && !near_a.has(k.before));
+        });
     }
 
     /// The two edges to an opposite vertex become one, between the faces of both that stay: an edge of more

@@ -311,8 +311,8 @@ CoincidentBorders::CoincidentBorders(Mesh& mesh, const std::vector<Index>& targe
     }
 }
 
-void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges,
-                                 AttributeChanges& changes) const {
+void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes,
+                                 std::vector<Index>& sources) const {
     std::vector<Index> first(mesh.vertex_count(), none);
     std::vector<Index> wedge_of(mesh.vertex_count(), none); // one at each vertex
     std::map<std::pair<Index, Index>, Index> others;        // by vertex and side
@@ -330,12 +330,20 @@ void CoincidentBorders::separate(Mesh& mesh, const std::vector<Index>& wedges,
         }
         wedge_of[v] = w;
     }
+    if (!sources.empty()) {
+        sources.resize(wedge_of.size());
+        for (std::size_t v = 0; v < wedge_of.size(); ++v) sources[v] = sides_[wedges[wedge_of[v]]];
+    }
     if (!had_seams_) { // every wedge is a vertex again
         std::vector<Vec3> positions(wedges.size());
         for (std::size_t w = 0; w < wedges.size(); ++w) positions[w] = mesh.positions[mesh.wedge_vertex[w]];
         mesh.positions = std::move(positions);
         mesh.wedge_vertex = {};
         for (Index w = 0; w < wedges.size(); ++w) wedge_of[w] = w;
+        if (!sources.empty()) {
+            sources = wedges;
+            for (Index& source : sources) source = sides_[source];
+        }
     }
     for (const std::string& name : of_vertices_) {
         Attribute& a = *mesh.find(name, Domain::wedge);

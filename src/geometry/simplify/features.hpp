@@ -27,8 +27,10 @@ class CoincidentBorders {
 
     const std::vector<Index>& sides() const { return sides_; } ///< see Features::side_of_wedge
     /// Separates the vertices of a simplified mesh as they were. wedges: those of the joined mesh that are
-    /// left.
-    void separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes) const;
+    /// left. sources: of its vertices, those of the joined mesh; they become those of the separate one.
+    /// Empty: not asked for.
+    void separate(Mesh& mesh, const std::vector<Index>& wedges, AttributeChanges& changes,
+                  std::vector<Index>& sources) const;
     /// How many more vertices the state has once they are separated.
     std::size_t doubled(const State& s) const;
 

@@ -20,6 +20,9 @@ struct SimplifyLocks {
     bool groups = false;       ///< the vertices of borders between values of the face attribute "group"
     std::vector<Plane> body{}; ///< the vertices in front of all of these, in the mesh's space; empty: none
     std::vector<std::uint8_t> vertices{}; ///< [vertices] 1 for those that stay; empty: none
+    /// No edge comes to join two of `vertices` that none joined before: of pieces of one surface that are
+    /// simplified one by one, two would get it, and it would have four faces.
+    bool apart = false;
 };
 
 /// What no collapse of the method constrained may bring about; 0 leaves a constraint out.
@@ -104,6 +107,9 @@ struct SimplifyResult {
     };
     Mesh mesh;
     AttributeChanges changes;
+    /// [vertices of mesh] the vertex that each was, or that a vertex which moved took the place of, among
+    /// those that faces used; only with locks of single vertices, else empty.
+    std::vector<Index> sources = {};
     Stop stop = Stop::nothing;
     bool unchanged = false; ///< no collapse was made: the mesh is as it came
     Blocked blocked;

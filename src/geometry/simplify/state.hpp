@@ -100,6 +100,8 @@ struct FollowedPoints {
 struct Rules {
     bool endpoints = false;        ///< a new vertex is one of the two that it replaces
     bool changes_topology = false; ///< is allowed to
+    /// [vertices of the input] 1 for those that no new edge may join; null: none
+    const std::vector<std::uint8_t>* apart = nullptr;
 };
 
 /// The faces around each vertex, as lists of corners.

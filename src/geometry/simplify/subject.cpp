@@ -3,6 +3,8 @@
 #include "geometry/orient/orient.hpp"
 #include "geometry/simplify/attributes.hpp"
 
+#include <numeric>
+
 namespace facetmill::simplification {
 
 namespace {
@@ -65,7 +67,8 @@ State Subject::state(bool rollback, const std::vector<float>* limits) {
             attribute_error(s, mesh(), settings_.weights, seams_.shading != NormalSeams::Shading::faceted);
     }
     s.rules = {.endpoints = settings_.method == Method::quadric_endpoints,
-               .changes_topology = settings_.topology == SimplifySettings::Topology::allow};
+               .changes_topology = settings_.topology == SimplifySettings::Topology::allow,
+               .apart = lock_.apart && !lock_.vertices.empty() ? &lock_.vertices : nullptr};
     if (settings_.max_quadric_error && s.quadrics) {
         const double max_error = *settings_.max_quadric_error * s.frame.scale;
         s.bounds.max_squared_error = max_error * max_error;
@@ -83,6 +86,10 @@ SimplifyResult Subject::unchanged(Stop stop) const {
     r.stop = stop;
     r.unchanged = true;
     r.mesh = given_;
+    if (!lock_.vertices.empty()) {
+        r.sources.resize(given_.vertex_count());
+        std::iota(r.sources.begin(), r.sources.end(), Index{0});
+    }
     r.changes = kept_changes(given_.attributes);
     return r;
 }
@@ -95,7 +102,8 @@ SimplifyResult Subject::result(Stop stop, const Shape& shape, const std::optiona
     r.collapses = done.collapses;
     if (r.largest_error) r.largest_error = std::sqrt(done.largest) / shape.frame.scale;
     Finished finished = finish(shape, mesh(), log ? &*log : nullptr);
-    if (borders_) borders_->separate(finished.mesh, finished.wedges, finished.changes);
+    if (!lock_.vertices.empty()) r.sources = shape.source;
+    if (borders_) borders_->separate(finished.mesh, finished.wedges, finished.changes, r.sources);
     r.mesh = std::move(finished.mesh);
     for (std::size_t f = 0; f < r.mesh.face_count() && !turned_.empty(); ++f)
         if (turned_[shape.face_source[f]]) turn_round(r.mesh, f);

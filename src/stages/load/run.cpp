@@ -1,6 +1,7 @@
 #include "base/glob.hpp"
 #include "base/hash.hpp"
 #include "base/spelling.hpp"
+#include "base/words.hpp"
 #include "io/convert.hpp"
 #include "mesh/power_scale.hpp"
 #include "stage/options/convention.hpp"
@@ -116,6 +117,40 @@ Scene run(Scene scene, const LoadOptions& o, Context& context) {
     return scene;
 }
 
+std::optional<std::string> why_not_on_cells(const LoadOptions& o) {
+    if (o.lines) return "lines need the whole file";
+    if (!o.format.empty()) return "a file in cells is recognised by its contents";
+    if (o.weld != io::Weld::automatic) return "vertices of cells are welded as the format needs it";
+    return {};
+}
+
+/// As run, of one file that does not fit into memory.
+void run_on_cells(const LoadOptions& o, CellFlow& flow, Context& context) {
+    const auto files = expand_glob(context.places().input(o.path.front().text));
+    if (files.size() != 1 || o.path.size() != 1)
+        throw Error(ErrorKind::usage, "E-CELLS",
+                    fmt::format("cells are made of one file, found {}", files.size()),
+                    "load one file, or use more memory");
+    std::shared_ptr<cells::FaceSource> source = cells::open_faces(files.front(), read_settings(o));
+    record_input(context, source->input().name(), source->bytes(), source->contents().sha256);
+    flow.part = files.front().stem().string();
+    flow.unit = o.unit;
+    flow.up = o.up;
+    flow.partition = std::make_unique<cells::Partition>(source, flow.means);
+    if (source->skipped_faces() > 0)
+        context.warn("W-FACES",
+                     fmt::format("{}: {} of fewer than three corners skipped", source->input().name(),
+                                 counted(source->skipped_faces(), "face")));
+    for (const std::string& what : source->dropped())
+        context.warn("W-CELLS", fmt::format("{}: {} is not carried by cells", source->input().name(), what),
+                     "use more memory, if it is needed");
+    if (!source->input().is_as_opened())
+        throw Error(ErrorKind::malformed, "E-CHANGED",
+                    fmt::format("'{}' changed while it was read", source->input().name()),
+                    "run it again while no other program writes to it");
+    context.run().load_diagonal = diagonal(flow.bounds());
+}
+
 StageFiles files(const LoadOptions& o) { return {o.path, {}}; }
 
 io::FileHeader header(const LoadOptions& o, const std::filesystem::path& path) {
@@ -129,7 +164,12 @@ const RegisterStage registered{make_stage<LoadOptions>(
      .examples = {"load: scan.ply", "load: {path: part.stl, unit: mm, up: z}",
                   "load: [body.obj, \"wheel_*.obj\"]", "load: {path: wires.obj, lines: 1%}"},
      .loads = true},
-    declare, run, StageHooks<LoadOptions>{.files = files, .verify = verify, .header = header})};
+    declare, run,
+    StageHooks<LoadOptions>{.files = files,
+                            .verify = verify,
+                            .header = header,
+                            .on_cells = run_on_cells,
+                            .why_not_on_cells = why_not_on_cells})};
 
 } // namespace
 

@@ -69,6 +69,12 @@ are written as nodes side by side. only: "*.lod1" writes one level into a file o
 
 The method constrained keeps boundaries, seams and borders vertex by vertex.
 
+Where facetmill run --memory 2G finds that the mesh needs more, load and simplify work on cells on
+disk: each is simplified while the vertices that it shares with others are held, then two to four as
+one, up to the whole, so no border is left and a closed surface stays closed. This takes ratio or
+faces and the quadric methods; the deviation is not measured then. E-CELLS names what needs the mesh
+in memory.
+
 largest_error is, for quadric and cluster, the largest root mean square distance of a new vertex to
 its planes; for shortest-edge, half the length of the longest edge collapsed; for constrained, null.
 A target at or above the input does nothing (W-SIMPLIFY-NOTHING, unless it is 100 %). When no

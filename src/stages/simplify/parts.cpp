@@ -33,23 +33,6 @@ std::optional<std::size_t> share(std::optional<std::int64_t> whole, std::size_t 
                                     (static_cast<double>(own) / static_cast<double>(all)));
 }
 
-/// asked: whether less than all of the part was asked for.
-void warn(const Part& part, const SimplifyResult& r, bool asked, Context& context) {
-    if (r.stop == Stop::nothing && asked)
-        context.warn("W-SIMPLIFY-NOTHING",
-                     fmt::format("part '{}' has {} and {}, at or below the target: nothing to do", part.name,
-                                 counted(r.faces_before, "triangle"),
-                                 counted(r.vertices_before, "vertex", "vertices")));
-    if (r.stop == Stop::stuck)
-        context.warn("W-SIMPLIFY-STOPPED",
-                     fmt::format("part '{}' stopped at {}, above the target: {}", part.name,
-                                 counted(r.faces_after, "triangle"), held_by(r)),
-                     hint_for(r));
-    if (r.faces_before > 0 && r.faces_after == 0)
-        context.warn("W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
-                     "ask for more faces, or keep the topology (topology: keep, and no cluster)");
-}
-
 /// How far a scale may be off where it only orders the errors of parts: nodes that differ by a rotation have
 /// the same.
 double rounded_scale(double scale) {
@@ -99,32 +82,6 @@ struct Before {
     Surface surface;       ///< in the world
     Properties properties; ///< in the world
 };
-
-/// A part that max_quadric_error stopped above its target.
-struct Limited {
-    std::string part;
-    std::size_t before, after; ///< triangles
-};
-
-void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Context& context) {
-    if (limited.empty()) return;
-    std::size_t before = 0, after = 0;
-    for (const Limited& l : limited) {
-        before += l.before;
-        after += l.after;
-    }
-    const std::string first = fmt::format("part '{}'", limited.front().part);
-    const std::string who = limited.size() == 1
-                                ? first + " stopped at"
-                                : fmt::format("{} parts, the first {}, stopped at", limited.size(), first);
-    context.warn(
-        "W-SIMPLIFY-LIMIT",
-        fmt::format("{} {} of {} triangles, above the target: any fewer would move the surface by more "
-                    "than max_quadric_error ({})",
-                    who, grouped(after), grouped(before), limit.text),
-        "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: off "
-        "simplifies to the target regardless of the error");
-}
 
 /// What was measured of a part, which holds wherever it is moved to.
 struct Measured {
@@ -438,7 +395,7 @@ class Simplifier {
     void take(Part& part, std::size_t number, std::size_t number_of_level, SimplifyResult r) {
         part.mesh = std::move(r.mesh);
         context_.attribute_changes(part, r.changes);
-        warn(part, r, asks_for_less(number_of_level), context_);
+        warn_of_stop(part, r, asks_for_less(number_of_level), context_);
         if (r.stop == Stop::max_quadric_error) limited_.push_back({part.name, r.faces_before, r.faces_after});
         const double scale = greatest_stretch(part.transform);
         SimplifiedPart entry;
@@ -499,6 +456,42 @@ class Simplifier {
 };
 
 } // namespace
+
+void warn_of_stop(const Part& part, const SimplifyResult& r, bool asked, Context& context) {
+    if (r.stop == Stop::nothing && asked)
+        context.warn("W-SIMPLIFY-NOTHING",
+                     fmt::format("part '{}' has {} and {}, at or below the target: nothing to do", part.name,
+                                 counted(r.faces_before, "triangle"),
+                                 counted(r.vertices_before, "vertex", "vertices")));
+    if (r.stop == Stop::stuck)
+        context.warn("W-SIMPLIFY-STOPPED",
+                     fmt::format("part '{}' stopped at {}, above the target: {}", part.name,
+                                 counted(r.faces_after, "triangle"), held_by(r)),
+                     hint_for(r));
+    if (r.faces_before > 0 && r.faces_after == 0)
+        context.warn("W-SIMPLIFY-VANISHED", fmt::format("part '{}' has no faces left", part.name),
+                     "ask for more faces, or keep the topology (topology: keep, and no cluster)");
+}
+
+void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Context& context) {
+    if (limited.empty()) return;
+    std::size_t before = 0, after = 0;
+    for (const Limited& l : limited) {
+        before += l.before;
+        after += l.after;
+    }
+    const std::string first = fmt::format("part '{}'", limited.front().part);
+    const std::string who = limited.size() == 1
+                                ? first + " stopped at"
+                                : fmt::format("{} parts, the first {}, stopped at", limited.size(), first);
+    context.warn(
+        "W-SIMPLIFY-LIMIT",
+        fmt::format("{} {} of {} triangles, above the target: any fewer would move the surface by more "
+                    "than max_quadric_error ({})",
+                    who, grouped(after), grouped(before), limit.text),
+        "a larger max_quadric_error, such as 5% of part, allows fewer triangles; max_quadric_error: off "
+        "simplifies to the target regardless of the error");
+}
 
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report) {
     return Simplifier(std::move(scene), o, context, report).run();

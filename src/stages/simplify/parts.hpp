@@ -12,4 +12,15 @@ namespace facetmill::simplify_stage {
 /// stay vertex by vertex, so that all match.
 Scene simplify_parts(Scene scene, const SimplifyOptions& o, Context& context, SimplifyReport& report);
 
+/// Warns where a part stopped above its target, or had nothing to do. asked: whether less than all of the
+/// part was asked for.
+void warn_of_stop(const Part& part, const SimplifyResult& r, bool asked, Context& context);
+
+/// A part that max_quadric_error stopped above its target.
+struct Limited {
+    std::string part;
+    std::size_t before, after; ///< triangles
+};
+void warn_of_limit(const std::vector<Limited>& limited, const Length& limit, Context& context);
+
 } // namespace facetmill::simplify_stage

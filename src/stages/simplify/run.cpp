@@ -1,3 +1,4 @@
+#include "stages/simplify/cells.hpp"
 #include "stages/simplify/help.hpp"
 #include "stages/simplify/parts.hpp"
 
@@ -15,8 +16,10 @@ const RegisterStage registered = make_stage<SimplifyOptions>(
                   "simplify: {ratio: 2%, method: cluster, measure: false}",
                   "simplify: {ratio: 20%, weights: {uv: 2, colour: 0}, topology: allow}"},
      .may_lose = MayLose::half,
-     .crossing_faces = CrossingFacePolicy::fill},
-    declare_simplify, declare_simplify_report, simplify_parts, {.verify = verify_simplify});
+     .crossing_faces = CrossingFacePolicy::fill,
+     .ends_cells = true},
+    declare_simplify, declare_simplify_report, simplify_parts,
+    {.verify = verify_simplify, .on_cells = simplify_on_cells, .why_not_on_cells = why_not_on_cells});
 
 } // namespace
 

@@ -569,3 +569,33 @@ TEST_CASE("shortest-edge keeps the corners of an open sheet", "[geometry]") {
             CHECK(std::count(r.mesh.positions.begin(), r.mesh.positions.end(), corner) == 1);
     }
 }
+
+TEST_CASE("locked vertices that are to stay apart get no edge to each other", "[simplify]") {
+    Mesh m = rough(shapes::icosphere(4), 0.01);
+    SimplifySettings s;
+    s.faces = 100;
+    s.lock.vertices.resize(m.vertex_count());
+    for (std::size_t v = 0; v < m.vertex_count(); v += 9) s.lock.vertices[v] = 1;
+    s.lock.apart = true;
+    std::set<std::pair<Index, Index>> before;
+    for (Index c = 0; c < m.corner_count(); ++c)
+        before.insert({m.vertex(c), m.vertex(c % 3 == 2 ? c - 2 : c + 1)});
+    const auto new_edges = [&](const SimplifyResult& r) {
+        std::size_t found = 0;
+        for (Index c = 0; c < r.mesh.corner_count(); ++c) {
+            const Index a = r.sources[r.mesh.vertex(c)],
+                        b = r.sources[r.mesh.vertex(c % 3 == 2 ? c - 2 : c + 1)];
+            found += s.lock.vertices[a] && s.lock.vertices[b] && !before.contains({a, b});
+        }
+        return found;
+    };
+    const SimplifyResult apart = simplify(m, s);
+    CHECK(sound(apart.mesh, 2));
+    CHECK(new_edges(apart) == 0);
+    REQUIRE(apart.sources.size() == apart.mesh.vertex_count());
+    for (Index v = 0; v < apart.mesh.vertex_count(); ++v)
+        if (s.lock.vertices[apart.sources[v]])
+            CHECK(apart.mesh.positions[v] == m.positions[apart.sources[v]]);
+    s.lock.apart = false;
+    CHECK(new_edges(simplify(m, s)) > 0);
+}

@@ -1,0 +1,153 @@
+#include "cells/block_file.hpp"
+
+#include "io/output_files.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace facetmill::cells {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Tells bytes that were not written from those that were; no defence against intent.
+std::uint64_t digest_of(io::Span bytes) {
+    constexpr std::uint64_t factor = 0x9e3779b97f4a7c15ULL;
+    std::uint64_t sum = bytes.size() * factor;
+    const auto mix = [&](std::uint64_t word) {
+        sum = (sum ^ word) * factor;
+        sum ^= sum >> 32;
+    };
+    std::size_t i = 0;
+    for (std::uint64_t word = 0; i + sizeof word <= bytes.size(); i += sizeof word) {
+        std::memcpy(&word, bytes.data() + i, sizeof word);
+        mix(word);
+    }
+    for (; i < bytes.size(); ++i) mix(static_cast<std::uint64_t>(bytes[i]));
+    return sum;
+}
+
+/// Throws output as io::cannot_write does, with the way out that there is here. error: an errno.
+[[noreturn]] void cannot_write_there(const fs::path& folder, int error) {
+    const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+    throw Error(
+        ErrorKind::output, full ? "E-SPACE" : "E-WRITE",
+        fmt::format("temporary data cannot be written in '{}': {}", folder.string(), std::strerror(error)),
+        "--scratch DIR names another folder for it");
+}
+
+/// A file that has no name, or has lost it.
+int nameless_file(const fs::path& folder) {
+    const int nameless = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    if (nameless >= 0 || (errno != EOPNOTSUPP && errno != EISDIR && errno != EINVAL)) return nameless;
+    for (int attempt = 0;; ++attempt) { // a file system that knows no such files
+        const fs::path path = folder / io::temporary_name("cells", attempt);
+        const int named = ::open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0600);
+        if (named < 0 && errno == EEXIST) continue;
+        if (named >= 0) ::unlink(path.c_str());
+        return named;
+    }
+}
+
+} // namespace
+
+BlockFile::BlockFile(const fs::path& folder) : folder_(folder.empty() ? "." : folder) {
+    file_ = nameless_file(folder_);
+    if (file_ < 0) cannot_write_there(folder_, errno);
+}
+
+BlockFile::~BlockFile() { ::close(file_); }
+
+Block BlockFile::put(io::Span bytes) {
+    const Block block{end_.fetch_add(bytes.size()), bytes.size(), digest_of(bytes)};
+    auto at = static_cast<off_t>(block.offset);
+    while (!bytes.empty()) {
+        const ssize_t n = ::pwrite(file_, bytes.data(), bytes.size(), at);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) cannot_write_there(folder_, errno);
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+        at += n;
+    }
+    return block;
+}
+
+void BlockFile::get(const Block& block, std::byte* to) const {
+    std::size_t done = 0;
+    while (done < block.size) {
+        const ssize_t n =
+            ::pread(file_, to + done, block.size - done, static_cast<off_t>(block.offset + done));
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) break;
+        done += static_cast<std::size_t>(n);
+    }
+    if (done < block.size || digest_of({to, block.size}) != block.digest)
+        throw Error(ErrorKind::output, "E-SCRATCH",
+                    fmt::format("temporary data in '{}' cannot be read as it was written", folder_.string()),
+                    "run it again with --scratch DIR on another disk");
+}
+
+io::Bytes BlockFile::get(const Block& block) const {
+    io::Bytes bytes(block.size);
+    get(block, bytes.data());
+    return bytes;
+}
+
+Spool::Spool(const fs::path& folder, std::size_t lists, std::size_t memory) : file_(folder) {
+    open_lists(lists, memory);
+}
+
+void Spool::open_lists(std::size_t lists, std::size_t memory) {
+    lists_.resize(lists_.size() + lists);
+    constexpr std::size_t least = 256, most = std::size_t{1} << 16;
+    room_ = std::clamp(memory / std::max<std::size_t>(1, lists), least, most);
+}
+
+std::size_t Spool::add_list() {
+    lists_.emplace_back();
+    return lists_.size() - 1;
+}
+
+void Spool::add(std::size_t number, io::Span record) {
+    List& list = lists_[number];
+    if (list.waiting.size() + record.size() > room_ && !list.waiting.empty()) write(list);
+    if (list.waiting.capacity() < room_) list.waiting.reserve(room_);
+    list.waiting.insert(list.waiting.end(), record.begin(), record.end());
+    list.size += record.size();
+}
+
+void Spool::write(List& list) {
+    list.blocks.push_back(file_.put(list.waiting));
+    list.waiting.clear();
+}
+
+void Spool::flush() {
+    for (List& list : lists_) {
+        if (!list.waiting.empty()) write(list);
+        list.waiting = {};
+    }
+}
+
+io::Bytes Spool::read(std::size_t number) const { return read(number, 0, lists_[number].size); }
+
+io::Bytes Spool::read(std::size_t number, std::uint64_t begin, std::uint64_t size) const {
+    io::Bytes bytes;
+    bytes.reserve(size);
+    std::uint64_t at = 0;
+    for (const Block& block : lists_[number].blocks) {
+        const std::uint64_t from = std::max(begin, at), to = std::min(begin + size, at + block.size);
+        if (from < to) {
+            const io::Bytes whole = file_.get(block);
+            const auto part = io::Span(whole).subspan(from - at, to - from);
+            bytes.insert(bytes.end(), part.begin(), part.end());
+        }
+        at += block.size;
+    }
+    return bytes;
+}
+
+} // namespace facetmill::cells

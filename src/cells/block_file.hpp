@@ -1,0 +1,68 @@
+#pragma once
+// Temporary data beside memory: blocks of bytes in a file that has no name, so that nothing is left of it
+// however the process ends.
+
+#include "io/bytes.hpp"
+
+#include <atomic>
+
+namespace facetmill::cells {
+
+/// Where bytes stand in a BlockFile, and what they must be when they are read again.
+struct Block {
+    std::uint64_t offset = 0, size = 0, digest = 0;
+};
+
+class BlockFile {
+  public:
+    /// Throws output (E-WRITE, E-SPACE) when no file can be made in the folder.
+    explicit BlockFile(const std::filesystem::path& folder);
+    ~BlockFile();
+    BlockFile(const BlockFile&) = delete;
+    BlockFile& operator=(const BlockFile&) = delete;
+
+    /// Any thread. Throws output (E-WRITE, E-SPACE).
+    Block put(io::Span bytes);
+    /// Any thread. to: block.size bytes. Throws output (E-SCRATCH) when they are not as they were written.
+    void get(const Block& block, std::byte* to) const;
+    io::Bytes get(const Block& block) const;
+
+  private:
+    std::filesystem::path folder_;
+    int file_ = -1;
+    std::atomic<std::uint64_t> end_{0};
+};
+
+/// Records of several lists that are added in any order and read list by list: what a distribution by buckets
+/// needs. Adding is for one thread; reading is for any number.
+class Spool {
+  public:
+    /// memory: bytes for what is not written yet, of all lists together.
+    Spool(const std::filesystem::path& folder, std::size_t lists, std::size_t memory);
+
+    /// Makes so many lists more; memory as above, for all that are not flushed.
+    void open_lists(std::size_t lists, std::size_t memory);
+    std::size_t add_list();
+    void add(std::size_t list, io::Span record);
+    /// Writes all that is left. Nothing may be added afterwards, but to lists that are made later.
+    void flush();
+    std::uint64_t size(std::size_t list) const { return lists_[list].size; }
+    /// The list must be flushed.
+    io::Bytes read(std::size_t list) const;
+    /// A part of it.
+    io::Bytes read(std::size_t list, std::uint64_t begin, std::uint64_t size) const;
+
+  private:
+    struct List {
+        io::Bytes waiting;
+        std::vector<Block> blocks;
+        std::uint64_t size = 0;
+    };
+    void write(List& list);
+
+    BlockFile file_;
+    std::size_t room_; ///< bytes of a list that wait
+    std::vector<List> lists_;
+};
+
+} // namespace facetmill::cells

@@ -1,0 +1,272 @@
+#include "cells/partition.hpp"
+
+#include "base/progress.hpp"
+#include "base/random.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <fmt/format.h>
+#include <map>
+#include <numeric>
+
+namespace facetmill::cells {
+
+namespace {
+
+constexpr std::uint32_t resolution = 128; // of the grid: 2 million places, 8 MB
+
+/// A vertex of a leaf.
+struct Owned {
+    std::uint64_t key;
+    std::uint32_t leaf;
+    bool operator<(const Owned& other) const {
+        return key != other.key ? key < other.key : leaf < other.leaf;
+    }
+};
+
+/// A vertex that other leaves have too.
+struct Shared {
+    std::uint64_t key;
+    std::uint8_t depth;
+};
+
+template <class T>
+io::Span as_record(const T& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+template <class T>
+std::vector<T> records_of(io::Span bytes) {
+    std::vector<T> all(bytes.size() / sizeof(T));
+    if (!all.empty()) std::memcpy(static_cast<void*>(all.data()), bytes.data(), all.size() * sizeof(T));
+    return all;
+}
+
+} // namespace
+
+Partition::Partition(std::shared_ptr<FaceSource> source, const Means& means, std::uint64_t most)
+    : source_(std::move(source)), records_(means.scratch, 0, 0) {
+    distribute(means, most);
+    refine(most);
+    find_shared(means);
+}
+
+void Partition::distribute(const Means& means, std::uint64_t most) {
+    Grid grid(source_->contents().bounds, resolution);
+    const auto memory = static_cast<std::size_t>(means.memory / 4);
+    {
+        const Share share(0.05, 0.1);
+        source_->each(
+            [&](const Vec3& centre, io::Span) {
+                grid.count(centre);
+                ++faces_;
+            },
+            memory);
+    }
+    if (faces_ == 0)
+        throw Error(ErrorKind::malformed, "E-EMPTY",
+                    fmt::format("'{}' has no faces", source_->input().name()));
+    tree_ = grid.split(most);
+    // Half of the waiting bytes is of lists that are full.
+    records_.open_lists(tree_.leaves.size(), static_cast<std::size_t>(means.memory / 16));
+    source_->each([&](const Vec3& centre, io::Span record) { records_.add(grid.leaf_of(centre), record); },
+                  memory);
+    records_.flush();
+    list_.resize(tree_.leaves.size());
+    std::iota(list_.begin(), list_.end(), std::size_t{0});
+}
+
+/// As below, of some faces of a list: those that are too many for that are halved in their order.
+void Partition::divide(std::uint32_t node, std::size_t list, const Range& faces, std::uint64_t most) {
+    constexpr std::uint64_t at_once = 4; // times what a cell has: of one size, whatever the memory
+    const std::uint64_t size = source_->record_size();
+    if (faces.end - faces.begin <= at_once * most)
+        return divide(node, records_.read(list, faces.begin * size, (faces.end - faces.begin) * size), most);
+    const std::uint64_t middle = faces.begin + (faces.end - faces.begin) / 2;
+    divide(tree_.add(node), list, {faces.begin, middle}, most);
+    divide(tree_.add(node), list, {middle, faces.end}, most);
+}
+
+/// Gives the faces of a node to leaves below it: by halves of their centres along the longest side.
+void Partition::divide(std::uint32_t node, io::Bytes records, std::uint64_t most) {
+    const std::size_t size = source_->record_size(), n = records.size() / size;
+    if (n <= most) {
+        tree_.make_leaf(node);
+        list_.push_back(records_.add_list());
+        for (std::size_t f = 0; f < n; ++f)
+            records_.add(list_.back(), io::Span(records).subspan(f * size, size));
+        records_.flush();
+        return;
+    }
+    const Mesh mesh = source_->piece(records).mesh;
+    Box box;
+    std::vector<Vec3> centres(n);
+    for (std::size_t f = 0; f < n; ++f) {
+        for (Index c = static_cast<Index>(3 * f); c < 3 * f + 3; ++c)
+            centres[f] = centres[f] + mesh.point(c) / 3;
+        box.add(centres[f]);
+    }
+    const Vec3 extent = box.extent();
+    const std::size_t axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n / 2), order.end(),
+                     [&](std::size_t a, std::size_t b) {
+                         return centres[a][axis] != centres[b][axis] ? centres[a][axis] < centres[b][axis]
+                                                                     : a < b;
+                     });
+    const auto take = [&](std::size_t begin, std::size_t end) {
+        std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                  order.begin() + static_cast<std::ptrdiff_t>(end));
+        io::Bytes half;
+        half.reserve((end - begin) * size);
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto record = io::Span(records).subspan(order[i] * size, size);
+            half.insert(half.end(), record.begin(), record.end());
+        }
+        return half;
+    };
+    io::Bytes low = take(0, n / 2), high = take(n / 2, n);
+    records = {};
+    divide(tree_.add(node), std::move(low), most);
+    divide(tree_.add(node), std::move(high), most);
+}
+
+/// Divides leaves that the grid was too coarse for, and numbers all anew.
+void Partition::refine(std::uint64_t most) {
+    const Tree coarse = std::move(tree_);
+    tree_ = {};
+    const std::vector<std::size_t> lists = std::move(list_);
+    list_ = {};
+    struct Walk {
+        std::uint32_t from, parent;
+    };
+    std::vector<Walk> waiting{{0, Tree::no_node}};
+    while (!waiting.empty()) {
+        const auto [from, parent] = waiting.back();
+        waiting.pop_back();
+        const std::uint32_t node = tree_.add(parent);
+        const Tree::Node& old = coarse.nodes[from];
+        if (!old.is_leaf()) {
+            waiting.push_back({old.child[1], node});
+            waiting.push_back({old.child[0], node});
+            continue;
+        }
+        const std::size_t list = lists[old.leaf];
+        const std::uint64_t faces = records_.size(list) / source_->record_size();
+        if (faces > most) {
+            divide(node, list, {0, faces}, most);
+            continue;
+        }
+        tree_.make_leaf(node);
+        list_.push_back(list);
+    }
+}
+
+/// Finds vertices of several leaves: all that have the same key meet in one of some buckets that fit into
+/// memory.
+void Partition::find_shared(const Means& means) {
+    const auto leaves = static_cast<std::uint32_t>(tree_.leaves.size());
+    borders_ = std::make_unique<Spool>(means.scratch, leaves, static_cast<std::size_t>(means.memory / 16));
+    if (leaves == 1) {
+        vertices_ = source_->keys(records_.read(list_[0])).size();
+        return;
+    }
+    const std::uint64_t estimate = faces_ * 2 * sizeof(Owned); // of vertices, with those that are shared
+    const std::uint64_t buckets = 1 + estimate / std::max<std::uint64_t>(1, means.memory / 8);
+    Spool owned(means.scratch, static_cast<std::size_t>(buckets),
+                static_cast<std::size_t>(means.memory / 16));
+    for (std::uint32_t leaf = 0; leaf < leaves; ++leaf)
+        for (const std::uint64_t key : source_->keys(records_.read(list_[leaf])))
+            owned.add(static_cast<std::size_t>(hashed(0, key) % buckets), as_record(Owned{key, leaf}));
+    owned.flush();
+    for (std::size_t bucket = 0; bucket < buckets; ++bucket) {
+        auto all = records_of<Owned>(owned.read(bucket));
+        std::sort(all.begin(), all.end());
+        for (auto first = all.begin(); first != all.end();) {
+            const auto last =
+                std::find_if(first, all.end(), [&](const Owned& o) { return o.key != first->key; });
+            ++vertices_;
+            if (last - first > 1) {
+                const Shared shared{first->key, tree_.common_depth(first->leaf, std::prev(last)->leaf)};
+                for (auto one = first; one != last; ++one) borders_->add(one->leaf, as_record(shared));
+            }
+            first = last;
+        }
+    }
+    borders_->flush();
+}
+
+Cell Partition::cell(std::uint32_t leaf) const {
+    Piece piece = source_->piece(records_.read(list_[leaf]));
+    auto shared = records_of<Shared>(borders_->read(leaf));
+    std::sort(shared.begin(), shared.end(), [](const Shared& a, const Shared& b) { return a.key < b.key; });
+    Cell cell;
+    cell.home.assign(piece.mesh.vertex_count(), Cell::inner);
+    for (Index v = 0; v < piece.mesh.vertex_count() && !shared.empty(); ++v) {
+        const std::uint64_t key = source_->key(piece, v);
+        const auto at = std::lower_bound(shared.begin(), shared.end(), key,
+                                         [](const Shared& s, std::uint64_t k) { return s.key < k; });
+        if (at != shared.end() && at->key == key) cell.home[v] = at->depth;
+    }
+    cell.mesh = std::move(piece.mesh);
+    cell.names = std::move(piece.names);
+    return cell;
+}
+
+namespace {
+
+/// For each vertex of the cells in a row the first with the same name and position, among those that are
+/// shared.
+std::vector<Index> firsts(const Mesh& mesh, const std::vector<std::uint64_t>& names,
+                          const std::vector<std::uint8_t>& home) {
+    std::vector<Index> first(mesh.vertex_count()), shared;
+    std::iota(first.begin(), first.end(), Index{0});
+    for (Index v = 0; v < first.size(); ++v)
+        if (home[v] != Cell::inner) shared.push_back(v);
+    const auto compare = [&](Index a, Index b) {
+        const Vec3 &p = mesh.positions[a], &q = mesh.positions[b];
+        if (names[a] != names[b]) return names[a] < names[b] ? -1 : 1;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            if (p[axis] != q[axis]) return p[axis] < q[axis] ? -1 : 1;
+        return 0;
+    };
+    std::sort(shared.begin(), shared.end(), [&](Index a, Index b) {
+        const int order = compare(a, b);
+        return order != 0 ? order < 0 : a < b;
+    });
+    for (std::size_t i = 1; i < shared.size(); ++i)
+        if (compare(shared[i - 1], shared[i]) == 0) first[shared[i]] = first[shared[i - 1]];
+    return first;
+}
+
+} // namespace
+
+Cell joined(std::vector<Cell> cells, std::uint8_t depth) {
+    Cell all = std::move(cells.front());
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+        append(all.mesh, cells[i].mesh);
+        all.names.insert(all.names.end(), cells[i].names.begin(), cells[i].names.end());
+        all.home.insert(all.home.end(), cells[i].home.begin(), cells[i].home.end());
+        cells[i] = {};
+    }
+    const std::vector<Index> first = firsts(all.mesh, all.names, all.home);
+    std::vector<Index> kept, number(first.size(), none);
+    for (Index v = 0; v < first.size(); ++v) {
+        if (first[v] != v) continue;
+        number[v] = static_cast<Index>(kept.size());
+        all.mesh.positions[kept.size()] = all.mesh.positions[v];
+        all.names[kept.size()] = all.names[v];
+        all.home[kept.size()] = all.home[v] >= depth ? Cell::inner : all.home[v];
+        kept.push_back(v);
+    }
+    for (Index& corner : all.mesh.corners) corner = number[first[corner]];
+    all.mesh.positions.resize(kept.size());
+    all.names.resize(kept.size());
+    all.home.resize(kept.size());
+    for (Attribute& a : all.mesh.attributes)
+        if (a.domain != Domain::face) a.select(kept);
+    return all;
+}
+
+} // namespace facetmill::cells

@@ -1,0 +1,67 @@
+#pragma once
+// A mesh of any size as cells on disk: whole faces, by a k-d tree over their centres, so nothing is cut and
+// there are no T-junctions; and which vertices cells have in common.
+
+#include "cells/block_file.hpp"
+#include "cells/face_source.hpp"
+#include "cells/tree.hpp"
+
+namespace facetmill::cells {
+
+/// Where temporary data goes, and how much memory may be taken.
+struct Means {
+    std::filesystem::path scratch;
+    std::uint64_t memory = 0; ///< bytes, for everything
+};
+
+/// A part of a mesh. Vertices that other parts have too stay known by name and position.
+struct Cell {
+    static constexpr std::uint8_t inner = UINT8_MAX;
+    Mesh mesh;                        ///< triangles
+    std::vector<std::uint64_t> names; ///< [vertices] see Piece
+    /// [vertices] The depth of the node of the tree that all cells with this vertex have in common; inner:
+    /// only this cell has it. So within a node of a depth below it is shared with others outside.
+    std::vector<std::uint8_t> home;
+};
+
+/// Faces that a cell has at the most, but where one place of a grid has more than memory takes.
+inline constexpr std::uint64_t faces_of_cell = std::uint64_t{1} << 16;
+
+class Partition {
+  public:
+    /// Reads the source twice (it was scanned once before). The cells depend on the mesh and `most` only,
+    /// never on memory.
+    Partition(std::shared_ptr<FaceSource> source, const Means& means, std::uint64_t most = faces_of_cell);
+
+    const Tree& tree() const { return tree_; }
+    const FaceSource& source() const { return *source_; }
+    std::uint64_t faces() const { return faces_; }
+    std::uint64_t faces_of(std::uint32_t leaf) const {
+        return records_.size(list_[leaf]) / source_->record_size();
+    }
+    std::uint64_t vertices() const { return vertices_; } ///< that faces use
+    /// Any thread. Throws output (E-SCRATCH).
+    Cell cell(std::uint32_t leaf) const;
+
+  private:
+    void distribute(const Means& means, std::uint64_t most);
+    struct Range {
+        std::uint64_t begin, end;
+    };
+    void divide(std::uint32_t node, std::size_t list, const Range& faces, std::uint64_t most);
+    void divide(std::uint32_t node, io::Bytes records, std::uint64_t most);
+    void refine(std::uint64_t most);
+    void find_shared(const Means& means);
+
+    std::shared_ptr<FaceSource> source_;
+    Tree tree_;
+    std::uint64_t faces_ = 0, vertices_ = 0;
+    Spool records_;                  ///< by list
+    std::vector<std::size_t> list_;  ///< [leaves] of records_
+    std::unique_ptr<Spool> borders_; ///< [leaves] keys and depths of shared vertices
+};
+
+/// The cells as one, vertices that they share joined. depth: of the node that they make up together.
+Cell joined(std::vector<Cell> cells, std::uint8_t depth);
+
+} // namespace facetmill::cells

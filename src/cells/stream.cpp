@@ -1,0 +1,119 @@
+#include "cells/stream.hpp"
+
+#include "io/text.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace facetmill::cells {
+
+ReadFile::ReadFile(const std::filesystem::path& path) : path_(path) {
+    file_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file_ < 0)
+        throw Error(ErrorKind::missing, "E-FILE",
+                    fmt::format("'{}' cannot be read: {}", path.string(), std::strerror(errno)));
+}
+
+ReadFile::~ReadFile() { ::close(file_); }
+
+void ReadFile::read(std::uint64_t offset, std::span<std::byte> to) const {
+    while (!to.empty()) {
+        const ssize_t n = ::pread(file_, to.data(), to.size(), static_cast<off_t>(offset));
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0)
+            io::malformed(path_.string(), 0, "E-CHANGED",
+                          fmt::format("byte {} cannot be read any more", offset),
+                          "run it again while no other program writes to the file");
+        to = to.subspan(static_cast<std::size_t>(n));
+        offset += static_cast<std::uint64_t>(n);
+    }
+}
+
+Stream::Stream(const ReadFile& file, std::uint64_t begin, std::uint64_t end, Sha256* sum)
+    : file_(file), read_(begin), end_(end), sum_(sum) {}
+
+const std::byte* Stream::take(std::size_t n) {
+    constexpr std::size_t usual = std::size_t{1} << 20;
+    if (filled_ - at_ < n) {
+        const std::size_t kept = filled_ - at_;
+        std::memmove(buffer_.data(), buffer_.data() + at_, kept);
+        buffer_.resize(std::max({n, usual, buffer_.size()}));
+        const std::size_t more =
+            static_cast<std::size_t>(std::min<std::uint64_t>(buffer_.size() - kept, end_ - read_));
+        const std::span<std::byte> fresh(buffer_.data() + kept, more);
+        file_.read(read_, fresh);
+        if (sum_) sum_->add(fresh);
+        read_ += more;
+        at_ = 0;
+        filled_ = kept + more;
+    }
+    const std::byte* const taken = buffer_.data() + at_;
+    at_ += n;
+    return taken;
+}
+
+RecordCache::RecordCache(const ReadFile& file, std::uint64_t begin, std::size_t size, std::uint64_t count,
+                         std::size_t memory)
+    : file_(file), begin_(begin), count_(count), size_(size) {
+    constexpr std::size_t usual = std::size_t{1} << 15;
+    per_block_ = std::max<std::size_t>(1, usual / size);
+    block_size_ = per_block_ * size;
+    const std::uint64_t blocks = (count + per_block_ - 1) / per_block_;
+    slots_ = static_cast<std::size_t>(
+        std::min<std::uint64_t>(std::max<std::size_t>(8, memory / block_size_), blocks));
+    slot_of_.assign(blocks, absent);
+    block_in_.reserve(slots_);
+    used_.reserve(slots_);
+    memory_.reserve(slots_ * block_size_); // pages count when they are written to
+}
+
+const std::byte* RecordCache::load(std::uint64_t record) {
+    const std::uint64_t block = record / per_block_;
+    std::size_t slot = block_in_.size();
+    if (slot < slots_) {
+        block_in_.push_back(block);
+        used_.push_back(1);
+        memory_.resize(block_in_.size() * block_size_);
+    } else { // the first that nobody has used since the hand went by
+        while (used_[hand_]) {
+            used_[hand_] = 0;
+            hand_ = (hand_ + 1) % slots_;
+        }
+        slot = hand_;
+        hand_ = (hand_ + 1) % slots_;
+        slot_of_[block_in_[slot]] = absent;
+        block_in_[slot] = block;
+        used_[slot] = 1;
+    }
+    slot_of_[block] = static_cast<std::uint32_t>(slot);
+    const std::uint64_t first = block * per_block_;
+    const auto n = static_cast<std::size_t>(std::min<std::uint64_t>(per_block_, count_ - first));
+    file_.read(begin_ + first * size_, std::span(memory_.data() + slot * block_size_, n * size_));
+    return memory_.data() + slot * block_size_ + (record - first) * size_;
+}
+
+io::Bytes read_records(const ReadFile& file, std::uint64_t begin, std::size_t size,
+                       std::span<const std::uint32_t> numbers) {
+    constexpr std::uint64_t bridged = 4096; // bytes between two records that are read along
+    constexpr std::size_t most = std::size_t{1} << 20;
+    io::Bytes all(numbers.size() * size), some;
+    for (std::size_t i = 0; i < numbers.size();) {
+        const std::uint64_t from = std::uint64_t{numbers[i]} * size;
+        std::size_t end = i + 1;
+        const auto reach = [&](std::size_t k) { return (std::uint64_t{numbers[k]} + 1) * size; };
+        while (end < numbers.size() && reach(end) <= reach(end - 1) + size + bridged &&
+               reach(end) - from <= most)
+            ++end;
+        some.resize(static_cast<std::size_t>(reach(end - 1) - from));
+        file.read(begin + from, some);
+        for (; i < end; ++i)
+            std::memcpy(all.data() + i * size, some.data() + (std::uint64_t{numbers[i]} * size - from), size);
+    }
+    return all;
+}
+
+} // namespace facetmill::cells

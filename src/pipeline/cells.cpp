@@ -1,0 +1,87 @@
+#include "pipeline/cells.hpp"
+
+#include "base/readable_numbers.hpp"
+#include "cells/face_source.hpp"
+#include "cells/hierarchy.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::pipeline {
+
+namespace {
+
+[[noreturn]] void refuse_cells(const std::string& what, const std::string& why, const std::string& hint,
+                               const Mark& where) {
+    throw Error(ErrorKind::usage, "E-CELLS", fmt::format("{}: {}", what, why), hint, where);
+}
+
+/// What a step has around its stage that looks at the scene.
+const char* key_in_the_way(const Step& step) {
+    if (step.when && !step.when->known) return "when";
+    if (step.ensure) return "ensure";
+    if (!step.only.patterns.empty()) return "only";
+    return nullptr;
+}
+
+/// How many of the first steps turn the inputs into a scene that is small.
+std::size_t steps_on_cells(const Steps& steps, const std::string& what, const std::string& way_out) {
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const Step& step = steps[i];
+        if (step.kind != Step::Kind::stage || !step.stage->on_cells)
+            refuse_cells(what, fmt::format("'{}' cannot work on a mesh in cells", step.name),
+                         "put it after simplify, which makes the mesh small, or " + way_out, step.where);
+        if (step.when && step.when->known && !*step.when->known)
+            refuse_cells(what, fmt::format("'{}' is skipped", step.name), "leave the step out, or " + way_out,
+                         step.where);
+        if (const char* key = key_in_the_way(step))
+            refuse_cells(
+                what, fmt::format("'{}' has the key '{}', which looks at a mesh in memory", step.name, key),
+                "leave it out, or " + way_out, step.where);
+        if (step.stage->why_not_on_cells)
+            if (const auto why = step.stage->why_not_on_cells(step.options.get()))
+                refuse_cells(what, fmt::format("{}: {}", step.name, *why),
+                             "leave that option out, or " + way_out, step.where);
+        if (step.stage->loads != (i == 0))
+            refuse_cells(what, "one load comes first", "load one file, or " + way_out, step.where);
+        if (step.stage->ends_cells) return i + 1;
+    }
+    refuse_cells(what, "no stage makes the mesh small", "add simplify, or " + way_out, {});
+}
+
+} // namespace
+
+CellPlan plan_cells(const Plan& plan, const CellSettings& settings) {
+    using When = CellSettings::When;
+    if (settings.when == When::never || (settings.memory == 0 && settings.when == When::automatic)) return {};
+    std::vector<PlannedFile> inputs;
+    for (const PlannedFile& file : planned_files(plan.steps, plan.places))
+        if (!file.written && !file.shapes) inputs.push_back(file);
+    std::uint64_t faces = 0;
+    for (const PlannedFile& file : inputs) faces += cells::estimated_faces(file.path);
+    const std::string needed = sized(cells::memory_in_core(faces));
+    CellPlan cells;
+    if (settings.when == When::automatic && cells::memory_in_core(faces) <= settings.memory) {
+        cells.why = fmt::format("in memory: about {} faces need about {}, --memory gives {}", grouped(faces),
+                                needed, sized(settings.memory));
+        return cells;
+    }
+    const std::string what = settings.when == When::always
+                                 ? "--partition always"
+                                 : fmt::format("about {} faces need about {} in memory, --memory gives {}",
+                                               grouped(faces), needed, sized(settings.memory));
+    const std::string way_out = settings.when == When::always
+                                    ? "use --partition auto"
+                                    : "give more memory, or --partition never to try it all the same";
+    if (inputs.size() != 1)
+        refuse_cells(what, fmt::format("cells are made of one file, this pipeline reads {}", inputs.size()),
+                     way_out, inputs.empty() ? Mark{} : inputs.back().where);
+    if (const auto why = cells::why_not_streamed(inputs.front().path))
+        refuse_cells(what,
+                     fmt::format("'{}' cannot be read in pieces: {}", inputs.front().path.string(), *why),
+                     "write it as binary PLY or STL, or " + way_out, inputs.front().where);
+    cells.steps = steps_on_cells(plan.steps, what, way_out);
+    cells.why = fmt::format("in cells on disk up to '{}': {}", plan.steps[cells.steps - 1].name, what);
+    return cells;
+}
+
+} // namespace facetmill::pipeline

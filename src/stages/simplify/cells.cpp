@@ -1,0 +1,90 @@
+#include "stages/simplify/cells.hpp"
+
+#include "base/words.hpp"
+#include "cells/hierarchy.hpp"
+#include "mesh/power_scale.hpp"
+#include "stages/simplify/parts.hpp"
+
+#include <fmt/format.h>
+
+namespace facetmill::simplify_stage {
+
+namespace {
+
+/// A scene of the box of the cells, which lengths are resolved in.
+Scene outline(const CellFlow& flow) {
+    Scene scene;
+    scene.unit = flow.unit;
+    scene.up = flow.up;
+    Part& part = scene.parts.emplace_back();
+    part.name = flow.part;
+    const Box box = flow.bounds();
+    part.mesh.positions = {box.min, box.max};
+    return scene;
+}
+
+SimplifySettings settings_in_cells(const SimplifyOptions& o, const CellFlow& flow, Context& context) {
+    SimplifyShare share;
+    if (o.faces) share.faces = static_cast<std::size_t>(*o.faces);
+    if (o.max_quadric_error) {
+        const Length& limit = *o.max_quadric_error;
+        const bool of_part = limit.kind == Length::Kind::percent && limit.of == Length::Of::part;
+        share.max_quadric_error = of_part ? limit.amount / 100 * diagonal(flow.bounds())
+                                          : context.resolve(limit, outline(flow), "max_quadric_error");
+        if (!(*share.max_quadric_error > 0)) share.max_quadric_error.reset(); // of a single point
+    }
+    return simplify_settings(o, {}, share);
+}
+
+/// The result as that of any simplification.
+SimplifyResult told(const cells::HierarchyResult& done, const Mesh& mesh, const cells::Partition& partition) {
+    SimplifyResult r;
+    r.changes = done.changes;
+    r.stop = done.stop;
+    r.blocked = done.blocked;
+    r.turned = done.turned;
+    r.collapses = done.collapses;
+    r.largest_error = done.error;
+    r.faces_given = r.faces_before = done.faces_before;
+    r.vertices_before = partition.vertices();
+    r.faces_after = mesh.face_count();
+    r.vertices_after = mesh.vertex_count();
+    return r;
+}
+
+} // namespace
+
+std::optional<std::string> why_not_on_cells(const SimplifyOptions& o) {
+    SimplifySettings settings = o.settings;
+    if (o.max_error) return "max_error is measured on the whole mesh";
+    if (o.vertices) return "the target must be faces or a ratio";
+    if (o.lods) return "lods needs the whole mesh";
+    if (o.certify) return "certify needs the whole mesh";
+    return cells::why_not_in_cells(settings);
+}
+
+void simplify_on_cells(const SimplifyOptions& o, CellFlow& flow, Context& context) {
+    const SimplifySettings settings = settings_in_cells(o, flow, context);
+    cells::HierarchyResult done = cells::simplify_cells(*flow.partition, settings, flow.means);
+    Scene scene = outline(flow);
+    Part& part = scene.parts.front();
+    part.changed = true;
+    part.mesh = std::move(done.mesh);
+    SimplifyReport report;
+    SimplifiedPart& entry = report.parts.emplace_back();
+    entry.part = part.name;
+    entry.result = told(done, part.mesh, *flow.partition);
+    entry.max_quadric_error = settings.max_quadric_error;
+    context.attribute_changes(part, entry.result.changes);
+    warn_of_stop(part, entry.result, !o.ratio || o.ratio->value < 1 || o.faces, context);
+    if (entry.result.stop == SimplifyResult::Stop::max_quadric_error)
+        warn_of_limit({{part.name, entry.result.faces_before, entry.result.faces_after}},
+                      *o.max_quadric_error, context);
+    context.report(fields_of<SimplifyReport>(declare_simplify_report), &report);
+    context.say(fmt::format("{} simplified in {}; the deviation is not measured", counted(done.cells, "cell"),
+                            counted(done.levels, "level")));
+    flow.partition.reset();
+    flow.scene = std::move(scene);
+}
+
+} // namespace facetmill::simplify_stage

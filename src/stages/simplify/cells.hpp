@@ -1,0 +1,16 @@
+#pragma once
+// What the stage simplify does to a mesh in cells.
+
+#include "stage/stage.hpp"
+#include "stages/simplify/options.hpp"
+
+namespace facetmill::simplify_stage {
+
+/// Why these options need the whole mesh, in words; none when they do not.
+std::optional<std::string> why_not_on_cells(const SimplifyOptions& o);
+
+/// Simplifies the cells and reports as simplify_parts does, without a measured deviation. The result is in
+/// memory.
+void simplify_on_cells(const SimplifyOptions& o, CellFlow& flow, Context& context);
+
+} // namespace facetmill::simplify_stage

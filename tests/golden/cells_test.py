@@ -1,0 +1,100 @@
+"""Meshes larger than the memory that is given: the real executable, in cells on disk."""
+
+import json
+import os
+import subprocess
+import unittest
+
+from support import FACETMILL, SCAN, SLOW, Case, main
+
+MEGABYTE = 1 << 20
+
+
+class Cells(Case):
+    def large(self, passes=1):
+        """A closed scan of 70,000 * 4^passes faces."""
+        path = self.dir / "large.ply"
+        self.mill("pipe", "load", SCAN, "!", "split", "midpoint", "--passes", passes, "!", "write", path)
+        return path
+
+    def test_closed_stays_closed_and_the_bytes_are_the_same(self):
+        scan = self.large()
+        results = set()
+        for threads, memory in ((1, "50M"), (2, "64M"), (5, "1G")):
+            out = f"{threads}.ply"
+            self.mill("pipe", "-j", threads, "--memory", memory, "--partition", "always", "load", scan, "!", "simplify",
+                      "--faces", 9000, "!", "validate", "--closed", "--edge_manifold", "--vertex_manifold", "--faces",
+                      9000, "!", "write", out)
+            results.add((self.dir / out).read_bytes())
+        self.assertEqual(len(results), 1)
+        self.assertEqual(sorted(p.name for p in self.dir.iterdir()), ["1.ply", "2.ply", "5.ply", "large.ply"])
+
+    def test_a_run_decides_by_memory_and_says_so(self):
+        self.large()
+        self.write("p.yaml", "facetmill: 1\nstages:\n  - load: large.ply\n  - simplify: {faces: 9000}\n  - write: o.glb\n")
+        self.assertIn("memory: in cells on disk up to 'simplify': about 280,000 faces need about",
+                      self.mill("plan", "p.yaml", "--memory", "64M").stdout)
+        self.assertIn("memory: in memory", self.mill("plan", "p.yaml", "--memory", "2G").stdout)
+        self.assertNotIn("memory:", self.mill("plan", "p.yaml").stdout)
+        self.assertIn("in cells on disk", self.mill("run", "p.yaml", "--memory", "64M").stderr)
+        self.assertNotIn("in cells", self.mill("run", "p.yaml", "--memory", "2G").stderr)
+        self.assertNotIn("in cells", self.mill("run", "p.yaml", "--memory", "64M", "--partition", "never").stderr)
+
+    def test_what_needs_the_whole_mesh_is_refused_with_the_way_out(self):
+        self.large()
+        cases = (("relax 3 ! simplify 10%", "'relax' cannot work on a mesh in cells", "put it after simplify"),
+                 ("simplify 10% --max_error 1%", "max_error is measured on the whole mesh", "leave that option out"),
+                 ("simplify 10% --only x", "'simplify' has the key 'only'", "leave it out"),
+                 ("simplify --vertices 100", "the target must be faces or a ratio", "leave that option out"),
+                 ("measure", "'measure' cannot work", "put it after simplify"))
+        for stages, message, way_out in cases:
+            run = self.mill("pipe", "--memory", "64M", "load", "large.ply", "!", *stages.split(), "!", "write", "o.ply",
+                            expect=2)
+            self.assertIn("E-CELLS", run.stderr)
+            self.assertIn(message, run.stderr)
+            self.assertIn(way_out, run.stderr)
+        self.mill("pipe", "load", "large.ply", "!", "write", "text.ply", "--ascii")
+        self.assertIn("only binary PLY", self.mill("pipe", "--memory", "64M", "load", "text.ply", "!", "simplify", "10%",
+                                                   "!", "write", "o.ply", expect=2).stderr)
+        self.assertIn("E-MEMORY", self.mill("pipe", "--memory", "30M", "load", "large.ply", "!", "simplify", "90%", "!",
+                                            "write", "o.ply", expect=7).stderr)
+        self.assertIn("E-ARGUMENT", self.mill("pipe", "--memory", "much", "load", "large.ply", "!", "write", "o.ply",
+                                              expect=2).stderr)
+
+    def test_broken_input_and_scratch(self):
+        scan = self.large()
+        whole = scan.read_bytes()
+        (self.dir / "short.ply").write_bytes(whole[:-7])
+        run = ("!", "simplify", "10%", "!", "write", "o.ply")
+        self.assertIn("E-PLY", self.mill("pipe", "--memory", "64M", "load", "short.ply", *run, expect=6).stderr)
+        self.assertIn("E-FILE", self.mill("pipe", "--memory", "64M", "load", "none.ply", *run, expect=3).stderr)
+        self.assertIn("E-WRITE", self.mill("pipe", "--no-sandbox", "--memory", "64M", "--scratch", "nowhere", "load", scan, *run,
+                                           expect=4).stderr)
+        self.assertFalse((self.dir / "o.ply").exists())
+
+    def test_the_report_tells_of_cells(self):
+        self.large()
+        self.mill("pipe", "--memory", "64M", "--report", "r.json", "load", "large.ply", "!", "simplify", "--faces", 5000, "!",
+                  "write", "o.ply")
+        report = json.loads((self.dir / "r.json").read_text())
+        load, simplify = report["stages"][:2]
+        self.assertEqual(load["after"]["faces"], 280000)
+        part = simplify["result"]["parts"][0]
+        self.assertEqual((part["triangles_before"], part["triangles_after"]), (280000, 5000))
+        self.assertGreater(part["largest_error"], 0)
+        self.assertEqual(report["inputs"][0]["path"], "large.ply")
+
+    @unittest.skipIf(SLOW, "sanitizers take memory of their own")
+    def test_four_million_faces_in_64_megabytes(self):
+        scan = self.large(3)
+        run = subprocess.Popen([str(FACETMILL), "pipe", "-q", "--memory", "64M", "load", scan, "!", "simplify", "--faces",
+                                "40000", "!", "validate", "--closed", "--edge_manifold", "!", "write", "o.ply"],
+                               cwd=self.dir)
+        _, status, usage = os.wait4(run.pid, 0)
+        run.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(run.returncode, 0)
+        self.assertLess(usage.ru_maxrss * 1024, 64 * MEGABYTE)
+
+
+if __name__ == "__main__":
+    main()
