@@ -1,7 +1,9 @@
 #include "base/hash.hpp"
 
 #include "base/error.hpp"
+#include "base/progress.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -60,6 +62,15 @@ void check_openssl(int done) {
 } // namespace
 
 std::string sha256(std::span<const std::byte> bytes) {
+    constexpr std::size_t piece = std::size_t{16} << 20;
+    if (bytes.size() > piece) { // this takes long, so it tells how far it is
+        Sha256 sum;
+        for (std::size_t at = 0; at < bytes.size(); at += piece) {
+            Share::tell(static_cast<double>(at) / static_cast<double>(bytes.size()));
+            sum.add(bytes.subspan(at, std::min(piece, bytes.size() - at)));
+        }
+        return sum.digest();
+    }
     prepare_openssl();
     Digest digest{};
     unsigned int size = 0;

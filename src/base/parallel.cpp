@@ -1,11 +1,14 @@
 #include "base/parallel.hpp"
 
 #include "base/cores.hpp"
+#include "base/progress.hpp"
 
+#include <atomic>
 #include <memory>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <thread>
 
 namespace facetmill {
 
@@ -32,9 +35,24 @@ void run_chunks(std::size_t n, std::size_t chunk, void* body, void (*call)(void*
         if (n > 0) call(body, 0, n);
         return;
     }
-    tbb::parallel_for(
-        std::size_t{0}, chunks, [&](std::size_t c) { call(body, c * chunk, std::min(n, (c + 1) * chunk)); },
-        tbb::simple_partitioner{});
+    const auto run = [&](auto&& one) {
+        tbb::parallel_for(std::size_t{0}, chunks, one, tbb::simple_partitioner{});
+    };
+    const auto work = [&](std::size_t c) { call(body, c * chunk, std::min(n, (c + 1) * chunk)); };
+    const Share::Place place = Share::of_loop();
+    if (!place.to) return run(work);
+    const auto caller = std::this_thread::get_id(); // it alone tells, so never less than before
+    std::atomic<std::size_t> done = 0;
+    {
+        const Share silent(nullptr); // for what the chunks do
+        run([&](std::size_t c) {
+            work(c);
+            const std::size_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
+            if (std::this_thread::get_id() == caller)
+                place.tell(static_cast<double>(now) / static_cast<double>(chunks));
+        });
+    }
+    place.tell(1);
 }
 
 void sort_few(std::span<KeyedPlace> places) {

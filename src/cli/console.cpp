@@ -54,8 +54,14 @@ class Bar : public Progress {
     void stage(int number, int number_of, const std::string& name) override {
         begin(number_of > 0 ? static_cast<double>(number - 1) / number_of : 0,
               fmt::format("{}/{} {}", number, number_of, name));
+        after_ = number_of > 0 ? static_cast<double>(number) / number_of : 1;
     }
-    void after_stages(const std::string& what) override { begin(1, what); }
+    void beside_stages(const std::string& what) override { begin(after_, what); }
+    void share(double done) override {
+        if (done <= share_) return;
+        share_ = done;
+        told_ = watch_.seconds();
+    }
     void done() override {
         {
             const std::lock_guard lock(guard_);
@@ -73,7 +79,7 @@ class Bar : public Progress {
         filled_ = filled;
         what_ = std::move(what);
         watch_ = {};
-        share = -1;
+        share_ = told_ = 0;
         draw();
         if (drawer_.joinable()) return;
         try {
@@ -92,14 +98,16 @@ class Bar : public Progress {
         const int filled = static_cast<int>(width * filled_);
         const double since = watch_.seconds();
         tell("\r\033[K[{}{}] {}{}", std::string(static_cast<std::size_t>(filled), '#'),
-             std::string(static_cast<std::size_t>(width - filled), '.'), what_, how_far(since, share));
+             std::string(static_cast<std::size_t>(width - filled), '.'), what_,
+             how_far(since, {share_, told_}));
         std::fflush(stderr);
         drawn_ = true;
     }
 
-    double filled_ = 0;
+    double filled_ = 0, after_ = 0; ///< shares of the bar, now and after the stage
     std::string what_;
     Stopwatch watch_;
+    std::atomic<double> share_ = 0, told_ = 0; ///< the latter: when the former was told, in seconds
     bool drawn_ = false, over_ = false;
     std::mutex guard_; ///< of what stands above
     std::condition_variable wake_;
@@ -122,10 +130,11 @@ class Lines : public Progress {
         else
             tell("{:7.2f}s  {}/{} {}\n", since, number, number_of, name);
     }
-    void after_stages(const std::string& what) override {
+    void beside_stages(const std::string& what) override {
         const double since = watch_.seconds();
         if (!json_) tell("{:7.2f}s  {}\n", since, what);
     }
+    void share(double) override {}
     void done() override {}
 
   private:
@@ -135,12 +144,13 @@ class Lines : public Progress {
 
 } // namespace
 
-std::string how_far(double seconds, double share) {
+std::string how_far(double seconds, const Told& last) {
     constexpr double long_enough = 1; // what is over sooner needs no number
     if (seconds < long_enough) return {};
-    if (share <= 0 || share > 1) return ", " + timed(seconds);
-    return fmt::format(" {:.0f} %, about {} left", std::floor(100 * share),
-                       timed(seconds / share * (1 - share)));
+    if (last.share <= 0 || last.share > 1 || last.seconds <= 0) return ", " + timed(seconds);
+    // What comes next may tell nothing for long: meanwhile the time left goes on getting less.
+    const double all = std::max(last.seconds / last.share, seconds);
+    return fmt::format(" {:.0f} %, about {} left", std::floor(100 * last.share), timed(all - seconds));
 }
 
 bool Console::colour() const {

@@ -15,9 +15,14 @@ namespace facetmill::cli {
 /// success.
 void print(std::string_view text);
 
-/// Behind the name of a stage that has run for some seconds, the share of it being done (negative: unknown):
-/// " 42 %, about 12 s left", ", 12 s"; nothing in its first second.
-std::string how_far(double seconds, double share);
+/// The share of a stage that was done when it was told last (0: it was not), seconds after the stage began.
+struct Told {
+    double share = 0, seconds = 0;
+};
+
+/// Behind the name of a stage that has run for some seconds: " 42 %, about 12 s left", ", 12 s" where no
+/// share was told; nothing in its first second.
+std::string how_far(double seconds, const Told& last);
 
 /// What goes to standard error.
 class Console {

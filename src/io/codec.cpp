@@ -2,6 +2,7 @@
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "base/spelling.hpp"
 #include "io/attributes.hpp"
 #include "io/encoding.hpp"
@@ -183,7 +184,9 @@ Scene read_scene(const Input& file, const ReadSettings& settings, ReadLog& log, 
     constexpr double memory_per_byte = 4; // as measured on large meshes: 3 to 5 in all formats
     require_memory(memory_per_byte * static_cast<double>(input.bytes().size()),
                    fmt::format("reading '{}'", input.name()), "split it, or use a machine with more memory");
+    ShareOfSteps steps({8, 1});
     Scene scene = codec.read(input, settings, log);
+    steps.next();
     if (settings.unit) scene.unit = *settings.unit;
     if (settings.up) scene.up = *settings.up;
     bool any = false;

@@ -1,6 +1,7 @@
 #pragma once
 // For formats without nodes: the scene as meshes in world space.
 
+#include "base/progress.hpp"
 #include "io/codec.hpp"
 #include "mesh/placement.hpp"
 
@@ -56,6 +57,7 @@ template <class Write>
 void append_text(Bytes& bytes, std::size_t n, Write&& write) {
     constexpr std::size_t chunk = 16384;
     std::vector<std::string> texts((n + chunk - 1) / chunk);
+    Share::loop_tells();
     parallel_chunks(
         n, [&](std::size_t begin, std::size_t end) { write(begin, end, texts[begin / chunk]); }, chunk);
     for (const auto& t : texts) append(bytes, t);

@@ -1,5 +1,6 @@
 #include "io/output_files.hpp"
 
+#include "base/progress.hpp"
 #include "base/sandbox.hpp"
 
 #include <cerrno>
@@ -39,8 +40,10 @@ void cannot_write(const fs::path& target, int error) {
 }
 
 void write_all(int fd, Span bytes, const fs::path& target) {
+    const auto all = static_cast<double>(bytes.size());
     while (!bytes.empty()) {
-        const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), std::size_t{1} << 30));
+        Share::tell(1 - static_cast<double>(bytes.size()) / all);
+        const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), std::size_t{16} << 20));
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) cannot_write(target, errno);
         bytes = bytes.subspan(static_cast<std::size_t>(n));

@@ -1,6 +1,7 @@
 #include "io/outputs.hpp"
 
 #include "base/hash.hpp"
+#include "base/progress.hpp"
 #include "io/clean_up.hpp"
 #include "io/output_files.hpp"
 
@@ -143,7 +144,9 @@ const Outputs::File& Outputs::add(const fs::path& target, Span bytes, const Mark
     const bool stream = is_stream(target);
     file->resolved = stream ? target : followed(target);
     file->bytes = bytes.size();
+    ShareOfSteps steps({3, 2});
     file->sha256 = sha256(bytes);
+    steps.next();
     const fs::path self = stream ? target : identity(file->resolved);
     const auto input = inputs_.find(self);
     file->is_input = input != inputs_.end();

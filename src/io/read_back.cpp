@@ -1,6 +1,7 @@
 #include "io/read_back.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "base/random.hpp"
 #include "base/words.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -335,6 +336,7 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
                     fmt::format("'{}' does not hold what was written: {}", file.name(), message),
                     "this is a bug in facetmill or a fault of the disk; existing outputs are unchanged");
     };
+    ShareOfSteps steps({4, 1, 5});
     ReadLog log;
     try {
         back.scene = read_scene(file, {}, log, &codec);
@@ -354,10 +356,12 @@ ReadBack read_back(const Input& file, const Codec& codec, const Scene& given, co
         refuse(fmt::format("{}, expected {}", counted(back.faces, "face"),
                            polygons == triangles ? fmt::format("{}", polygons)
                                                  : fmt::format("{} (or {} triangles)", polygons, triangles)));
+    steps.next();
     set_tolerance(back, scene, settings, codec.can.transforms);
     back.position_error = position_error(scene, back.scene, back.tolerance, dropped_faces == 0);
     if (back.position_error > back.tolerance)
         refuse(fmt::format("a vertex moved farther than {}", back.tolerance));
+    steps.next();
     back.soundness = inspect(back.scene);
     if (!is_sound(back.soundness)) back.losses = losses(inspect(scene), back.soundness);
     if (!back.losses.empty()) back.changes = vertex_changes(scene, back.scene);

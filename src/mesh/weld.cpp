@@ -1,5 +1,6 @@
 // Vertices and wedges that go: the unused, and those at the same place.
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "base/random.hpp"
 #include "mesh/lineage.hpp"
 
@@ -134,6 +135,7 @@ std::vector<Index> first_at_position(const std::vector<Vec3>& positions) {
     constexpr std::uint32_t buckets = 1u << bucket_bits;
     const auto bucket_of = [](const HashedVertex& item) { return item.hash & (buckets - 1); };
     radix_sort(items, bucket_of, bucket_bits);
+    Share::loop_tells();
     parallel_for(
         buckets,
         [&](std::size_t b) {

@@ -107,6 +107,7 @@ class Runner {
         if (!failures_.any() && run_on_cells(flow) && run_steps(plan_.steps, flow, true, on_cells_.steps) &&
             !plan_.reports.empty() && fetch({}, "the inspection at the end", flow))
             failures_.guarded({}, "the inspection at the end", [&] {
+                const Share share = beside_stages("inspection at the end");
                 record().final_properties = report::scene_json(flow.scene, inspect(flow.scene));
                 if (takes_pictures_) view_.at_end(flow.scene);
             });
@@ -288,7 +289,7 @@ class Runner {
         stage.before = report::brief_of(scene);
         const auto before = reuse_.before(step, flow, state_);
         const Stopwatch watch;
-        const Share share(settings_.progress ? &settings_.progress->share : nullptr);
+        const Share share(settings_.progress);
         const bool done = failures_.guarded(step.where, fmt::format("'{}'", step.name), [&] {
             Context context(state_, stage, step.only, scene.bounds(), step.where);
             if (!step.only.patterns.empty() && !step.stage->loads)
@@ -307,10 +308,17 @@ class Runner {
         return true;
     }
 
+    /// Until its end, work that is not of a stage tells its share.
+    Share beside_stages(const std::string& what) const {
+        if (settings_.progress) settings_.progress->beside_stages(what);
+        return Share(settings_.progress);
+    }
+
     /// A page shows what a stage changed, as long as it stays small.
     void add_picture(const Scene& scene, report::StageRecord& stage) {
         constexpr std::size_t max_bytes = 5 << 19; // of a page of 3 MB
         if (picture_bytes_ > max_bytes) return;
+        const Share share = beside_stages(fmt::format("picture after {}", stage.name));
         failures_.guarded({}, "a picture", [&] {
             const std::vector<Vec3> locations = failing_locations_of(stage);
             PictureSettings settings;
@@ -420,6 +428,7 @@ class Runner {
         report::StageRecord none; // a branch has no record of its own
         none.name = step.name;
         const bool recorded = step.kind == Step::Kind::stage && !record().stages.empty();
+        const Share share = beside_stages(fmt::format("ensure of {}", step.name));
         report::StageRecord& stage = recorded ? record().stages.back() : none;
         const auto& assertions = step.ensure->assertions;
         if (!assertions.all.empty())
@@ -565,7 +574,7 @@ class Runner {
     /// All that can be written are, whatever became of the others.
     void write_reports() {
         for (const auto& path : plan_.reports) {
-            if (settings_.progress) settings_.progress->after_stages(path);
+            const Share share = beside_stages(path);
             if (!unwritable_.contains(plan_.places.output(path).parent_path()) &&
                 failures_.guarded({}, "the report", [&] {
                     write_report(plan_, path, record(), settings_.commit, view_.json());

@@ -2,9 +2,11 @@
 
 #include "pipeline/run.hpp"
 #include "report/render.hpp"
+#include "support/heard.hpp"
 #include "support/planning.hpp"
 #include "support/temporary.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 using namespace facetmill;
@@ -148,9 +150,9 @@ TEST_CASE("ensure is checked right after its stage, and a failure keeps all outp
     const auto record = ground.run("  - test-load: a.ply\n  - test-write: b.txt\n  - test-cut: 5\n    "
                                    "ensure: {closed: true, faces: {max: 5}}\n  - test-write: c.txt\n");
     CHECK(record.exit_code == 1);
-    CHECK(errors_of(record) == "p.yaml:6:14: error[E-CHECK]: 'closed' must be true, found false\n"
+    CHECK(errors_of(record) == "p.yaml:6:22: error[E-CHECK]: 'closed' must be true, found false\n"
                                "      ensure: {closed: true, faces: {max: 5}}\n"
-                               "               ^~~~~~\n"
+                               "                       ^~~~\n"
                                "  hint: clean: {holes: minimal} fills holes, orient makes faces consistent");
     CHECK(record.checks.size() == 2);
     CHECK(record.outputs.empty());
@@ -339,4 +341,77 @@ TEST_CASE("a stage that leaves the range of numbers fails at its place in the pi
     CHECK(record.errors[0].id == "E-RANGE");
     CHECK(record.errors[0].where.line == 4);
     CHECK(record.errors[0].message == "the box in world space came out beyond 1.8e308, the largest number");
+}
+
+namespace {
+
+/// The largest share that passes while nothing is told; all must lie from 0 to 1, none below one before.
+double largest_gap(const std::vector<double>& shares) {
+    double gap = 0, last = 0;
+    for (const double share : shares) {
+        CHECK(share >= 0);
+        CHECK(share <= 1);
+        CHECK(share >= last);
+        gap = std::max(gap, share - last);
+        last = std::max(last, share);
+    }
+    return std::max(gap, 1 - last);
+}
+
+} // namespace
+
+TEST_CASE("stages that take long tell how far they are, from beginning to end", "[pipeline]") {
+    test::TemporaryDirectory directory;
+    pipeline::PlanSettings plan;
+    plan.places = {directory.path(), directory.path()};
+    plan.extra_reports = {"r.html"};
+    const auto make = [&](const std::string& stages) {
+        auto result = planned("facetmill: 1\nstages:\n" + stages, plan);
+        if (!result.problems.empty()) FAIL(result.problems);
+        test::Heard heard;
+        RunSettings settings;
+        settings.progress = &heard;
+        const auto record = pipeline::run_plan(result.plan, settings);
+        CHECK(errors_of(record).empty());
+        return heard.before;
+    };
+    const auto first = make("  - generate: {shape: icosphere, subdivisions: 6, noise: 0.1%}\n"
+                            "  - write: a.ply\n"
+                            "  - {name: text, write: {path: b.ply, ascii: true}}\n"
+                            "  - {name: obj, write: c.obj}\n"
+                            "  - {name: stl, write: {path: d.stl, ascii: true}}\n"
+                            "  - {name: off, write: e.off}\n"
+                            "  - {name: draco, write: {path: f.glb, draco: true}}\n"
+                            "  - {name: meshopt, write: {path: g.glb, meshopt: true}}\n");
+    for (const char* stage : {"write", "text", "obj", "stl", "off", "draco", "meshopt"}) {
+        INFO(stage);
+        CHECK(largest_gap(first.at(stage)) < 0.45);
+    }
+    const auto second = make("  - load: [a.ply, b.ply, c.obj, d.stl, e.off, f.glb]\n"
+                             "  - split: {passes: 2}\n"
+                             "  - simplify: 20%\n"
+                             "  - relax: 10\n"
+                             "  - {name: limited, simplify: {max_error: 0.2%}}\n"
+                             "  - validate: {self_intersections: {max: 100000000}}\n"
+                             "  - clean: {self_intersections: local}\n"
+                             "  - crumple: {amplitude: 0.1%, self_intersections: avoid}\n"
+                             "    ensure: {deviation: 50%}\n"
+                             "  - render: p.png\n");
+    const std::pair<const char*, double> limits[] = {{"load", 0.2},
+                                                     {"split", 0.85},
+                                                     {"simplify", 0.25},
+                                                     {"relax", 0.25},
+                                                     {"limited", 0.3},
+                                                     {"validate", 0.3},
+                                                     {"clean", 0.55},
+                                                     {"crumple", 0.55},
+                                                     {"render", 0.4},
+                                                     {"ensure of crumple", 0.3},
+                                                     {"picture after relax", 0.4}};
+    for (const auto& [what, limit] : limits) {
+        INFO(what);
+        CHECK(largest_gap(second.at(what)) < limit);
+    }
+    CHECK(second.contains("r.html"));
+    CHECK(second.contains("inspection at the end"));
 }

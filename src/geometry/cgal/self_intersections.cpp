@@ -1,6 +1,7 @@
 #include "geometry/intersect/self_intersections.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/intersect/contacts.hpp"
 #include "geometry/intersect/disjoint_triangles.hpp"
@@ -282,7 +283,10 @@ MeetingFaces SelfIntersectionSearch::faces(const std::vector<std::uint8_t>& amon
 }
 
 SelfIntersections find_self_intersections(const Mesh& mesh, const SelfIntersectionSettings& settings) {
-    return SelfIntersectionSearch(mesh).pairs(settings);
+    ShareOfSteps steps({1, 3});
+    SelfIntersectionSearch search(mesh);
+    steps.next();
+    return search.pairs(settings);
 }
 
 } // namespace facetmill

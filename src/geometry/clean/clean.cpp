@@ -1,5 +1,6 @@
 #include "geometry/clean/clean.hpp"
 
+#include "base/progress.hpp"
 #include "geometry/clean/solids.hpp"
 #include "geometry/clean/steps.hpp"
 #include "geometry/edit/t_junctions.hpp"
@@ -108,21 +109,26 @@ bool one_round(Work& work, const CleanSettings& s) {
     };
     // What a patch runs into is united with it in the next round, or told there.
     const bool may_cross = s.self_intersections == Untangle::unite || s.self_intersections == Untangle::all;
+    ShareOfSteps steps({2, 2, 2, s.self_intersections != Untangle::off ? 20.0 : 0.0, 1});
     if (s.single) did(round_to_single(work));
     if (s.weld != Nearness::off) did(weld_equal(work, s.non_manifold));
     if (s.weld == Nearness::near) did(weld_near(work, s.tolerance));
     if (s.degenerate) did(remove_degenerate(work));
     if (s.duplicates) did(remove_duplicates(work));
+    steps.next();
     if (s.t_junctions != Nearness::off)
         did(resolve_t_junctions(work, s.t_junctions == Nearness::near ? s.tolerance : 0));
     if (s.stitch != Nearness::off) did(stitch(work, s.stitch == Nearness::near ? s.tolerance : 0));
+    steps.next();
     if (s.holes && s.non_manifold) { // holes that touch at a vertex would be one hole once it is split
         const std::size_t told = work.not_done.size();
         did(fill_holes(work, *s.holes, nullptr, may_cross));
         work.not_done.resize(told); // those that stay are told below
     }
     if (s.non_manifold) did(take_apart_non_manifold(work));
+    steps.next();
     changed |= untangle(work, s);
+    steps.next();
     if (s.holes) did(fill_holes(work, *s.holes, nullptr, may_cross));
     if (s.open_components) did(remove_open_components(work));
     if (s.components) did(remove_components(work, *s.components));
@@ -151,7 +157,8 @@ CleanResult clean(Mesh mesh, const CleanSettings& settings) {
     work.mesh = std::move(mesh);
     work.budget = settings.budget;
     CleanResult result;
-    for (bool changed = true; changed && result.rounds < max_rounds; ++result.rounds)
+    ShareOfRounds rounds;
+    for (bool changed = true; changed && result.rounds < max_rounds; ++result.rounds, rounds.next())
         changed = one_round(work, settings);
     result.changes = changes_of(work.mesh, work.changes);
     result.mesh = std::move(work.mesh);

@@ -1,3 +1,4 @@
+#include "base/progress.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/crumple/first_stretch.hpp"
 #include "geometry/crumple/tested_sheet.hpp"
@@ -116,15 +117,19 @@ class Separation {
 
     /// Adds the faces that meet in the first round that looks at all to `found`.
     void run() {
-        for (bool is_first = true;; ++result_.rounds) {
+        ShareOfRounds rounds;
+        for (bool is_first = true;; ++result_.rounds, rounds.next()) {
             std::vector<MeetingFaces> trouble;
             std::size_t box_pairs = 0;
             bool too_many = false;
+            ShareOfSteps of_sheets(std::vector<double>(tests_.size(), 1));
             for (TestSheet& test : tests_) {
                 const MeetingFaces& meeting = trouble.emplace_back(test.in_trouble());
                 box_pairs += meeting.box_pairs;
                 too_many |= meeting.too_many;
+                of_sheets.next();
             }
+            const Share silent(nullptr); // the search takes the time
             result_.box_pairs += box_pairs;
             const Lowering how = patience_.next(box_pairs);
             const std::vector<std::uint8_t> changed =
@@ -188,11 +193,13 @@ class Separation {
 void avoid(std::span<const CrumpleSheet> sheets, std::vector<TestSheet>& tests,
            std::vector<std::uint8_t>& levels, std::size_t max_pairs, AvoidResult& result) {
     FacesOfSheets found(tests.size());
+    ShareOfSteps steps({1, 3});
     slacken(tests, levels, max_stretch, found);
     const double stretch = first_stretch(sheets, tests, levels, max_pairs);
     std::vector<std::uint8_t> coarse(levels.size());
     if (stretch < max_stretch) coarse = slacken(tests, levels, stretch, found);
     for (TestSheet& test : tests) test.place(levels, {});
+    steps.next();
     Separation(tests, levels, found, result, std::move(coarse), stretch).run();
     for (const auto& faces : found)
         result.found += static_cast<std::size_t>(std::count(faces.begin(), faces.end(), 1));
@@ -226,12 +233,16 @@ AvoidResult avoid_intersections(std::span<CrumpleSheet> sheets, bool only_look, 
     AvoidResult result;
     const CrumplePlaces places(sheets);
     std::vector<std::uint8_t> levels(places.count);
+    ShareOfSteps steps({1, 2});
     std::vector<TestSheet> tests;
     tests.reserve(sheets.size());
+    ShareOfSteps of_sheets(std::vector<double>(sheets.size(), 1));
     for (std::size_t s = 0; s < sheets.size(); ++s) {
         tests.emplace_back(sheets[s], places.of_vertex[s], max_pairs);
         result.exempt += tests.back().exempt();
+        of_sheets.next();
     }
+    steps.next();
     if (only_look) {
         for (TestSheet& test : tests) test.place(levels, {});
         look(tests, levels, result);

@@ -1,6 +1,7 @@
 #include "geometry/deviation/bound.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "geometry/spatial/closest_point.hpp"
 
 #include <algorithm>
@@ -72,12 +73,14 @@ class Certifier {
         : d_(d), from_(from), tree_(to), settings_(settings), slack_(from.bounds().diagonal() * 1e-6) {}
 
     void run() {
+        ShareOfRounds rounds;
         start();
         std::size_t work = settings_.certify_work;
         while (!pieces_.empty() && work >= per_piece) {
             std::vector<Piece> later = keep_worst(work / per_piece);
             work -= round(later);
             pieces_ = std::move(later);
+            rounds.next();
         }
         for (const auto& piece : pieces_) settled_ = std::max(settled_, piece.bound);
         d_.bound = std::max(settled_, d_.maximum);

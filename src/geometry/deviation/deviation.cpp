@@ -1,6 +1,7 @@
 #include "geometry/deviation/deviation.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "base/random.hpp"
 #include "geometry/deviation/bound.hpp"
 #include "geometry/spatial/closest_point.hpp"
@@ -83,6 +84,7 @@ class Walk {
     /// The farthest vertex, when it is beyond `least`. One that turns out nearer than one before it need not
     /// be searched to the end.
     Farthest farthest_vertex(double least) const {
+        Share::loop_tells();
         return parallel_reduce(
             order_.size(), Farthest{},
             [&](std::size_t begin, std::size_t end) {
@@ -103,6 +105,7 @@ class Walk {
         distances.resize(samples.size());
         const std::vector<std::size_t> firsts = first_samples(samples);
         const std::size_t chunk = std::clamp<std::size_t>(order_.size() / 64, 1, 4096);
+        Share::loop_tells();
         return parallel_reduce(
             order_.size(), Farthest{},
             [&](std::size_t begin, std::size_t end) {
@@ -289,15 +292,19 @@ DirectedDeviation deviation_to(const Surface& from, std::span<const Index> order
         if (settings.certify) d.bound = HUGE_VAL;
         return d;
     }
+    ShareOfSteps steps({1, 8, 4, settings.certify ? 26.0 : 0.0});
     const auto samples = sample_area(from, settings.samples, settings.seed);
     d.samples = samples.size();
+    steps.next();
     if (samples.empty()) {
         measure_vertices(d, walk.vertices(), to);
     } else {
         std::vector<double> distances;
         const Farthest sample = walk.measure(samples, distances);
         if (sample.sample != SIZE_MAX) set_maximum(d, sample, from.face(samples[sample.sample].triangle));
+        steps.next();
         set_maximum(d, walk.farthest_vertex(d.maximum), none);
+        steps.next();
         set_means(d, distances);
     }
     if (settings.certify) bound_deviation(d, from, to, settings);
@@ -422,9 +429,12 @@ DeviationResult deviation(const Surface& first, const Surface& second, const Dev
     DeviationResult result;
     result.seed = settings.seed;
     result.diagonal = diagonal(of_first);
+    ShareOfSteps steps({1, 4, 4});
     FaceTree first_tree(first, FaceTree::Use::near), second_tree(second, FaceTree::Use::near);
     const auto first_order = order_of(first, first_tree), second_order = order_of(second, second_tree);
+    steps.next();
     result.forward = deviation_between(first, first_order, second, second_tree, settings);
+    steps.next();
     result.backward = deviation_between(second, second_order, first, first_tree, settings);
     const bool one_empty = (result.forward.vertices == 0) != (result.backward.vertices == 0);
     if (one_empty)

@@ -1,6 +1,7 @@
 #include "geometry/inspect/inspect.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "geometry/inspect/connectivity.hpp"
 #include "geometry/inspect/evidence.hpp"
 #include "geometry/inspect/measures.hpp"
@@ -105,8 +106,11 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     p.wedges = static_cast<std::int64_t>(mesh.wedge_count());
     p.faces = static_cast<std::int64_t>(mesh.face_count());
     p.bounds = box_of(positions);
+    ShareOfSteps steps({1, 4, 1, settings.self_intersections ? 12.0 : 0.0});
     const FaceSums sums = far_face_sums(mesh, positions, p.bounds);
+    steps.next();
     const Connectivity connectivity = connectivity_of(mesh);
+    steps.next();
     p.triangles = sums.triangles;
     p.degenerate_faces = sums.degenerate;
     p.area = sums.area;
@@ -127,6 +131,7 @@ Properties inspect_placed(const Mesh& mesh, const std::vector<Vec3>& positions, 
     p.euler = p.vertices - p.isolated_vertices - p.edges + p.faces;
     if (p.closed) p.volume = (mirrored ? -sums.volume : sums.volume) / 6;
     if (p.closed && p.edge_manifold && p.vertex_manifold && p.oriented) p.genus = p.components - p.euler / 2;
+    steps.next();
     if (settings.self_intersections) {
         const auto found = find_self_intersections(mesh, {.limit = 0, .separate_touching = true});
         p.self_intersections = static_cast<std::int64_t>(found.count);
@@ -217,15 +222,25 @@ class Joiner {
 void measure_requested(Properties& p, const Mesh& world, const Mesh& local, const InspectSettings& settings) {
     const Measured measured{world, local, p, settings};
     std::vector<std::pair<const Property*, double>> values;
-    for (const Property* property : settings.requested)
+    ShareOfSteps steps(std::vector<double>(settings.requested.size(), 1));
+    for (const Property* property : settings.requested) {
         if (const auto value = value_of(*property, measured)) values.emplace_back(property, *value);
+        steps.next();
+    }
     p.requested = std::move(values);
+}
+
+/// How long it takes to inspect a mesh, and to measure what is requested beside that.
+std::vector<double> lengths_of(const InspectSettings& settings) {
+    return {settings.self_intersections ? 18.0 : 6.0, static_cast<double>(settings.requested.size())};
 }
 
 } // namespace
 
 Properties inspect(const Mesh& mesh, const InspectSettings& settings) {
+    ShareOfSteps steps(lengths_of(settings));
     Properties p = inspect_placed(mesh, mesh.positions, false, settings);
+    steps.next();
     measure_requested(p, mesh, mesh, settings);
     return p;
 }
@@ -235,7 +250,9 @@ Properties inspect(const Part& part, const InspectSettings& settings) {
     std::vector<Vec3> world(part.mesh.vertex_count());
     parallel_for(world.size(),
                  [&](std::size_t v) { world[v] = part.transform.point(part.mesh.positions[v]); });
+    ShareOfSteps steps(lengths_of(settings));
     Properties p = inspect_placed(part.mesh, world, part.transform.determinant() < 0, settings);
+    steps.next();
     if (settings.requested.empty()) return p;
     Mesh placed = part.mesh;
     placed.positions = std::move(world);
@@ -252,9 +269,14 @@ Properties inspect(const Scene& scene, const InspectSettings& settings) {
     sum.genus = 0;
     sum.volume = 0;
     if (settings.self_intersections) sum.self_intersections = sum.touching = 0;
+    std::vector<double> lengths;
+    lengths.reserve(scene.parts.size());
+    for (const Part& part : scene.parts) lengths.push_back(1 + static_cast<double>(part.mesh.face_count()));
+    ShareOfSteps steps(std::move(lengths));
     for (const Part& part : scene.parts) {
         const Properties own = inspect(part, settings);
         for (const Property& property : property_table()) Joiner(sum, own).add(property);
+        steps.next();
     }
     return sum;
 }

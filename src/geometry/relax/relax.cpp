@@ -81,7 +81,6 @@ Run run(const Mesh& mesh, const Neighbourhoods& near, const Settings& settings,
         run.shrank = area < first_area * least_area_left;
         run.settled = run.last_move <= until && !run.shrank;
     }
-    Share::unknown();
     if (run.shrank) { // the one before the last
         run.places.swap(last);
         --run.iterations;
@@ -160,10 +159,13 @@ std::optional<Refusal> check_relax_settings(const Settings& s) {
 
 RelaxResult relax(Mesh mesh, const Settings& settings) {
     throw_refusal("relax", check_relax_settings(settings));
+    ShareOfSteps steps({2, 2 + static_cast<double>(settings.iterations), 2});
     RelaxResult result;
     const Neighbourhoods near = neighbourhoods(mesh, settings);
     result.held = near.held;
+    steps.next();
     Run done = run(mesh, near, settings, mesh.positions, settings.iterations, settings.until);
+    steps.next();
     const MoveSize moves = move_size(mesh.positions, done.places, settings.to_world);
     result.iterations = done.iterations;
     result.settled = done.settled;

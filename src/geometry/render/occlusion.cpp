@@ -2,6 +2,7 @@
 
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
+#include "base/progress.hpp"
 
 namespace facetmill {
 
@@ -120,6 +121,7 @@ std::vector<float> open_sky(const Canvas& canvas, const SceneDrawing& drawing, c
     const auto all = spirals(radius);
     const auto width = static_cast<std::size_t>(places.width);
     std::vector<float> open(places.place.size(), 1);
+    Share::loop_tells();
     parallel_for(open.size(), [&](std::size_t pixel) {
         if (places.seen[pixel] == none) return;
         const PartDrawing& part = drawing.part_of(places.seen[pixel]);

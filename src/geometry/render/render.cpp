@@ -2,6 +2,7 @@
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "geometry/render/layers.hpp"
 #include "geometry/render/legend.hpp"
 #include "geometry/render/occlusion.hpp"
@@ -75,9 +76,13 @@ class PictureDrawing {
           bands_(in_bands(drawing_, canvas_.height)) {}
 
     Picture picture() {
+        ShareOfSteps steps({2, 1, 3});
         draw_faces();
         draw_points();
+        steps.next();
         if (settings_.occlusion && settings_.paint != Paint::normal) open_ = occluded();
+        steps.next();
+        Share::loop_tells();
         Picture picture;
         picture.width = settings_.width;
         picture.height = settings_.height;
@@ -97,6 +102,7 @@ class PictureDrawing {
     int last_row(std::size_t band) const { return std::min(first_row(band) + band_rows, canvas_.height); }
 
     void draw_faces() {
+        Share::loop_tells();
         parallel_for(
             bands_.size(),
             [&](std::size_t band) {
@@ -265,7 +271,10 @@ Picture picture_of(const Scene& scene, const PictureSettings& settings) {
     require_memory(64.0 * settings.width * settings.height, "the picture", "render fewer pixels");
     const ValueRange range = painted_range(scene, settings);
     const PictureSettings own = beside_legend(settings, range);
-    Picture picture = PictureDrawing(scene, own, range).picture();
+    ShareOfSteps steps({1, 3});
+    PictureDrawing drawing(scene, own, range);
+    steps.next();
+    Picture picture = drawing.picture();
     picture.range = range;
     picture.has_attribute = !settings.attribute.empty() && any_part_has(scene, settings);
     return own.width < settings.width ? with_legend(picture, settings, range) : picture;

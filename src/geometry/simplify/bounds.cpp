@@ -223,6 +223,7 @@ std::size_t longest_good(const Origin& origin, const Mesh& from, const Log& log,
                          std::size_t& measurements) {
     const std::size_t vertices = origin.shape.vertex_slots();
     std::size_t good = 0, bad = log.steps.size();
+    ShareOfRounds rounds;
     while (bad - good > std::max<std::size_t>(1, (vertices - good) / 100)) {
         // What is wrong is most likely near the end: there the errors are the largest.
         const std::size_t back =
@@ -230,6 +231,7 @@ std::size_t longest_good(const Origin& origin, const Mesh& from, const Log& log,
         const std::size_t middle = good == 0 ? bad - back : good + (bad - good) / 2;
         ++measurements;
         (judge.within(bare_after(origin, from, log, middle)) ? good : bad) = middle;
+        rounds.next();
     }
     return good;
 }
@@ -263,14 +265,18 @@ Judge::Judge(const Mesh& from, double bound, std::size_t samples)
 
 bool Judge::within(const Mesh& mesh) const {
     const Surface now = surface_of(mesh);
-    return !any_beyond(now, tree_, bound_, settings_) &&
-           !any_beyond(surface_, FaceTree(now, FaceTree::Use::near), bound_, settings_);
+    ShareOfSteps steps({1, 1});
+    if (any_beyond(now, tree_, bound_, settings_)) return false;
+    steps.next();
+    return !any_beyond(surface_, FaceTree(now, FaceTree::Use::near), bound_, settings_);
 }
 
 double Judge::deviation(const Mesh& mesh) const {
     const Surface now = surface_of(mesh);
-    return std::max(deviation_to(surface_, FaceTree(now, FaceTree::Use::near), settings_).maximum,
-                    deviation_to(now, tree_, settings_).maximum);
+    ShareOfSteps steps({1, 1});
+    const double forward = deviation_to(surface_, FaceTree(now, FaceTree::Use::near), settings_).maximum;
+    steps.next();
+    return std::max(forward, deviation_to(now, tree_, settings_).maximum);
 }
 
 Origin::Origin(const Shape& now, std::size_t vertices) : shape(now), number(vertices, none) {
@@ -305,9 +311,10 @@ Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, 
     s.bounds.followed = follow_points(s);
     s.bounds.followed->input = &judge.tree();
     s.bounds.followed->farthest = limit * limit;
+    ShareOfSteps steps({4, 4, 1});
     Ended end;
     end.outcome = run_passes(s, goal);
-    Share::unknown();
+    steps.next();
     end.blocked = count_blocked(s);
     end.by_error = end.outcome.stuck && end.blocked.error > 0;
     compact(s);
@@ -315,8 +322,13 @@ Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, 
     Log& log = *end.log;
     const std::size_t all = log.steps.size();
     end.measurements = 1;
-    const bool good = judge.within(bare_after(origin, from, log, all));
+    bool good = false;
+    {
+        const Share first(0, 0.2);
+        good = judge.within(bare_after(origin, from, log, all));
+    }
     if (!good) {
+        const Share others(0.2, 1);
         end.by_error = true;
         const std::size_t steps = longest_good(origin, from, log, judge, end.measurements);
         end.rolled_back = all - steps;
@@ -324,6 +336,7 @@ Ended run_within(State s, const Mesh& from, const Goal& goal, double max_error, 
     } else {
         end.shape = std::move(s);
     }
+    steps.next();
     end.measured = judge.deviation(bare_after(origin, from, log, log.steps.size()));
     end.outcome.collapses = log.steps.size();
     end.outcome.largest = 0;

@@ -109,7 +109,9 @@ class Sharing {
         }
         moved_ = !targets.goal.met(faces, vertices);
         if (!moved_) return;
+        ShareOfSteps steps({1, 2});
         each([&](std::size_t i) { sharers_[i]->lay_out(); });
+        steps.next();
         std::vector<Member> members;
         std::vector<const CoincidentBorders*> borders;
         for (const auto& s : sharers_) {
@@ -117,7 +119,6 @@ class Sharing {
             borders.push_back(s->borders());
         }
         run_passes_separate(members, borders, targets.goal);
-        Share::unknown();
         faces = 0;
         for (std::size_t i = 0; i < members.size(); ++i) {
             sharers_[i]->member = members[i];
@@ -190,9 +191,11 @@ std::vector<std::vector<std::vector<SimplifyResult>>> simplify_sharing(std::vect
     Sharing all(std::move(given), settings);
     std::vector<std::optional<double>> ratios(settings.levels.begin(), settings.levels.end());
     if (ratios.empty()) ratios.push_back(settings.ratio);
+    ShareOfSteps steps(std::vector<double>(ratios.size(), 1));
     for (const auto& ratio : ratios) {
         all.go(ratio);
         all.add_results(ratio, results);
+        steps.next();
     }
     return results;
 }

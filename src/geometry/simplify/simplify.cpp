@@ -1,5 +1,6 @@
 #include "geometry/simplify/simplify.hpp"
 
+#include "base/progress.hpp"
 #include "geometry/intersect/self_intersections.hpp"
 #include "geometry/simplify/subject.hpp"
 #include "geometry/simplify/targets.hpp"
@@ -58,7 +59,8 @@ SimplifyResult simplify_crossing(Subject& subject, const Targets& targets, const
     const std::size_t before = find_self_intersections(subject.mesh(), {.limit = 0}).count;
     std::vector<float> limits(subject.mesh().vertex_count(), never);
     std::size_t passes = 0;
-    for (int round = 1;; ++round) {
+    ShareOfRounds rounds;
+    for (int round = 1;; ++round, rounds.next()) {
         const Ended end =
             run(subject.state(true, round == 1 ? nullptr : &limits), subject, targets.goal, settings);
         SimplifyResult r = result_of(subject, targets, end);
@@ -79,13 +81,19 @@ SimplifyResult simplify_crossing(Subject& subject, const Targets& targets, const
 
 SimplifyResult simplify(Mesh given, const SimplifySettings& settings) {
     throw_first(check_simplify_settings(settings));
+    ShareOfSteps steps({1, 3, 6, 2});
     Subject subject(std::move(given), settings);
     const Targets targets(subject.faces(), settings);
+    steps.next();
     if (targets.goal.met(subject.faces(), subject.vertices())) return subject.unchanged();
     if (settings.self_intersections != Intersections::ignore)
         return simplify_crossing(subject, targets, settings);
     const bool rollback = settings.max_error || settings.method == Method::constrained;
-    return result_of(subject, targets, run(subject.state(rollback), subject, targets.goal, settings));
+    State state = subject.state(rollback);
+    steps.next();
+    const Ended end = run(std::move(state), subject, targets.goal, settings);
+    steps.next();
+    return result_of(subject, targets, end);
 }
 
 std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& settings) {
@@ -94,10 +102,17 @@ std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& 
     std::optional<State> s;
     Member member{};
     std::vector<SimplifyResult> levels;
+    std::vector<double> lengths(settings.levels.size(), 1);
+    if (!lengths.empty()) lengths.front() = 3; // most collapses are on the way to the first
+    ShareOfSteps steps(std::move(lengths));
+    const auto next = [&](SimplifyResult r) {
+        levels.push_back(std::move(r));
+        steps.next();
+    };
     for (const double ratio : settings.levels) {
         const std::size_t faces = share_of(subject.faces(), ratio);
         if ((s ? s->rings.live_faces : subject.faces()) <= faces) {
-            levels.push_back(levels.empty() ? subject.unchanged() : levels.back());
+            next(levels.empty() ? subject.unchanged() : levels.back());
             continue;
         }
         if (!s) s = subject.state(false);
@@ -106,8 +121,9 @@ std::vector<SimplifyResult> simplify_levels(Mesh given, const SimplifySettings& 
         const Outcome& done = member.done;
         const auto blocked = done.stuck ? count_blocked(*s) : SimplifyResult::Blocked{};
         compact(*s);
-        levels.push_back(subject.result(done.stuck ? stuck_by(blocked) : Stop::ratio, *s, s->log, done));
-        levels.back().blocked = blocked;
+        SimplifyResult r = subject.result(done.stuck ? stuck_by(blocked) : Stop::ratio, *s, s->log, done);
+        r.blocked = blocked;
+        next(std::move(r));
     }
     return levels;
 }

@@ -3,6 +3,7 @@
 #include "geometry/spatial/closest_point.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "base/simd.hpp"
 #include "geometry/spatial/dense_box.hpp"
 #include "geometry/spatial/hilbert_curve.hpp"
@@ -315,6 +316,7 @@ std::vector<Index> order_of_queries(std::span<const Vec3> points) {
 std::vector<Closest> closest_points(const FaceTree& tree, std::span<const Vec3> points) {
     const std::vector<Index> order = order_of_queries(points);
     std::vector<Closest> found(points.size());
+    Share::loop_tells();
     parallel_chunks(
         points.size(),
         [&](std::size_t begin, std::size_t end) {

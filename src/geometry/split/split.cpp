@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
+#include "base/progress.hpp"
 #include "geometry/split/estimate.hpp"
 #include "geometry/split/marked.hpp"
 #include "geometry/split/patterns.hpp"
@@ -123,6 +124,23 @@ bool is_reached(const Mesh& mesh, const SplitSettings& settings) {
     return settings.max_edge > 0 && facet_shape(mesh, settings.to_world).longest_edge <= settings.max_edge;
 }
 
+/// How long each pass takes, as far as it is known before: those that halve edges make four faces of one.
+std::vector<double> lengths_of_passes(const Mesh& mesh, const SplitSettings& s) {
+    double passes = std::min(s.passes, 16);
+    if (s.max_edge > 0) {
+        const double halvings = facet_shape(mesh, s.to_world).longest_edge / s.max_edge;
+        while (passes > 0 && halvings <= std::ldexp(1.0, static_cast<int>(passes) - 1)) --passes;
+    }
+    const double faces = static_cast<double>(std::max<std::size_t>(1, mesh.face_count()));
+    while (s.max_faces > 0 && passes > 1 &&
+           std::ldexp(faces, 2 * static_cast<int>(passes)) > static_cast<double>(s.max_faces))
+        --passes;
+    std::vector<double> lengths;
+    for (int pass = 0; pass < passes; ++pass)
+        lengths.push_back(s.min_angle > 0 ? 1 : std::ldexp(1.0, 2 * pass));
+    return lengths;
+}
+
 /// Passes over all faces, as many as the settings allow and the targets need.
 SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
     using Stop = SplitResult::Stop;
@@ -130,7 +148,7 @@ SplitResult repeated(const Mesh& mesh, const SplitSettings& settings) {
     const Mesh* from = &mesh;
     if (settings.min_angle > 0)
         result.narrow = result.narrow_before = narrow_faces(triangulated(mesh), settings);
-    while (true) {
+    for (ShareOfSteps steps(lengths_of_passes(mesh, settings));; steps.next()) {
         if (is_reached(*from, settings)) {
             result.stop = Stop::target;
             break;

@@ -1,6 +1,7 @@
 #include "io/gltf/builder.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "io/gltf/encode.hpp"
 
 #include <algorithm>
@@ -158,6 +159,7 @@ bool Builder::passes_through(std::size_t i) const {
 std::vector<Bytes> Builder::packed_views(const std::vector<std::optional<Packing>>& how) {
     constexpr std::size_t json_bytes = 160; // that the extension's object takes
     std::vector<Bytes> packed(old_view_.size());
+    Share::loop_tells();
     parallel_for(
         packed.size(),
         [&](std::size_t i) {

@@ -2,6 +2,7 @@
 
 #include "base/hash.hpp"
 #include "base/memory.hpp"
+#include "base/progress.hpp"
 #include "base/words.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/lines.hpp"
@@ -119,7 +120,9 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
     std::map<int, std::size_t> first_part; // of each mesh: instances copy it
     std::size_t vertices = 0;
     double bytes = 0; // of copies: a node costs few bytes of JSON
-    for (const auto& placement : placements(source.json(), frames)) {
+    const auto all = placements(source.json(), frames);
+    ShareOfSteps steps(std::vector<double>(all.size(), 1));
+    for (const auto& placement : all) {
         warn_of_instancing(source, placement, log);
         Part part;
         if (const auto known = first_part.find(placement.mesh); known != first_part.end()) {
@@ -145,6 +148,7 @@ void read_parts(Scene& scene, Source& source, const ReadSettings& settings, Read
         part.source_mesh = placement.mesh;
         part.skinned = placement.skinned;
         scene.parts.push_back(std::move(part));
+        steps.next();
     }
     if (settings.lines) log.lines = decode_lines(source, frames, settings.max_vertices);
 }
@@ -333,11 +337,15 @@ Written write(const Scene& scene, const WriteSettings& settings, bool binary) {
                    "EXT_mesh_manifold is not written under Draco, which renumbers what it names");
     claim_placements(patch);
     move_skins(patch, skin_moves);
+    ShareOfSteps steps({4, 1, 2, 3});
     const auto mesh_of_part = patch_meshes(patch);
+    steps.next();
     patch_levels(patch, patch_nodes(patch, mesh_of_part));
     drop_dead_meshes(patch, mesh_of_part);
+    steps.next();
     store_meshes(patch);
     store_streams(patch);
+    steps.next();
     builder.compress(settings.meshopt);
     drop_unused_draco(builder);
     warn_of_losses(patch);

@@ -1,3 +1,4 @@
+#include "base/progress.hpp"
 #include "base/unique_names.hpp"
 #include "io/flatten.hpp"
 #include "io/obj/materials.hpp"
@@ -226,7 +227,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     const std::string library = settings.title + ".mtl";
     if (!materials.empty()) append(bytes, fmt::format("mtllib {}\n", library));
     Offsets offsets;
+    ShareOfSteps parts(std::vector<double>(scene.parts.size(), 1));
     for (const auto& part : scene.parts) {
+        ShareOfSteps steps({3, 1, 1, 4});
         const WorldMesh world(part);
         if (!settings.double_positions) require_floats(*world, fmt::format("part '{}'", part.name));
         const auto pool = [&](const char* name, int components) {
@@ -236,14 +239,19 @@ Written write(const Scene& scene, const WriteSettings& settings) {
         const Pool uv = pool("TEXCOORD_0", 2), normal = pool("NORMAL", 3);
         if (!part.name.empty()) append(bytes, fmt::format("o {}\n", one_line(part.name)));
         put_vertices(bytes, *world, settings.double_positions);
+        steps.next();
         put_values(bytes, "vt", uv);
+        steps.next();
         put_values(bytes, "vn", normal);
+        steps.next();
+        const Share silent(nullptr); // it writes in pieces, by materials
         PartWriter(bytes, *world, materials).faces(uv, normal, offsets);
         offsets.vertex += static_cast<std::int64_t>(world->vertex_count());
         if (uv.components) offsets.uv += static_cast<std::int64_t>(uv.values.size() / uv.components);
         if (normal.components)
             offsets.normal += static_cast<std::int64_t>(normal.values.size() / normal.components);
         tell_what_is_lost(part.mesh, written);
+        parts.next();
     }
     leave_documents(written, scene, "OBJ");
     warn_of_textures(written, scene, "OBJ");

@@ -1,5 +1,6 @@
 #include "io/off/off.hpp"
 
+#include "base/progress.hpp"
 #include "io/attributes.hpp"
 #include "io/text.hpp"
 
@@ -120,12 +121,17 @@ class TextReader {
         out_.check(vertices, faces, text_.line(), text_.left(), 6, 2);
         text_.rest_of_line(); // the number of edges, where there is one: it is not used
         out_.mesh.positions.reserve(static_cast<std::size_t>(vertices));
-        for (std::int64_t v = 0; v < vertices; ++v) vertex();
+        const std::size_t all = text_.left();
         std::vector<Index> corners;
-        for (std::int64_t f = 0; f < faces; ++f) face(corners, vertices);
+        for (std::int64_t v = 0; v < vertices; ++v, tell(v, all)) vertex();
+        for (std::int64_t f = 0; f < faces; ++f, tell(f, all)) face(corners, vertices);
     }
 
   private:
+    void tell(std::int64_t item, std::size_t all) const {
+        if (item % 8192 == 0) Share::tell(1 - static_cast<double>(text_.left()) / static_cast<double>(all));
+    }
+
     void vertex() {
         const double x = text_.coordinate("x"), y = text_.coordinate("y"), z = text_.coordinate("z");
         out_.mesh.positions.push_back({x, y, z});
@@ -187,10 +193,13 @@ class BinaryReader {
         const std::size_t vertex_size =
             12 + (kind_.normals ? 12 : 0) + (kind_.colours ? 16 : 0) + (kind_.uvs ? 8 : 0);
         out_.check(vertices, faces, 0, bytes_.size() - at_, vertex_size, 4);
-        for (std::int64_t v = 0; v < vertices; ++v) vertex();
+        const auto items = static_cast<std::size_t>(vertices + faces);
+        std::size_t item = 0;
+        for (std::int64_t v = 0; v < vertices; ++v, Share::tell_item(++item, items)) vertex();
         const bool colours = faces_have_colours(faces);
         std::vector<Index> corners;
-        for (std::int64_t f = 0; f < faces; ++f) face(corners, vertices, colours);
+        for (std::int64_t f = 0; f < faces; ++f, Share::tell_item(++item, items))
+            face(corners, vertices, colours);
     }
 
   private:

@@ -1,5 +1,6 @@
 #include "io/off/off.hpp"
 
+#include "base/progress.hpp"
 #include "io/flatten.hpp"
 
 #include <fmt/format.h>
@@ -95,7 +96,9 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     Bytes bytes;
     append(bytes, fmt::format("{}{}OFF\n{} {} 0\n", colour ? "C" : "", normal ? "N" : "", rows.count(),
                               world->face_count()));
+    ShareOfSteps steps({2, 3});
     put_rows(bytes, rows, colour, normal, settings.double_positions);
+    steps.next();
     append_text(bytes, world->face_count(), [&](std::size_t begin, std::size_t end, std::string& out) {
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
             put_number(out, static_cast<std::int64_t>(world->face_size(f)));

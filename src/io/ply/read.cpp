@@ -1,4 +1,5 @@
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "io/attributes.hpp"
 #include "io/image_files.hpp"
 #include "io/material_document.hpp"
@@ -9,6 +10,7 @@
 #include <bit>
 #include <fmt/format.h>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 
 namespace facetmill::io::ply {
@@ -526,6 +528,11 @@ void Builder::report_lists(const Table& table) {
 Scene Builder::read() {
     const Header header = read_header(input_);
     Body body(input_, header);
+    std::vector<double> lengths;
+    for (const Element& e : header.elements)
+        lengths.push_back(static_cast<double>(e.count * e.properties.size()));
+    lengths.push_back(std::accumulate(lengths.begin(), lengths.end(), 1.0) / 2); // the mesh of it
+    ShareOfSteps steps(lengths);
     for (const Element& e : header.elements) {
         Table table{&e, body.read(e), std::vector<bool>(e.properties.size(), false)};
         Table* place = e.name == "vertex"      ? &vertices_
@@ -537,6 +544,7 @@ Scene Builder::read() {
             *place = std::move(table);
         else if (e.count > 0)
             skipped(fmt::format("element '{}' ({})", e.name, e.count));
+        steps.next();
     }
     set_positions();
     set_faces();

@@ -1,6 +1,7 @@
 #include "io/ply/ply.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "io/flatten.hpp"
 
 #include <array>
@@ -210,12 +211,14 @@ void put_columns(std::string& out, const std::vector<Out>& columns, std::size_t 
 }
 
 void write_ascii(Bytes& bytes, const Layout& l) {
+    ShareOfSteps steps({2, 3});
     append_text(bytes, l.rows(), [&](std::size_t begin, std::size_t end, std::string& out) {
         for (std::size_t i = begin; i < end; ++i) {
             put_columns(out, l.vertex, i, true);
             out += '\n';
         }
     });
+    steps.next();
     append_text(bytes, l.mesh.face_count(), [&](std::size_t begin, std::size_t end, std::string& out) {
         for (auto f = static_cast<Index>(begin); f < end; ++f) {
             put_number(out, static_cast<std::int64_t>(l.mesh.face_size(f)));

@@ -1,6 +1,7 @@
 #include "io/stl/stl.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "base/spelling.hpp"
 #include "io/text.hpp"
 
@@ -66,6 +67,8 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
     Part part;
     part.mesh.positions.resize(3 * n);
     std::vector<std::uint16_t> extra(n);
+    ShareOfSteps steps({1, 4});
+    Share::loop_tells();
     parallel_for(n, [&](std::size_t t) {
         const std::byte* at = bytes.data() + head + t * record;
         std::array<float, 12> numbers; // the normal, then three corners
@@ -82,6 +85,7 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
                   fmt::format("triangle {} at byte {} has the corner ({}, {}, {}), expected finite numbers",
                               t, head + t * record, bad->x, bad->y, bad->z));
     }
+    steps.next();
     index_by_position(part.mesh, settings);
     if (std::any_of(extra.begin(), extra.end(), [](std::uint16_t x) { return x != 0; }))
         part.mesh.attributes.push_back({"attribute", Domain::face, Role::index, 1, false, std::move(extra)});
@@ -90,7 +94,8 @@ Part read_binary(const Input& input, const ReadSettings& settings, ReadLog& log)
 
 class TextReader {
   public:
-    explicit TextReader(const Input& input) : text_(as_text(input.bytes()), input.name(), "E-STL") {}
+    explicit TextReader(const Input& input)
+        : all_(input.bytes().size()), text_(as_text(input.bytes()), input.name(), "E-STL") {}
 
     Scene read(const Input& input, const ReadSettings& settings) {
         Scene scene;
@@ -101,6 +106,7 @@ class TextReader {
             text_.next_line();
             read_solid(part.mesh);
             check_count(input, settings, part.mesh.positions.size());
+            const Share silent(nullptr); // where the text ends tells how far all is
             index_by_position(part.mesh, settings);
             scene.parts.push_back(std::move(part));
         }
@@ -129,6 +135,8 @@ class TextReader {
     }
 
     void read_facet(Mesh& mesh) {
+        if (mesh.positions.size() % (3 * 8192) == 0)
+            Share::tell(1 - static_cast<double>(text_.left()) / static_cast<double>(all_));
         text_.rest_of_line(); // the normal
         expect("outer");
         expect("loop");
@@ -143,6 +151,7 @@ class TextReader {
         text_.rest_of_line();
     }
 
+    std::size_t all_;
     Text text_;
 };
 

@@ -1,6 +1,7 @@
 #include "io/stl/stl.hpp"
 
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
 #include "io/flatten.hpp"
 
@@ -133,10 +134,12 @@ Written write(const Scene& scene, const WriteSettings& settings) {
     Written written;
     Bytes bytes;
     if (settings.ascii) {
+        ShareOfSteps steps(std::vector<double>(scene.parts.size(), 1));
         for (const auto& part : scene.parts) {
             const WorldMesh world(part);
             require_floats(*world, fmt::format("part '{}'", part.name));
             write_text(bytes, *Triangles(*world), one_line(part.name));
+            steps.next();
         }
     } else {
         const WorldMesh world(scene);

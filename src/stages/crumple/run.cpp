@@ -1,4 +1,5 @@
 #include "base/memory.hpp"
+#include "base/progress.hpp"
 #include "geometry/edit/moved.hpp"
 #include "stage/grid_faces.hpp"
 #include "stage/stage.hpp"
@@ -57,6 +58,7 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
     std::vector<CrumpledPart> works;
     std::vector<CrumpleSheet> sheets;
     MaskOfParts masks(scene, o.mask, o.caps);
+    ShareOfSteps steps({1, o.self_intersections != Intersections::allow ? 9.0 : 0.5, 1});
     context.for_each_part(scene, [&](Part& part) {
         settings.amplitude = context.resolve(o.amplitude, scene, "amplitude", &part);
         settings.to_world = part.transform;
@@ -72,7 +74,9 @@ Scene run(Scene scene, const CrumpleOptions& o, Context& context, CrumpleReport&
             warn_of_tangles(works.back(), settings.amplitude, context);
     });
     masks.warn_if_idle(context);
+    steps.next();
     move(works, sheets, o, report, context);
+    steps.next();
     if (o.self_intersections != Intersections::allow) warn_of_parts(scene, context);
     for (std::size_t i = 0; i < works.size(); ++i) {
         Part& part = *works[i].part;

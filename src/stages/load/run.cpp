@@ -1,5 +1,6 @@
 #include "base/glob.hpp"
 #include "base/hash.hpp"
+#include "base/progress.hpp"
 #include "base/spelling.hpp"
 #include "base/words.hpp"
 #include "io/convert.hpp"
@@ -86,10 +87,14 @@ io::ReadSettings read_settings(const LoadOptions& o) {
 }
 
 void load_file(Scene& scene, const std::filesystem::path& path, const LoadOptions& o, Context& context) {
+    ShareOfSteps steps({1, 2, 8, 1});
     const io::Input input = io::Input::open(path);
+    steps.next();
     record_input(context, input.name(), input.stored());
+    steps.next();
     io::ReadLog log;
     Scene more = io::read_scene(input, read_settings(o), log, io::codec_named(o.format));
+    steps.next();
     for (const auto& w : log.warnings)
         context.warn(w.id, fmt::format("{}: {}", input.name(), w.message), w.hint);
     for (const auto& file : log.files) record_neighbour(context, file);
@@ -106,12 +111,18 @@ void load_file(Scene& scene, const std::filesystem::path& path, const LoadOption
 }
 
 Scene run(Scene scene, const LoadOptions& o, Context& context) {
-    for (const auto& text : o.path) {
+    for (std::size_t at = 0; at < o.path.size(); ++at) {
+        const PathText& text = o.path[at];
         const std::filesystem::path path = context.places().input(text.text);
         const auto files = text.text == "-" ? std::vector{path} : expand_glob(path);
         if (files.empty())
             throw Error(ErrorKind::missing, "E-FILE", fmt::format("no file matches '{}'", text.text));
-        for (const auto& file : files) load_file(scene, file, o, context);
+        for (std::size_t i = 0; i < files.size(); ++i) {
+            const double all = static_cast<double>(files.size() * o.path.size()),
+                         before = static_cast<double>(files.size() * at + i);
+            const Share share(before / all, (before + 1) / all);
+            load_file(scene, files[i], o, context);
+        }
     }
     context.run().load_diagonal = diagonal(scene.bounds());
     return scene;

@@ -1,3 +1,4 @@
+#include "base/progress.hpp"
 #include "geometry/inspect/connectivity.hpp"
 #include "geometry/probe/probe.hpp"
 #include "geometry/triangulate/crossing_faces.hpp"
@@ -178,8 +179,10 @@ LineAnswers answer_lines(const FaceTree& tree, const ProbeOptions& o, const Ques
 }
 
 Scene run(Scene scene, const ProbeOptions& o, Context& context, ProbeReport& report) {
+    ShareOfSteps steps({1, 2, 2});
     const Questions q = questions_of(scene, o, context);
     const FaceTree tree(surface_of(q.surface, filled_surface));
+    steps.next();
     const bool wants_csv = std::any_of(o.path.begin(), o.path.end(), is_csv);
     const bool wants_json = o.path.size() > (wants_csv ? 1 : 0) || (!o.path.empty() && !wants_csv);
     constexpr std::size_t no_limit = std::size_t(-1);
@@ -193,6 +196,7 @@ Scene run(Scene scene, const ProbeOptions& o, Context& context, ProbeReport& rep
         report = report_of(answers, names, limit);
         if (wants_csv) csv = lines_csv(answers, names);
     }
+    steps.next();
     const Fields fields = fields_of<ProbeReport>(declare_probe_report);
     for (const auto& path : o.path) {
         const std::string text = is_csv(path) ? csv : fields.json(&report).dump(2) + "\n";

@@ -1,3 +1,4 @@
+#include "base/progress.hpp"
 #include "io/gltf/looks.hpp"
 #include "io/png.hpp"
 #include "stages/render/help.hpp"
@@ -17,7 +18,11 @@ Picture taken(const RenderOptions& o, const Scene& scene, Context& context) {
     for (const auto& w : warnings) context.warn(w.id, "render: " + w.message, w.hint);
     const Shots shots = shots_of(o, scene, context, looks);
     std::vector<Picture> pictures;
-    for (const auto& settings : shots.settings) pictures.push_back(picture_of(scene, settings));
+    ShareOfSteps steps(std::vector<double>(shots.settings.size(), 1));
+    for (const auto& settings : shots.settings) {
+        pictures.push_back(picture_of(scene, settings));
+        steps.next();
+    }
     if (pictures.size() == 1) return std::move(pictures.front());
     return sheet_of(pictures, shots.columns);
 }
@@ -74,7 +79,9 @@ void warn(const RenderOptions& o, const Picture& picture, Context& context) {
 }
 
 Scene run(Scene scene, const RenderOptions& o, Context& context, RenderReport& report) {
+    ShareOfSteps steps({9, 1});
     const Picture picture = taken(o, scene, context);
+    steps.next();
     const io::Bytes bytes = io::png(picture);
     context.output(o.path.text, bytes);
     report.path = o.path.text;

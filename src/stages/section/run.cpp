@@ -1,3 +1,4 @@
+#include "base/progress.hpp"
 #include "stages/section/help.hpp"
 #include "stages/section/options.hpp"
 #include "stages/section/report.hpp"
@@ -79,6 +80,7 @@ Scene run(Scene scene, const SectionOptions& o, Context& context, SectionReport&
     report = report_of(drawing, scene, stack.spacing, context);
     for (const auto& path : o.path) {
         const std::string text = io::drawing_for(path.text, *drawing);
+        const Share silent(nullptr);
         context.output(path.text, std::as_bytes(std::span(text)));
     }
     return scene;

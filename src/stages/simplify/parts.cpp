@@ -1,5 +1,6 @@
 #include "stages/simplify/parts.hpp"
 
+#include "base/progress.hpp"
 #include "base/readable_numbers.hpp"
 #include "base/words.hpp"
 #include "geometry/deviation/deviation.hpp"
@@ -132,11 +133,18 @@ class Simplifier {
         before_.resize(scene_.parts.size());
         measured_.resize(scene_.parts.size());
         limits_.resize(scene_.parts.size());
+        const bool shared = shares_by_error(o_) && scene_.parts.size() > 1;
+        const double measuring = !measures() ? 0.2 : o_.certify ? 9 : 2; // beside what is collapsed
+        ShareOfSteps steps({shared ? 1.0 : 0.0, (shared ? 0.0 : 1.0) + measuring});
         share_target();
+        steps.next();
         std::vector<Part> levels;
         context_.for_each_part(scene_, [&](Part& part) {
             const auto number = static_cast<std::size_t>(&part - scene_.parts.data());
-            if (results_[number].empty()) simplify_set(set_of(number));
+            const bool has_results = !results_[number].empty();
+            ShareOfSteps of_part({has_results ? 0.0 : 1.0, measuring});
+            if (!has_results) simplify_set(set_of(number));
+            of_part.next();
             settle(part, number, levels);
             if (--uses_[work_as_[number]] == 0) repeated_.erase(work_as_[number]);
         });
@@ -279,10 +287,16 @@ class Simplifier {
             !o_.lods && (max_error_ || all.self_intersections != SimplifySettings::Intersections::ignore);
         if (o_.lods) all.self_intersections = SimplifySettings::Intersections::ignore;
         std::vector<SharingMeshes> sharing;
-        for (const Set& set : sets) {
-            if (!more) note_before(set);
-            sharing.push_back(sharing_meshes(set, more));
+        ShareOfSteps steps({1, 9});
+        {
+            ShareOfSteps of_sets(std::vector<double>(sets.size(), 1));
+            for (const Set& set : sets) {
+                if (!more) note_before(set);
+                sharing.push_back(sharing_meshes(set, more));
+                of_sets.next();
+            }
         }
+        steps.next();
         if (more) {
             const SimplifyShares shares = simplify_shares(std::move(sharing), all);
             shared_stop_ = shares.stop;
@@ -322,11 +336,13 @@ class Simplifier {
 
     /// Notes what is compared with the results.
     void note_before(const Set& set) {
+        ShareOfSteps steps(std::vector<double>(set.size(), 1));
         for (const std::size_t p : set) {
             const bool is_first = measures() && measured_as_[p] == p;
             if (is_first) before_[p].surface = surface_of(scene_.parts[p]);
             if (is_first || changes_topology()) before_[p].properties = inspect(scene_.parts[p]);
             limits_[p] = settings_for(set).max_quadric_error;
+            steps.next();
         }
     }
 
@@ -336,7 +352,9 @@ class Simplifier {
 
     /// Sets the results of the parts of a set, one for each level.
     void simplify_set(const Set& set) {
+        ShareOfSteps steps({1, 9});
         note_before(set);
+        steps.next();
         if (const std::size_t as = work_as_[set.front()]; as != set.front()) {
             results_[set.front()] = repeated_.at(as);
             return;
@@ -372,10 +390,12 @@ class Simplifier {
     void settle(Part& part, std::size_t number, std::vector<Part>& levels) {
         part.mesh = {};
         const Part base = part;
+        ShareOfSteps steps(std::vector<double>(results_[number].size(), 1));
         for (std::size_t i = 0; i < results_[number].size(); ++i) {
             Part level = base;
             if (i > 0) level.name += fmt::format(".lod{}", i);
             take(level, number, i, std::move(results_[number][i]));
+            steps.next();
             if (i == 0) {
                 part = std::move(level);
                 continue;
@@ -409,7 +429,9 @@ class Simplifier {
                 if (!entry.joint_with) entry.joint_with.emplace();
                 entry.joint_with->push_back(scene_.parts[p].name);
             }
+        ShareOfSteps steps({changes_topology() ? 1.0 : 0.0, 9});
         if (changes_topology()) entry.topology = {before_[number].properties, inspect(part)};
+        steps.next();
         if (measures()) {
             const Measured m = measure(part, number, number_of_level);
             entry.sizes = m.sizes;
@@ -425,7 +447,10 @@ class Simplifier {
             return carried(measured_[as][number_of_level], by);
         }
         const Before& before = before_[number];
-        Measured m{{size_of(before.properties), size_of(inspect(part))},
+        ShareOfSteps steps({1, 9});
+        const Properties after = inspect(part);
+        steps.next();
+        Measured m{{size_of(before.properties), size_of(after)},
                    deviation(before.surface, surface_of(part),
                              {.samples = samples_[number], .certify = o_.certify})};
         measured_[number].push_back(m);

@@ -1,5 +1,6 @@
 #include "base/hash.hpp"
 #include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "base/readable_numbers.hpp"
 #include "io/pixels.hpp"
 #include "stages/textures/help.hpp"
@@ -83,6 +84,9 @@ void work(std::vector<Job>& jobs, const TexturesOptions& o) {
             if (end > begin && pixels + more > max_pixels) break;
             pixels += more;
         }
+        const auto all = static_cast<double>(jobs.size());
+        const Share share(static_cast<double>(begin) / all, static_cast<double>(end) / all);
+        Share::loop_tells();
         parallel_for(
             end - begin,
             [&](std::size_t i) {

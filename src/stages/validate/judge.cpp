@@ -1,5 +1,6 @@
 #include "stages/validate/judge.hpp"
 
+#include "base/progress.hpp"
 #include "geometry/clean/clean.hpp"
 #include "geometry/edit/surgery.hpp"
 #include "mesh/topology.hpp"
@@ -24,6 +25,15 @@ void with_parts(Scene& scene, std::span<const std::size_t> indices, Body&& body)
     for (std::size_t k = 0; k < indices.size(); ++k) scene.parts[indices[k]] = std::move(chosen.parts[k]);
 }
 
+/// How long it takes to judge each part, about.
+std::vector<double> lengths_of(const Scene& scene, const std::vector<std::size_t>& parts) {
+    std::vector<double> lengths;
+    lengths.reserve(parts.size());
+    for (const std::size_t i : parts)
+        lengths.push_back(1 + static_cast<double>(scene.parts[i].mesh.face_count()));
+    return lengths;
+}
+
 class Judge {
   public:
     Judge(JudgeSettings settings, Context& context) : s_(std::move(settings)), context_(context) {
@@ -41,18 +51,26 @@ class Judge {
             const auto verdict = known_.judge(failure);
             take(std::move(limit.check), std::move(failure), verdict);
         }
-        if (s_.per == Per::scene)
+        if (s_.per == Per::scene) {
+            const Share all_of_it(0, 1);
             with_parts(scene, selected, [&](const Scene& all) {
                 judge(all, {"", "", "", selected, nullptr});
             });
+        }
+        ShareOfSteps steps(lengths_of(scene, selected));
         if (s_.per == Per::part)
-            for (const std::size_t i : selected)
+            for (const std::size_t i : selected) {
                 with_parts(scene, {&i, 1}, [&](const Scene& one) {
                     const std::string& name = one.parts[0].name;
                     judge(one, {name, name, "", {&i, 1}, nullptr});
                 });
+                steps.next();
+            }
         if (s_.per == Per::component)
-            for (const std::size_t i : selected) judge_components(scene, i);
+            for (const std::size_t i : selected) {
+                judge_components(scene, i);
+                steps.next();
+            }
         finish(scene);
         return report_;
     }
@@ -74,7 +92,9 @@ class Judge {
     }
 
     void judge(const Scene& scene, const Subject& subject) {
+        ShareOfSteps steps({3, 1});
         auto checks = evaluate(s_.assertions, properties_of(scene, subject), context_.name());
+        steps.next();
         for (std::size_t i = 0; i < checks.size(); ++i) {
             report::Check& check = checks[i];
             const Assertion& assertion = s_.assertions.all[i];
@@ -135,6 +155,8 @@ class Judge {
         const auto keys = keys_of_components(part.mesh, components.of_face, components.count);
         std::size_t number = 0;
         for (Mesh& mesh : separated(part.mesh, components.of_face, components.count)) {
+            const auto count = static_cast<double>(components.count), before = static_cast<double>(number);
+            const Share share(before / count, (before + 1) / count);
             Scene one{{}, scene.materials, scene.unit, scene.up, {}};
             one.parts.emplace_back().name = part.name;
             one.parts[0].mesh = std::move(mesh);

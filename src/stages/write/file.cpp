@@ -1,5 +1,6 @@
 #include "stages/write/file.hpp"
 
+#include "base/progress.hpp"
 #include "base/words.hpp"
 #include "io/convert.hpp"
 #include "io/gltf/gltf.hpp"
@@ -114,6 +115,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
     RunState& run = context.run();
     const io::Outputs::File* main = nullptr;
     const std::size_t first = run.record.outputs.size();
+    ShareOfSteps steps({1, 3});
     for (const auto& file : written.files) {
         if (main && path == "-") {
             context.warn("W-SKIPPED", fmt::format("'{}' cannot go to standard output beside the mesh",
@@ -130,6 +132,7 @@ void stage_files(const io::Written& written, const std::filesystem::path& path, 
         run.record.outputs.push_back({name.lexically_normal().string(), staged.bytes, staged.sha256, {}});
     }
     if (!main || !run.read_back) return;
+    steps.next();
     const io::ReadBack back =
         io::read_back(run.outputs.staged(*main), codec, scene, settings, written.dropped_faces);
     run.record.outputs[first].read_back = back.json();

@@ -1,4 +1,5 @@
 #include "base/portable_math.hpp"
+#include "base/progress.hpp"
 #include "stages/write/file.hpp"
 #include "stages/write/help.hpp"
 
@@ -67,6 +68,7 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
                     fmt::format("there is nothing to write to '{}': the scene has no faces", o.path.text),
                     "check what the stages before kept; the common key when: {faces: {min: 1}} skips a write",
                     context.where());
+    ShareOfSteps steps({1, 4, 5});
     give_normals(out, lent, o, context);
     if (codec->can.transforms && o.precision == WriteOptions::Precision::single) {
         std::map<std::size_t, std::vector<Vec3>> moved;
@@ -77,7 +79,9 @@ Scene run(Scene scene, const WriteOptions& o, Context& context, WriteReport& rep
     const std::filesystem::path target = context.places().output(o.path.text);
     io::WriteSettings settings = settings_of(o, *codec, target);
     choose_bits(settings, o, *codec, out, report);
+    steps.next();
     const io::Written written = codec->write(out, settings);
+    steps.next();
     for (const auto& w : written.warnings) context.warn(w.id, w.message, w.hint);
     if (!out.parts.empty()) context.attribute_changes(out.parts.front(), written.changes);
     stage_files(written, o.path.text, *codec, out, settings, context);

@@ -2,7 +2,6 @@
 #include "support/catch.hpp"
 
 #include "base/portable_math.hpp"
-#include "base/progress.hpp"
 #include "geometry/crumple/crumple.hpp"
 #include "geometry/deviation/deviation.hpp"
 #include "geometry/simplify/cost.hpp"
@@ -10,6 +9,7 @@
 #include "geometry/simplify/methods.hpp"
 #include "mesh/shapes.hpp"
 #include "mesh/topology.hpp"
+#include "support/heard.hpp"
 
 #include <array>
 #include <cmath>
@@ -161,11 +161,12 @@ TEST_CASE("costs four at a time are those one by one", "[geometry]") {
 
 TEST_CASE("passes that meet their goal tell that all is done", "[geometry][simplify]") {
     State s = priced(shapes::icosphere(3), false);
-    std::atomic<double> heard{-1};
+    test::Heard heard;
     const Share share(&heard);
     Goal goal;
     goal.faces = s.rings.live_faces / 2;
     run_passes(s, goal);
     CHECK(s.rings.live_faces <= goal.faces);
-    CHECK(heard == 1);
+    CHECK(heard.last() == 1);
+    CHECK(heard.falls() == 0);
 }

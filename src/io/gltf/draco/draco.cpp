@@ -1,4 +1,5 @@
 #include "io/gltf/draco/draco.hpp"
+#include "base/progress.hpp"
 #include "io/gltf/draco/quantise.hpp"
 
 #include "io/gltf/gltf.hpp"
@@ -349,6 +350,7 @@ std::vector<bool> degenerate_faces(const std::vector<Index>& triangles,
 }
 
 DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings) {
+    ShareOfSteps steps({3, 10, 6});
     const Settled settled = settle_all(given, settings);
     const DracoInput& input = settled.input;
     ::draco::Mesh mesh;
@@ -370,9 +372,11 @@ DracoOutput encode_draco(const DracoInput& given, const DracoSettings& settings)
     std::string why;
     for (const bool sequential : {false, true}) {
         if (input.keep_order && !sequential) continue;
+        steps.next();
         Encoded encoded = encode(mesh, settled, settings, sequential, position, columns);
         why = encoded.why;
         if (!encoded.ok) continue;
+        steps.next();
         DracoMesh decoded = decode_draco(encoded.bytes);
         if (decoded.triangles.size() != input.triangles.size()) continue;
         output.bytes = std::move(encoded.bytes);

@@ -1,0 +1,37 @@
+#pragma once
+// Who listens to how far a run is, and remembers all.
+
+#include "base/progress.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace facetmill::test {
+
+struct Heard : Progress {
+    std::vector<double> shares;                        ///< since the last stage began
+    std::map<std::string, std::vector<double>> before; ///< of what ended, by its name
+    std::string now;
+
+    void stage(int, int, const std::string& name) override { begin(name); }
+    void beside_stages(const std::string& what) override { begin(what); }
+    void share(double done) override { shares.push_back(done); }
+    void done() override { begin({}); }
+
+    double last() const { return shares.empty() ? -1 : shares.back(); }
+    /// How often less was told than before.
+    std::size_t falls() const {
+        std::size_t count = 0;
+        for (std::size_t i = 1; i < shares.size(); ++i) count += shares[i] < shares[i - 1];
+        return count;
+    }
+
+  private:
+    void begin(const std::string& what) {
+        if (!now.empty()) before[now] = shares;
+        now = what;
+        shares.clear();
+    }
+};
+
+} // namespace facetmill::test
